@@ -15,6 +15,8 @@ namespace {
 // A joint stop acts once the coordinate is past its limit or would pass it within the step; its position error is
 // removed over about this many steps, gently enough not to throw the load.
 constexpr double stop_relaxation = 0.2;
+// A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one it is in.
+constexpr double coordinate_step = 0.05;
 constexpr double loop_tolerance = 1e-11;  // [m], what projection aims at; the promise is 1e-9
 
 SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -266,8 +268,12 @@ void Machine::place(const Eigen::Isometry3d& X_WM) {
 
 void Machine::set_coordinate(int body, double value) {
   Simbody& s = *simbody_;
-  s.bodies[body].lockAt(s.state, value);  // held while the projection moves the rest of its loops
-  s.settle_state();
+  const double start = coordinate(body);
+  const int steps = 1 + static_cast<int>(std::abs(value - start) / coordinate_step);
+  for (int k = 1; k <= steps; ++k) {
+    s.bodies[body].lockAt(s.state, start + (value - start) * k / steps);  // held while the rest of its loops follow
+    s.settle_state();
+  }
   s.bodies[body].unlock(s.state);
   s.system.realize(s.state, SimTK::Stage::Velocity);
 }
