@@ -1,0 +1,77 @@
+# Install, export and packages. A component is one module: its headers, its library if it has one, its export file.
+# The component `common` is what all need: the package config and the licence.
+
+if(NOT DRAWPOINT_INSTALL)
+  return()
+endif()
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(drawpoint_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Drawpoint)
+
+# drawpoint_install(COMPONENT): the target, its export file and the headers of its folder.
+function(drawpoint_install component)
+  install(TARGETS drawpoint_${component} EXPORT Drawpoint-${component}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component})
+  install(EXPORT Drawpoint-${component} NAMESPACE Drawpoint:: FILE DrawpointTargets-${component}.cmake
+          DESTINATION ${drawpoint_cmake_dir} COMPONENT ${component})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${component}/ DESTINATION include/drawpoint/${component}
+          COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp")
+endfunction()
+
+foreach(component doe kriging pareto)
+  drawpoint_install(${component})
+endforeach()
+if(DRAWPOINT_BUILD_ENGINE)
+  drawpoint_install(engine)
+endif()
+
+# Which of the header-only modules hand Ipopt on to their users, so that the config looks for it there only.
+set(drawpoint_ipopt_components)
+foreach(component doe kriging pareto)
+  get_target_property(libraries drawpoint_${component} INTERFACE_LINK_LIBRARIES)
+  if("PkgConfig::IPOPT" IN_LIST libraries)
+    list(APPEND drawpoint_ipopt_components ${component})
+  endif()
+endforeach()
+list(JOIN drawpoint_ipopt_components "|" DRAWPOINT_IPOPT_COMPONENTS)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/DrawpointConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/DrawpointConfig.cmake
+                              INSTALL_DESTINATION ${drawpoint_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/DrawpointConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/DrawpointConfig.cmake ${PROJECT_BINARY_DIR}/DrawpointConfigVersion.cmake
+        DESTINATION ${drawpoint_cmake_dir} COMPONENT common)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint
+        COMPONENT common)
+
+# One Debian package a component: cpack -G DEB in the build directory.
+set(CPACK_PACKAGE_VENDOR "Drawpoint contributors")
+set(CPACK_PACKAGE_CONTACT "Drawpoint contributors")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENTS_ALL common doe kriging pareto)
+
+# drawpoint_deb(COMPONENT SUMMARY DEPENDENCY...): the name, summary and dependencies of the component's package.
+function(drawpoint_deb component summary)
+  string(TOUPPER ${component} key)
+  list(JOIN ARGN ", " depends)
+  set(CPACK_DEBIAN_${key}_PACKAGE_NAME libdrawpoint-${component}-dev PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
+  set(CPACK_COMPONENT_${key}_DESCRIPTION "${summary}" PARENT_SCOPE)
+endfunction()
+
+set(same_version "(= ${PROJECT_VERSION})")
+set(toolkit "libdrawpoint-doe-dev ${same_version}" coinor-libipopt-dev pkg-config)
+drawpoint_deb(common "Drawpoint: CMake package files" cmake)
+drawpoint_deb(doe "Drawpoint: designed experiments over any black box (headers)" "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)")
+drawpoint_deb(kriging "Drawpoint: regression Kriging (headers)" ${toolkit})
+drawpoint_deb(pareto "Drawpoint: multi-objective search (headers)" ${toolkit})
+if(DRAWPOINT_BUILD_ENGINE)
+  list(APPEND CPACK_COMPONENTS_ALL engine)
+  drawpoint_deb(engine "Drawpoint: articulated machines among convex rocks (library and headers)"
+                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libsimbody-dev libfcl-dev libhdf5-dev)
+endif()
+include(CPack)

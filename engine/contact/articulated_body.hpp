@@ -7,10 +7,11 @@
 
 /// What the contact solver sees of an articulated machine: one super-body.
 ///
-/// A machine with n speeds u, mass matrix M(q) and loop constraints G(q) u = 0 answers an impulse p on its speeds with
-/// Δu = A p,  A = M⁻¹ − M⁻¹Gᵀ(G M⁻¹Gᵀ)⁻¹G M⁻¹ = N Nᵀ,  N: n x r of rank r, the true degrees of freedom. With u = N w the
-/// machine is a body of r velocity coordinates w and unit mass: a row J u of any part becomes the row (J N) w, and an
-/// impulse λ on it changes w by (J N)ᵀ λ. Joints hold to round-off whatever the solver's number of sweeps.
+/// A machine with n speeds u, mass matrix M(q) and loop constraints G(q) u = 0 answers an impulse p on its
+/// speeds with Δu = A p,  A = M⁻¹ − M⁻¹Gᵀ(G M⁻¹Gᵀ)⁻¹G M⁻¹ = N Nᵀ,  N: n x r of rank r, the true degrees of
+/// freedom. With u = N w the machine is a body of r velocity coordinates w and unit mass: a row J u of any
+/// part becomes the row (J N) w, and an impulse λ on it changes w by (J N)ᵀ λ. Joints hold to round-off
+/// whatever the solver's number of sweeps.
 ///
 /// Frames: world. Spatial vectors are (angular; linear), taken at the part's origin. SI units.
 namespace drawpoint::engine::contact {
@@ -19,7 +20,8 @@ using SpatialMap = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using SpatialVector = Eigen::Matrix<double, 6, 1>;
 
 /// One scalar row J w of the machine itself: a motor (two-sided limits) or a joint stop (one-sided).
-/// Law: J w⁺ + sigma·λ = target with lower ≤ λ ≤ upper (complementary at the limits); impulses in N s or N m s.
+/// Law: J w⁺ + sigma·λ = target with lower ≤ λ ≤ upper (complementary at the limits); impulses in N s or N m
+/// s.
 struct SuperBodyRow {
   Eigen::VectorXd jacobian;  ///< length r
   double target = 0;         ///< [m/s] or [rad/s]
@@ -30,18 +32,19 @@ struct SuperBodyRow {
 
 /// The machine during one step.
 struct SuperBody {
-  Eigen::VectorXd velocity_before;     ///< w at the start of the step, length r
-  Eigen::VectorXd velocity;            ///< w after gravity and inertia forces, before any impulse, length r
-  std::vector<SpatialMap> part_maps;   ///< 6 x r: w -> spatial velocity of the part at its origin
+  Eigen::VectorXd velocity_before;       ///< w at the start of the step, length r
+  Eigen::VectorXd velocity;              ///< w after gravity and inertia forces, before any impulse, length r
+  std::vector<SpatialMap> part_maps;     ///< 6 x r: w -> spatial velocity of the part at its origin
   std::vector<Eigen::Vector3d> origins;  ///< part origins in the world [m]
   std::vector<SuperBodyRow> rows;
 };
 
 /// What the solver gives back.
 struct SuperBodySolution {
-  Eigen::VectorXd velocity;                   ///< w at the end of the step, length r
-  std::vector<SpatialVector> part_impulses;   ///< contact impulse on each part at its origin (moment; force) [N m s; N s]
-  std::vector<double> row_impulses;           ///< in the order of SuperBody::rows
+  Eigen::VectorXd velocity;  ///< w at the end of the step, length r
+  std::vector<SpatialVector>
+      part_impulses;  ///< contact impulse on each part at its origin (moment; force) [N m s; N s]
+  std::vector<double> row_impulses;  ///< in the order of SuperBody::rows
 };
 
 /// A machine that takes part in the contact solve.
@@ -52,7 +55,8 @@ class ArticulatedBody {
   virtual int parts() const = 0;
   virtual Eigen::Isometry3d part_pose(int part) const = 0;  ///< X_WP
 
-  /// The super-body at the present position for a step of h [s] under the gravity vector [m/s²]. Valid until advance().
+  /// The super-body at the present position for a step of h [s] under the gravity vector [m/s²]. Valid until
+  /// advance().
   virtual const SuperBody& linearise(double h, const Eigen::Vector3d& gravity) = 0;
 
   /// Takes the solved velocities, moves the machine by one step and recovers its joint forces.

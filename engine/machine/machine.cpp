@@ -317,7 +317,8 @@ Eigen::Vector3d Machine::angular_velocity(int body) const {
 void Machine::set_motor(int motor, double speed) { simbody_->motor_targets.at(motor) = speed; }
 double Machine::motor_force(int motor) const { return simbody_->motor_forces.at(motor); }
 
-Eigen::VectorXd Machine::transmission(int driven, const std::vector<int>& drivers, const std::vector<int>& held) const {
+Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std::vector<int>& drivers,
+                                     const std::vector<int>& held) const {
   const Simbody& s = *simbody_;
   SimTK::Matrix matrix;
   s.matter.calcG(s.state, matrix);
@@ -338,7 +339,10 @@ Eigen::VectorXd Machine::transmission(int driven, const std::vector<int>& driver
   for (Eigen::Index d = 0; d < fixed; ++d) A.row(A.rows() - fixed + d) = Eigen::RowVectorXd::Unit(n, s.speed_index(drivers[d]));
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(A.rows(), fixed);
   B.bottomRows(fixed).setIdentity();
-  return A.colPivHouseholderQr().solve(B).row(s.speed_index(driven)).transpose();
+  const Eigen::MatrixXd speeds = A.colPivHouseholderQr().solve(B);
+  Eigen::MatrixXd factors(static_cast<Eigen::Index>(driven.size()), fixed);
+  for (std::size_t k = 0; k < driven.size(); ++k) factors.row(static_cast<Eigen::Index>(k)) = speeds.row(s.speed_index(driven[k]));
+  return factors;
 }
 
 Wrench Machine::joint_wrench(int body) const {

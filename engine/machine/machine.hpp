@@ -52,9 +52,10 @@ class Machine final : public contact::ArticulatedBody {
   void set_motor(int motor, double speed);           ///< [rad/s] or [m/s]
   double motor_force(int motor) const;               ///< mean over the last step [N m] or [N]
 
-  /// How the speed of joint `driven` follows when the joints `drivers` (as many as the mechanism between them has freedoms)
-  /// get unit speed and every joint outside that mechanism stands still: one factor a driver.
-  Eigen::VectorXd transmission(int driven, const std::vector<int>& drivers, const std::vector<int>& held) const;
+  /// How fast the joints `driven` move for unit speed of each of the joints `drivers`, with free bases and the joints `held` at
+  /// rest: driven x drivers. The drivers must be as many as the freedoms that are left.
+  Eigen::MatrixXd transmission(const std::vector<int>& driven, const std::vector<int>& drivers,
+                               const std::vector<int>& held) const;
 
   /// Wrench that the parent put on the body at its joint point in the last step, mean over the step, in the body's axes.
   Wrench joint_wrench(int body) const;

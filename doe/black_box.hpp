@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// A black box is anything callable: f(x), f(x, seed) or f(X, seeds).
+///
+/// x has one number a variable, X is n x d with one run a row, both in natural units. Equal (x, seed) must
+/// give equal outcomes, and a black box may be called from several threads at once: so the call must be
+/// const. Where a type offers several forms, the batch form is used, for it is the one that can be faster
+/// than its rows one by one. The calls below turn what goes wrong (an exception, a wrong count, a value that
+/// is not finite) into a Failure.
+
+#include <Eigen/Core>
+#include <concepts>
+#include <exception>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <drawpoint/doe/outcome.hpp>
+#include <drawpoint/doe/problem.hpp>
+
+namespace drawpoint::doe {
+
+template <class F>
+concept PointFunction = requires(const F& f, const Eigen::VectorXd& x) {
+  { f(x) } -> std::convertible_to<Outcome>;
+};
+
+template <class F>
+concept SeededFunction = requires(const F& f, const Eigen::VectorXd& x, Seed seed) {
+  { f(x, seed) } -> std::convertible_to<Outcome>;
+};
+
+template <class F>
+concept BatchFunction = requires(const F& f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) {
+  { f(X, seeds) } -> std::convertible_to<std::vector<Outcome>>;
+};
+
+template <class F>
+concept BlackBox = PointFunction<F> || SeededFunction<F> || BatchFunction<F>;
+
+namespace detail {
+
+// What a type that is no black box comes closest to, so that the compiler's message can name the mistake.
+template <class F>
+concept TakesThePoint = requires(const F& f, const Eigen::VectorXd& x, const Eigen::MatrixXd& X, Seed seed) {
+  f(x);
+}
+|| requires(const F& f, const Eigen::VectorXd& x, Seed seed) { f(x, seed); }
+|| requires(const F& f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) { f(X, seeds); };
+
+template <class F>
+concept CallableOnlyWhenMutable =
+    !TakesThePoint<F> &&
+    (
+        requires(F & f, const Eigen::VectorXd& x) { f(x); } ||
+        requires(F & f, const Eigen::VectorXd& x, Seed seed) { f(x, seed); } ||
+        requires(F & f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) { f(X, seeds); });
+
+}  // namespace detail
+
+/// First line of every entry point: stops the compilation with the accepted signatures in words.
+template <class F>
+constexpr void require_black_box() {
+  static_assert(!detail::CallableOnlyWhenMutable<F>,
+                "drawpoint: not a black box. Its call operator is not const, yet several threads may call it "
+                "at once: write "
+                "'operator()(...) const', or remove 'mutable' from the lambda. Expected one of "
+                "Outcome f(const Eigen::VectorXd& x) const; "
+                "Outcome f(const Eigen::VectorXd& x, doe::Seed seed) const; "
+                "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds) const.");
+  static_assert(BlackBox<F> || !detail::TakesThePoint<F>,
+                "drawpoint: not a black box. It takes the point but returns the wrong type. Expected one of "
+                "Outcome f(const Eigen::VectorXd& x); "
+                "Outcome f(const Eigen::VectorXd& x, doe::Seed seed); "
+                "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds); "
+                "where a double, an Eigen::VectorXd or a doe::Failure converts to Outcome.");
+  static_assert(
+      BlackBox<F> || detail::TakesThePoint<F> || detail::CallableOnlyWhenMutable<F>,
+      "drawpoint: not a black box. It cannot be called with a point. Expected one of "
+      "Outcome f(const Eigen::VectorXd& x); "
+      "Outcome f(const Eigen::VectorXd& x, doe::Seed seed); "
+      "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds); "
+      "where X has one run a row and Outcome may be a double, an Eigen::VectorXd or a doe::Failure.");
+}
+
+namespace detail {
+
+/// The outcome itself when it has one finite value a response, else the Failure that says what is wrong.
+inline Outcome checked(Outcome outcome, const Problem& problem) {
+  if (outcome.failed()) return outcome;
+  const Eigen::VectorXd& values = outcome.values();
+  const auto expected = static_cast<Eigen::Index>(problem.responses.size());
+  if (values.size() != expected)
+    return Failure{"returned " + std::to_string(values.size()) + " values where the problem has " +
+                   std::to_string(expected) + " responses"};
+  for (Eigen::Index j = 0; j < expected; ++j)
+    if (!std::isfinite(values[j]))
+      return Failure{"response \"" + problem.responses[j].name + "\" is " + number_text(values[j])};
+  return outcome;
+}
+
+/// Runs `body` and turns whatever it throws into a Failure.
+template <class Result, class Body>
+Result guarded(const Body& body) {
+  try {
+    return body();
+  } catch (const std::exception& e) {
+    return Result(Failure{std::string("exception: ") + e.what()});
+  } catch (...) {
+    return Result(Failure{"exception of a type that is not a std::exception"});
+  }
+}
+
+/// All rows of X in one call of a batch function, or one Failure that holds for all of them.
+template <BatchFunction F>
+std::variant<std::vector<Outcome>, Failure> call_rows(const F& f, const Eigen::MatrixXd& X,
+                                                      std::span<const Seed> seeds) {
+  using Result = std::variant<std::vector<Outcome>, Failure>;
+  return guarded<Result>([&]() -> Result {
+    std::vector<Outcome> outcomes = f(X, seeds);
+    if (static_cast<Eigen::Index>(outcomes.size()) == X.rows()) return outcomes;
+    return Failure{"the batch returned " + std::to_string(outcomes.size()) + " outcomes for " +
+                   std::to_string(X.rows()) + " points"};
+  });
+}
+
+/// One run at x: never throws what the black box throws.
+template <BlackBox F>
+Outcome call(const F& f, const Problem& problem, const Eigen::VectorXd& x, Seed seed) {
+  if constexpr (BatchFunction<F>) {
+    auto rows = call_rows(f, x.transpose(), std::span<const Seed>(&seed, 1));
+    if (auto* failure = std::get_if<Failure>(&rows)) return std::move(*failure);
+    return checked(std::move(std::get<0>(rows).front()), problem);
+  } else if constexpr (SeededFunction<F>) {
+    return checked(guarded<Outcome>([&]() -> Outcome { return f(x, seed); }), problem);
+  } else {
+    return checked(guarded<Outcome>([&]() -> Outcome { return f(x); }), problem);
+  }
+}
+
+/// One run a row of X, in one call when f takes batches; seeds has X.rows() entries.
+template <BlackBox F>
+std::vector<Outcome> call_batch(const F& f, const Problem& problem, const Eigen::MatrixXd& X,
+                                std::span<const Seed> seeds) {
+  const auto n = static_cast<std::size_t>(X.rows());
+  std::vector<Outcome> outcomes;
+  if constexpr (BatchFunction<F>) {
+    auto rows = call_rows(f, X, seeds);
+    if (auto* failure = std::get_if<Failure>(&rows)) return std::vector<Outcome>(n, Outcome(*failure));
+    outcomes = std::move(std::get<0>(rows));
+    for (Outcome& outcome : outcomes) outcome = checked(std::move(outcome), problem);
+  } else {
+    outcomes.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) outcomes.push_back(call(f, problem, X.row(i).transpose(), seeds[i]));
+  }
+  return outcomes;
+}
+
+}  // namespace detail
+}  // namespace drawpoint::doe

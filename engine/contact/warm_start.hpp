@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
+/// Last step's impulses, found again by pair and feature, so that a resting pile starts from its own load.
+///
+/// Pairs are stored in ascending order, so looking them up in ascending order is a merge: linear in the
+/// pairs. A point that matches no feature takes the nearest unmatched point of its pair within `reach`.
+namespace drawpoint::engine::contact {
+
+class WarmStart {
+ public:
+  struct Point {
+    std::uint32_t feature;
+    Eigen::Vector3d position;
+    Eigen::Vector3d impulse;
+    bool used;
+  };
+  static constexpr double reach = 0.03;  ///< [m], a tenth of the smallest rock
+
+  /// Starts reading what the last step stored and storing anew.
+  void begin_step();
+
+  /// Impulses of the pair's points, in their order; zero where nothing matches. Pairs must come in ascending
+  /// order.
+  void begin_pair(int a, int b);
+  Eigen::Vector3d point(std::uint32_t feature, const Eigen::Vector3d& position);
+  Eigen::Vector3d rolling() const { return match_ ? match_->rolling : Eigen::Vector3d::Zero().eval(); }
+
+  /// Stores the solved impulses of a pair; same order of pairs.
+  void store_pair(int a, int b, const Eigen::Vector3d& rolling);
+  void store_point(std::uint32_t feature, const Eigen::Vector3d& position, const Eigen::Vector3d& impulse);
+
+  void clear();
+
+ private:
+  struct Pair {
+    int a, b;
+    Eigen::Vector3d rolling;
+    std::size_t first, count;
+  };
+  std::vector<Pair> pairs_, old_pairs_;
+  std::vector<Point> points_, old_points_;
+  std::size_t cursor_ = 0;
+  const Pair* match_ = nullptr;
+};
+
+}  // namespace drawpoint::engine::contact

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <drawpoint/engine/contact/contact_law.hpp>
+#include <drawpoint/engine/contact/world.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine::contact {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A point this far apart [m] joins the solve even when it does not close in; with the travel of two steps added it covers
+// whatever the solve itself may set moving.
+constexpr double resting_margin = 1e-3;
+constexpr int world_body = 0;  // problem_.bodies[0] never moves
+constexpr int no_family = 0, fixed_family = 1, machine_family = 2;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Matrix3d turned(const Matrix3d& R, const Vector3d& principal) { return R * principal.asDiagonal() * R.transpose(); }
+
+}  // namespace
+
+World::World(const WorldOptions& options, const MaterialTable& materials)
+    : options_(options), materials_(materials), finder_(options.contacts) {
+  if (!(options.step > 0) || options.step > 0.1)
+    throw std::invalid_argument("contact::World: step is " + std::to_string(options.step) +
+                                " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
+  if (options.solver.sweeps < 1)
+    throw std::invalid_argument("contact::World: sweeps is " + std::to_string(options.solver.sweeps) + "; allowed: at least 1");
+}
+
+int World::add_surface(const Surface& surface, const Collider& collider) {
+  const int id = finder_.add(collider);
+  if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1, {Owner::fixed, -1, 0});
+  surfaces_[id] = surface;
+  return id;
+}
+
+int World::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const Vector3d& velocity,
+                    const Vector3d& angular_velocity) {
+  const int index = static_cast<int>(rocks_.size());
+  Collider collider{body.shape, index + 1, body.material, no_family, true, Eigen::Isometry3d::Identity()};
+  rocks_.push_back({body, pose, velocity, angular_velocity, true, -1});
+  rocks_.back().collider = add_surface({Owner::rock, index, body.material}, collider);
+  finder_.set_pose(rocks_.back().collider, pose);
+  return index;
+}
+
+void World::remove_rock(int rock) {
+  Rock& r = rocks_.at(rock);
+  if (!r.present) return;
+  finder_.remove(r.collider);
+  r.present = false;
+}
+
+void World::set_rock_velocity(int rock, const Vector3d& velocity, const Vector3d& angular_velocity) {
+  rocks_.at(rock).velocity = velocity;
+  rocks_.at(rock).angular_velocity = angular_velocity;
+}
+
+int World::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material) {
+  const int id = add_surface({Owner::fixed, -1, material},
+                             {std::move(shape), world_body, material, fixed_family, false, Eigen::Isometry3d::Identity()});
+  finder_.set_pose(id, pose);
+  return id;
+}
+
+void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS, int material) {
+  const int id = add_surface({Owner::part, part, material},
+                             {std::move(shape), machine_part(part), material, machine_family, true, X_PS});
+  finder_.set_pose(id, machine_->part_pose(part));
+}
+
+void World::place_colliders() {
+  for (const Rock& rock : rocks_)
+    if (rock.present) finder_.set_pose(rock.collider, rock.pose);
+  for (std::size_t id = 0; id < surfaces_.size(); ++id)
+    if (surfaces_[id].owner == Owner::part) finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
+}
+
+void World::fill_bodies() {
+  problem_.bodies.resize(rocks_.size() + 1);
+  problem_.bodies[world_body] = SolverBody();
+  for (std::size_t k = 0; k < rocks_.size(); ++k) {
+    const Rock& rock = rocks_[k];
+    SolverBody& body = problem_.bodies[k + 1];
+    body.inverse_mass = 1 / rock.body.mass;
+    body.inverse_inertia = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse());
+    body.velocity = rock.velocity + options_.step * options_.gravity;
+    body.angular_velocity = rock.angular_velocity;
+  }
+}
+
+int World::solver_index(const Surface& surface) const {
+  if (surface.owner == Owner::part) return machine_part(surface.index);
+  return surface.owner == Owner::rock ? surface.index + 1 : world_body;
+}
+
+Vector3d World::origin(const Surface& surface) const {
+  if (surface.owner == Owner::part) return super_->origins[surface.index];
+  return surface.owner == Owner::rock ? Vector3d(rocks_[surface.index].pose.translation()) : Vector3d::Zero().eval();
+}
+
+Vector3d World::velocity_at(const Surface& surface, const Vector3d& arm) const {
+  if (surface.owner == Owner::part) {
+    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
+    return V.tail<3>() + V.head<3>().cross(arm);
+  }
+  if (surface.owner == Owner::fixed) return Vector3d::Zero();
+  const Rock& rock = rocks_[surface.index];
+  return rock.velocity + rock.angular_velocity.cross(arm);
+}
+
+void World::fill_contacts() {
+  problem_.points.clear();
+  problem_.rolling.clear();
+  const double h = options_.step;
+  for (const Manifold& m : *manifolds_) {
+    const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
+    const Material& material = materials_.of(a.material, b.material);
+    warm_start_.begin_pair(m.collider_a, m.collider_b);
+    const Vector3d origin_a = origin(a), origin_b = origin(b);
+    const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
+                                                        [](const ManifoldPoint& p) { return p.gap <= 0; }));
+    const int first = static_cast<int>(problem_.points.size());
+    for (int k = 0; k < m.count; ++k) {
+      const ManifoldPoint& p = m.points[k];
+      ContactPoint c{.a = solver_index(a), .b = solver_index(b), .feature = p.feature, .position = p.position,
+                     .arm_a = p.position - origin_a, .arm_b = p.position - origin_b, .normal = m.normal};
+      const Vector3d u = velocity_at(b, c.arm_b) - velocity_at(a, c.arm_a);
+      if (p.gap > resting_margin + 2 * h * u.norm()) continue;
+      const SpookTerms terms = spook(p.gap, m.normal.dot(u), material.stiffness / touching, material.damping_time, h);
+      c.sigma = terms.sigma;
+      c.target = terms.target;
+      c.friction = material.friction;
+      c.impulse = options_.warm_start * warm_start_.point(p.feature, p.position);
+      problem_.points.push_back(c);
+    }
+    const int count = static_cast<int>(problem_.points.size()) - first;
+    if (count > 0)
+      problem_.rolling.push_back({solver_index(a), solver_index(b), m.collider_a, m.collider_b, first, count,
+                                  material.rolling * m.radius, options_.warm_start * warm_start_.rolling()});
+  }
+}
+
+void World::move_rocks() {
+  const double h = options_.step;
+  for (std::size_t k = 0; k < rocks_.size(); ++k) {
+    Rock& rock = rocks_[k];
+    if (!rock.present) continue;
+    rock.velocity = problem_.bodies[k + 1].velocity;
+    const Vector3d w = problem_.bodies[k + 1].angular_velocity;
+    rock.pose.translation() += h * rock.velocity;
+    const double angle = h * w.norm();
+    if (angle == 0) {
+      rock.angular_velocity = w;
+      continue;
+    }
+    const Vector3d momentum = turned(rock.pose.linear(), rock.body.inertia) * w;
+    Eigen::Quaterniond q(rock.pose.linear());
+    q = (Eigen::AngleAxisd(angle, w.normalized()) * q).normalized();
+    rock.pose.linear() = q.toRotationMatrix();
+    rock.angular_velocity = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse()) * momentum;
+  }
+}
+
+StepReport World::step() {
+  const auto start = std::chrono::steady_clock::now();
+  StepReport report;
+  place_colliders();
+  manifolds_ = &finder_.find();
+  report.broad_s = finder_.times().broad;
+  report.narrow_s = finder_.times().narrow;
+
+  const auto machine_start = std::chrono::steady_clock::now();
+  super_ = machine_ ? &machine_->linearise(options_.step, options_.gravity) : nullptr;
+  problem_.machine = super_;
+  report.machine_s = machine_ ? seconds_since(machine_start) : 0;
+
+  fill_bodies();
+  warm_start_.begin_step();
+  fill_contacts();
+  const auto solver_start = std::chrono::steady_clock::now();
+  const SolverReport solved = solve(problem_, options_.solver);
+  report.solver_s = seconds_since(solver_start);
+  for (const RollingRow& row : problem_.rolling) {
+    warm_start_.store_pair(row.collider_a, row.collider_b, row.impulse);
+    for (int k = row.first; k < row.first + row.count; ++k) {
+      const ContactPoint& p = problem_.points[k];
+      warm_start_.store_point(p.feature, p.position, p.impulse);
+    }
+  }
+  move_rocks();
+  if (machine_) {
+    const auto advance_start = std::chrono::steady_clock::now();
+    machine_->advance(solved.machine);
+    report.machine_s += seconds_since(advance_start);
+  }
+  time_ += options_.step;
+  report.manifolds = static_cast<int>(problem_.rolling.size());
+  report.points = static_cast<int>(problem_.points.size());
+  report.last_change = solved.last_change;
+  for (const Manifold& m : *manifolds_)
+    for (int k = 0; k < m.count; ++k) report.max_overlap = std::max(report.max_overlap, -m.points[k].gap);
+  report.rest_s = seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
+  return report;
+}
+
+double World::kinetic_energy() const {
+  double sum = 0;
+  for (const Rock& rock : rocks_) {
+    if (!rock.present) continue;
+    const Vector3d w = rock.pose.linear().transpose() * rock.angular_velocity;
+    sum += 0.5 * rock.body.mass * rock.velocity.squaredNorm() + 0.5 * w.dot(rock.body.inertia.cwiseProduct(w));
+  }
+  return sum;
+}
+
+double World::fastest_rock() const {
+  double fastest = 0;
+  for (const Rock& rock : rocks_)
+    if (rock.present) fastest = std::max(fastest, rock.velocity.norm());
+  return fastest;
+}
+
+}  // namespace drawpoint::engine::contact

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/contact_finder.hpp>
+#include <drawpoint/engine/contact/material.hpp>
+#include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/contact/warm_start.hpp>
+#include <memory>
+#include <vector>
+
+/// Rocks, fixed surroundings and at most one machine, stepped together: nonsmooth DEM with fixed steps of h.
+///
+/// A step: find contacts at q; v* = v + h f/m; solve all impulses (rocks and machine in one problem); q⁺ = q
+/// + h v⁺. Rocks turn by the exponential map and keep their angular momentum through the turn, so free
+/// rotation conserves it to round-off. First order in h. Rock frames: origin at the centre of mass, principal
+/// axes. World frame: x toward the back wall, z up.
+///
+/// Deterministic: the same calls give the same bits. Not thread-safe. Cost: linear in contacts.
+namespace drawpoint::engine::contact {
+
+struct WorldOptions {
+  double step = 0.005;                                     ///< h [s]
+  Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);  ///< [m/s²]
+  SolverOptions solver;
+  /// Share of last step's impulses to start from, 0 to 1. Full warm starting carries the unconverged part of the solution from
+  /// step to step without loss and lets towers sway; 0.95 forgets it within some twenty steps and keeps most of the head start.
+  double warm_start = 0.95;
+  ContactFinderOptions contacts;
+};
+
+/// A rock's fixed properties, shared by equal rocks.
+struct RockBody {
+  std::shared_ptr<const Shape> shape;  ///< convex polyhedron, centred, principal axes
+  double mass = 0;                     ///< [kg]
+  Eigen::Vector3d inertia;             ///< principal moments [kg m²]
+  int material = 0;
+};
+
+struct Rock {
+  RockBody body;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), angular_velocity = Eigen::Vector3d::Zero();  ///< world
+  bool present = true;  ///< a removed rock keeps its index
+  int collider = -1;
+};
+
+/// What a step did and where its time went.
+struct StepReport {
+  int manifolds = 0, points = 0;
+  double last_change = 0;  ///< of the solver's last sweep, relative to the normal load
+  double max_overlap = 0;  ///< [m]
+  double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;
+};
+
+class World {
+ public:
+  World(const WorldOptions& options, const MaterialTable& materials);
+
+  int add_rock(const RockBody& body, const Eigen::Isometry3d& pose,
+               const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero(),
+               const Eigen::Vector3d& angular_velocity = Eigen::Vector3d::Zero());
+  void remove_rock(int rock);
+  void set_rock_velocity(int rock, const Eigen::Vector3d& velocity, const Eigen::Vector3d& angular_velocity);
+  int add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material);
+
+  /// The machine is stepped with the rocks from now on; it must outlive the world. nullptr detaches.
+  void attach(ArticulatedBody* machine) { machine_ = machine; }
+  /// Gives machine part `part` a shape, placed in the part's frame. Parts do not collide with each other.
+  void add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
+                      int material);
+
+  StepReport step();
+
+  const std::vector<Rock>& rocks() const { return rocks_; }
+  double time() const { return time_; }
+  const WorldOptions& options() const { return options_; }
+  const std::vector<Manifold>& manifolds() const { return *manifolds_; }
+  const ContactProblem& problem() const { return problem_; }  ///< of the last step, with its impulses
+
+  double kinetic_energy() const;  ///< of the rocks [J]
+  double fastest_rock() const;    ///< [m/s], over the rocks' centres
+
+ private:
+  enum class Owner { fixed, rock, part };
+  struct Surface {
+    Owner owner;
+    int index;
+    int material;
+  };
+
+  int add_surface(const Surface& surface, const Collider& collider);
+  void place_colliders();
+  void fill_bodies();
+  void fill_contacts();
+  int solver_index(const Surface& surface) const;
+  Eigen::Vector3d origin(const Surface& surface) const;
+  Eigen::Vector3d velocity_at(const Surface& surface, const Eigen::Vector3d& arm) const;
+  void move_rocks();
+
+  WorldOptions options_;
+  MaterialTable materials_;
+  ContactFinder finder_;
+  std::vector<Surface> surfaces_;  // by collider
+  std::vector<Rock> rocks_;
+  ArticulatedBody* machine_ = nullptr;
+  const SuperBody* super_ = nullptr;
+  const std::vector<Manifold>* manifolds_ = nullptr;
+  ContactProblem problem_;
+  WarmStart warm_start_;
+  double time_ = 0;
+};
+
+}  // namespace drawpoint::engine::contact

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/contact/mass_properties.hpp>
+#include <drawpoint/engine/granular/pile.hpp>
+#include <drawpoint/engine/granular/rock_shapes.hpp>
+#include <drawpoint/engine/random.hpp>
+
+namespace drawpoint::engine::granular {
+
+RockLibrary::RockLibrary(double density, int material) : density_(density), material_(material) {}
+
+contact::RockBody RockLibrary::body(const RockSpec& spec) const {
+  for (const auto& [known, body] : made_)
+    if (known.shape == spec.shape && known.size == spec.size) return body;
+  const auto polyhedron = rock_shapes().at(spec.shape).scaled(spec.size);
+  const auto properties = contact::mass_properties(polyhedron, density_);
+  made_.push_back({spec, {std::make_shared<const contact::Shape>(polyhedron), properties.mass,
+                          properties.inertia.diagonal(), material_}});
+  return made_.back().second;
+}
+
+namespace {
+
+// Places of the layer: a square grid within the radius, from the middle outward so that the pile grows under the raise.
+std::vector<Eigen::Vector3d> layer_places(const EmitterOptions& o) {
+  std::vector<Eigen::Vector3d> places;
+  const int reach = static_cast<int>(o.radius / o.spacing) + 1;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j) {
+      const Eigen::Vector3d offset(i * o.spacing, j * o.spacing, 0);
+      if (offset.norm() <= o.radius) places.push_back(o.centre + offset);
+    }
+  return places;
+}
+
+bool free_place(const contact::World& world, const Eigen::Vector3d& place, double clearance) {
+  return std::none_of(world.rocks().begin(), world.rocks().end(), [&](const contact::Rock& rock) {
+    return rock.present && (rock.pose.translation() - place).norm() < clearance;
+  });
+}
+
+}  // namespace
+
+Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t seed)
+    : options_(options), turns_(seed), sampler_(seed, density) {}
+
+std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library, std::vector<RockSpec>& specs, double mass) {
+  std::vector<int> born;
+  for (const Eigen::Vector3d& place : layer_places(options_)) {
+    if (mass <= 0) break;
+    if (!free_place(world, place, options_.spacing)) continue;
+    const RockDraw draw = sampler_.next();
+    const RockSpec spec{draw.shape, draw.length};
+    const contact::RockBody body = library.body(spec);
+    Eigen::Isometry3d pose(turns_.rotation());
+    pose.translation() = place;
+    born.push_back(world.add_rock(body, pose, Eigen::Vector3d(0, 0, -options_.speed)));
+    specs.resize(world.rocks().size());
+    specs.back() = spec;
+    mass -= body.mass;
+  }
+  return born;
+}
+
+bool RestWatch::at_rest(const contact::World& world) {
+  const double h = world.options().step, mass = present_mass(world);
+  elapsed_ += h;
+  const bool calm = mass == 0 || (world.kinetic_energy() / mass < options_.mean_energy && world.fastest_rock() < options_.fastest);
+  calm_ = calm ? calm_ + h : 0;
+  timed_out_ = calm_ < options_.hold && elapsed_ >= options_.cap;
+  return calm_ >= options_.hold || timed_out_;
+}
+
+double present_mass(const contact::World& world) {
+  double sum = 0;
+  for (const contact::Rock& rock : world.rocks())
+    if (rock.present) sum += rock.body.mass;
+  return sum;
+}
+
+}  // namespace drawpoint::engine::granular

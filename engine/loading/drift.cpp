@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <drawpoint/engine/granular/rock_shapes.hpp>
+#include <drawpoint/engine/loading/drift.hpp>
+#include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/random.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+using contact::ConvexPolyhedron;
+using contact::HalfSpace;
+using contact::Shape;
+using Eigen::Vector3d;
+
+constexpr int terrain = static_cast<int>(SurfaceKind::terrain);
+constexpr double slab = 0.5;  // thickness of roof and raise [m]
+
+void require(bool fine, const char* name, double value, const char* allowed) {
+  if (!fine)
+    throw std::invalid_argument("loading::Drift: " + std::string(name) + " is " + std::to_string(value) + " m; allowed: " + allowed);
+}
+
+void add(contact::World& world, Shape shape) {
+  world.add_static(std::make_shared<const Shape>(std::move(shape)), Eigen::Isometry3d::Identity(), terrain);
+}
+
+void add_block(contact::World& world, const Vector3d& low, const Vector3d& high) {
+  std::vector<Vector3d> points;
+  for (int c = 0; c < 8; ++c)
+    points.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(), c & 4 ? high.z() : low.z());
+  add(world, ConvexPolyhedron::hull_of(points));
+}
+
+void add_roof(contact::World& world, const Drift& d) {
+  const double front = d.raise_axis().x() - d.raise_radius, side = d.raise_radius, far = d.length + slab;
+  add_block(world, {-10, -d.width, d.height}, {front, d.width, d.height + slab});
+  add_block(world, {front, side, d.height}, {far, d.width, d.height + slab});
+  add_block(world, {front, -d.width, d.height}, {far, -side, d.height + slab});
+  add_block(world, {d.raise_axis().x() + d.raise_radius, -side, d.height}, {far, side, d.height + slab});
+}
+
+// Eight plates, flat inside, that overlap at the corners so that the ring is closed.
+void add_raise(contact::World& world, const Drift& d) {
+  constexpr int sides = 8;
+  const double rise = d.raise_height - d.height;
+  for (int k = 0; k < sides; ++k) {
+    std::vector<Vector3d> points;
+    for (double angle : {k - 0.5, k + 0.5}) {
+      const double phi = 2 * M_PI * angle / sides, corner = 1 / std::cos(M_PI / sides);
+      for (double z : {0.0, rise}) {
+        const double inner = (d.raise_radius + d.raise_widening * z) * corner;
+        for (double r : {inner, inner + slab})
+          points.emplace_back(d.raise_axis().x() + r * std::cos(phi), r * std::sin(phi), d.height + z);
+      }
+    }
+    add(world, ConvexPolyhedron::hull_of(points));
+  }
+}
+
+void add_back_wall(contact::World& world, const Drift& d) {
+  add(world, HalfSpace{-Vector3d::UnitX(), -d.length});
+  if (d.wall_roughness <= 0) return;
+  const auto& shapes = granular::rock_shapes();
+  const double pitch = 0.9 * d.wall_roughness;
+  CounterRandom random(0x77a11);  // the wall is part of the drift: the same in every run
+  for (double z = pitch / 2; z < d.height; z += pitch) {
+    for (double y = -d.width / 2 + pitch / 2; y < d.width / 2; y += pitch) {
+      Eigen::Isometry3d pose(random.rotation());
+      pose.translation() = Vector3d(d.length - 0.1 * d.wall_roughness * random.uniform(), y, z);
+      const auto rock = shapes[random.index(shapes.size())].scaled(d.wall_roughness);
+      world.add_static(std::make_shared<const Shape>(rock), pose, static_cast<int>(SurfaceKind::rock));
+    }
+  }
+}
+
+}  // namespace
+
+void check(const Drift& d) {
+  require(d.length >= 10 && d.length <= 200, "length", d.length, "10 to 200 m");
+  require(d.width >= 3.6 && d.width <= 20, "width", d.width, "3.6 m (bucket and clearance) to 20 m");
+  require(d.height >= 3.5 && d.height <= 20, "height", d.height, "3.5 m (the machine is 3 m high) to 20 m");
+  require(d.raise_radius >= 1 && 2 * d.raise_radius < d.width, "raise radius", d.raise_radius, "1 m to half the drift's width");
+  require(d.raise_height > d.height + 1, "raise height", d.raise_height, "more than a metre above the roof");
+}
+
+void add_drift(contact::World& world, const Drift& drift) {
+  check(drift);
+  add(world, HalfSpace{Vector3d::UnitZ(), 0});
+  add(world, HalfSpace{Vector3d::UnitY(), -drift.width / 2});
+  add(world, HalfSpace{-Vector3d::UnitY(), -drift.width / 2});
+  add_back_wall(world, drift);
+  add_roof(world, drift);
+  add_raise(world, drift);
+}
+
+granular::EmitterOptions emitter_of(const Drift& d) {
+  const double z = d.raise_height - 0.6;
+  const double radius = d.raise_radius + d.raise_widening * (z - d.height) - 0.45;
+  return {{d.raise_axis().x(), d.raise_axis().y(), z}, radius, 0.85, 2.0};
+}
+
+contact::MaterialTable mine_materials(double tyre_stiffness) {
+  const int rock = 0, steel = static_cast<int>(SurfaceKind::steel), tyre = static_cast<int>(SurfaceKind::tyre);
+  // Young's moduli of the tables times 0.1 m, but not softer than 1e8 N/m: rock on steel or floor at 1e8 Pa.
+  contact::MaterialTable table(surface_kinds);
+  table.set(rock, rock, {0.9, 0.5, 1e9, 0});
+  table.set(rock, terrain, {1.0, 0.9, 1e8, 0});
+  table.set(rock, steel, {1.0, 0.9, 1e8, 0});
+  table.set(rock, tyre, {1.0, 0.9, 1e8, 0});
+  table.set(terrain, steel, {1.0, 0.9, 1e8, 0});
+  // A tyre's damping ratio is about 0.1: τ = 2 ζ sqrt(m/k) with a quarter of the machine on each.
+  table.set(terrain, tyre, {0.8, 0.0, tyre_stiffness, 0.2 * std::sqrt(14e3 / tyre_stiffness)});
+  return table;
+}
+
+}  // namespace drawpoint::engine::loading

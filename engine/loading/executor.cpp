@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/loading/executor.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+int number(Stage stage) { return static_cast<int>(stage); }
+
+void require(bool good, const char* name, double value, const char* allowed) {
+  if (!good)
+    throw std::invalid_argument("loading::ExecutorOptions: " + std::string(name) + " is " +
+                                std::to_string(value) + "; give " + allowed);
+}
+
+void require_positive(const char* name, double value) {
+  require(value > 0 && !std::isnan(value), name, value, "a value above 0");
+}
+
+void check(const ExecutorOptions& options) {
+  const SpeedPreset& speeds = options.speeds;
+  require_positive("speeds.drive_in [m/s]", speeds.drive_in);
+  require_positive("speeds.lift [m/s]", speeds.lift);
+  require_positive("speeds.curl [rad/s]", speeds.curl);
+  require_positive("speeds.back_out [m/s]", speeds.back_out);
+  require_positive("speeds.limits.drive [m/s]", speeds.limits.drive);
+  require_positive("speeds.limits.boom [rad/s]", speeds.limits.boom);
+  require_positive("speeds.limits.tilt [rad/s]", speeds.limits.tilt);
+  for (double limit : speeds.stage_limit) require_positive("speeds.stage_limit [s]", limit);
+  require_positive("slow_window [s]", options.slow_window);
+  require(options.slow_share >= 0 && options.slow_share < 1, "slow_share [1]", options.slow_share,
+          "0 to below 1");
+  require_positive("progress.angle_length [m]", options.progress.angle_length);
+  const double floor = options.progress.velocity_floor, tolerance = options.progress.tolerance;
+  require(floor >= 0 && floor <= 1, "progress.velocity_floor [1]", floor, "0 to 1");
+  require(tolerance >= 0 && tolerance < 1, "progress.tolerance [1]", tolerance, "0 to below 1");
+}
+
+// Time that an actuator has been slow, after a step of dt.
+double slow_for(double before, double dt, double set, double actual, const ExecutorOptions& options,
+                double least) {
+  const bool judged = std::abs(set) > least;
+  const bool slow = judged && actual * std::copysign(1.0, set) < options.slow_share * std::abs(set);
+  return slow ? before + dt : 0.0;
+}
+
+}  // namespace
+
+std::string_view name(Stage stage) {
+  constexpr std::string_view names[] = {"drive in", "lift", "curl", "back out", "finished"};
+  return names[number(stage) - 1];
+}
+
+std::string_view name(StageEnd reason) {
+  constexpr std::string_view names[] = {"goal", "timeout", "slow actuator"};
+  return names[static_cast<int>(reason)];
+}
+
+SpeedPreset machine_speeds() {
+  return {.drive_in = 1.2,
+          .lift = 0.4,
+          .curl = 0.3,
+          .back_out = 2.0,
+          .stage_limit = {8, 15, 10, 12},
+          .limits = {.drive = 2.5, .boom = 0.20, .tilt = 0.40}};
+}
+
+SpeedPreset thesis_like_speeds() {
+  return {.drive_in = 1.5,
+          .lift = 1.1,
+          .curl = 0.9,
+          .back_out = 3.8,
+          .stage_limit = {5, 6, 4, 6},
+          .limits = {.drive = 4.5, .boom = 0.60, .tilt = 1.20}};
+}
+
+Executor::Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options)
+    : plan_(plan), arm_(arm), options_(options) {
+  if (!plan.feasible)
+    throw std::invalid_argument("loading::Executor: the plan is not feasible (" + plan.message +
+                                "); end the run or plan anew");
+  check(options);
+}
+
+void Executor::start(Stage stage, const Observation& now) {
+  stage_ = stage;
+  stage_start_ = now.tip;
+  stage_time_ = now.time;
+  slow_time_ = {};
+  goal_ = stage_goal(plan_, number(stage), now.tip, cycle_start_);
+}
+
+void Executor::watch_actuators(const Observation& now) {
+  const double dt = now.time - last_time_;
+  last_time_ = now.time;
+  const ActuatorRates& least = options_.least_set;
+  slow_time_.drive = slow_for(slow_time_.drive, dt, set_.drive, now.actual.drive, options_, least.drive);
+  slow_time_.boom = slow_for(slow_time_.boom, dt, set_.boom, now.actual.boom, options_, least.boom);
+  slow_time_.tilt = slow_for(slow_time_.tilt, dt, set_.tilt, now.actual.tilt, options_, least.tilt);
+}
+
+bool Executor::stage_ends(const Observation& now, StageEnd& reason) const {
+  const double slowest = std::max({slow_time_.drive, slow_time_.boom, slow_time_.tilt});
+  if (goal_reached(progress_, options_.progress)) {
+    reason = StageEnd::goal;
+  } else if (now.time - stage_time_ >= options_.speeds.stage_limit[number(stage_) - 1]) {
+    reason = StageEnd::timeout;
+  } else if (slowest > options_.slow_window) {
+    reason = StageEnd::slow_actuator;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+Stage Executor::after(StageEnd reason) const {
+  const bool aborts = reason != StageEnd::goal && options_.stuck == StuckPolicy::abort_to_stage_4;
+  if (aborts && stage_ != Stage::back_out) return Stage::back_out;
+  if (stage_ == Stage::drive_in && !(plan_.height > 0)) return Stage::curl;
+  return static_cast<Stage>(number(stage_) + 1);
+}
+
+TipRates Executor::lift_rates(double s) const {
+  const double v_z = options_.speeds.lift, time_scale = plan_.height / v_z;
+  const double f = translation_factor(s, options_.progress);
+  const double g = rotation_factor(s, options_.progress);
+  return {.v_x = f * v_z / std::tan(plan_.slope), .v_z = f * v_z, .omega = g * plan_.tilt / time_scale};
+}
+
+ActuatorRates Executor::set_speeds(const TipPose& tip) const {
+  const double f = translation_factor(progress_, options_.progress);
+  const SpeedPreset& speeds = options_.speeds;
+  const auto along_tip = [&](const TipRates& rates) {
+    return actuator_rates(arm_, arm_pose(arm_, tip), rates);
+  };
+  switch (stage_) {
+    case Stage::drive_in:
+      return within_limits({.drive = speeds.drive_in}, speeds.limits);
+    case Stage::lift:
+      return within_limits(along_tip(lift_rates(progress_)), speeds.limits);
+    case Stage::curl:
+      if (plan_.curl == CurlMode::hinge_G) return within_limits({.tilt = speeds.curl * f}, speeds.limits);
+      return within_limits(along_tip({.omega = speeds.curl * f}), speeds.limits);
+    case Stage::back_out:
+      return within_limits({.drive = -speeds.back_out * f}, speeds.limits);
+    case Stage::finished:
+      break;
+  }
+  return {};
+}
+
+ActuatorRates Executor::step(const Observation& now) {
+  if (!started_) {
+    started_ = true;
+    cycle_start_ = now.tip;
+    last_time_ = now.time;
+    start(Stage::drive_in, now);
+  }
+  watch_actuators(now);
+  StageEnd reason = StageEnd::goal;
+  while (!finished()) {
+    progress_ = loading::progress(goal_, stage_start_, now.tip, options_.progress);
+    if (!stage_ends(now, reason)) break;
+    results_.push_back({stage_, reason, stage_time_, now.time, progress_, stage_start_, now.tip});
+    start(after(reason), now);
+  }
+  set_ = set_speeds(now.tip);
+  return set_;
+}
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <drawpoint/engine/loading/progress.hpp>
+#include <drawpoint/engine/loading/trajectory.hpp>
+#include <string_view>
+#include <vector>
+
+/// Follows a plan with set speeds for drive, boom and tilt, in four stages: drive in, lift, curl, back out.
+///
+/// Each step: progress s from the tip; tip velocity from the stage's law; actuator rates by inverse
+/// kinematics; one common factor keeps them within limits. First speeds: stage 1 v_x, constant; stage 2 v_z
+/// with v_x = v_z / tan θ and ω = κθ v_z / h; stage 3 ω; stage 4 −v_x. A stage ends when (a) its goal is
+/// reached, (b) its time is up, or (c) an actuator whose set speed exceeds `least_set` has run below
+/// `slow_share` of it for longer than `slow_window`. (b) and (c) are being stuck; the policy says what
+/// follows. Stage 2 is left out if h = 0.
+///
+/// A value type on plain data: knows no simulator, deterministic. World frame, SI units. Source: Lindmark
+/// 2016, section 3.4, algorithm 1.
+namespace drawpoint::engine::loading {
+
+enum class Stage : int { drive_in = 1, lift = 2, curl = 3, back_out = 4, finished = 5 };
+enum class StageEnd : int { goal = 0, timeout = 1, slow_actuator = 2 };
+enum class StuckPolicy { next_stage, abort_to_stage_4 };
+
+std::string_view name(Stage stage);
+std::string_view name(StageEnd reason);
+
+struct SpeedPreset {
+  double drive_in;                    ///< v_x of stage 1 [m/s]
+  double lift;                        ///< v_z at the start of stage 2 [m/s]
+  double curl;                        ///< ω at the start of stage 3 [rad/s]
+  double back_out;                    ///< speed at the start of stage 4 [m/s]
+  std::array<double, 4> stage_limit;  ///< longest time of each stage [s]
+  RateLimits limits;                  ///< of the actuators
+};
+
+/// What the hydraulics and first gear of an LH621-class machine deliver; a cycle of about 27 s (default).
+SpeedPreset machine_speeds();
+/// Fast enough for the 12 s cycles that the thesis reports; 2-3 times what the machine can do.
+SpeedPreset thesis_like_speeds();
+
+struct ExecutorOptions {
+  SpeedPreset speeds = machine_speeds();
+  ProgressOptions progress;
+  StuckPolicy stuck = StuckPolicy::next_stage;
+  double slow_share = 0.10;                       ///< [1]
+  double slow_window = 1.0;                       ///< [s]
+  ActuatorRates least_set = {0.05, 0.005, 0.01};  ///< v_min of rule (c) [m/s, rad/s, rad/s]
+};
+
+struct Observation {
+  double time = 0;       ///< [s], never falls
+  TipPose tip;           ///< odometry from the bucket's pose, not from the wheels
+  ActuatorRates actual;  ///< speeds in the step just done
+};
+
+struct StageResult {
+  Stage stage = Stage::drive_in;
+  StageEnd reason = StageEnd::goal;
+  double t_start = 0, t_end = 0;  ///< [s]
+  double progress = 0;            ///< s at the end [1]
+  TipPose start, end;
+};
+
+class Executor {
+ public:
+  /// Throws std::invalid_argument if the plan is not feasible or an option makes no sense.
+  Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options = {});
+
+  /// Set speeds until the next observation; all zero once finished. The first call starts stage 1.
+  ActuatorRates step(const Observation& now);
+
+  Stage stage() const { return stage_; }
+  bool finished() const { return stage_ == Stage::finished; }
+  double progress() const { return progress_; }                         ///< s of the present stage [1]
+  const StageGoal& goal() const { return goal_; }                       ///< of the present stage
+  const std::vector<StageResult>& results() const { return results_; }  ///< stages done, in order
+
+ private:
+  void start(Stage stage, const Observation& now);
+  void watch_actuators(const Observation& now);
+  bool stage_ends(const Observation& now, StageEnd& reason) const;
+  Stage after(StageEnd reason) const;
+  ActuatorRates set_speeds(const TipPose& tip) const;
+  TipRates lift_rates(double s) const;
+
+  Plan plan_;
+  ArmGeometry arm_;
+  ExecutorOptions options_;
+  Stage stage_ = Stage::drive_in;
+  bool started_ = false;
+  TipPose cycle_start_, stage_start_;
+  double stage_time_ = 0, last_time_ = 0, progress_ = 0;
+  StageGoal goal_;
+  ActuatorRates set_, slow_time_;
+  std::vector<StageResult> results_;
+};
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <drawpoint/engine/contact/shape.hpp>
+#include <drawpoint/engine/machine/machine_spec.hpp>
+#include <string>
+#include <vector>
+
+/// The load-haul-dump machine of the founding case, Sandvik LH621 class, as a machine specification with surfaces.
+///
+/// 16 bodies: front and rear unit, four wheels, boom, bucket, bell-crank, link, and barrel and rod of one tilt and two lift
+/// cylinders. Arm: 11 hinges (7 in the tree, 4 loop pins) and 3 prismatics, two freedoms. The rear unit oscillates about the
+/// long axis; steering is locked straight, as the attack is. 57 t, axle loads empty 44/56 %.
+///
+/// Frame and reference pose: x forward from the front axle line, y left, z up from the floor, bucket flat on the floor.
+/// Hinge points are an estimated, consistent Z-bar linkage: no manufacturer publishes them. Masses and inertias are estimates
+/// too (solid boxes and cylinders); published are payload 21 t, weight, power and tyre size.
+namespace drawpoint::engine::loading {
+
+/// What moves the arm.
+enum class ArmDrive {
+  cylinders,  ///< velocity motors on the three cylinders, limited by 28 MPa; the machine's own way (default)
+  hinges      ///< velocity motors on the boom and bucket hinges, as the thesis has it
+};
+
+struct LhdOptions {
+  ArmDrive arm_drive = ArmDrive::cylinders;
+  double lift_cylinder_force = 713e3;  ///< each of two [N]: 180 mm bore at 28 MPa
+  double tilt_cylinder_force = 880e3;  ///< [N]: 200 mm bore at 28 MPa
+  double lift_torque = 1696e3;         ///< [N m] at F, used with ArmDrive::hinges
+  double tilt_torque = 673e3;          ///< [N m] at G, used with ArmDrive::hinges
+  double wheel_torque = 81e3;          ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
+};
+
+enum class SurfaceKind { rock, terrain, steel, tyre };  ///< rows of the material table
+constexpr int surface_kinds = 4;
+
+/// A convex piece of one body, for contact and for pictures; in the body's frame.
+struct LhdSurface {
+  int body;
+  contact::Shape shape;
+  SurfaceKind kind;
+  bool touches;       ///< takes part in contacts; the others are only drawn
+  std::string color;  ///< #rrggbb
+};
+
+struct Lhd {
+  machine::MachineSpec spec;
+  LhdOptions options;
+  int front, rear, boom, bucket, bell_crank, link, tilt_barrel, tilt_rod;
+  std::array<int, 4> wheels;  ///< front left, front right, rear left, rear right
+  std::array<int, 2> lift_barrels, lift_rods;
+  std::array<int, 4> wheel_motors;
+  std::vector<int> lift_motors, tilt_motors;
+  Eigen::Vector3d F, G, K;    ///< boom hinge, bucket hinge, cutting edge (middle), reference pose [m]
+  double tyre_radius;         ///< free radius [m]
+  double loaded_radius;       ///< axle height under the machine's own weight [m]
+  double bucket_width;        ///< [m]
+  double bucket_volume;       ///< heaped 2:1 [m³]
+  std::vector<Eigen::Vector2d> bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]
+  std::vector<LhdSurface> surfaces;
+};
+
+Lhd sandvik_lh621(const LhdOptions& options = {});
+
+/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket: the profile plus a
+/// 2:1 heap on the plane between the cutting edge and the top lip.
+bool in_heaped_bucket(const Lhd& lhd, const Eigen::Vector3d& p_M);
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <drawpoint/engine/loading/lhd_driver.hpp>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+double elevation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d d = to - from;
+  return std::atan2(d.z(), d.x());
+}
+
+}  // namespace
+
+LhdDriver::LhdDriver(const Lhd& lhd, machine::Machine& machine)
+    : lhd_(lhd),
+      machine_(machine),
+      arm_(arm_geometry(lhd.F, lhd.G, lhd.K)),
+      rolling_radius_(0.5 * (lhd.tyre_radius + lhd.loaded_radius)) {}
+
+void LhdDriver::place(double x, double y) {
+  // Axles 2 cm above their reference height: the tyres sink to about it under the weight, and the bucket clears the floor.
+  machine_.place(Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.02)));
+  command({});
+}
+
+MachineReading LhdDriver::read() const {
+  MachineReading r;
+  const Eigen::Vector3d g = machine_.point(lhd_.bucket, lhd_.G), k = machine_.point(lhd_.bucket, lhd_.K);
+  r.tip = {k.x(), k.z(), elevation(g, k) - arm_.psi_b};
+  r.tip_y = k.y();
+  const Eigen::Vector3d axle(0, 0, lhd_.loaded_radius);
+  r.front_axle = machine_.point(lhd_.front, axle);
+  r.actual = {machine_.point_velocity(lhd_.front, axle).x(), machine_.speed(lhd_.boom), machine_.speed(lhd_.bucket)};
+  return r;
+}
+
+void LhdDriver::command(const ActuatorRates& rates) {
+  for (int motor : lhd_.wheel_motors) machine_.set_motor(motor, rates.drive / rolling_radius_);
+  Eigen::VectorXd speeds = Eigen::Vector2d(rates.boom, rates.tilt);
+  if (lhd_.options.arm_drive == ArmDrive::cylinders) {
+    const std::vector<int> outside = {lhd_.rear, lhd_.wheels[0], lhd_.wheels[1], lhd_.wheels[2], lhd_.wheels[3]};
+    speeds = machine_.transmission({lhd_.lift_rods[0], lhd_.tilt_rod}, {lhd_.boom, lhd_.bucket}, outside) * speeds;
+  }
+  for (int motor : lhd_.lift_motors) machine_.set_motor(motor, speeds[0]);
+  for (int motor : lhd_.tilt_motors) machine_.set_motor(motor, speeds[1]);
+}
+
+double LhdDriver::lift_force() const {
+  double sum = 0;
+  for (int motor : lhd_.lift_motors) sum += machine_.motor_force(motor);
+  return sum;
+}
+
+double LhdDriver::tilt_force() const { return machine_.motor_force(lhd_.tilt_motors[0]); }
+
+double LhdDriver::wheel_torque() const {
+  double sum = 0;
+  for (int motor : lhd_.wheel_motors) sum += machine_.motor_force(motor);
+  return sum;
+}
+
+double LhdDriver::lift_speed() const { return machine_.speed(lhd_.spec.motors[lhd_.lift_motors[0]].body); }
+double LhdDriver::tilt_speed() const { return machine_.speed(lhd_.spec.motors[lhd_.tilt_motors[0]].body); }
+
+Eigen::Vector3d LhdDriver::in_bucket_frame(const Eigen::Vector3d& p_W) const {
+  return machine_.pose(lhd_.bucket).inverse() * p_W + lhd_.spec.bodies[lhd_.bucket].centre;
+}
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/kinematics.hpp>
+#include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/machine/machine.hpp>
+
+/// Reads a machine as the executor sees it and turns its commands into motor speeds.
+///
+/// The bucket angle is the world elevation of G to K less that of the reference pose; positive = nose up. Rates are those of the joints (the chassis's own pitching is left out). The actual
+/// drive speed is the body's, not the wheels': a machine that spins its wheels on the spot does not move.
+///
+/// With cylinder drive, hinge rates become cylinder speeds through the linkage's own velocity constraints at the present
+/// pose. Both kinds of drive are velocity motors with force limits. The effective rolling radius is the mean of the tyre's
+/// free and loaded radius; a compliant tyre rolls within about 2 % of it.
+namespace drawpoint::engine::loading {
+
+struct MachineReading {
+  TipPose tip;                  ///< middle of the cutting edge, world, and bucket angle
+  double tip_y = 0;             ///< [m]
+  ActuatorRates actual;         ///< forward speed of the front unit, rates of hinges F and G
+  Eigen::Vector3d front_axle;   ///< world [m]
+};
+
+class LhdDriver {
+ public:
+  LhdDriver(const Lhd& lhd, machine::Machine& machine);
+
+  /// Stands the machine at rest in its reference pose with the front axle line at (x, y), heading +x, on its tyres.
+  void place(double x, double y);
+  MachineReading read() const;
+  void command(const ActuatorRates& rates);
+
+  double lift_force() const;    ///< sum of the lift motors in the last step [N] or [N m]
+  double tilt_force() const;    ///< [N] or [N m]
+  double wheel_torque() const;  ///< sum over the wheels [N m]
+  double lift_speed() const;    ///< of the first lift motor's joint [m/s] or [rad/s]
+  double tilt_speed() const;
+
+  const ArmGeometry& arm() const { return arm_; }
+
+  /// World point in the reference-pose coordinates of the bucket.
+  Eigen::Vector3d in_bucket_frame(const Eigen::Vector3d& p_W) const;
+
+ private:
+  const Lhd& lhd_;
+  machine::Machine& machine_;
+  ArmGeometry arm_;
+  double rolling_radius_;
+};
+
+}  // namespace drawpoint::engine::loading

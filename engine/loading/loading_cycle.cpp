@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/scene_recorder.hpp>
+#include <drawpoint/engine/loading/signals.hpp>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+constexpr double stand_time = 0.6;  // for the tyres to take the weight before the clock starts [s]
+constexpr int trouble_interval = 50;  // steps between checks of the whole state
+
+class LoadingRun {
+ public:
+  LoadingRun(const Scenario& scenario, const SimulationHooks& hooks)
+      : scenario_(scenario),
+        hooks_(hooks),
+        site_(scenario, prepared_pile(scenario)),
+        signals_(site_.lhd()),
+        scene_(site_, scenario.drift) {
+    describe();
+  }
+
+  LoadingLog run() {
+    bool fine = true;
+    for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = run_cycle(cycle);
+    log_.completed = fine;
+    log_.numbers["cleared_mass"] = cleared_;
+    log_.signals = signals_.take();
+    log_.scene = scene_.take();
+    return std::move(log_);
+  }
+
+ private:
+  void describe();
+  bool run_cycle(int cycle);
+  Plan plan(CycleRecord& record) const;
+  bool execute(int cycle, CycleRecord& record);
+  bool step_quietly();
+  bool wait_for_rest();
+  bool fail(const std::string& message) {
+    log_.message = message;
+    return false;
+  }
+  ColumnModel columns(bool with_bucket) const;
+  PlannerOptions planner_options() const;
+
+  Scenario scenario_;
+  SimulationHooks hooks_;
+  Site site_;
+  SignalRecorder signals_;
+  SceneRecorder scene_;
+  LoadingLog log_;
+  double cleared_ = 0;
+  long steps_ = 0;
+};
+
+void LoadingRun::describe() {
+  const Scenario& s = scenario_;
+  log_.numbers = {{"alpha", s.strategy.alpha}, {"beta", s.strategy.beta}, {"gamma", s.strategy.gamma}, {"kappa", s.strategy.kappa},
+                  {"seed", static_cast<double>(s.seed)}, {"cycles", s.cycles}, {"standoff", s.standoff},
+                  {"drift_length", s.drift.length}, {"drift_width", s.drift.width}, {"drift_height", s.drift.height},
+                  {"pile_mass", site_.initial_mass()}, {"rocks", static_cast<double>(site_.world().rocks().size())},
+                  {"density", s.pile.density}, {"step", s.world.step}, {"sweeps", s.world.solver.sweeps}};
+  log_.texts = {{"machine", "Sandvik LH621 class"},
+                {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
+                {"pile_recipe", pile_recipe(s)}};
+}
+
+ColumnModel LoadingRun::columns(bool with_bucket) const {
+  ColumnGrid grid;
+  grid.x_max = scenario_.drift.length;
+  grid.half_width = scenario_.drift.width / 2;
+  ColumnOptions options = scenario_.columns;
+  options.bucket_width = site_.lhd().bucket_width;
+  options.bucket_volume = site_.lhd().bucket_volume;
+  const auto rocks = site_.rocks(with_bucket);
+  return column_model(rocks, grid, options);
+}
+
+PlannerOptions LoadingRun::planner_options() const {
+  PlannerOptions options;
+  options.bucket_volume = site_.lhd().bucket_volume;
+  options.bucket_width = site_.lhd().bucket_width;
+  options.standoff = scenario_.standoff;
+  options.height_limit = scenario_.drift.height - 1.0;
+  options.x_limit = scenario_.drift.length - scenario_.drift.wall_roughness;
+  options.arm = site_.driver().arm();
+  return options;
+}
+
+Plan LoadingRun::plan(CycleRecord& record) const {
+  const ColumnModel model = columns(true);
+  const PlannerOptions options = planner_options();
+  const Plan plan = plan_trajectory(scenario_.strategy, model, options);
+  record.columns_x = static_cast<int>(model.heights.rows());
+  record.columns_y = static_cast<int>(model.heights.cols());
+  record.column_heights.assign(model.heights.data(), model.heights.data() + model.heights.size());
+  if (!plan.feasible) return plan;
+  record.contour_z = contour(model, model.rows[plan.row]);
+  for (std::size_t i = 0; i < record.contour_z.size(); ++i) record.contour_x.push_back(model.grid.x(static_cast<double>(i)));
+  for (const TipPose& tip : planned_path(plan, options.arm)) {
+    record.planned_x.push_back(tip.x);
+    record.planned_z.push_back(tip.z);
+  }
+  return plan;
+}
+
+bool LoadingRun::step_quietly() {
+  const contact::StepReport report = site_.world().step();
+  if (hooks_.on_step) hooks_.on_step(report);
+  if (++steps_ % trouble_interval != 0) return true;
+  const std::string trouble = site_.trouble();
+  return trouble.empty() || fail(trouble);
+}
+
+bool LoadingRun::wait_for_rest() {
+  granular::RestWatch watch(scenario_.pile.rest);
+  do {
+    site_.refill();
+    if (!step_quietly()) return false;
+  } while (!watch.at_rest(site_.world()));
+  return true;
+}
+
+bool LoadingRun::execute(int cycle, CycleRecord& record) {
+  Executor executor(record.plan, site_.driver().arm(), scenario_.executor);
+  double next_frame = site_.world().time();
+  while (!executor.finished()) {
+    const MachineReading reading = site_.driver().read();
+    const ActuatorRates set = executor.step({site_.world().time(), reading.tip, reading.actual});
+    if (site_.world().time() >= next_frame) {
+      scene_.frame(site_, cycle, std::string(name(executor.stage())));
+      next_frame += scenario_.frame_interval;
+    }
+    if (executor.finished()) break;
+    site_.driver().command(set);
+    const contact::StepReport report = site_.world().step();
+    if (hooks_.on_step) hooks_.on_step(report);
+    signals_.append(site_, cycle, executor, set, report);
+    if (++steps_ % trouble_interval == 0) {
+      const std::string trouble = site_.trouble();
+      if (!trouble.empty()) return fail(trouble);
+    }
+  }
+  site_.driver().command({});
+  record.stages = executor.results();
+  return true;
+}
+
+bool LoadingRun::run_cycle(int cycle) {
+  CycleRecord record;
+  record.plan = plan(record);
+  if (!record.plan.feasible) return fail("cycle " + std::to_string(cycle) + ": " + record.plan.message);
+  cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
+  for (double t = 0; t < stand_time; t += site_.world().options().step)
+    if (!step_quietly()) return false;
+  record.t_start = site_.world().time();
+  if (!execute(cycle, record)) return false;
+  record.t_end = site_.world().time();
+  scene_.frame(site_, cycle, "end of cycle");
+
+  record.loaded_rock_masses = site_.bucket_masses();
+  record.loaded_mass = std::accumulate(record.loaded_rock_masses.begin(), record.loaded_rock_masses.end(), 0.0);
+  record.spilled_mass = mass_in_front(columns(false), site_.rocks(false));
+  site_.empty_bucket();
+  log_.cycles.push_back(record);
+  return cycle == scenario_.cycles || wait_for_rest();
+}
+
+}  // namespace
+
+LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks) {
+  check(scenario);
+  LoadingLog log = LoadingRun(scenario, hooks).run();
+  if (!scenario.log_file.empty()) write_log(scenario.log_file, log);
+  return log;
+}
+
+}  // namespace drawpoint::engine::loading

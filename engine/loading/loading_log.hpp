@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/convex_polyhedron.hpp>
+#include <drawpoint/engine/loading/executor.hpp>
+#include <drawpoint/engine/record/table.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Everything a loading run leaves behind: raw signals at full rate, one record a cycle, and frames for
+/// pictures. Responses are pure functions of it, so a changed definition never needs a new simulation.
+///
+/// Signals that the responses read, when present: time [s], cycle (from 1), hinge_G_torque_x/y/z [N m] (y:
+/// the bucket pin's axis); for plots tip_x, tip_z [m] and stage (1-4, 0 between cycles). World frame, SI
+/// units.
+namespace drawpoint::engine::loading {
+
+struct CycleRecord {
+  double t_start = 0, t_end = 0;           ///< start of stage 1, end of stage 4 [s]
+  double loaded_mass = 0;                  ///< in the heaped bucket at t_end [kg]
+  double spilled_mass = 0;                 ///< in front of the pile at the end of the cycle [kg]
+  std::vector<double> loaded_rock_masses;  ///< [kg]
+  Plan plan;
+  std::vector<StageResult> stages;
+  std::vector<double> planned_x, planned_z;  ///< tip path [m]
+  std::vector<double> contour_x, contour_z;  ///< pile along the attacked row, at the start [m]
+  int columns_x = 0, columns_y = 0;          ///< nx, ny of the column model
+  std::vector<double> column_heights;        ///< at the start, value of (i, j) at j * nx + i [m]
+};
+
+struct SceneBody {
+  int shape = 0;                  ///< index into SceneRecord::shapes
+  std::string color = "#808080";  ///< #rrggbb
+  double opacity = 1.0;
+  std::string name;
+};
+
+struct SceneFrame {
+  double t = 0;  ///< [s]
+  int cycle = 0;
+  std::string label;
+  std::vector<float> poses;  ///< x y z qw qx qy qz a body; NaN: not shown
+};
+
+struct SceneRecord {
+  std::vector<contact::ConvexPolyhedron> shapes;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneFrame> frames;
+};
+
+struct LoadingLog {
+  bool completed = false;
+  std::string message;                       ///< why not, or empty
+  std::map<std::string, double> numbers;     ///< the scenario's parameters
+  std::map<std::string, std::string> texts;  ///< its choices, versions
+  record::Table signals;
+  std::vector<CycleRecord> cycles;
+  SceneRecord scene;
+};
+
+/// HDF5, atomic: the whole log or the old file. Throws std::runtime_error if it cannot be written,
+/// std::invalid_argument if the log contradicts itself.
+void write_log(const std::filesystem::path& path, const LoadingLog& log);
+
+/// Throws std::runtime_error if the file is missing, truncated, damaged or no loading log.
+LoadingLog read_log(const std::filesystem::path& path);
+
+}  // namespace drawpoint::engine::loading

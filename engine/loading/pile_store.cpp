@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/record/file.hpp>
+#include <stdexcept>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+const record::FileKind pile_kind{"drawpoint settled pile", 1};
+
+void add_number(std::string& recipe, const char* name, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s=%.17g ", name, value);
+  recipe += text;
+}
+
+double pile_height(const contact::World& world) {
+  double top = 0;
+  for (const contact::Rock& rock : world.rocks())
+    if (rock.present && rock.velocity.norm() < 0.5) top = std::max(top, rock.pose.translation().z());
+  return top;
+}
+
+}  // namespace
+
+std::string pile_recipe(const Scenario& s) {
+  std::string recipe;
+  const Drift& d = s.drift;
+  add_number(recipe, "length", d.length);
+  add_number(recipe, "width", d.width);
+  add_number(recipe, "height", d.height);
+  add_number(recipe, "raise_radius", d.raise_radius);
+  add_number(recipe, "raise_widening", d.raise_widening);
+  add_number(recipe, "raise_height", d.raise_height);
+  add_number(recipe, "wall_roughness", d.wall_roughness);
+  add_number(recipe, "mass", s.pile.mass);
+  add_number(recipe, "density", s.pile.density);
+  add_number(recipe, "max_height", s.pile.max_height);
+  add_number(recipe, "seed", static_cast<double>(s.pile.seed));
+  add_number(recipe, "step", s.world.step);
+  add_number(recipe, "sweeps", s.world.solver.sweeps);
+  return recipe;
+}
+
+SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress) {
+  check(scenario);
+  contact::World world(scenario.world, mine_materials());
+  add_drift(world, scenario.drift);
+  const granular::RockLibrary library(scenario.pile.density, static_cast<int>(SurfaceKind::rock));
+  granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed);
+  std::vector<granular::RockSpec> specs;
+  double poured = 0;
+  const int steps_a_second = std::max(1, static_cast<int>(std::lround(1 / world.options().step)));
+  // A blocked raise gives no room for new rocks; then, or at the height limit, what lies there is the pile.
+  double last_birth = 0;
+  for (int step = 0; poured < scenario.pile.mass && world.time() - last_birth < 5; ++step) {
+    if (pile_height(world) < scenario.pile.max_height)
+      for (int rock : emitter.emit(world, library, specs, scenario.pile.mass - poured)) {
+        poured += world.rocks()[rock].body.mass;
+        last_birth = world.time();
+      }
+    world.step();
+    if (progress && step % steps_a_second == 0) progress(std::min(1.0, poured / scenario.pile.mass));
+  }
+  granular::RestWatch watch(scenario.pile.rest);
+  do world.step();
+  while (!watch.at_rest(world));
+  if (progress) progress(1.0);
+  SettledPile pile{{}, world.time(), watch.timed_out()};
+  for (std::size_t k = 0; k < specs.size(); ++k) pile.rocks.push_back({specs[k], world.rocks()[k].pose});
+  return pile;
+}
+
+void write_pile(const std::filesystem::path& path, const SettledPile& pile, const Scenario& scenario) {
+  std::vector<std::int32_t> shapes;
+  std::vector<double> sizes, poses;
+  for (const granular::PlacedRock& rock : pile.rocks) {
+    shapes.push_back(rock.spec.shape);
+    sizes.push_back(rock.spec.size);
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) poses.push_back(rock.pose.matrix()(row, column));
+  }
+  record::Writer file(path, pile_kind);
+  file.text("/", "recipe", pile_recipe(scenario));
+  file.number("/", "poured_s", pile.poured_s);
+  file.integer("/", "timed_out", pile.timed_out);
+  file.array("/shape", std::span<const std::int32_t>(shapes));
+  file.array("/size", std::span<const double>(sizes));
+  file.array("/pose", std::span<const double>(poses), {pile.rocks.size(), 3, 4});
+  file.commit();
+}
+
+SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario) {
+  const record::Reader file(path, pile_kind);
+  if (file.text("/", "recipe") != pile_recipe(scenario))
+    throw std::runtime_error("loading::read_pile: " + path.string() +
+                             " was made for another drift, pile or solver; remove it to pour a new one, or name another file");
+  const auto shapes = file.integers("/shape").values;
+  const auto sizes = file.doubles("/size").values, poses = file.doubles("/pose").values;
+  if (sizes.size() != shapes.size() || poses.size() != 12 * shapes.size())
+    throw std::runtime_error("loading::read_pile: " + path.string() + " contradicts itself; remove it to pour a new pile");
+  SettledPile pile{{}, file.number("/", "poured_s"), file.integer("/", "timed_out") != 0};
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    granular::PlacedRock rock{{shapes[k], sizes[k]}, Eigen::Isometry3d::Identity()};
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) rock.pose.matrix()(row, column) = poses[12 * k + 4 * row + column];
+    pile.rocks.push_back(rock);
+  }
+  return pile;
+}
+
+SettledPile prepared_pile(const Scenario& scenario, const std::function<void(double)>& progress) {
+  if (!scenario.pile_file.empty() && std::filesystem::exists(scenario.pile_file)) return read_pile(scenario.pile_file, scenario);
+  const SettledPile pile = pour_pile(scenario, progress);
+  if (!scenario.pile_file.empty()) write_pile(scenario.pile_file, pile, scenario);
+  return pile;
+}
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/scenario.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// The common initial state of all runs: a pile poured through the raise and left to settle, saved and read back.
+///
+/// The file carries what the pile was made from (drift, rocks, step, solver) as one line of text; reading it for anything else is refused,
+/// so that a study can never start from another study's pile unnoticed.
+namespace drawpoint::engine::loading {
+
+struct SettledPile {
+  std::vector<granular::PlacedRock> rocks;
+  double poured_s = 0;     ///< simulated time to pour and settle [s]
+  bool timed_out = false;  ///< still creeping when the rest criterion's cap was reached
+};
+
+/// What decides the pile, as text.
+std::string pile_recipe(const Scenario& scenario);
+
+/// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once a simulated second. Stops early when the pile
+/// reaches max_height or the raise is full.
+SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress = {});
+
+/// Atomic. Throws std::runtime_error if the file cannot be written / read, is damaged or has another recipe.
+void write_pile(const std::filesystem::path& path, const SettledPile& pile, const Scenario& scenario);
+SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario);
+
+/// Reads scenario.pile_file if it exists, else pours the pile and saves it there (if a path is given).
+SettledPile prepared_pile(const Scenario& scenario, const std::function<void(double)>& progress = {});
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/loading/planner.hpp>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+[[noreturn]] void reject(const std::string& what, double value, const std::string& allowed) {
+  throw std::invalid_argument("loading::" + what + " is " + std::to_string(value) + "; give " + allowed);
+}
+
+void require_share(const char* name, double value) {
+  if (!(value >= 0 && value <= 1)) reject("Strategy: " + std::string(name) + " [1]", value, "0 to 1");
+}
+
+void require_positive(const char* name, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    reject("PlannerOptions: " + std::string(name), value, "a finite value above 0");
+}
+
+void check(const PlannerOptions& options) {
+  require_positive("bucket_volume [m3]", options.bucket_volume);
+  require_positive("bucket_width [m]", options.bucket_width);
+  require_positive("arm.FG [m]", options.arm.FG);
+  require_positive("arm.GK [m]", options.arm.GK);
+  require_positive("phi_max [rad]", options.phi_max);
+  if (!(options.standoff >= 0) || !std::isfinite(options.standoff))
+    reject("PlannerOptions: standoff [m]", options.standoff, "a finite value of at least 0");
+  if (std::isnan(options.height_limit) || std::isnan(options.x_limit) || std::isnan(options.boom_max))
+    throw std::invalid_argument(
+        "loading::PlannerOptions: height_limit [m], x_limit [m] or boom_max [rad] is not a number; "
+        "give numbers, infinity for no limit");
+}
+
+double reachable_height(double crest, double tilt, const PlannerOptions& options) {
+  const double tip = tip_pose(options.arm, {.a = options.boom_max, .b = tilt + options.arm.psi_b}).z;
+  return std::max(0.0, std::min({crest, tip, options.height_limit}));
+}
+
+// Depth gives way first; when the slope alone leads beyond the limit, so does the height.
+void stay_before(double x_limit, Plan& plan) {
+  const double room = std::max(0.0, x_limit - plan.toe);
+  const double climb = plan.height > 0 ? plan.height / std::tan(plan.slope) : 0.0;
+  if (plan.depth + climb <= room) return;
+  plan.limited = true;
+  plan.depth = std::max(0.0, std::min(plan.depth, room - climb));
+  plan.height = std::min(plan.height, room * std::tan(plan.slope));
+}
+
+}  // namespace
+
+void check(const Strategy& strategy) {
+  if (!(strategy.alpha >= 0) || !std::isfinite(strategy.alpha))
+    reject("Strategy: alpha [1]", strategy.alpha, "a finite value of at least 0 (studied: 0.2 to 2)");
+  require_share("beta", strategy.beta);
+  require_share("gamma", strategy.gamma);
+  require_share("kappa", strategy.kappa);
+}
+
+double planned_depth(double height, double slope, double area) {
+  if (area == 0) return 0;
+  return 2 * area / (height + std::sqrt(height * height + 2 * slope * area));
+}
+
+int row_for(double gamma, const ColumnModel& model) {
+  std::vector<int> order(model.rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return model.rows[a].volume_centre > model.rows[b].volume_centre; });
+  return order.at(static_cast<std::size_t>(std::lround(gamma * static_cast<double>(order.size() - 1))));
+}
+
+Plan plan_trajectory(const Strategy& strategy, const ColumnModel& model, const PlannerOptions& options) {
+  check(strategy);
+  check(options);
+  Plan plan;
+  if (model.rows.empty()) {
+    plan.message = "no place across the drift where the bucket fits and finds a pile";
+    return plan;
+  }
+  plan.row = row_for(strategy.gamma, model);
+  const Row& row = model.rows[plan.row];
+  plan.feasible = true;
+  plan.y = row.y;
+  plan.slope = row.slope;
+  plan.toe = row.front;
+  plan.volume_centre = row.volume_centre;
+  plan.crest = row.crest;
+  plan.tilt = strategy.kappa * row.slope;
+  plan.height_limit = reachable_height(row.crest, plan.tilt, options);
+  plan.height = strategy.beta * plan.height_limit;
+  plan.area = strategy.alpha * options.bucket_volume / options.bucket_width;
+  plan.depth = planned_depth(plan.height, plan.slope, plan.area);
+  plan.phi_max = options.phi_max;
+  plan.curl = options.curl;
+  stay_before(options.x_limit, plan);
+  plan.corners = corner_points(plan, options.standoff, options.arm);
+  return plan;
+}
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/column_model.hpp>
+#include <drawpoint/engine/loading/trajectory.hpp>
+#include <limits>
+
+/// Strategy and pile to trajectory.
+///
+/// The bucket takes a slice of constant horizontal thickness d up to height h and the sector that the tip
+/// sweeps when it breaks out: w_b (d h + ½ θ d²) = α V_b. Positive root of ½ θ d² + h d − A = 0 without
+/// cancellation, A = α V_b / w_b:
+///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
+/// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
+/// end and the bucket at κθ, and `height_limit`. Row: rows sorted by volume centre, nearest to the back wall
+/// first, entry round(γ (n − 1)). φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, the thesis
+/// prints h²/θ under the root.
+namespace drawpoint::engine::loading {
+
+/// The four design variables.
+struct Strategy {
+  double alpha = 1.0;  ///< wanted fill as a share of the bucket's volume, ≥ 0 [1]; studied range 0.2 to 2
+  double beta = 0.5;   ///< stage-2 height as a share of h_max, 0 to 1 [1]; 0 leaves stage 2 out
+  double gamma = 0.5;  ///< lateral place, 0: nearest to the back wall, 1: where the pile protrudes most [1]
+  double kappa = 0.5;  ///< tilt in stage 2 as a share of the pile's slope, 0 to 1 [1]
+};
+
+/// Throws std::invalid_argument naming the value and what is allowed.
+void check(const Strategy& strategy);
+
+struct PlannerOptions {
+  double bucket_volume = 8.0;  ///< V_b [m³]
+  double bucket_width = 3.2;   ///< w_b [m]
+  double standoff = 2.0;       ///< ℓ₀, tip to toe at the start [m]
+  double boom_max = 0.80285;   ///< highest elevation of FG, 46° [rad]
+  double phi_max = 0.78540;    ///< bucket fully curled back, 45° [rad]
+  /// Of the tip at C, e.g. below the roof [m].
+  double height_limit = std::numeric_limits<double>::infinity();
+  /// Of the tip's x at C, e.g. before the back wall [m]; d gives way first, then h.
+  double x_limit = std::numeric_limits<double>::infinity();
+  CurlMode curl = CurlMode::hinge_G;
+  ArmGeometry arm;
+};
+
+/// d [m] for height h ≥ 0 [m], slope θ ≥ 0 [rad] and area A ≥ 0 [m²]; h and θ not both 0 unless A = 0.
+double planned_depth(double height, double slope, double area);
+
+/// Row for γ: index into model.rows. Ties keep the order of y. Needs at least one row.
+int row_for(double gamma, const ColumnModel& model);
+
+/// Not feasible (with a message) when the model has no row. Throws std::invalid_argument on a bad strategy or
+/// option.
+Plan plan_trajectory(const Strategy& strategy, const ColumnModel& model, const PlannerOptions& options = {});
+
+}  // namespace drawpoint::engine::loading

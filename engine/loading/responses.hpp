@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/loading_log.hpp>
+
+/// The three responses of the loading study, pure functions of a run log. All throw std::invalid_argument
+/// when the log lacks what they need.
+///
+/// production: c₁ = mean over cycles of M_i / T_i [kg/s], to be maximised; M the loaded mass, T from the
+/// start of stage 1 to the end of stage 4. The other aggregation is ΣM / ΣT.
+///
+/// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the torque in bucket hinge G,
+/// or of its two components across the pin (those twist the bucket; the third is the tilt's own load). Summed
+/// over the cycles of the run. A sample stands for the time since the one before it in the same cycle, a
+/// cycle's first sample for the time to the next. Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each
+/// component, started anew with each cycle: a rigid impact's peak grows as 1/Δt, and unfiltered it would make
+/// the response a function of the time step.
+///
+/// rock_spill: c₃ = mean over cycles of m_spill / m_max [1].
+/// Source: Lindmark 2016, equations 54-56; aggregation and filter are ours, the thesis is silent.
+namespace drawpoint::engine::loading {
+
+enum class ProductionMean { of_ratios, ratio_of_sums };
+
+struct ProductionOptions {
+  ProductionMean mean = ProductionMean::of_ratios;
+};
+
+enum class TorqueComponent { all, twisting };
+enum class DamageSum { whole_run, per_cycle };
+
+struct DamageOptions {
+  double tau_y = 145e3;  ///< yield torque [N m]; the thesis's calibration
+  TorqueComponent component = TorqueComponent::all;
+  double lowpass_hz = 20;  ///< corner [Hz]; 0: no filter
+  DamageSum sum = DamageSum::whole_run;
+};
+
+struct SpillOptions {
+  double m_max = 10000;  ///< mass in front of the pile that would stop the work [kg]; only scales
+};
+
+double production(const LoadingLog& log, const ProductionOptions& options = {});
+double joint_damage(const LoadingLog& log, const DamageOptions& options = {});
+double rock_spill(const LoadingLog& log, const SpillOptions& options = {});
+
+}  // namespace drawpoint::engine::loading

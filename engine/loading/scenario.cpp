@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/scenario.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+void require(bool fine, const std::string& name, double value, const std::string& allowed) {
+  if (!fine)
+    throw std::invalid_argument("loading::Scenario: " + name + " is " + std::to_string(value) + "; allowed: " + allowed);
+}
+
+}  // namespace
+
+Scenario lh621_in_a_drift() {
+  Scenario s;
+  s.executor.speeds = thesis_like_speeds();
+  return s;
+}
+
+Scenario lh621_at_thesis_scale() {
+  Scenario s = lh621_in_a_drift();
+  s.cycles = 30;
+  s.drift.length = 24;
+  s.drift.width = 7;
+  s.drift.raise_radius = 2.2;
+  s.drift.raise_height = 11;
+  s.pile.mass = 290e3;
+  return s;
+}
+
+void check(const Scenario& s) {
+  check(s.strategy);
+  check(s.drift);
+  require(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
+  require(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
+  require(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");
+  require(s.pile.density >= 1000 && s.pile.density <= 10000, "rock density [kg/m3]", s.pile.density, "1000 to 10 000 kg/m3");
+  require(s.frame_interval > 0, "frame interval [s]", s.frame_interval, "above 0 s");
+}
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/granular/pile.hpp>
+#include <drawpoint/engine/loading/drift.hpp>
+#include <drawpoint/engine/loading/executor.hpp>
+#include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/loading/planner.hpp>
+#include <filesystem>
+
+/// Everything that decides a loading simulation. Equal scenarios give equal logs, bit for bit.
+namespace drawpoint::engine::loading {
+
+struct PileOptions {
+  double mass = 60e3;        ///< poured in the pre-simulation [kg]
+  double density = 4500;     ///< of the rock [kg/m³]
+  double max_height = 8;     ///< pouring stops when the pile reaches it [m]
+  std::uint64_t seed = 1;    ///< of the pouring; one pile serves all runs of a study
+  granular::RestOptions rest;
+};
+
+struct Scenario {
+  Strategy strategy;
+  std::uint64_t seed = 1;  ///< of what differs between runs: the rocks that refill the pile
+  int cycles = 1;
+  double standoff = 2.0;   ///< tip to toe at the start [m]
+  Drift drift;
+  PileOptions pile;
+  LhdOptions machine;
+  ExecutorOptions executor;
+  ColumnOptions columns;
+  contact::WorldOptions world;
+  double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
+  std::filesystem::path pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew
+  std::filesystem::path log_file;   ///< run log to write (HDF5); empty: none
+};
+
+/// The LH621 in a drift 4.5 m wide with a small pile (60 t, about 880 rocks), one cycle: minutes for a whole study.
+Scenario lh621_in_a_drift();
+
+/// The scale of the founding case: a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
+Scenario lh621_at_thesis_scale();
+
+/// Throws std::invalid_argument naming the place, the value and what is allowed.
+void check(const Scenario& scenario);
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/granular/rock_shapes.hpp>
+#include <drawpoint/engine/loading/scene_recorder.hpp>
+#include <limits>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+using contact::ConvexPolyhedron;
+
+constexpr int values_a_pose = 7;
+constexpr int wheel_sides = 32;
+const char* rock_colors[] = {"#6b6f76", "#7d7468", "#8a8378", "#5e6066", "#77706a", "#6f7a80"};
+
+ConvexPolyhedron drawable(const contact::Shape& shape) {
+  if (const auto* cylinder = std::get_if<contact::Cylinder>(&shape))
+    return contact::prism(cylinder->radius, cylinder->half_width, wheel_sides);
+  return std::get<ConvexPolyhedron>(shape);
+}
+
+ConvexPolyhedron block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  return contact::box(0.5 * (high - low)).transformed(Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))));
+}
+
+void append_pose(std::vector<float>& poses, const Eigen::Isometry3d& X) {
+  const Eigen::Quaterniond q(X.linear());
+  for (double value : {X.translation().x(), X.translation().y(), X.translation().z(), q.w(), q.x(), q.y(), q.z()})
+    poses.push_back(static_cast<float>(value));
+}
+
+void append_hidden(std::vector<float>& poses) { poses.insert(poses.end(), values_a_pose, std::numeric_limits<float>::quiet_NaN()); }
+
+}  // namespace
+
+SceneRecorder::SceneRecorder(const Site& site, const Drift& d) {
+  for (const LhdSurface& s : site.lhd().surfaces) {
+    scene_.bodies.push_back({static_cast<int>(scene_.shapes.size()), s.color, 1.0, site.lhd().spec.bodies[s.body].name});
+    scene_.shapes.push_back(drawable(s.shape));
+  }
+  machine_bodies_ = scene_.bodies.size();
+  const double w = d.width / 2, back = d.length - 18, hole = d.raise_axis().x() - d.raise_radius;
+  const auto fixed = [&](const ConvexPolyhedron& shape, const char* color, double opacity, const char* name) {
+    scene_.bodies.push_back({static_cast<int>(scene_.shapes.size()), color, opacity, name});
+    scene_.shapes.push_back(shape);
+  };
+  fixed(block({back, -w, -0.1}, {d.length, w, 0}), "#9b958c", 1.0, "floor");
+  fixed(block({back, w, 0}, {d.length, w + 0.1, d.height}), "#a39d94", 0.18, "left wall");
+  fixed(block({back, -w - 0.1, 0}, {d.length, -w, d.height}), "#a39d94", 0.10, "right wall");
+  fixed(block({d.length, -w, 0}, {d.length + 0.1, w, d.height}), "#8c867d", 0.6, "back wall");
+  fixed(block({back, -w, d.height}, {hole, w, d.height + 0.1}), "#a39d94", 0.12, "roof");
+  fixed_bodies_ = scene_.bodies.size() - machine_bodies_;
+  add_rocks(site);
+}
+
+int SceneRecorder::shape_of(const granular::RockSpec& spec) {
+  const auto key = std::make_pair(spec.shape, spec.size);
+  const auto found = rock_shapes_.find(key);
+  if (found != rock_shapes_.end()) return found->second;
+  scene_.shapes.push_back(granular::rock_shapes()[spec.shape].scaled(spec.size));
+  return rock_shapes_[key] = static_cast<int>(scene_.shapes.size()) - 1;
+}
+
+void SceneRecorder::add_rocks(const Site& site) {
+  for (; rocks_ < site.world().rocks().size(); ++rocks_)
+    scene_.bodies.push_back({shape_of(site.specs()[rocks_]), rock_colors[rocks_ % 6], 1.0, "rock"});
+}
+
+void SceneRecorder::frame(const Site& site, int cycle, const std::string& label) {
+  add_rocks(site);
+  SceneFrame frame{site.world().time(), cycle, label, {}};
+  for (std::size_t k = 0; k < machine_bodies_; ++k) append_pose(frame.poses, site.machine().pose(site.lhd().surfaces[k].body));
+  for (std::size_t k = 0; k < fixed_bodies_; ++k) append_pose(frame.poses, Eigen::Isometry3d::Identity());
+  for (const contact::Rock& rock : site.world().rocks()) {
+    if (rock.present)
+      append_pose(frame.poses, rock.pose);
+    else
+      append_hidden(frame.poses);
+  }
+  scene_.frames.push_back(std::move(frame));
+}
+
+SceneRecord SceneRecorder::take() {
+  for (SceneFrame& frame : scene_.frames)
+    while (frame.poses.size() < values_a_pose * scene_.bodies.size()) append_hidden(frame.poses);
+  return std::move(scene_);
+}
+
+}  // namespace drawpoint::engine::loading

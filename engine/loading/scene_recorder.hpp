@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/site.hpp>
+#include <map>
+
+/// Pictures of the scene for replay: shapes once, poses a frame. Rocks that come later are hidden in earlier frames.
+namespace drawpoint::engine::loading {
+
+class SceneRecorder {
+ public:
+  SceneRecorder(const Site& site, const Drift& drift);
+  void frame(const Site& site, int cycle, const std::string& label);
+  SceneRecord take();
+
+ private:
+  int shape_of(const granular::RockSpec& spec);
+  void add_rocks(const Site& site);
+
+  SceneRecord scene_;
+  std::map<std::pair<int, double>, int> rock_shapes_;
+  std::size_t machine_bodies_ = 0, fixed_bodies_ = 0, rocks_ = 0;
+};
+
+}  // namespace drawpoint::engine::loading

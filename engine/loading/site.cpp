@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/loading/site.hpp>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+using contact::ConvexPolyhedron;
+
+// The box that the machine fills behind its cutting edge, with 10 cm of room: rocks may not lie there at the start.
+constexpr double machine_length = 12.2, machine_half_width = 1.7, machine_top = 2.0, room = 0.1;
+
+const ConvexPolyhedron& polyhedron(const contact::Rock& rock) { return std::get<ConvexPolyhedron>(*rock.body.shape); }
+
+}  // namespace
+
+Site::Site(const Scenario& scenario, const SettledPile& pile)
+    : drift_(scenario.drift),
+      lhd_(sandvik_lh621(scenario.machine)),
+      machine_(lhd_.spec),
+      world_(scenario.world, mine_materials()),
+      driver_(lhd_, machine_),
+      library_(scenario.pile.density, static_cast<int>(SurfaceKind::rock)),
+      emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed) {
+  add_drift(world_, drift_);
+  driver_.place(0, 0);
+  world_.attach(&machine_);
+  for (const LhdSurface& s : lhd_.surfaces)
+    if (s.touches)
+      world_.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape), Eigen::Isometry3d::Identity(),
+                            static_cast<int>(s.kind));
+  for (const granular::PlacedRock& rock : pile.rocks) {
+    world_.add_rock(library_.body(rock.spec), rock.pose);
+    specs_.push_back(rock.spec);
+  }
+  initial_mass_ = granular::present_mass(world_);
+}
+
+std::vector<PosedRock> Site::rocks(bool with_bucket) const {
+  std::vector<PosedRock> out;
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
+    const contact::Rock& rock = world_.rocks()[k];
+    if (!rock.present || (!with_bucket && in_bucket(static_cast<int>(k)))) continue;
+    out.push_back({&polyhedron(rock), rock.pose, rock.body.mass});
+  }
+  return out;
+}
+
+bool Site::in_bucket(int rock) const {
+  return in_heaped_bucket(lhd_, driver_.in_bucket_frame(world_.rocks()[rock].pose.translation()));
+}
+
+std::vector<double> Site::bucket_masses() const {
+  std::vector<double> masses;
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k)
+    if (world_.rocks()[k].present && in_bucket(static_cast<int>(k))) masses.push_back(world_.rocks()[k].body.mass);
+  return masses;
+}
+
+void Site::empty_bucket() {
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k)
+    if (world_.rocks()[k].present && in_bucket(static_cast<int>(k))) world_.remove_rock(static_cast<int>(k));
+}
+
+double Site::place_machine(double tip_x, double y, double back) {
+  const auto in_lane = [&](const contact::Rock& rock) {
+    return rock.present && std::abs(rock.pose.translation().y() - y) < machine_half_width + polyhedron(rock).radius() &&
+           rock.pose.translation().z() < machine_top;
+  };
+  const double nearest = tip_x - back;
+  double x = tip_x;
+  for (const contact::Rock& rock : world_.rocks()) {
+    const double left = rock.pose.translation().x() - polyhedron(rock).radius() - room;
+    if (in_lane(rock) && left < x) x = std::max(left, nearest);
+  }
+  double cleared = 0;
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
+    const contact::Rock& rock = world_.rocks()[k];
+    const double centre = rock.pose.translation().x(), reach = polyhedron(rock).radius() + room;
+    if (!in_lane(rock) || centre - reach >= x || centre + reach <= x - machine_length) continue;
+    cleared += rock.body.mass;
+    world_.remove_rock(static_cast<int>(k));
+  }
+  driver_.place(x - lhd_.K.x(), y);
+  return cleared;
+}
+
+bool Site::refilled() const { return granular::present_mass(world_) >= initial_mass_; }
+
+void Site::refill() {
+  const double missing = initial_mass_ - granular::present_mass(world_);
+  if (missing > 0) emitter_.emit(world_, library_, specs_, missing);
+}
+
+std::string Site::trouble() const {
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
+    const contact::Rock& rock = world_.rocks()[k];
+    if (!rock.present) continue;
+    const Eigen::Vector3d& p = rock.pose.translation();
+    const bool inside = p.z() > -0.5 && std::abs(p.y()) < drift_.width && p.x() < drift_.length + 1 && p.z() < 3 * drift_.raise_height;
+    if (!p.allFinite() || !rock.velocity.allFinite() || !inside)
+      return "rock " + std::to_string(k) + " left the drift at t = " + std::to_string(world_.time()) +
+             " s: the contact solution broke down; use a smaller step or more sweeps";
+  }
+  if (!driver_.read().front_axle.allFinite())
+    return "the machine's position is not finite at t = " + std::to_string(world_.time()) + " s; use a smaller step";
+  return {};
+}
+
+}  // namespace drawpoint::engine::loading

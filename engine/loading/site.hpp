@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/column_model.hpp>
+#include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <drawpoint/engine/loading/pile_store.hpp>
+
+/// Drift, pile and machine put together: the world of one run and what can be read off it.
+namespace drawpoint::engine::loading {
+
+class Site {
+ public:
+  Site(const Scenario& scenario, const SettledPile& pile);
+  Site(const Site&) = delete;
+  Site& operator=(const Site&) = delete;
+
+  contact::World& world() { return world_; }
+  const contact::World& world() const { return world_; }
+  machine::Machine& machine() { return machine_; }
+  const machine::Machine& machine() const { return machine_; }
+  const Lhd& lhd() const { return lhd_; }
+  LhdDriver& driver() { return driver_; }
+  const LhdDriver& driver() const { return driver_; }
+
+  /// Rocks that are present, leaving out those in the bucket if asked.
+  std::vector<PosedRock> rocks(bool with_bucket = true) const;
+  const std::vector<granular::RockSpec>& specs() const { return specs_; }
+  bool in_bucket(int rock) const;
+  std::vector<double> bucket_masses() const;  ///< of each rock in the heaped bucket [kg]
+
+  void empty_bucket();
+
+  /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket clear of rocks lying in
+  /// its way (at most `back` [m]). Rocks that would still lie inside the machine are taken away; returns their mass [kg].
+  double place_machine(double tip_x, double y, double back = 4.0);
+
+  /// Lets new rocks fall in until the mass in the drift is what it was at the start. Call once a step.
+  void refill();
+  bool refilled() const;
+
+  double initial_mass() const { return initial_mass_; }
+  /// Empty, or what is wrong with the state: a value that is not finite, a rock outside the drift.
+  std::string trouble() const;
+
+ private:
+
+  Drift drift_;
+  Lhd lhd_;
+  machine::Machine machine_;
+  contact::World world_;
+  LhdDriver driver_;
+  granular::RockLibrary library_;
+  granular::Emitter emitter_;
+  std::vector<granular::RockSpec> specs_;
+  double initial_mass_ = 0;
+};
+
+}  // namespace drawpoint::engine::loading

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Where the local searches start: the likeliest of many random candidates that are not close to each other.
+///
+/// A candidate has a common length scale, a factor on it for each variable and a nugget, all log-uniform. The
+/// common length grows with √d, as distances in the unit box do. Interpolation (λ below 1e-4) and noise are
+/// two explanations of the same data with separate maxima, so the best candidate of each is always a start.
+/// Candidates are ranked on at most 250 runs, evenly picked, where ranking needs no more. Deterministic in
+/// the seed. Cost: candidates · min(n, 250)³/3.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <drawpoint/doe/seed.hpp>
+#include <drawpoint/kriging/likelihood.hpp>
+#include <drawpoint/kriging/maximize.hpp>
+#include <drawpoint/kriging/options.hpp>
+#include <vector>
+
+namespace drawpoint::kriging::detail {
+
+inline constexpr double interpolation_nugget = 1e-4;
+
+/// Runs beyond which an evaluation costs more than what it may find.
+inline constexpr Eigen::Index many = 250;
+
+inline double log_uniform(doe::RandomStream& random, double lower, double upper) {
+  return std::log(lower) + random.uniform() * std::log(upper / lower);
+}
+
+/// (ln θ, ln λ) inside the box.
+inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box) {
+  const Eigen::Index d = box.lower.size() - 1;
+  const double common = log_uniform(random, 0.1, 1.0) + 0.5 * std::log(static_cast<double>(d));
+  Eigen::VectorXd p(d + 1);
+  for (Eigen::Index k = 0; k < d; ++k) p[k] = -std::log(8.0) - 2.0 * (common + log_uniform(random, 0.5, 4.0));
+  p[d] = log_uniform(random, 1e-8, 0.3);
+  return p.cwiseMax(box.lower).cwiseMin(box.upper);
+}
+
+/// Evenly picked rows of X (and of y) as a matrix of at most `limit` rows.
+inline Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, Eigen::Index limit) {
+  const Eigen::Index n = X.rows(), m = std::min(n, limit);
+  Eigen::MatrixXd rows(m, X.cols());
+  for (Eigen::Index i = 0; i < m; ++i) rows.row(i) = X.row(i * n / m);
+  return rows;
+}
+
+struct Candidate {
+  Eigen::VectorXd p;
+  double value = 0;
+};
+
+/// Best first; ties keep the order of drawing.
+inline std::vector<Candidate> ranked_candidates(Likelihood& likelihood, const Box& box, int count,
+                                                doe::Seed seed) {
+  doe::RandomStream random(seed);
+  std::vector<Candidate> all(count);
+  for (Candidate& c : all) {
+    c.p = candidate(random, box);
+    c.value = likelihood.value(c.p);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
+  return all;
+}
+
+/// Those that lie apart from all better ones: on average e apart or more in each θ, e³ in λ.
+inline std::vector<Candidate> spread(const std::vector<Candidate>& ranked) {
+  std::vector<Candidate> kept;
+  for (const Candidate& c : ranked) {
+    const Eigen::Index d = c.p.size() - 1;
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+      const Eigen::VectorXd step = c.p - other.p;
+      return step.head(d).squaredNorm() + step[d] * step[d] / 9.0 >= 1.25 * static_cast<double>(d + 1);
+    });
+    if (apart) kept.push_back(c);
+  }
+  return kept;
+}
+
+/// The first `count`, taken in turn from the two explanations while both last.
+inline std::vector<Eigen::VectorXd> alternated(const std::vector<Candidate>& ranked, int count) {
+  std::vector<Eigen::VectorXd> smooth, noisy, starts;
+  for (const Candidate& c : ranked)
+    (c.p[c.p.size() - 1] < std::log(interpolation_nugget) ? smooth : noisy).push_back(c.p);
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    if (i < smooth.size()) starts.push_back(smooth[i]);
+    if (i < noisy.size()) starts.push_back(noisy[i]);
+  }
+  starts.resize(std::min<std::size_t>(starts.size(), count));
+  return starts;
+}
+
+/// options.starts points of the box or fewer, never none.
+inline std::vector<Eigen::VectorXd> starting_points(Likelihood& likelihood, const Box& box,
+                                                    const FitOptions& options) {
+  return alternated(spread(ranked_candidates(likelihood, box, options.candidates, options.seed)),
+                    options.starts);
+}
+
+}  // namespace drawpoint::kriging::detail

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/doe/evaluations.hpp>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/surrogates.hpp>
+#include <drawpoint/kriging/validate.hpp>
+#include <drawpoint/pareto/nsga2.hpp>
+#include <drawpoint/studies/analysis.hpp>
+#include <drawpoint/studies/facts.hpp>
+#include <drawpoint/studies/plan.hpp>
+#include <drawpoint/studies/report/report.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace drawpoint::studies {
+namespace {
+
+doe::Outcome outcome_of(const Run& run) {
+  if (run.status == Status::failed) return doe::Failure{run.reason};
+  return run.y;
+}
+
+/// The finished runs of a kind.
+doe::Evaluations table_of(const std::vector<Run>& runs, const doe::Problem& problem, Kind kind) {
+  doe::Evaluations table{.problem = problem, .rows = {}};
+  for (const auto& run : runs) {
+    if (run.kind != kind || (run.status != Status::done && run.status != Status::failed)) continue;
+    table.rows.push_back({run.id, run.replicate, run.seed, run.x, outcome_of(run), run.seconds});
+  }
+  return table;
+}
+
+kriging::FitOptions bounds_of(const doe::Problem& problem) {
+  const auto dimension = static_cast<Eigen::Index>(problem.variables.size());
+  kriging::FitOptions options;
+  options.lower.resize(dimension);
+  options.upper.resize(dimension);
+  for (Eigen::Index k = 0; k < dimension; ++k) {
+    options.lower[k] = problem.variables[static_cast<std::size_t>(k)].lower;
+    options.upper[k] = problem.variables[static_cast<std::size_t>(k)].upper;
+  }
+  return options;
+}
+
+/// Fits and validates one model a response. Throws std::invalid_argument if the runs do not allow it.
+void fit_models(ReportInput& input) {
+  const kriging::FitOptions options = bounds_of(input.problem);
+  const Eigen::MatrixXd X = input.training.X();
+  const Eigen::MatrixXd X_new = input.validation.X();
+  for (const auto& response : input.problem.responses) {
+    input.models.push_back(kriging::fit(X, input.training.y(response.name), options));
+    if (X_new.rows() == 0) continue;
+    input.validations.push_back(
+        kriging::validate(input.models.back(), X_new, input.validation.y(response.name)));
+  }
+}
+
+bool has_objective(const doe::Problem& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const doe::Response& response) { return doe::is_objective(response.goal); });
+}
+
+std::string failure_warning(const doe::Evaluations& training, const doe::Evaluations& validation) {
+  std::map<std::string, int> reasons;
+  for (const auto* table : {&training, &validation}) {
+    for (const auto& row : table->rows) {
+      if (row.outcome.failed()) ++reasons[row.outcome.reason()];
+    }
+  }
+  const int most = 5;  // crashes name their output, so their reasons differ
+  int shown = 0;
+  std::string text;
+  for (const auto& [reason, count] : reasons) {
+    if (shown++ == most) return text + "; and others, which the command status lists";
+    text += (text.empty() ? "" : "; ") + std::to_string(count) + " failed: " + reason;
+  }
+  return text;
+}
+
+void warn(ReportInput& input, const std::vector<Run>& runs) {
+  const std::string failures = failure_warning(input.training, input.validation);
+  if (!failures.empty())
+    input.warnings.push_back("Runs that failed are left out of the models. " + failures + ".");
+  const auto missing = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
+    return run.status == Status::planned || run.status == Status::running;
+  });
+  if (missing > 0) input.warnings.push_back(std::to_string(missing) + " planned runs are not finished yet.");
+  for (std::size_t j = 0; j < input.models.size(); ++j) {
+    if (input.models[j].status() == kriging::Status::converged) continue;
+    input.warnings.push_back("Model of " + input.problem.responses[j].name + ": " +
+                             input.models[j].message() + ".");
+  }
+  if (!input.front.message.empty())
+    input.warnings.push_back("Search for the front: " + input.front.message + ".");
+  if (input.validation.X().rows() == 0) {
+    input.warnings.push_back("Without a validation run, nothing tells how good the models are.");
+  }
+}
+
+/// The successful run that is best in the first objective, among those whose log is there; nullptr if there
+/// is none.
+const Run* run_to_show(const std::vector<Run>& runs, const doe::Problem& problem, const Folder& folder) {
+  const auto objective =
+      std::find_if(problem.responses.begin(), problem.responses.end(),
+                   [](const doe::Response& response) { return doe::is_objective(response.goal); });
+  const bool none = objective == problem.responses.end();
+  const Eigen::Index column = none ? 0 : objective - problem.responses.begin();
+  const double sign = !none && objective->goal == doe::Goal::minimize ? -1.0 : 1.0;
+  const Run* best = nullptr;
+  for (const auto& run : runs) {
+    if (run.status != Status::done || !std::filesystem::exists(folder.log(run.id))) continue;
+    if (best == nullptr || sign * run.y[column] > sign * best->y[column]) best = &run;
+  }
+  return best;
+}
+
+void illustrate(ReportInput& input, const Study& study, const std::vector<Run>& runs, const Folder& folder) {
+  input.illustrations = nlohmann::json::array();
+  const Run* run = study.illustrate ? run_to_show(runs, study.problem, folder) : nullptr;
+  if (run == nullptr) return;
+  try {
+    input.illustrations = study.illustrate(folder.log(run->id));
+    input.facts.emplace_back("Run shown", std::to_string(run->id));
+  } catch (const std::exception& e) {
+    input.warnings.push_back("Run " + std::to_string(run->id) + " could not be shown: " + e.what());
+  }
+}
+
+Summary summary_of(const Study& study, const std::vector<Run>& runs) {
+  Summary summary;
+  summary.study = study.name;
+  for (const auto& run : runs) {
+    ++(run.kind == Kind::training ? summary.training : summary.validation);
+    if (run.status == Status::failed) ++summary.failed;
+  }
+  for (const auto& response : study.problem.responses) {
+    summary.nrmse.emplace_back(response.name, std::numeric_limits<double>::quiet_NaN());
+  }
+  return summary;
+}
+
+}  // namespace
+
+Summary analyse(const Study& study, const Store& store, const Folder& folder, const std::string& command) {
+  const std::vector<Run> runs = store.runs();
+  Summary summary = summary_of(study, runs);
+  ReportInput input;
+  input.study = study.name;
+  input.about = study.about;
+  input.command = command;
+  input.problem = study.problem;
+  input.training = table_of(runs, study.problem, Kind::training);
+  input.validation = table_of(runs, study.problem, Kind::validation);
+  try {
+    fit_models(input);
+  } catch (const std::invalid_argument& e) {
+    summary.error = "no models, so no report: " + std::string(e.what());
+    const std::string failures = failure_warning(input.training, input.validation);
+    if (!failures.empty()) summary.error += "; " + failures;
+    return summary;
+  }
+  for (std::size_t j = 0; j < input.validations.size(); ++j)
+    summary.nrmse[j].second = input.validations[j].nrmse;
+  if (has_objective(study.problem)) {
+    input.front =
+        pareto::nsga2(kriging::Surrogates(input.models), study.problem, {.seed = store.identity().seed});
+  }
+  summary.front = static_cast<int>(input.front.X.rows());
+  input.facts = facts(store.identity(), runs);
+  warn(input, runs);
+  illustrate(input, study, runs, folder);
+  write_report(folder.report(), input);
+  summary.report = std::filesystem::absolute(folder.report()).lexically_normal();
+  return summary;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// From stored runs to the report: one Kriging model a response, validated on the validation runs, searched
+/// with NSGA-II for the trade-offs between all objectives within all constraints. Failed runs are left out of
+/// the models and counted. Equal stores give equal models and fronts: the search is seeded by the study seed.
+
+#include <drawpoint/studies/folder.hpp>
+#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/study.hpp>
+#include <drawpoint/studies/summary.hpp>
+
+#include <string>
+
+namespace drawpoint::studies {
+
+/// Writes folder.report(). If the runs do not allow models (nearly all failed), there is no report and
+/// Summary::error says why. `command` is the command line that the report shows. Throws std::runtime_error if
+/// the report cannot be written.
+Summary analyse(const Study& study, const Store& store, const Folder& folder, const std::string& command);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/commands.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr int failure = 1;
+constexpr int wrong_usage = 2;
+constexpr std::array<const char*, 5> commands = {"run", "status", "report", "evaluate", "prepare"};
+
+/// CLI11 would wrap a negative number around.
+std::string not_negative(const std::string& text) {
+  return text.find('-') == std::string::npos ? "" : "Value " + text + " must not be negative";
+}
+
+/// `prog --runs 5` means `prog run --runs 5`.
+std::vector<std::string> with_command(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const std::string first = words.empty() ? "" : words.front();
+  const bool help = first == "--help" || first == "-h" || first == "--version";
+  const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
+  if (!first.empty() && first[0] != '-' && !named) {
+    throw UsageError("unknown command \"" + first + "\"; the commands are run, status, report, evaluate");
+  }
+  if (!help && !named) words.insert(words.begin(), "run");
+  return words;
+}
+
+std::string joined(int argc, char** argv) {
+  std::string text;
+  for (int i = 0; i < argc; ++i) {
+    if (i > 0) text += ' ';
+    text += i == 0 ? std::filesystem::path(argv[0]).filename().string() : argv[i];
+  }
+  return text;
+}
+
+void add_folder_options(CLI::App& command, Settings& settings) {
+  command.add_option("--out", settings.out, "folder of the study: store, run logs, report")
+      ->capture_default_str();
+  command.add_flag("--json", settings.json,
+                   "last line of standard output is one JSON object; everything else goes to standard error");
+}
+
+void add_run_options(CLI::App& command, Settings& settings, const Defaults& defaults) {
+  const int most_points = 1'000'000;
+  const std::string kept = ", or as many as the folder holds";
+  command
+      .add_option("--runs", settings.runs,
+                  "training points (default " + std::to_string(defaults.runs) + kept + ")")
+      ->check(CLI::Range(2, most_points));
+  command
+      .add_option("--validation", settings.validation,
+                  "validation points (default " + std::to_string(defaults.validation) + kept + ")")
+      ->check(CLI::Range(0, most_points));
+  command
+      .add_option("--replicates", settings.replicates,
+                  "runs a training point, each with its own seed (default 1)")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--jobs", settings.jobs, "processes at a time")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command.add_option("--seed", settings.seed, "study seed, from which all random numbers follow (default 1)")
+      ->check(not_negative);
+  command
+      .add_option("--time-limit", settings.time_limit,
+                  "seconds after which a run is stopped and counts as failed; 0: none")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
+}
+
+void add_point_options(CLI::App& command, PointSettings& settings) {
+  command.add_option("--shared", settings.shared, "folder common to all runs");
+  command
+      .add_option("--result-descriptor", settings.result_descriptor,
+                  "file descriptor that takes the outcome as JSON")
+      ->group("")
+      ->check(CLI::Range(3, 1'000'000));
+}
+
+struct Parsed {
+  Settings settings;
+  PointSettings point;
+  std::function<int()> action;
+};
+
+void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
+  auto* run =
+      app.add_subcommand("run", "make the runs that are missing, then the report (also without a command)");
+  add_folder_options(*run, parsed.settings);
+  add_run_options(*run, parsed.settings, study.defaults);
+  run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
+  auto* status = app.add_subcommand("status", "say how many runs are planned, done and failed, and why");
+  add_folder_options(*status, parsed.settings);
+  status->callback([&] { parsed.action = [&] { return status_command(study, parsed.settings); }; });
+  auto* report = app.add_subcommand("report", "make the report again from the stored runs");
+  add_folder_options(*report, parsed.settings);
+  report->callback([&] { parsed.action = [&] { return report_command(study, parsed.settings); }; });
+}
+
+void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
+  auto* evaluate = app.add_subcommand("evaluate", "make one run in this process and print its responses");
+  std::string names;
+  for (const auto& variable : study.problem.variables) names += (names.empty() ? "" : ",") + variable.name;
+  evaluate->add_option("--x", parsed.point.x, "the point: " + names)->required()->delimiter(',');
+  evaluate->add_option("--seed", parsed.point.seed, "seed of this run")
+      ->check(not_negative)
+      ->capture_default_str();
+  evaluate->add_option("--log", parsed.point.log, "file for the run log (default: not kept)");
+  evaluate->add_flag("--json", parsed.point.json, "print one JSON object");
+  add_point_options(*evaluate, parsed.point);
+  evaluate->callback([&] { parsed.action = [&] { return evaluate_command(study, parsed.point); }; });
+  auto* prepare = app.add_subcommand("prepare", "fill the folder common to all runs")->group("");
+  add_point_options(*prepare, parsed.point);
+  prepare->callback([&] { parsed.action = [&] { return prepare_command(study, parsed.point); }; });
+}
+
+int parse_and_act(int argc, char** argv, const Study& study) {
+  Parsed parsed;
+  parsed.settings.out = std::filesystem::path("results") / study.name;
+  parsed.settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  parsed.settings.command = joined(argc, argv);
+  CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, study.name);
+  app.set_help_flag();
+  app.set_help_all_flag("-h,--help", "show this text");
+  app.set_version_flag("--version", std::string("Drawpoint ") + DRAWPOINT_VERSION);
+  app.require_subcommand(1);
+  define_folder_commands(app, parsed, study);
+  define_point_commands(app, parsed, study);
+  auto words = with_command(argc, argv);
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    std::fprintf(stderr, "%s: %s; see %s --help\n", study.name.c_str(), e.what(), study.name.c_str());
+    return wrong_usage;
+  }
+  return parsed.action();
+}
+
+/// The words that std::invalid_argument and std::runtime_error carry, after the program's name.
+int complain(const Study& study, const char* what, int code) {
+  std::fprintf(stderr, "%s: %s\n", study.name.c_str(), what);
+  return code;
+}
+
+void check_study(const Study& study) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  if (study.name.empty() || !std::all_of(study.name.begin(), study.name.end(), plain)) {
+    throw std::invalid_argument("studies::Study: name \"" + study.name +
+                                "\" cannot name a folder; use letters, digits, '_' and '-'");
+  }
+  if (!study.black_box)
+    throw std::invalid_argument("studies::Study: no black_box; give the function that makes one run");
+  doe::check(study.problem);
+}
+
+}  // namespace
+
+int run(int argc, char** argv, const Study& study) {
+  try {
+    check_study(study);
+    const int code = parse_and_act(argc, argv, study);
+    if (std::fflush(stdout) == 0) return code;
+    return complain(study, "studies: cannot write to standard output; is the disk full?", failure);
+  } catch (const UsageError& e) {
+    return complain(study, e.what(), wrong_usage);
+  } catch (const std::exception& e) {
+    return complain(study, e.what(), failure);
+  }
+}
+
+}  // namespace drawpoint::studies

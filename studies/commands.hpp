@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The commands of a study's program. Each returns the exit code of a command that did its work (0, or 1 for
+/// a failed run or study), throws UsageError (exit code 2), Interrupted (130) or another std::exception (1).
+/// Messages go to standard output, or to standard error when that is kept for JSON.
+
+#include <drawpoint/studies/settings.hpp>
+#include <drawpoint/studies/study.hpp>
+
+namespace drawpoint::studies {
+
+/// Makes the runs that are missing, then the report.
+int run_command(const Study& study, const Settings& settings);
+/// What the output folder holds.
+int status_command(const Study& study, const Settings& settings);
+/// The report again, from the stored runs.
+int report_command(const Study& study, const Settings& settings);
+/// One run in this process.
+int evaluate_command(const Study& study, const PointSettings& settings);
+/// Study::prepare in this process, for `run`.
+int prepare_command(const Study& study, const PointSettings& settings);
+
+/// Where messages of a command go: 2 (standard error) when standard output is kept for JSON, else 1.
+inline int message_descriptor(const Settings& settings) { return settings.json ? 2 : 1; }
+
+}  // namespace drawpoint::studies

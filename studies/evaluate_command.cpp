@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <unistd.h>
+#include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/studies/commands.hpp>
+#include <drawpoint/studies/execution.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+namespace drawpoint::studies {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for the log of a run that nobody wants to keep.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "drawpoint-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error("studies: cannot make a folder for the run log in " +
+                               fs::temp_directory_path().string() + ": " + std::strerror(errno) +
+                               "; name a file with --log");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Eigen::VectorXd checked_point(const doe::Problem& problem, const std::vector<double>& x) {
+  const auto& variables = problem.variables;
+  if (x.size() != variables.size()) {
+    std::string names;
+    for (const auto& v : variables) names += (names.empty() ? "" : ", ") + v.name;
+    throw UsageError("--x: got " + std::to_string(x.size()) + " values, need " +
+                     std::to_string(variables.size()) + ": " + names);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] >= variables[i].lower && x[i] <= variables[i].upper) continue;
+    throw UsageError("--x: " + variables[i].name + " = " + doe::detail::with_unit(x[i], variables[i].unit) +
+                     " is outside its range " + doe::detail::number_text(variables[i].lower) + " to " +
+                     doe::detail::with_unit(variables[i].upper, variables[i].unit));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// The reply channel belongs to this process alone: a program that the black box starts must not keep it
+/// open.
+void keep_private(int descriptor) {
+  if (descriptor >= 0 && fcntl(descriptor, F_SETFD, FD_CLOEXEC) != 0) {
+    throw UsageError("--result-descriptor " + std::to_string(descriptor) + ": not an open file descriptor");
+  }
+}
+
+void reply(int descriptor, const doe::Outcome& outcome) {
+  const std::string text = reply_text(outcome);
+  std::size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t count = write(descriptor, text.data() + written, text.size() - written);
+    if (count < 0)
+      throw std::runtime_error(std::string("studies: cannot hand over the outcome: ") + std::strerror(errno));
+    written += static_cast<std::size_t>(count);
+  }
+}
+
+void print(const doe::Problem& problem, const doe::Outcome& outcome, bool as_json) {
+  if (as_json) {
+    nlohmann::json line = {{"failed", outcome.failed()}};
+    if (outcome.failed()) line["reason"] = outcome.reason();
+    for (Eigen::Index i = 0; i < outcome.values().size(); ++i) {
+      line["values"][problem.responses[static_cast<std::size_t>(i)].name] = outcome.values()[i];
+    }
+    std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    return;
+  }
+  if (outcome.failed()) std::fprintf(stderr, "the run failed: %s\n", outcome.reason().c_str());
+  for (Eigen::Index i = 0; i < outcome.values().size(); ++i) {
+    const auto& response = problem.responses[static_cast<std::size_t>(i)];
+    std::printf("%s = %s\n", response.name.c_str(),
+                doe::detail::with_unit(outcome.values()[i], response.unit).c_str());
+  }
+}
+
+int hand_over(const Study& study, const PointSettings& settings, const doe::Outcome& outcome) {
+  if (settings.result_descriptor >= 0) {
+    reply(settings.result_descriptor, outcome);
+  } else {
+    print(study.problem, outcome, settings.json);
+  }
+  return outcome.failed() ? 1 : 0;
+}
+
+/// The shared folder for a run by hand: that of the study if it is there, else one that is made for this run.
+fs::path shared_folder(const Study& study, const PointSettings& settings,
+                       std::optional<TemporaryFolder>& temporary) {
+  if (!settings.shared.empty() && (fs::exists(settings.shared) || !study.prepare)) return settings.shared;
+  if (!temporary) temporary.emplace();
+  const fs::path made = temporary->path() / "shared";
+  fs::create_directory(made);
+  if (study.prepare) study.prepare(made);
+  return made;
+}
+
+}  // namespace
+
+int evaluate_command(const Study& study, const PointSettings& settings) {
+  const Eigen::VectorXd x = checked_point(study.problem, settings.x);
+  keep_private(settings.result_descriptor);
+  std::optional<TemporaryFolder> temporary;
+  if (settings.log.empty()) temporary.emplace();
+  const RunContext context = {.log = settings.log.empty() ? temporary->path() / "run.h5" : settings.log,
+                              .shared = shared_folder(study, settings, temporary)};
+  if (context.log.has_parent_path()) fs::create_directories(context.log.parent_path());
+  const auto black_box = [&](const Eigen::VectorXd& point, doe::Seed seed) {
+    return study.black_box(point, seed, context);
+  };
+  return hand_over(study, settings, doe::detail::call(black_box, study.problem, x, settings.seed));
+}
+
+int prepare_command(const Study& study, const PointSettings& settings) {
+  keep_private(settings.result_descriptor);
+  const doe::Outcome outcome = doe::detail::guarded<doe::Outcome>([&]() -> doe::Outcome {
+    if (study.prepare) study.prepare(settings.shared);
+    return Eigen::VectorXd(0);
+  });
+  return hand_over(study, settings, outcome);
+}
+
+}  // namespace drawpoint::studies

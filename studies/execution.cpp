@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/execution.hpp>
+#include <drawpoint/studies/interrupt.hpp>
+#include <drawpoint/studies/progress.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace drawpoint::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+constexpr milliseconds patience(100);  // between two looks at signals, time limits and progress
+constexpr milliseconds grace(2000);    // for children to end by themselves after an interruption
+
+/// The program's own file. The link in /proc works even when a rebuild has replaced the file; the real name
+/// looks better in `ps`.
+std::string own_executable() {
+  const fs::path link = "/proc/self/exe";
+  std::error_code error;
+  const fs::path name = fs::read_symlink(link, error);
+  return !error && fs::equivalent(name, link, error) ? name.string() : link.string();
+}
+
+std::string joined(const Eigen::VectorXd& x) {
+  std::string text;
+  for (const double value : x) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.17g", value);
+    if (!text.empty()) text += ',';
+    text += number;
+  }
+  return text;
+}
+
+Job job_for(const Run& run, const Folder& folder, double time_limit) {
+  std::error_code ignored;
+  fs::remove(folder.unfinished_log(run.id), ignored);
+  return {.id = run.id,
+          .executable = own_executable(),
+          .arguments = {"evaluate", "--x=" + joined(run.x), "--seed=" + std::to_string(run.seed),
+                        "--log=" + folder.unfinished_log(run.id).string(),
+                        "--shared=" + folder.shared().string(), "--result-descriptor=3"},
+          .output = folder.printed(run.id),
+          .time_limit = time_limit};
+}
+
+/// The log gets its final name before the run counts as done, so that each run that is done has its log.
+void publish_log(const Folder& folder, std::int64_t id) {
+  std::error_code ignored;
+  if (!fs::exists(folder.unfinished_log(id), ignored)) return;
+  fs::rename(folder.unfinished_log(id), folder.log(id));
+}
+
+[[noreturn]] void stop_for_full_disk(const Folder& folder) {
+  throw std::runtime_error(
+      "studies: the disk of " + folder.path.string() +
+      " is full; free some space and give the same command again; finished runs are kept");
+}
+
+bool disk_is_full(const Folder& folder) { return free_space(folder.path) < least_free_space; }
+
+/// True if the run failed.
+bool store_end(Store& store, const Folder& folder, const JobEnd& end) {
+  const doe::Outcome outcome = outcome_of(end, folder.printed(end.id));
+  if (outcome.failed() && disk_is_full(folder)) {
+    std::error_code ignored;
+    fs::remove(folder.unfinished_log(end.id), ignored);  // leaves the store room for the next line
+    store.mark_planned(end.id);
+    stop_for_full_disk(folder);
+  }
+  publish_log(folder, end.id);
+  if (outcome.failed()) {
+    store.save_failed(end.id, outcome.reason(), end.seconds);
+  } else {
+    store.save_done(end.id, outcome.values(), end.seconds);
+  }
+  return outcome.failed();
+}
+
+ProgressState state_of(const std::vector<Run>& runs) {
+  ProgressState state;
+  state.total = static_cast<int>(runs.size());
+  for (const auto& run : runs) {
+    if (run.status == Status::done || run.status == Status::failed) ++state.done;
+    if (run.status == Status::failed) ++state.failed;
+  }
+  return state;
+}
+
+}  // namespace
+
+void prepare_shared(const Study& study, const Folder& folder, int message_descriptor) {
+  if (!study.prepare || fs::exists(folder.shared())) return;
+  dprintf(message_descriptor, "preparing what all runs share ...\n");
+  const fs::path draft = folder.path / "shared.unfinished";
+  const fs::path printed = folder.logs() / "prepare.txt";
+  fs::remove_all(draft);
+  fs::create_directory(draft);
+  ProcessPool pool(1);
+  pool.start({.executable = own_executable(),
+              .arguments = {"prepare", "--shared=" + draft.string(), "--result-descriptor=3"},
+              .output = printed});
+  std::vector<JobEnd> ends;
+  while (ends.empty()) {
+    if (InterruptGuard::requested()) {
+      pool.terminate(grace);
+      throw Interrupted{};
+    }
+    ends = pool.wait(patience);
+  }
+  const doe::Outcome outcome = outcome_of(ends.front(), printed);
+  if (outcome.failed()) {
+    if (disk_is_full(folder)) stop_for_full_disk(folder);
+    throw std::runtime_error("studies: the preparation failed: " + outcome.reason());
+  }
+  fs::rename(draft, folder.shared());
+  dprintf(message_descriptor, "prepared in %s\n", duration_text(ends.front().seconds).c_str());
+}
+
+void carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor) {
+  const std::vector<Run> runs = store.runs();
+  std::deque<const Run*> waiting;
+  for (const auto& run : runs) {
+    if (run.status == Status::planned) waiting.push_back(&run);
+  }
+  if (waiting.empty()) return;
+  ProcessPool pool(settings.jobs);
+  Progress progress(message_descriptor, state_of(runs));
+  while (!waiting.empty() || pool.running() > 0) {
+    if (InterruptGuard::requested()) {
+      pool.terminate(grace);
+      store.plan_again(false);
+      throw Interrupted{};
+    }
+    const bool full = !waiting.empty() && disk_is_full(folder);
+    if (full && pool.running() == 0) stop_for_full_disk(folder);
+    while (!full && !waiting.empty() && !pool.full()) {
+      store.mark_running(waiting.front()->id);
+      pool.start(job_for(*waiting.front(), folder, settings.time_limit));
+      waiting.pop_front();
+    }
+    for (const auto& end : pool.wait(patience)) progress.finished_one(store_end(store, folder, end));
+    progress.tick();
+  }
+  std::error_code ignored;
+  fs::remove(folder.unfinished(), ignored);
+}
+
+std::string reply_text(const doe::Outcome& outcome) {
+  if (outcome.failed())
+    return json{{"failure", outcome.reason()}}.dump(-1, ' ', false, json::error_handler_t::replace);
+  const Eigen::VectorXd& y = outcome.values();
+  return json{{"values", std::vector<double>(y.begin(), y.end())}}.dump();
+}
+
+doe::Outcome outcome_of(const JobEnd& end, const fs::path& printed) {
+  const json reply = json::parse(end.reply, nullptr, false);
+  if (reply.is_object() && reply.contains("failure"))
+    return doe::Failure{reply["failure"].get<std::string>()};
+  if (reply.is_object() && reply.contains("values") && !end.timed_out) {
+    const auto values = reply["values"].get<std::vector<double>>();
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  }
+  std::string reason = "the run's process " + describe(end);
+  std::error_code ignored;
+  if (fs::exists(printed, ignored)) reason += "; it printed logs/" + printed.filename().string();
+  return doe::Failure{reason};
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <sys/utsname.h>
+#include <drawpoint/studies/facts.hpp>
+#include <drawpoint/studies/plan.hpp>
+#include <drawpoint/studies/progress.hpp>
+
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+namespace drawpoint::studies {
+namespace {
+
+/// The text after the first "key<separator>" of a file of such lines, without quotes; "unknown" if there is
+/// none.
+std::string entry(const char* file, const std::string& key, char separator) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.compare(0, key.size(), key) != 0) continue;
+    const auto at = line.find(separator);
+    if (at == std::string::npos) continue;
+    std::string value;
+    for (const char c : line.substr(at + 1)) {
+      if (c != '"' && !(c == ' ' && value.empty())) value += c;
+    }
+    return value;
+  }
+  return "unknown";
+}
+
+std::string machine() {
+  return entry("/proc/cpuinfo", "model name", ':') + ", " +
+         std::to_string(std::thread::hardware_concurrency()) + " threads";
+}
+
+std::string system_name() {
+  utsname name = {};
+  const std::string kernel = uname(&name) == 0 ? std::string(", ") + name.sysname + " " + name.release : "";
+  return entry("/etc/os-release", "PRETTY_NAME", '=') + kernel;
+}
+
+std::string time_span(const std::vector<Run>& runs) {
+  std::string first, last;
+  for (const auto& run : runs) {
+    if (run.finished.empty()) continue;
+    if (first.empty() || run.started < first) first = run.started;
+    if (run.finished > last) last = run.finished;
+  }
+  return first.empty() ? "none" : first + " to " + last;
+}
+
+std::string time_in_runs(const std::vector<Run>& runs) {
+  double seconds = 0.0;
+  int finished = 0;
+  for (const auto& run : runs) {
+    seconds += run.seconds;
+    if (!run.finished.empty()) ++finished;
+  }
+  if (finished == 0) return "none";
+  return duration_text(seconds) + " in all, " + duration_text(seconds / finished) + " a run";
+}
+
+std::string design(const Identity& identity, const std::vector<Run>& runs) {
+  std::string text = std::to_string(count_points(runs, Kind::training)) + " training points, Latin hypercube";
+  if (identity.corners) text += " with the corners of the box";
+  if (identity.replicates > 1) text += ", " + std::to_string(identity.replicates) + " runs each";
+  return text + "; " + std::to_string(count_points(runs, Kind::validation)) + " validation points, uniform";
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> facts(const Identity& identity,
+                                                       const std::vector<Run>& runs) {
+  return {{"Design", design(identity, runs)},
+          {"Seed", std::to_string(identity.seed)},
+          {"Runs made", time_span(runs)},
+          {"Time in runs", time_in_runs(runs)},
+          {"Machine", machine()},
+          {"System", system_name()},
+          {"Program", std::string("Drawpoint ") + DRAWPOINT_VERSION + ", compiler " + __VERSION__}};
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the report says about how its numbers came about: machine, versions, time, design.
+
+#include <drawpoint/studies/store.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// (label, value) in the order to show.
+std::vector<std::pair<std::string, std::string>> facts(const Identity& identity,
+                                                       const std::vector<Run>& runs);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/folder.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+
+namespace drawpoint::studies {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string stem(std::int64_t id) {
+  char name[40];
+  std::snprintf(name, sizeof name, "run_%04lld", static_cast<long long>(id));
+  return name;
+}
+
+[[noreturn]] void refuse(const fs::path& place, int error) {
+  std::string advice = "choose another folder with --out";
+  if (error == ENOSPC || error == EDQUOT) advice = "free some space, or choose another disk with --out";
+  if (error == EACCES || error == EPERM || error == EROFS)
+    advice = "allow writing there, or choose another folder with --out";
+  throw std::runtime_error("studies: cannot write in " + place.string() + ": " + std::strerror(error) + "; " +
+                           advice);
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) refuse(path, error.value());
+  if (!fs::is_directory(path, error)) refuse(path, ENOTDIR);
+}
+
+/// Permissions, quotas and full disks show for certain only in a real write that has reached the disk.
+void write_probe(const fs::path& folder) {
+  const fs::path probe = folder / (".probe-" + std::to_string(getpid()));
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse(folder, errno);
+  const std::string block(4096, '\n');
+  errno = 0;
+  const bool written =
+      write(file, block.data(), block.size()) == static_cast<ssize_t>(block.size()) && fsync(file) == 0;
+  const int error = written ? 0 : (errno != 0 ? errno : ENOSPC);
+  close(file);
+  unlink(probe.c_str());
+  if (error != 0) refuse(folder, error);
+}
+
+}  // namespace
+
+fs::path Folder::log(std::int64_t id) const { return logs() / (stem(id) + ".h5"); }
+fs::path Folder::unfinished_log(std::int64_t id) const { return unfinished() / (stem(id) + ".h5"); }
+fs::path Folder::printed(std::int64_t id) const { return logs() / (stem(id) + ".txt"); }
+
+void make_writable(const Folder& folder) {
+  make_folder(folder.path);
+  write_probe(folder.path);
+  make_folder(folder.unfinished());
+  write_probe(folder.unfinished());
+  if (free_space(folder.path) < least_free_space) refuse(folder.path, ENOSPC);
+}
+
+std::uintmax_t free_space(const fs::path& path) {
+  std::error_code error;
+  const auto space = fs::space(path, error);
+  return error ? std::numeric_limits<std::uintmax_t>::max() : space.available;
+}
+
+FolderLock::FolderLock(const Folder& folder) {
+  const fs::path file = folder.path / ".lock";
+  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) refuse(file, errno);
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
+    if (error != EWOULDBLOCK) {
+      close(descriptor_);
+      refuse(file, error);
+    }
+    char holder[32] = {};
+    const bool known = read(descriptor_, holder, sizeof holder - 1) > 0;
+    close(descriptor_);
+    throw std::runtime_error("studies: another process" +
+                             (known ? " (number " + std::string(holder) + ")" : std::string()) +
+                             " is working in " + folder.path.string() +
+                             "; wait for it, stop it, or choose another folder with --out");
+  }
+  const std::string number = std::to_string(getpid());
+  if (ftruncate(descriptor_, 0) != 0 || write(descriptor_, number.data(), number.size()) < 0) {
+    const int error = errno;
+    close(descriptor_);
+    refuse(file, error);
+  }
+}
+
+FolderLock::~FolderLock() { close(descriptor_); }
+
+}  // namespace drawpoint::studies

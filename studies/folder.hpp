@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The output folder of a study: where each file lies, that it can be written, and that one process works on
+/// it.
+///
+///     DIR/study.db          the store                    DIR/logs/run_0001.h5    run log, named by the run's
+///     id DIR/report.html       the report                   DIR/logs/run_0001.txt   what the run printed, if
+///     anything DIR/shared/           from Study::prepare          DIR/logs/unfinished/    logs of runs in
+///     flight DIR/.lock             held while a command works
+///
+/// A file appears under its final name only when it is complete: it is written under another name beside it,
+/// then renamed.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace drawpoint::studies {
+
+struct Folder {
+  std::filesystem::path path;
+
+  std::filesystem::path store() const { return path / "study.db"; }
+  std::filesystem::path report() const { return path / "report.html"; }
+  std::filesystem::path shared() const { return path / "shared"; }
+  std::filesystem::path logs() const { return path / "logs"; }
+  std::filesystem::path unfinished() const { return logs() / "unfinished"; }
+  std::filesystem::path log(std::int64_t id) const;  ///< logs/run_0001.h5
+  std::filesystem::path unfinished_log(std::int64_t id) const;
+  std::filesystem::path printed(std::int64_t id) const;  ///< logs/run_0001.txt
+};
+
+/// Makes the folder with its subfolders and writes a probe file. Throws std::runtime_error that says what is
+/// in the way: a file of that name, no permission, a read-only file system, a full disk.
+void make_writable(const Folder& folder);
+
+/// Free space [bytes] for this user on the file system of `path`; the largest number where it cannot be told.
+std::uintmax_t free_space(const std::filesystem::path& path);
+
+/// Below this much free space [bytes] a study does not start a run: its log and the store would not fit.
+inline constexpr std::uintmax_t least_free_space = 1u << 20;
+
+/// Holds DIR/.lock until destroyed; the system releases it when the process dies, however it dies.
+class FolderLock {
+ public:
+  /// Throws std::runtime_error with the other process's number if the folder is taken.
+  explicit FolderLock(const Folder& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// The whole pipeline on a formula, in seconds. The bucket follows a path that cuts into a pile: its
+/// steepness alpha and depth beta fill it, its curl gamma lifts, its speed kappa saves time. A fuller bucket
+/// carries more, stresses the joint more and spills more. The seed scatters every response by one to two per
+/// cent, as another pile of the same rocks would.
+
+#include <drawpoint/doe/seed.hpp>
+#include <drawpoint/studies/study.hpp>
+
+#include <cmath>
+
+using namespace drawpoint;
+
+const doe::Problem problem{.variables = {{"alpha", "1", 0.2, 2.0},
+                                         {"beta", "1", 0.0, 1.0},
+                                         {"gamma", "1", 0.0, 1.0},
+                                         {"kappa", "1", 0.0, 1.0}},
+                           .responses = {{"production", "kg/s", doe::Goal::maximize},
+                                         {"joint_damage", "s", doe::Goal::minimize},
+                                         {"rock_spill", "1", doe::Goal::minimize}}};
+
+doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed) {
+  const double alpha = x[0], beta = x[1], gamma = x[2], kappa = x[3];
+  doe::RandomStream random(seed);
+  const auto scattered = [&](double value, double share) { return value * (1.0 + share * random.normal()); };
+  const double fill = 1.0 - std::exp(-alpha * (0.6 + beta) * (1.2 - 0.5 * gamma));  // [1] of a heaped bucket
+  const double mass = scattered(14000.0 * fill, 0.01);                              // [kg]
+  const double time = (14.0 + 6.0 * fill) * (1.3 - 0.6 * kappa);                    // [s] a cycle
+  const double load_ratio = fill * (0.7 + 0.5 * kappa + 0.3 * beta * beta);  // [1] of the joint's rated load
+  const double damage = scattered(time * std::pow(load_ratio, 3), 0.02);     // [s] at rated load
+  const double spill = scattered(0.02 + 0.25 * fill * fill * (0.3 + kappa * (1.0 - 0.6 * gamma)), 0.02);
+  return {mass / time, damage, spill};
+}
+
+int main(int argc, char** argv) {
+  return studies::run(argc, argv,
+                      {.name = "formula_demo",
+                       .problem = problem,
+                       .black_box = load,
+                       .about = "A loading cycle as a formula: the whole pipeline in seconds."});
+}

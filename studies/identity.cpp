@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/identity.hpp>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace drawpoint::studies {
+namespace {
+
+using nlohmann::json;
+
+doe::Goal goal_from(const std::string& name) {
+  using doe::Goal;
+  for (const Goal goal : {Goal::minimize, Goal::maximize, Goal::at_most, Goal::at_least}) {
+    if (name == doe::to_string(goal)) return goal;
+  }
+  return Goal::record;
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+/// The shortest decimal text that reads back as the same number.
+std::string text_of(double value) { return std::isnan(value) ? "none" : json(value).dump(); }
+
+std::string name_of(doe::Goal goal) { return std::string(doe::to_string(goal)); }
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::string changed(const std::string& subject, const std::string& there, const std::string& here) {
+  return subject + " " + there + " there, " + here + " here";
+}
+
+std::string difference(const doe::Variable& there, const doe::Variable& here) {
+  const std::string subject = "variable " + quoted(here.name) + ": ";
+  if (there.unit != here.unit) return changed(subject + "unit", quoted(there.unit), quoted(here.unit));
+  if (there.lower != here.lower)
+    return changed(subject + "lower bound", text_of(there.lower), text_of(here.lower));
+  if (there.upper != here.upper)
+    return changed(subject + "upper bound", text_of(there.upper), text_of(here.upper));
+  return "";
+}
+
+std::string difference(const doe::Response& there, const doe::Response& here) {
+  const std::string subject = "response " + quoted(here.name) + ": ";
+  if (there.unit != here.unit) return changed(subject + "unit", quoted(there.unit), quoted(here.unit));
+  if (there.goal != here.goal) return changed(subject + "goal", name_of(there.goal), name_of(here.goal));
+  if (!same(there.limit, here.limit))
+    return changed(subject + "limit", text_of(there.limit), text_of(here.limit));
+  return "";
+}
+
+template <class Item>
+std::string names_of(const std::vector<Item>& items) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ", ") + item.name;
+  return text;
+}
+
+template <class Item>
+std::string difference(const std::vector<Item>& there, const std::vector<Item>& here,
+                       const std::string& what) {
+  if (names_of(there) != names_of(here))
+    return changed("the " + what + " are", names_of(there), names_of(here));
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const std::string text = difference(there[i], here[i]);
+    if (!text.empty()) return text;
+  }
+  return "";
+}
+
+}  // namespace
+
+json to_json(const doe::Problem& problem) {
+  json variables = json::array();
+  for (const auto& v : problem.variables) {
+    variables.push_back({{"name", v.name}, {"unit", v.unit}, {"lower", v.lower}, {"upper", v.upper}});
+  }
+  json responses = json::array();
+  for (const auto& r : problem.responses) {
+    json entry = {{"name", r.name}, {"unit", r.unit}, {"goal", name_of(r.goal)}};
+    if (!std::isnan(r.limit)) entry["limit"] = r.limit;
+    responses.push_back(entry);
+  }
+  return {{"variables", variables}, {"responses", responses}};
+}
+
+doe::Problem problem_from_json(const json& data) {
+  doe::Problem problem;
+  for (const auto& v : data.at("variables")) {
+    problem.variables.push_back({v.at("name"), v.at("unit"), v.at("lower"), v.at("upper")});
+  }
+  for (const auto& r : data.at("responses")) {
+    problem.responses.push_back(
+        {r.at("name"), r.at("unit"), goal_from(r.at("goal")), r.value("limit", std::nan(""))});
+  }
+  return problem;
+}
+
+std::string difference(const doe::Problem& there, const doe::Problem& here) {
+  const std::string text = difference(there.variables, here.variables, "variables");
+  return text.empty() ? difference(there.responses, here.responses, "responses") : text;
+}
+
+}  // namespace drawpoint::studies

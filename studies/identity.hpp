@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What makes two invocations the same study: its name, its problem, its seed and how its points were
+/// planned. It is kept in the store, so that runs of two different studies never end up in one table.
+
+#include <drawpoint/doe/outcome.hpp>
+#include <drawpoint/doe/problem.hpp>
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace drawpoint::studies {
+
+struct Identity {
+  std::string study;
+  doe::Problem problem;
+  doe::Seed seed = 1;
+  int replicates = 1;    ///< runs a training point
+  bool corners = false;  ///< the first 2^d training points are the corners of the box
+};
+
+nlohmann::json to_json(const doe::Problem& problem);
+/// Throws nlohmann::json::exception if the text is not what to_json wrote.
+doe::Problem problem_from_json(const nlohmann::json& json);
+
+/// The first difference in words ('variable "alpha": upper bound 2 there, 3 here'), or "" if there is none.
+std::string difference(const doe::Problem& there, const doe::Problem& here);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/doe/latin_hypercube.hpp>
+#include <drawpoint/doe/seed.hpp>
+#include <drawpoint/doe/uniform.hpp>
+#include <drawpoint/studies/plan.hpp>
+#include <drawpoint/studies/settings.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace drawpoint::studies {
+namespace {
+
+enum class Stream : std::uint64_t { training, validation_points, validation_runs };
+
+/// Seeds for everything but training runs; these take run numbers below 2^62.
+doe::Seed stream_seed(const Identity& identity, Stream stream, std::uint64_t part) {
+  const std::uint64_t beyond_all_runs = 1ull << 63;
+  return doe::run_seed(identity.seed, beyond_all_runs + static_cast<std::uint64_t>(stream), part);
+}
+
+doe::Seed seed_of(const Identity& identity, Kind kind, std::int64_t point, int replicate) {
+  const doe::Seed study =
+      kind == Kind::training ? identity.seed : stream_seed(identity, Stream::validation_runs, 0);
+  return doe::run_seed(study, static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(replicate));
+}
+
+void shuffle(std::vector<int>& items, doe::RandomStream& random) {
+  for (int i = static_cast<int>(items.size()) - 1; i > 0; --i) {
+    std::swap(items[static_cast<std::size_t>(i)], items[static_cast<std::size_t>(random.below(i + 1))]);
+  }
+}
+
+/// Strata of [lower, upper] cut in `strata` equal parts that hold none of the values, in random order.
+std::vector<int> empty_strata(const Eigen::VectorXd& values, const doe::Variable& axis, int strata,
+                              doe::RandomStream& random) {
+  std::vector<bool> taken(static_cast<std::size_t>(strata), false);
+  for (const double value : values) {
+    const double share = (value - axis.lower) / (axis.upper - axis.lower);
+    taken[static_cast<std::size_t>(std::clamp(static_cast<int>(share * strata), 0, strata - 1))] = true;
+  }
+  std::vector<int> result;
+  for (int s = 0; s < strata; ++s) {
+    if (!taken[static_cast<std::size_t>(s)]) result.push_back(s);
+  }
+  shuffle(result, random);
+  return result;
+}
+
+Eigen::MatrixXd points_of(const std::vector<Run>& runs, Kind kind, Eigen::Index dimension) {
+  Eigen::MatrixXd X(count_points(runs, kind), dimension);
+  for (const auto& run : runs) {
+    if (run.kind == kind) X.row(run.point - 1) = run.x.transpose();
+  }
+  return X;
+}
+
+void append(std::vector<Run>& runs, const Identity& identity, Kind kind, const Eigen::MatrixXd& X,
+            std::pair<std::int64_t, std::int64_t> first_point_and_id) {
+  auto [point, id] = first_point_and_id;
+  const int replicates = kind == Kind::training ? identity.replicates : 1;
+  for (Eigen::Index row = 0; row < X.rows(); ++row, ++point) {
+    for (int replicate = 0; replicate < replicates; ++replicate) {
+      Run run;
+      run.id = id++;
+      run.kind = kind;
+      run.point = point;
+      run.replicate = replicate;
+      run.seed = seed_of(identity, kind, point, replicate);
+      run.x = X.row(row);
+      runs.push_back(run);
+    }
+  }
+}
+
+void refuse_to_shrink(int stored, int wanted, const std::string& option, const std::string& what) {
+  if (wanted >= stored) return;
+  throw UsageError(option + " " + std::to_string(wanted) + ": the output folder already holds " +
+                   std::to_string(stored) + " " + what +
+                   " points, and a study grows but does not shrink; use " + option + " " +
+                   std::to_string(stored) + " or more, or choose another folder with --out");
+}
+
+}  // namespace
+
+bool has_corners(const doe::Problem& problem, int runs) {
+  const std::size_t dimension = problem.variables.size();
+  return dimension < 30 && runs >= (1 << dimension);
+}
+
+Eigen::MatrixXd first_design(const Identity& identity, int runs) {
+  return doe::latin_hypercube(
+      identity.problem, runs,
+      {.corners = identity.corners, .seed = stream_seed(identity, Stream::training, 0)});
+}
+
+Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& existing, int runs) {
+  const auto& axes = identity.problem.variables;
+  const int corners = identity.corners ? 1 << axes.size() : 0;
+  const int strata = runs - corners;
+  const int wanted = runs - static_cast<int>(existing.rows());
+  doe::RandomStream random(
+      stream_seed(identity, Stream::training, static_cast<std::uint64_t>(existing.rows())));
+  Eigen::MatrixXd X(wanted, existing.cols());
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    const auto& axis = axes[static_cast<std::size_t>(k)];
+    const auto free = empty_strata(existing.col(k).tail(existing.rows() - corners), axis, strata, random);
+    for (int i = 0; i < wanted; ++i) {
+      const double share = (free[static_cast<std::size_t>(i)] + random.uniform()) / strata;
+      X(i, k) = std::min(axis.upper, axis.lower + share * (axis.upper - axis.lower));
+    }
+  }
+  return X;
+}
+
+std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& existing, int runs,
+                             int validation) {
+  const int trained = count_points(existing, Kind::training);
+  const int validated = count_points(existing, Kind::validation);
+  refuse_to_shrink(trained, runs, "--runs", "training");
+  refuse_to_shrink(validated, validation, "--validation", "validation");
+  const auto dimension = static_cast<Eigen::Index>(identity.problem.variables.size());
+  std::vector<Run> added;
+  if (runs > trained) {
+    const auto X = trained == 0
+                       ? first_design(identity, runs)
+                       : further_design(identity, points_of(existing, Kind::training, dimension), runs);
+    append(added, identity, Kind::training, X, {trained + 1, existing.size() + 1});
+  }
+  if (validation > validated) {
+    const auto seed = stream_seed(identity, Stream::validation_points, static_cast<std::uint64_t>(validated));
+    const auto X = doe::uniform_random(identity.problem, validation - validated, seed);
+    append(added, identity, Kind::validation, X, {validated + 1, existing.size() + added.size() + 1});
+  }
+  return added;
+}
+
+int count_points(const std::vector<Run>& runs, Kind kind) {
+  std::int64_t last = 0;
+  for (const auto& run : runs) {
+    if (run.kind == kind) last = std::max(last, run.point);
+  }
+  return static_cast<int>(last);
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Which runs a study makes.
+///
+/// Training points are a Latin hypercube, with the 2^d corners of the box in front when there are at least
+/// 2^d points. Validation points are independent and uniform. Each has random numbers of its own, derived
+/// from the study seed.
+///
+/// A study grows without losing a run. New validation points are more of the same. New training points keep
+/// the Latin hypercube as far as the old ones allow (Stein 1987; R's lhs::augmentLHS): with n points in all,
+/// each axis is cut in n equal strata; of those without an old point, as many as there are new points are
+/// drawn, and each gets one. So no new point shares a stratum with another point on any axis. Corners stay
+/// out of the count, and are never added later. A grown design is not the one that the larger number would
+/// have given from the start.
+
+#include <drawpoint/studies/store.hpp>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// Whether a first design of so many points starts with the corners.
+bool has_corners(const doe::Problem& problem, int runs);
+
+/// The training points (n x d) of a new design.
+Eigen::MatrixXd first_design(const Identity& identity, int runs);
+
+/// Further training points ((runs - existing.rows()) x d) for the existing ones (n x d). Requires runs >
+/// existing.rows().
+Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& existing, int runs);
+
+/// The runs to add to `existing` so that there are `runs` training and `validation` validation points. Throws
+/// UsageError if there are more already. Deterministic in its arguments.
+std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& existing, int runs,
+                             int validation);
+
+/// Number of design points of a kind.
+int count_points(const std::vector<Run>& runs, Kind kind);
+
+}  // namespace drawpoint::studies

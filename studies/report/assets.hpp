@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The files of report/web and the two libraries, as they were when the library was built.
+
+#include <string_view>
+
+namespace drawpoint::studies::detail {
+
+std::string_view page_asset();    ///< page.html with places for the texts below
+std::string_view style_asset();   ///< style.css
+std::string_view plotly_asset();  ///< plotly.js, minified
+std::string_view app_asset();     ///< web/*.js with three.js, bundled
+
+}  // namespace drawpoint::studies::detail

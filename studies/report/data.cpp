@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/studies/report/data.hpp>
+#include <drawpoint/studies/report/panels.hpp>
+#include <drawpoint/studies/report/summary.hpp>
+#include <drawpoint/studies/report/surface.hpp>
+#include <drawpoint/studies/report/text.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+namespace drawpoint::studies::detail {
+
+namespace {
+
+using nlohmann::json;
+
+json to_json(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+
+json to_json(const Eigen::MatrixXd& rows) {
+  json all = json::array();
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) all.push_back(to_json(Eigen::VectorXd(rows.row(i))));
+  return all;
+}
+
+json to_json(const doe::Problem& problem) {
+  json variables = json::array(), responses = json::array();
+  for (const doe::Variable& v : problem.variables)
+    variables.push_back({{"name", v.name}, {"unit", v.unit}, {"lower", v.lower}, {"upper", v.upper}});
+  for (const doe::Response& r : problem.responses)
+    responses.push_back(
+        {{"name", r.name}, {"unit", r.unit}, {"goal", doe::to_string(r.goal)}, {"limit", r.limit}});
+  return {{"variables", std::move(variables)}, {"responses", std::move(responses)}};
+}
+
+json to_json(const doe::Evaluations& table) {
+  json rows = json::array();
+  for (const doe::Evaluation& e : table.rows) {
+    json y = e.outcome.failed() ? json() : to_json(e.outcome.values());
+    rows.push_back({{"run", e.run},
+                    {"x", to_json(e.x)},
+                    {"y", std::move(y)},
+                    {"reason", e.outcome.reason()},
+                    {"seconds", e.seconds}});
+  }
+  return {{"rows", std::move(rows)}};
+}
+
+json to_json(const kriging::Model& model, const std::optional<Surface>& s) {
+  const json theta = to_json(model.theta());
+  json formula;
+  if (s)
+    formula = {{"lower", to_json(s->lower)}, {"upper", to_json(s->upper)},     {"theta", theta},
+               {"trend", model.trend()},     {"weights", to_json(s->weights)}, {"X", to_json(s->X)}};
+  return {{"theta", theta},
+          {"nugget", model.nugget()},
+          {"process_variance", model.process_variance()},
+          {"log_likelihood", model.log_likelihood()},
+          {"message", model.message()},
+          {"surface", std::move(formula)}};
+}
+
+json to_json(const kriging::Model& model, const kriging::Validation& v) {
+  if (v.observed.size() == 0) return json();
+  return {{"rmse", v.rmse},
+          {"nrmse", v.nrmse},
+          {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
+          {"observed", to_json(v.observed)},
+          {"predicted", to_json(v.predicted)},
+          {"sd", to_json(deviation_of_runs(model, v))}};
+}
+
+json to_json(const doe::Problem& problem, const pareto::Front& front) {
+  return {{"objectives", objectives(problem)},
+          {"X", to_json(front.X)},
+          {"Y", to_json(front.Y)},
+          {"balanced", balanced_point(problem, front)},
+          {"evaluations", front.evaluations}};
+}
+
+/// The two variables with the largest total effect on any response, in the problem's order; twice the only
+/// one.
+json main_pair(std::size_t variables, const std::vector<Eigen::VectorXd>& influence) {
+  std::vector<std::size_t> order(variables);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto weight = [&](std::size_t k) {
+    double most = 0.0;
+    for (const Eigen::VectorXd& row : influence) most = std::max(most, row[static_cast<Eigen::Index>(k)]);
+    return most;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return weight(a) > weight(b); });
+  const std::size_t a = order.front(), b = order[std::min<std::size_t>(1, variables - 1)];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+[[noreturn]] void reject(const std::string& what) {
+  throw std::invalid_argument("studies::write_report: " + what);
+}
+
+void check_tables(const ReportInput& input) {
+  for (const auto* table : {&input.training, &input.validation})
+    for (const doe::Evaluation& e : table->rows) {
+      const std::string run = "run " + std::to_string(e.run);
+      if (e.x.size() != static_cast<Eigen::Index>(input.problem.variables.size()))
+        reject(run + " has " + std::to_string(e.x.size()) + " inputs; give one a variable");
+      if (!e.outcome.failed() &&
+          e.outcome.values().size() != static_cast<Eigen::Index>(input.problem.responses.size()))
+        reject(run + " has " + std::to_string(e.outcome.values().size()) + " values; give one a response");
+    }
+}
+
+void check_results(const ReportInput& input) {
+  const std::size_t responses = input.problem.responses.size();
+  if (!input.models.empty() && input.models.size() != responses)
+    reject(std::to_string(input.models.size()) + " models for " + std::to_string(responses) +
+           " responses; give one each or none");
+  if (!input.validations.empty() && input.validations.size() != input.models.size())
+    reject(std::to_string(input.validations.size()) + " validations for " +
+           std::to_string(input.models.size()) + " models; give one each or none");
+  for (const kriging::Validation& v : input.validations)
+    if (v.predicted.size() != v.observed.size() || v.variance.size() != v.observed.size())
+      reject(
+          "a validation has unequal numbers of observed, predicted and variance; give what validate "
+          "returned");
+  const pareto::Front& f = input.front;
+  const bool empty = f.X.rows() == 0 && f.Y.rows() == 0;
+  if (!empty && (f.X.rows() != f.Y.rows() ||
+                 f.Y.cols() != static_cast<Eigen::Index>(objectives(input.problem).size()) ||
+                 f.X.cols() != static_cast<Eigen::Index>(input.problem.variables.size())))
+    reject("the front does not belong to the problem; give what the search on this problem returned");
+}
+
+}  // namespace
+
+json report_data(const ReportInput& input) {
+  doe::check(input.problem);
+  check_tables(input);
+  check_results(input);
+  ReportInput known = input;
+  known.training.problem = known.validation.problem = input.problem;
+  json models = json::array(), validations = json::array(), shares = json::array();
+  std::vector<Eigen::VectorXd> effects;
+  for (std::size_t j = 0; j < input.models.size(); ++j) {
+    const kriging::Model& model = input.models[j];
+    const auto formula = surface(model, input.problem, known.training.X());
+    if (!formula)
+      known.warnings.push_back("The response surface of " + pretty(input.problem.responses[j].name) +
+                               " is not drawn: its model was not fitted to the training runs listed here.");
+    models.push_back(to_json(model, formula));
+    validations.push_back(j < input.validations.size() ? to_json(model, input.validations[j]) : json());
+    effects.push_back(influence(model, input.problem));
+    shares.push_back(to_json(effects.back()));
+  }
+  json panels = checked_panels(input.illustrations, known.warnings);
+  return {{"study", input.study},
+          {"about", input.about},
+          {"command", input.command},
+          {"problem", to_json(input.problem)},
+          {"training", to_json(input.training)},
+          {"validation", to_json(input.validation)},
+          {"models", std::move(models)},
+          {"validations", std::move(validations)},
+          {"front", to_json(input.problem, input.front)},
+          {"influence", std::move(shares)},
+          {"main_pair", main_pair(input.problem.variables.size(), effects)},
+          {"illustrations", std::move(panels)},
+          {"facts", input.facts},
+          {"summary", summary(known, effects)}};
+}
+
+}  // namespace drawpoint::studies::detail

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// All that the page shows, as one JSON object; report/web/main.js and the files it imports read it.
+
+#include <drawpoint/studies/report/report.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace drawpoint::studies::detail {
+
+/// Throws std::invalid_argument when the parts of the input do not belong together.
+nlohmann::json report_data(const ReportInput& input);
+
+}  // namespace drawpoint::studies::detail

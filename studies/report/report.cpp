@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/doe/atomic_file.hpp>
+#include <drawpoint/studies/report/data.hpp>
+#include <drawpoint/studies/report/page.hpp>
+#include <drawpoint/studies/report/report.hpp>
+
+namespace drawpoint::studies {
+
+void write_report(const std::filesystem::path& path, const ReportInput& input) {
+  doe::write_file(path, detail::page(input.study, detail::report_data(input)));
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The report of a study: one HTML file with its data, plots (plotly.js) and scene viewer (three.js) inside.
+/// It loads nothing from anywhere and opens from disk. The page is assembled from report/web when the library
+/// is built.
+///
+/// Contents: a summary in words with cautions, figures of one simulation, trade-offs, response surfaces (the
+/// surrogates are evaluated in the browser), validation, the runs. Each part copes with what is missing: no
+/// validation runs, one response, no objective, no successful run.
+///
+/// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
+///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
+///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
+///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one a body]}], camera: {eye, target},
+///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside
+///   lines  series: [{name, x: [], y: []}]; x_label, y_label
+///   table  columns: [], rows: [[]..]
+
+#include <drawpoint/doe/evaluations.hpp>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/validate.hpp>
+#include <drawpoint/pareto/nsga2.hpp>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::studies {
+
+struct ReportInput {
+  std::string study, about, command;  ///< any text; the page shows it as it is
+  doe::Problem problem;
+  doe::Evaluations training, validation;
+  std::vector<kriging::Model> models;  ///< one a response, in order; empty when none could be fitted
+  std::vector<kriging::Validation> validations;  ///< one a response, in order; empty without validation runs
+  pareto::Front front;                           ///< found on the models; no rows when there is none
+  nlohmann::json illustrations =
+      nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
+  std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions
+  std::vector<std::string> warnings;                       ///< shown first among the cautions
+};
+
+/// Writes the file whole or not at all. Throws std::invalid_argument when the parts of the input do not
+/// belong together, std::runtime_error when the disk refuses; an existing file then stands.
+void write_report(const std::filesystem::path& path, const ReportInput& input);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/studies/report/summary.hpp>
+#include <drawpoint/studies/report/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drawpoint::studies::detail {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double good_nrmse = 0.1, fair_nrmse = 0.2;
+constexpr Eigen::Index enough_points = 10;
+constexpr double enough_coverage = 0.75;
+
+bool maximized(const doe::Response& r) { return r.goal == doe::Goal::maximize; }
+
+/// Row of the front where an objective is best.
+Eigen::Index best_row(const pareto::Front& front, Eigen::Index column, bool maximize) {
+  Eigen::Index row = 0;
+  if (maximize)
+    front.Y.col(column).maxCoeff(&row);
+  else
+    front.Y.col(column).minCoeff(&row);
+  return row;
+}
+
+std::string superlative(const doe::Response& r) { return maximized(r) ? "highest" : "lowest"; }
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// "production 412 kg/s, joint damage 22 s", leaving one objective out when it was just told (-1: none).
+std::string values_text(const ReportInput& input, Eigen::Index row, Eigen::Index without) {
+  const auto chosen = objectives(input.problem);
+  std::string text;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (static_cast<Eigen::Index>(k) == without) continue;
+    const doe::Response& r = input.problem.responses[chosen[k]];
+    text += (text.empty() ? "" : ", ") + pretty(r.name) + " " +
+            number_with_unit(input.front.Y(row, static_cast<Eigen::Index>(k)), r.unit);
+  }
+  return text;
+}
+
+json cards(const ReportInput& input) {
+  json all = json::array();
+  const auto chosen = objectives(input.problem);
+  for (std::size_t k = 0; k < chosen.size() && k < 3 && input.front.Y.rows() > 0; ++k) {
+    const doe::Response& r = input.problem.responses[chosen[k]];
+    const auto row = best_row(input.front, static_cast<Eigen::Index>(k), maximized(r));
+    all.push_back({{"label", capital(superlative(r)) + " " + pretty(r.name) + " predicted"},
+                   {"value", number(input.front.Y(row, static_cast<Eigen::Index>(k)))},
+                   {"unit", r.unit == "1" ? "" : r.unit},
+                   {"note", "at " + point_text(input.problem, input.front.X.row(row).transpose())}});
+  }
+  const std::size_t training = input.training.rows.size(), validation = input.validation.rows.size();
+  const int failed = input.training.failed() + input.validation.failed();
+  all.push_back(
+      {{"label", "Simulated runs"},
+       {"value", std::to_string(training + validation)},
+       {"unit", ""},
+       {"note", std::to_string(training) + " training, " + std::to_string(validation) + " validation; " +
+                    (failed == 0 ? "none" : std::to_string(failed)) + " failed"}});
+  return all;
+}
+
+std::string best_simulated(const ReportInput& input, std::size_t response) {
+  const bool up = maximized(input.problem.responses[response]);
+  const doe::Evaluation* best = nullptr;
+  const auto value = [&](const doe::Evaluation& e) {
+    return e.outcome.values()[static_cast<Eigen::Index>(response)];
+  };
+  for (const auto* table : {&input.training, &input.validation})
+    for (const doe::Evaluation& e : table->rows)
+      if (!e.outcome.failed() && (!best || (up ? value(e) > value(*best) : value(e) < value(*best))))
+        best = &e;
+  if (!best) return "";
+  return "; the best run simulated so far reached " +
+         number_with_unit(value(*best), input.problem.responses[response].unit) + " (run " +
+         std::to_string(best->run) + ")";
+}
+
+std::string best_sentence(const ReportInput& input, std::size_t k, std::size_t response) {
+  const doe::Response& r = input.problem.responses[response];
+  const auto column = static_cast<Eigen::Index>(k);
+  const auto row = best_row(input.front, column, maximized(r));
+  const std::string others = values_text(input, row, column);
+  return "The " + superlative(r) + " " + pretty(r.name) + " that the surrogates predict is " +
+         number_with_unit(input.front.Y(row, column), r.unit) + ", at " +
+         point_text(input.problem, input.front.X.row(row).transpose()) +
+         (others.empty() ? "" : ", where they expect " + others) + best_simulated(input, response) + ".";
+}
+
+std::string range_sentence(const ReportInput& input) {
+  const auto chosen = objectives(input.problem);
+  std::string text =
+      "Over the " + counted(static_cast<std::size_t>(input.front.Y.rows()), "point") + " of the trade-off, ";
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const doe::Response& r = input.problem.responses[chosen[k]];
+    const auto column = input.front.Y.col(static_cast<Eigen::Index>(k));
+    text += (k == 0                   ? ""
+             : k + 1 == chosen.size() ? " and "
+                                      : ", ") +
+            pretty(r.name) + " goes from " + number(column.minCoeff()) + " to " +
+            number_with_unit(column.maxCoeff(), r.unit);
+  }
+  return text + ".";
+}
+
+std::string balanced_sentence(const ReportInput& input) {
+  const Eigen::Index row = balanced_point(input.problem, input.front);
+  return "A balanced choice, nearest to the best of every objective at once, is " +
+         point_text(input.problem, input.front.X.row(row).transpose()) + ": " + values_text(input, row, -1) +
+         ".";
+}
+
+/// Which variable matters most for each response.
+std::string driver_sentence(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
+  std::string text;
+  for (std::size_t j = 0; j < influence.size(); ++j) {
+    Eigen::Index k = 0;
+    if (influence[j].maxCoeff(&k) <= 0.0) continue;
+    text += (text.empty() ? "" : "; ") + pretty(input.problem.responses[j].name) + " depends most on " +
+            pretty(input.problem.variables[static_cast<std::size_t>(k)].name);
+  }
+  return text.empty() ? "" : capital(text) + ".";
+}
+
+json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
+  json all = json::array();
+  const auto chosen = objectives(input.problem);
+  const auto done = input.training.rows.size() - static_cast<std::size_t>(input.training.failed());
+  if (done == 0) all.push_back("No training run succeeded, so there is nothing to fit, predict or search.");
+  if (input.front.Y.rows() > 0 && !chosen.empty()) {
+    all.push_back(best_sentence(input, 0, chosen[0]));
+    if (chosen.size() > 1) all.push_back(range_sentence(input));
+    if (chosen.size() > 1) all.push_back(balanced_sentence(input));
+  }
+  const std::string drivers = driver_sentence(input, influence);
+  if (input.problem.variables.size() > 1 && !drivers.empty()) all.push_back(drivers);
+  return all;
+}
+
+json grade(const ReportInput& input, std::size_t j) {
+  const doe::Response& r = input.problem.responses[j];
+  json verdict{{"response", pretty(r.name)}, {"grade", "unknown"}};
+  if (j >= input.models.size()) {
+    verdict["text"] = "no surrogate could be fitted";
+  } else if (j >= input.validations.size() || !std::isfinite(input.validations[j].nrmse)) {
+    verdict["text"] = "was not checked on independent runs that differ";
+  } else {
+    const kriging::Validation& v = input.validations[j];
+    verdict["grade"] = v.nrmse <= good_nrmse ? "good" : v.nrmse <= fair_nrmse ? "fair" : "poor";
+    verdict["text"] = "is predicted with a typical error of " + number_with_unit(v.rmse, r.unit) + ", " +
+                      percent(v.nrmse) + " of the range seen" +
+                      (v.nrmse > fair_nrmse ? ": read trends, not values" : "");
+  }
+  return verdict;
+}
+
+double coverage(const kriging::Model& model, const kriging::Validation& v) {
+  const Eigen::ArrayXd reach = 2.0 * deviation_of_runs(model, v).array();
+  return ((v.observed - v.predicted).array().abs() <= reach).cast<double>().mean();
+}
+
+void caution_about_models(const ReportInput& input, json& all) {
+  for (std::size_t j = 0; j < std::min(input.models.size(), input.validations.size()); ++j) {
+    const kriging::Validation& v = input.validations[j];
+    const std::string name = pretty(input.problem.responses[j].name);
+    if (v.observed.size() == 0) continue;
+    if (v.nrmse > fair_nrmse)
+      all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
+                    "): add runs, or read only its trends.");
+    const double within = coverage(input.models[j], v);
+    if (v.observed.size() >= enough_points && within < enough_coverage)
+      all.push_back("The error bars of " + name + " are too narrow: only " + percent(within) +
+                    " of the validation runs lie within two standard deviations.");
+  }
+}
+
+void caution_about_extrapolation(const ReportInput& input, json& all) {
+  const auto chosen = objectives(input.problem);
+  for (std::size_t k = 0; k < chosen.size() && input.front.Y.rows() > 0; ++k) {
+    const doe::Response& r = input.problem.responses[chosen[k]];
+    const Eigen::VectorXd y = input.training.y(r.name);
+    if (y.size() == 0) continue;
+    const auto column = static_cast<Eigen::Index>(k);
+    const double best = input.front.Y(best_row(input.front, column, maximized(r)), column);
+    const double range = y.maxCoeff() - y.minCoeff();
+    const double beyond = maximized(r) ? best - y.maxCoeff() : y.minCoeff() - best;
+    if (range > 0.0 && beyond > 0.1 * range)
+      all.push_back("The " + superlative(r) + " " + pretty(r.name) + " predicted, " +
+                    number_with_unit(best, r.unit) + ", lies " + percent(beyond / range) +
+                    " of the range beyond every training run: simulate it before believing it.");
+  }
+}
+
+json cautions(const ReportInput& input) {
+  json all = input.warnings;
+  const std::size_t runs = input.training.rows.size() + input.validation.rows.size();
+  const auto failed = static_cast<std::size_t>(input.training.failed() + input.validation.failed());
+  if (failed > 0)
+    all.push_back(std::to_string(failed) + " of " + counted(runs, "run") + " failed (" +
+                  percent(static_cast<double>(failed) / static_cast<double>(runs)) +
+                  "); the section on the runs shows where.");
+  const Eigen::Index points =
+      static_cast<Eigen::Index>(input.validation.rows.size()) - input.validation.failed();
+  if (points > 0 && points < enough_points)
+    all.push_back("Only " + counted(static_cast<std::size_t>(points), "validation point") +
+                  ": the errors stated here are rough; use 10 or more.");
+  caution_about_models(input, all);
+  caution_about_extrapolation(input, all);
+  return all;
+}
+
+}  // namespace
+
+Eigen::VectorXd deviation_of_runs(const kriging::Model& model, const kriging::Validation& validation) {
+  return (validation.variance.array() + model.nugget() * model.process_variance()).max(0.0).sqrt();
+}
+
+std::vector<std::size_t> objectives(const doe::Problem& problem) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    if (doe::is_objective(problem.responses[j].goal)) chosen.push_back(j);
+  return chosen;
+}
+
+Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front) {
+  if (front.Y.rows() == 0) return -1;
+  const auto chosen = objectives(problem);
+  Eigen::VectorXd distance = Eigen::VectorXd::Zero(front.Y.rows());
+  for (Eigen::Index k = 0; k < front.Y.cols(); ++k) {
+    const auto y = front.Y.col(k).array();
+    const double low = y.minCoeff(), high = y.maxCoeff();
+    if (!(high > low)) continue;
+    const double best = maximized(problem.responses[chosen[static_cast<std::size_t>(k)]]) ? high : low;
+    distance.array() += ((y - best) / (high - low)).square();
+  }
+  Eigen::Index row = 0;
+  distance.minCoeff(&row);
+  return row;
+}
+
+json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
+  json trust = json::array();
+  for (std::size_t j = 0; j < input.problem.responses.size(); ++j) trust.push_back(grade(input, j));
+  return {{"cards", cards(input)},
+          {"sentences", sentences(input, influence)},
+          {"trust", std::move(trust)},
+          {"cautions", cautions(input)}};
+}
+
+}  // namespace drawpoint::studies::detail

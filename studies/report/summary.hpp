@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The report in words: the figures that matter, sentences, how far to trust each surrogate, and cautions.
+///
+/// Grades: NRMSE up to 0.1 good, up to 0.2 fair, above poor, without validation runs unknown. Cautions are
+/// raised for failed runs, a poor NRMSE, fewer than 10 validation points, error bars that are too narrow
+/// (fewer than 3 in 4 validation points within two standard deviations), and a predicted best beyond
+/// everything simulated.
+
+#include <drawpoint/studies/report/report.hpp>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies::detail {
+
+/// Standard deviation of a new run at each validation point: the model's uncertainty and the run-to-run
+/// noise.
+Eigen::VectorXd deviation_of_runs(const kriging::Model& model, const kriging::Validation& validation);
+
+/// Row of the front nearest to the ideal point, each objective scaled to its range on the front; -1 without a
+/// front.
+Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front);
+
+/// Places in Problem::responses of the objectives, the order of the front's columns.
+std::vector<std::size_t> objectives(const doe::Problem& problem);
+
+/// {cards, sentences, trust, cautions}. influence: one vector a model, as many as input.models.
+nlohmann::json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence);
+
+}  // namespace drawpoint::studies::detail

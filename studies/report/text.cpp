@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/studies/report/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace drawpoint::studies::detail {
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "n/a";
+  if (value == 0.0) return "0";
+  char text[64];
+  const double size = std::abs(value);
+  if (size >= 1e6 || size < 1e-4) {
+    std::snprintf(text, sizeof text, "%.2e", value);
+  } else {
+    const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))));
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  }
+  return text;
+}
+
+std::string number_with_unit(double value, const std::string& unit) {
+  return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "n/a";
+  char text[64];
+  std::snprintf(text, sizeof text, share != 0.0 && std::abs(share) < 0.1 ? "%.1f %%" : "%.0f %%",
+                100.0 * share);
+  return text;
+}
+
+std::string pretty(const std::string& name) {
+  std::string text = name;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string point_text(const doe::Problem& problem, const Eigen::VectorXd& x) {
+  std::string text;
+  for (std::size_t k = 0; k < problem.variables.size(); ++k) {
+    const doe::Variable& v = problem.variables[k];
+    text +=
+        (k ? ", " : "") + pretty(v.name) + " = " + number_with_unit(x[static_cast<Eigen::Index>(k)], v.unit);
+  }
+  return text;
+}
+
+}  // namespace drawpoint::studies::detail

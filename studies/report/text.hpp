@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Numbers, names and points as words for the report's sentences.
+
+#include <drawpoint/doe/problem.hpp>
+
+#include <Eigen/Core>
+#include <string>
+
+namespace drawpoint::studies::detail {
+
+/// Three significant digits without an exponent between 1e-4 and 1e6: "412", "0.0746"; "n/a" when not finite.
+std::string number(double value);
+
+std::string number_with_unit(double value, const std::string& unit);
+std::string percent(double share);
+std::string pretty(const std::string& name);                       ///< underscores become spaces
+std::string counted(std::size_t count, const std::string& thing);  ///< "1 run", "2 runs"
+
+/// "alpha = 1.2, beta = 0.8".
+std::string point_text(const doe::Problem& problem, const Eigen::VectorXd& x);
+
+}  // namespace drawpoint::studies::detail

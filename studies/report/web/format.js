@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers, units and names as text, and the palette that all figures share.
+
+export const colour = {
+  ink: '#1c2733', muted: '#5f6e7c', grid: '#e6eaee', training: '#2b6592', validation: '#d9822b',
+  accent: '#b4531a', failed: '#b3372f', soil: '#cbb79c',
+};
+export const series = ['#2b6592', '#d9822b', '#4d8f63', '#8a5a9e', '#b3372f', '#6c7a86', '#b8992c', '#3f9aa8'];
+export const scale = 'Viridis';
+
+export function number(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return 'n/a';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(digits - 1);
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  return value.toFixed(Math.min(decimals, 8));
+}
+
+export const percent = (value) => (value === null || !Number.isFinite(value) ? 'n/a' : `${number(100 * value, 2)} %`);
+export const pretty = (name) => name.replaceAll('_', ' ');
+export const hasUnit = (unit) => unit !== '' && unit !== '1';
+export const labelled = (item) => pretty(item.name) + (hasUnit(item.unit) ? ` [${item.unit}]` : '');
+export const withUnit = (value, item) => number(value) + (hasUnit(item.unit) ? ' ' + item.unit : '');
+
+/// Text for Plotly, which reads a little markup and its own %{...} patterns.
+export const plain = (text) => String(text).replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;')
+  .replaceAll('%{', '% {');
+export const axisLabel = (item) => plain(labelled(item));

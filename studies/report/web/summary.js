@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// Head of the page and the summary in words. The sentences come ready in the data.
+
+import {el, section, table} from './dom.js';
+import {labelled, number} from './format.js';
+
+export function header(data) {
+  return el('header', {}, el('div', {class: 'inner'},
+    el('p', {class: 'kicker'}, 'Drawpoint study report'), el('h1', {}, data.study), data.about ? el('p', {class: 'about'}, data.about) : null));
+}
+
+export function navigation(sections) {
+  return el('nav', {'aria-label': 'Sections'}, el('div', {class: 'inner'},
+    sections.map((s) => el('a', {href: '#' + s.id}, s.querySelector('h2').textContent))));
+}
+
+export function summary(data) {
+  const {cards, sentences, trust, cautions} = data.summary;
+  return section('summary', 'In brief', null,
+    cards.length ? el('div', {class: 'cards'}, cards.map(card)) : null,
+    sentences.map((text) => el('p', {class: 'sentence'}, text)),
+    el('div', {class: 'columns'},
+      el('div', {}, el('h3', {}, 'How far to trust it'), el('ul', {class: 'trust'}, trust.map(verdict))),
+      cautions.length ? el('div', {}, el('h3', {}, 'Cautions'), el('ul', {class: 'cautions'}, cautions.map((text) => el('li', {}, text)))) : null));
+}
+
+const card = ({label, value, unit, note}) => el('div', {class: 'card'}, el('span', {class: 'label'}, label),
+  el('span', {class: 'value'}, value, unit ? el('small', {}, ' ' + unit) : null), el('span', {class: 'note'}, note));
+
+const verdict = ({response, grade, text}) => el('li', {}, el('span', {class: 'grade ' + grade}, grade), el('span', {}, el('b', {}, response), ' ' + text));
+
+export function facts(data) {
+  const {variables, responses} = data.problem;
+  const inputs = table([{title: 'Variable', text: true}, {title: 'Lower', format: number}, {title: 'Upper', format: number}],
+    variables.map((v) => [labelled(v), v.lower, v.upper]), {sortable: false});
+  const goals = {minimize: 'as small as possible', maximize: 'as large as possible', at_most: 'at most', at_least: 'at least', record: 'recorded only'};
+  const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}],
+    responses.map((r) => [labelled(r), goals[r.goal] + (r.limit === null ? '' : ' ' + number(r.limit))]), {sortable: false});
+  const rows = [...data.facts];
+  if (data.command) rows.unshift(['Command', el('code', {}, data.command)]);
+  return section('making', 'How it was made', null, el('div', {class: 'columns'}, inputs.node, outputs.node),
+    rows.length ? el('dl', {class: 'facts'}, rows.map(([label, value]) => [el('dt', {}, label), el('dd', {}, value)]).flat()) : null);
+}
+

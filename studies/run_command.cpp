@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/analysis.hpp>
+#include <drawpoint/studies/commands.hpp>
+#include <drawpoint/studies/execution.hpp>
+#include <drawpoint/studies/folder.hpp>
+#include <drawpoint/studies/interrupt.hpp>
+#include <drawpoint/studies/session.hpp>
+#include <drawpoint/studies/summary.hpp>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+std::string resume_message(const Folder& folder) {
+  return "interrupted; every finished run is stored in " + folder.store().string() +
+         "; give the same command again to go on\n";
+}
+
+/// Fits, searches, writes the report and prints the result.
+int conclude(const Study& study, const Store& store, const Folder& folder, const Settings& settings) {
+  const int messages = message_descriptor(settings);
+  dprintf(messages, "fitting the models and searching for the front ...\n");
+  const Summary summary = analyse(study, store, folder, settings.command);
+  dprintf(messages, "%s", text(summary).c_str());
+  if (!summary.error.empty()) dprintf(STDERR_FILENO, "%s\n", summary.error.c_str());
+  if (settings.json) std::printf("%s\n", json_line(summary).c_str());
+  return summary.error.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int run_command(const Study& study, const Settings& settings) {
+  const Folder folder{settings.out};
+  if (std::filesystem::exists(folder.store())) open_store(study, folder);  // before anything is written there
+  make_writable(folder);
+  const FolderLock lock(folder);
+  InterruptGuard guard(resume_message(folder));
+  try {
+    Store store = plan_study(study, folder, settings);
+    prepare_shared(study, folder, message_descriptor(settings));
+    carry_out_runs(store, folder, settings, message_descriptor(settings));
+    guard.end_at_once();
+    return conclude(study, store, folder, settings);
+  } catch (const Interrupted&) {
+    dprintf(STDERR_FILENO, "%s", resume_message(folder).c_str());
+    return 130;
+  }
+}
+
+int report_command(const Study& study, const Settings& settings) {
+  const Folder folder{settings.out};
+  const Store store = open_store(study, folder);
+  return conclude(study, store, folder, settings);
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/plan.hpp>
+#include <drawpoint/studies/session.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+[[noreturn]] void refuse(const Folder& folder, const std::string& difference) {
+  throw UsageError("studies: " + folder.path.string() + " holds another study: " + difference +
+                   "; choose another folder with --out, or move this one away");
+}
+
+void require_same_options(const Identity& stored, const Settings& settings, const Folder& folder) {
+  if (settings.seed && *settings.seed != stored.seed) {
+    refuse(folder,
+           "seed " + std::to_string(stored.seed) + " there, " + std::to_string(*settings.seed) + " here");
+  }
+  if (settings.replicates && *settings.replicates != stored.replicates) {
+    refuse(folder, "replicates " + std::to_string(stored.replicates) + " there, " +
+                       std::to_string(*settings.replicates) + " here");
+  }
+}
+
+Store new_store(const Study& study, const Folder& folder, const Settings& settings) {
+  const int runs = settings.runs.value_or(study.defaults.runs);
+  return Store::create(folder.store(), {.study = study.name,
+                                        .problem = study.problem,
+                                        .seed = settings.seed.value_or(1),
+                                        .replicates = settings.replicates.value_or(1),
+                                        .corners = has_corners(study.problem, runs)});
+}
+
+}  // namespace
+
+Store open_store(const Study& study, const Folder& folder) {
+  if (!std::filesystem::exists(folder.store())) {
+    throw std::runtime_error(
+        "studies: there is no study in " + folder.path.string() +
+        " (no file study.db); name its folder with --out, or start one with the command run");
+  }
+  Store store = Store::open(folder.store());
+  const Identity& stored = store.identity();
+  if (stored.study != study.name)
+    refuse(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");
+  const std::string text = difference(stored.problem, study.problem);
+  if (!text.empty()) refuse(folder, text);
+  return store;
+}
+
+Store plan_study(const Study& study, const Folder& folder, const Settings& settings) {
+  const bool found = std::filesystem::exists(folder.store());
+  Store store = found ? open_store(study, folder) : new_store(study, folder, settings);
+  require_same_options(store.identity(), settings, folder);
+  const std::vector<Run> existing = store.runs();
+  const bool resumes = !existing.empty();
+  const int runs =
+      settings.runs.value_or(resumes ? count_points(existing, Kind::training) : study.defaults.runs);
+  const int validation = settings.validation.value_or(resumes ? count_points(existing, Kind::validation)
+                                                              : study.defaults.validation);
+  const auto added = runs_to_add(store.identity(), existing, runs, validation);
+  store.plan_again(settings.retry_failed);
+  store.add(added);
+  return store;
+}
+
+}  // namespace drawpoint::studies

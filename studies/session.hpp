@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Opening the store that belongs to a study and to the options given, and refusing any other.
+
+#include <drawpoint/studies/folder.hpp>
+#include <drawpoint/studies/settings.hpp>
+#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/study.hpp>
+
+namespace drawpoint::studies {
+
+/// The existing store. Throws std::runtime_error if there is none or it is unsound, UsageError if it belongs
+/// to another study or to another problem, saying what differs.
+Store open_store(const Study& study, const Folder& folder);
+
+/// The store of this study, new if there is none, with all runs that the options ask for planned. Options
+/// that are not given are those of the store. Throws like open_store, and UsageError if seed, replicates or
+/// numbers of points do not fit what is stored.
+Store plan_study(const Study& study, const Folder& folder, const Settings& settings);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the command line says, after parsing. An empty optional means "as stored in the output folder, else
+/// the study's default", so that a study resumes without repeating its options.
+
+#include <drawpoint/doe/outcome.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// The user asked for something that cannot be: exit code 2. Everything else that goes wrong is exit code 1.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Options of the commands that work on an output folder: run, status, report.
+struct Settings {
+  std::filesystem::path out = {};
+  std::optional<int> runs = {};        ///< training points, 2 or more
+  std::optional<int> validation = {};  ///< validation points, 0 or more
+  std::optional<int> replicates = {};  ///< runs a training point, each with a seed of its own, 1 or more
+  std::optional<doe::Seed> seed = {};  ///< study seed
+  int jobs = 1;                        ///< processes at a time, 1 or more
+  double time_limit = 0.0;             ///< [s] a run may take; 0 means no limit
+  bool retry_failed = false;
+  bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
+  std::string command = {};  ///< the command line as typed, for the report
+};
+
+/// Options of `evaluate`, which runs one point in this process.
+struct PointSettings {
+  std::vector<double> x = {};  ///< in the order of the problem's variables, natural units
+  doe::Seed seed = 1;
+  std::filesystem::path log = {};     ///< empty: a temporary file
+  std::filesystem::path shared = {};  ///< folder that Study::prepare fills
+  int result_descriptor = -1;         ///< open file descriptor that takes the outcome as JSON; -1: print it
+  bool json = false;
+};
+
+}  // namespace drawpoint::studies

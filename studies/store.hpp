@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
+///
+///     study(key, value)  name, problem (JSON), seed, replicates, corners, created
+///     runs               one row a run: id, kind, point, replicate, seed, status, reason, seconds, started,
+///     finished,
+///                        then one REAL column for each variable and each response, named as in the problem
+///
+/// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.hpp
+/// names the columns.
+///
+/// status is planned, running, done or failed; a row stays "running" when the study is killed, until the next
+/// `run`.
+///
+/// Every change is one transaction, on disk when the call returns. A file that is not a sound store of this
+/// schema is refused and left as it is. All failures throw std::runtime_error that names the file and says
+/// what to do.
+
+#include <drawpoint/studies/identity.hpp>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace SQLite {
+class Database;
+}
+
+namespace drawpoint::studies {
+
+enum class Kind { training, validation };
+enum class Status { planned, running, done, failed };
+
+std::string name_of(Kind kind);
+std::string name_of(Status status);
+
+/// One run. `y` and `seconds` have a meaning when done (or failed), `reason` when failed.
+struct Run {
+  std::int64_t id = 0;  ///< unique, 1, 2, ...; the run log's name carries it
+  Kind kind = Kind::training;
+  std::int64_t point = 0;  ///< number of the design point within its kind, from 1; replicates share it
+  int replicate = 0;
+  doe::Seed seed = 0;
+  Eigen::VectorXd x;
+  Status status = Status::planned;
+  Eigen::VectorXd y;
+  std::string reason;
+  double seconds = 0.0;
+  std::string started, finished;
+};
+
+class Store {
+ public:
+  /// A new, empty store. It appears under `file` complete or not at all. Requires that `file` does not exist.
+  static Store create(const std::filesystem::path& file, const Identity& identity);
+  static Store open(const std::filesystem::path& file);
+
+  Store(Store&&) noexcept;
+  ~Store();
+
+  const Identity& identity() const { return identity_; }
+  std::vector<Run> runs() const;  ///< in order of id
+
+  void add(const std::vector<Run>& planned);  ///< all or none
+  void mark_running(std::int64_t id);
+  void mark_planned(std::int64_t id);
+  void save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds);
+  void save_failed(std::int64_t id, const std::string& reason, double seconds);
+  /// Runs that were in flight when a process died become planned again; with `failed`, so do the failed ones.
+  void plan_again(bool failed);
+
+ private:
+  Store(std::filesystem::path file, std::unique_ptr<SQLite::Database> database);
+  void check_format() const;
+  void read_identity();
+
+  std::filesystem::path file_;
+  std::unique_ptr<SQLite::Database> database_;
+  Identity identity_;
+  std::vector<std::string> x_columns_, y_columns_;  ///< quoted
+};
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// A study is a problem, a black box and a name; from these, `run` makes a whole program:
+///
+///     int main(int argc, char** argv) {
+///       return drawpoint::studies::run(argc, argv, {.name = "my_study", .problem = problem, .black_box =
+///       f});
+///     }
+///
+/// The program has the commands run, status, report and evaluate (docs/studies.md). Every run is a process of
+/// its own with one thread, so that a crash is one failed run; each finished run is stored before the next
+/// one starts. Equal (x, seed) must give equal outcomes: a run that was lost is simply run again.
+
+#include <drawpoint/doe/outcome.hpp>
+#include <drawpoint/doe/problem.hpp>
+
+#include <Eigen/Core>
+#include <concepts>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace drawpoint::studies {
+
+/// Where one run may write and read.
+struct RunContext {
+  std::filesystem::path log;  ///< run log that this run may write; its folder exists, the file does not
+  std::filesystem::path
+      shared;  ///< folder common to all runs of the study, filled by Study::prepare; read only
+};
+
+/// How many runs a study makes when the command line does not say.
+struct Defaults {
+  int runs = 40;        ///< training runs, at least 2
+  int validation = 10;  ///< independent validation runs, may be 0
+};
+
+/// Any of f(x), f(x, seed), f(x, seed, context) whose result converts to doe::Outcome, behind one type.
+class StudyFunction {
+ public:
+  using Erased = std::function<doe::Outcome(const Eigen::VectorXd&, doe::Seed, const RunContext&)>;
+
+  StudyFunction() = default;
+
+  template <class F>
+  requires(!std::same_as<std::remove_cvref_t<F>, StudyFunction>) StudyFunction(F f)
+      : f_(erase(std::move(f))) {}
+
+  doe::Outcome operator()(const Eigen::VectorXd& x, doe::Seed seed, const RunContext& context) const {
+    return f_(x, seed, context);
+  }
+  explicit operator bool() const { return static_cast<bool>(f_); }
+
+ private:
+  template <class F>
+  static Erased erase(F f) {
+    using X = const Eigen::VectorXd&;
+    if constexpr (std::is_invocable_r_v<doe::Outcome, const F&, X, doe::Seed, const RunContext&>) {
+      return f;
+    } else if constexpr (std::is_invocable_r_v<doe::Outcome, const F&, X, doe::Seed>) {
+      return [f = std::move(f)](X x, doe::Seed seed, const RunContext&) { return doe::Outcome(f(x, seed)); };
+    } else {
+      static_assert(
+          std::is_invocable_r_v<doe::Outcome, const F&, X>,
+          "drawpoint: not a study's black box. Expected a callable f(x), f(x, seed) or f(x, seed, context) "
+          "with const Eigen::VectorXd& x, drawpoint::doe::Seed seed, "
+          "const drawpoint::studies::RunContext& context "
+          "and a result that converts to drawpoint::doe::Outcome");
+      return [f = std::move(f)](X x, doe::Seed, const RunContext&) { return doe::Outcome(f(x)); };
+    }
+  }
+
+  Erased f_;
+};
+
+/// All that makes a study. Name: letters, digits, '_' and '-'; it names the default output folder
+/// results/<name>.
+struct Study {
+  std::string name = {};
+  doe::Problem problem = {};
+  StudyFunction black_box = {};
+  std::string about = {};  ///< one or two sentences for the report's head
+  Defaults defaults = {};
+  /// Called once, before the first run, with an empty folder; may take long. Everything it writes is kept or
+  /// nothing.
+  std::function<void(const std::filesystem::path& shared)> prepare = {};
+  /// Figures of one run for the report, from its log: a JSON array of panels (report/report.hpp lists the
+  /// kinds).
+  std::function<nlohmann::json(const std::filesystem::path& log)> illustrate = {};
+};
+
+/// The whole command line. Returns the exit code: 0 success, 1 failure, 2 wrong usage, 130 interrupted.
+/// Prints; never throws.
+int run(int argc, char** argv, const Study& study);
+
+}  // namespace drawpoint::studies

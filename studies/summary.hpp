@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::studies {
+
+struct Summary {
+  std::string study = {};
+  int training = 0, validation = 0;                        ///< runs in the store, failed ones among them
+  int failed = 0;                                          ///< of both kinds
+  std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
+  int front = 0;                                           ///< points of the Pareto front
+  std::filesystem::path report = {};                       ///< empty if there is none
+  std::string error = {};                                  ///< why there is none
+};
+
+/// {"study", "runs", "training", "validation", "failed", "nrmse": {response: number or null}, "front",
+/// "report": path or null}, and "error" if there is one. `runs` counts the rows of the store's table.
+std::string json_line(const Summary& summary);
+
+/// Several lines, each with its end.
+std::string text(const Summary& summary);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,23 @@
+# Compiles SOURCE with COMPILER and the folders INCLUDES (separated by |). With lines `// expect: TEXT` in SOURCE the compilation
+# has to fail and its first error to hold every TEXT; without one it has to succeed.
+file(STRINGS ${SOURCE} expected REGEX "^// expect: ")
+string(REPLACE "// expect: " "" expected "${expected}")
+string(REPLACE "|" ";-I" folders "-I${INCLUDES}")
+execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only ${folders} ${SOURCE}
+                RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(expected STREQUAL "")
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "does not compile:\n${output}")
+  endif()
+  return()
+endif()
+if(result EQUAL 0)
+  message(FATAL_ERROR "compiles, but should stop with: ${expected}")
+endif()
+string(REGEX MATCH "error: [^\n]*" first_error "${output}")
+foreach(text IN LISTS expected)
+  string(FIND "${first_error}" "${text}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "the first error does not say: ${text}\nbut: ${first_error}\n${output}")
+  endif()
+endforeach()

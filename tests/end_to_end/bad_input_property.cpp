@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// Whatever goes wrong is said in clear words, with exit code 2 for wrong usage and 1 for failure, and
+/// nothing is lost.
+
+#include "support.hpp"
+
+namespace drawpoint::test {
+namespace {
+
+const std::string study = TROUBLED_STUDY;
+
+std::string with(const std::string& trouble) { return "env TROUBLE=" + trouble + " " + study + " "; }
+
+class BadInput : public StudyTest {
+ protected:
+  void expect_refused(const std::string& line, int code, const std::string& words) {
+    const Ended end = run(line);
+    EXPECT_EQ(end.code, code) << line << "\n" << end.err;
+    EXPECT_TRUE(contains(end.err, words));
+    EXPECT_EQ(end.out, "");
+  }
+
+  /// The study ends well; its runs beyond x = 0.5 have failed, with this reason.
+  void expect_failed_runs(const std::string& trouble, const std::string& reason,
+                          const std::string& options = "") {
+    std::filesystem::remove_all(dir());
+    const Ended end = run(with(trouble) + "--runs 12 --validation 4 --json " + options + out());
+    ASSERT_EQ(end.code, 0) << end.err;
+    EXPECT_EQ(count("status = 'failed' AND x > 0.5 AND cost IS NULL"), count("x > 0.5"));
+    EXPECT_EQ(count("status = 'done'"), count("x <= 0.5"));
+    EXPECT_EQ(end.json()["failed"], count("x > 0.5"));
+    EXPECT_GE(count("status = 'failed'"), 4);
+    EXPECT_TRUE(
+        contains(query("SELECT group_concat(DISTINCT reason) FROM runs WHERE status = 'failed'"), reason));
+  }
+};
+
+TEST_F(BadInput, WrongUsage) {
+  expect_refused(study + " --runs -5" + out(), 2, "--runs: Value -5 not in range");
+  expect_refused(study + " --runs many" + out(), 2, "--runs");
+  expect_refused(study + " --validation -1" + out(), 2, "--validation");
+  expect_refused(study + " --jobs 0" + out(), 2, "--jobs");
+  expect_refused(study + " --seed -1" + out(), 2, "--seed");
+  expect_refused(study + " --sed 1" + out(), 2, "--sed");
+  expect_refused(study + " frobnicate", 2,
+                 "unknown command \"frobnicate\"; the commands are run, status, report, evaluate");
+  expect_refused(study + " evaluate --x 0.5", 2, "--x: got 1 values, need 2: x, y");
+  expect_refused(study + " evaluate --x=0.5,26", 2, "y = 26 deg is outside its range -5 to 25 deg");
+  EXPECT_FALSE(std::filesystem::exists(dir()));
+}
+
+TEST_F(BadInput, WrongBounds) {
+  expect_refused(with("bounds") + out(), 1,
+                 "variable \"y\": lower bound 25 deg is not below upper bound -5 deg; swap them");
+  EXPECT_FALSE(std::filesystem::exists(dir()));
+}
+
+TEST_F(BadInput, RunsThatThrow) { expect_failed_runs("throw", "the bucket is stuck"); }
+TEST_F(BadInput, RunsThatAreNotFinite) { expect_failed_runs("nan", "response \"wear\" is nan"); }
+TEST_F(BadInput, RunsWithAWrongCount) {
+  expect_failed_runs("count", "returned 3 values where the problem has 2 responses");
+}
+TEST_F(BadInput, RunsThatExit) { expect_failed_runs("exit", "ended with exit code 7"); }
+TEST_F(BadInput, RunsThatHang) {
+  expect_failed_runs("hang", "stopped after 0.5 s, its time limit", "--jobs 8 --time-limit 0.5");
+}
+
+TEST_F(BadInput, RunsThatCrashAndARetry) {
+  expect_failed_runs("crash", "ended by signal SIGSEGV (Segmentation fault); it printed logs/run_");
+  const std::string id = query("SELECT id FROM runs WHERE status = 'failed'");
+  EXPECT_EQ(contents(dir() / "logs" / ("run_" + std::string(4 - id.size(), '0') + id + ".txt")),
+            "about to crash\n");
+  EXPECT_EQ(run(study + out()).code, 0);
+  EXPECT_GE(count("status = 'failed'"), 4);  // not without being asked
+  EXPECT_EQ(run(study + " --retry-failed" + out()).code, 0);
+  EXPECT_EQ(count("status = 'done'"), 16);
+}
+
+TEST_F(BadInput, NothingButFailuresIsAFailureThatSaysWhy) {
+  const Ended end = run(with("all") + "--runs 5 --validation 2 --json" + out());
+  EXPECT_EQ(end.code, 1);
+  EXPECT_EQ(end.json()["failed"], 7);
+  EXPECT_TRUE(end.json()["report"].is_null());
+  EXPECT_TRUE(contains(end.err, "the bucket is stuck"));
+}
+
+TEST_F(BadInput, ABlackBoxThatPrintsDoesNotDisturbScripts) {
+  const Ended end = run(with("print") + "--runs 6 --validation 0 --json" + out());
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.json()["failed"], 0);
+  EXPECT_EQ(end.out.find('\n'), end.out.size() - 1);
+  EXPECT_EQ(contents(dir() / "logs" / "run_0001.txt"), "a black box that prints\n");
+}
+
+TEST_F(BadInput, PreparationIsKeptWholeOrNotAtAll) {
+  expect_refused(with("unprepared") + "--runs 6 --json" + out(), 1,
+                 "the preparation failed: exception: the pile does not settle");
+  EXPECT_FALSE(std::filesystem::exists(dir() / "shared"));
+  EXPECT_EQ(count("status = 'planned'"), 10);
+  const Ended end = run(with("shared") + "--json" + out());
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.json()["failed"], 0);
+  EXPECT_EQ(contents(dir() / "shared" / "pile.txt"), "settled\n");
+  EXPECT_EQ(contents(dir() / "logs" / "run_0010.h5").size(), 10u);
+}
+
+TEST_F(BadInput, FoldersOfOthersStayAsTheyAre) {
+  std::filesystem::create_directories(dir());
+  std::ofstream(database()) << "these are my notes, not a database\n";
+  expect_refused(study + out(), 1, "not a database");
+  EXPECT_EQ(contents(database()), "these are my notes, not a database\n");
+  std::filesystem::remove(database());
+  SQLite::Database(database().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE runs (mine TEXT)");
+  const std::string before = contents(database());
+  for (const std::string command : {" run", " status", " report"}) {
+    expect_refused(study + command + out(), 1, "not the store of a Drawpoint study");
+  }
+  EXPECT_EQ(contents(database()), before);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir()), {}), 1);
+}
+
+TEST_F(BadInput, AnotherStudyInTheFolder) {
+  ASSERT_EQ(run(study + " --runs 6 --validation 2" + out()).code, 0);
+  expect_refused(study + " --seed 5" + out(), 2, "seed 1 there, 5 here");
+  expect_refused(study + " --runs 5" + out(), 2, "use --runs 6 or more");
+  expect_refused(with("changed") + out(), 2, "variable \"y\": upper bound 25.0 there, 30.0 here");
+  expect_refused(FORMULA_DEMO + out(), 2, "name \"troubled\" there, \"formula_demo\" here");
+  EXPECT_EQ(count("status = 'done'"), 8);
+}
+
+TEST_F(BadInput, AReportNeedsAStudy) {
+  expect_refused(study + " report" + out(), 1, "there is no study in " + dir().string());
+  expect_refused(study + " status" + out(), 1, "there is no study in " + dir().string());
+}
+
+TEST_F(BadInput, AFullStandardOutput) {
+  const Ended end = run(study + " evaluate --x 0.1,0.1 > /dev/full");
+  EXPECT_EQ(end.code, 1);
+  EXPECT_TRUE(contains(end.err, "cannot write to standard output"));
+}
+
+/// Commands in a mount namespace of their own, with a small file system at dir(); skipped where the system
+/// allows none.
+class SmallDisk : public BadInput {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(dir());
+    if (run(inside("true", "3m")).code != 0) GTEST_SKIP() << "no mount namespaces here";
+  }
+  std::string inside(const std::string& script, const std::string& size) const {
+    return std::string("unshare ") + (geteuid() == 0 ? "-m" : "-rm") +
+           " sh -c 'mount -t tmpfs -o size=" + size + " tmpfs " + dir().string() + " && " + script + "'";
+  }
+};
+
+/// 3 MiB, of which 1 MiB must stay free. "large": logs of 0.3 MB, so the study stops before the disk is full.
+/// "huge": logs of 2 MB, so the second run meets the full disk itself.
+TEST_F(SmallDisk, AFullDiskStopsTheStudyAndMoreSpaceLetsItGoOn) {
+  for (const std::string size : {"large", "huge"}) {
+    const std::string command = with(size) + "--runs 8 --validation 2 --jobs 1" + out();
+    const std::string status = study + " status --json" + out();
+    const Ended end = run(inside(command + "; echo code $?; " + status + "; mount -o remount,size=90m " +
+                                     dir().string() + " && " + command + " && " + status,
+                                 "3m"));
+    EXPECT_EQ(end.code, 0) << end.err;
+    EXPECT_TRUE(contains(end.err,
+                         "is full; free some space and give the same command again; finished runs are kept"));
+    EXPECT_TRUE(contains(end.out, "code 1\n"));
+    const std::size_t start = end.out.find('{', end.out.find("code 1"));
+    const auto before =
+        nlohmann::json::parse(end.out.substr(start, end.out.find('\n', start) - start), nullptr, false);
+    EXPECT_GE(before["training"]["done"].get<int>(), size == "large" ? 5 : 1);
+    EXPECT_EQ(before["training"]["failed"], 0);
+    EXPECT_EQ(before["training"]["running"], 0);
+    EXPECT_EQ(end.json()["training"]["done"], 8);
+    EXPECT_EQ(end.json()["validation"]["done"], 2);
+  }
+}
+
+TEST_F(SmallDisk, AReadOnlyFolder) {
+  const Ended end = run(inside("mount -o remount,ro " + dir().string() + " && exec " + study + out(), "3m"));
+  EXPECT_EQ(end.code, 1);
+  EXPECT_TRUE(
+      contains(end.err, "Read-only file system; allow writing there, or choose another folder with --out"));
+}
+
+}  // namespace
+}  // namespace drawpoint::test

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// A study that is stopped, however it is stopped, loses at most the runs in flight, and the same command
+/// finishes it.
+
+#include "support.hpp"
+
+namespace drawpoint::test {
+namespace {
+
+const std::string slow = "env TROUBLE=slow " TROUBLED_STUDY " --runs 12 --validation 4 --jobs 2";
+
+class Interruption : public StudyTest {
+ protected:
+  std::string finished() const {
+    return query(
+        "SELECT group_concat(id || ' ' || started || ' ' || finished || ' ' || quote(cost)) FROM runs WHERE "
+        "status = 'done'");
+  }
+
+  /// Kept is what was done before; the rest follows.
+  void expect_resumes(const std::string& before) {
+    const Ended rest = run(slow + out() + " --json");
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_EQ(rest.json()["runs"], 16);
+    EXPECT_EQ(count("status = 'done'"), 16);
+    EXPECT_TRUE(contains("," + finished() + ",", before.substr(0, before.find(','))));
+    for (std::size_t at = 0; at != std::string::npos && at < before.size();) {
+      const std::size_t end = before.find(',', at);
+      EXPECT_TRUE(contains(finished(), before.substr(at, end - at)));
+      at = end == std::string::npos ? end : end + 1;
+    }
+  }
+};
+
+TEST_F(Interruption, CtrlCKeepsWhatIsDoneAndSaysHowToGoOn) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Command study(slow + out(), place_);
+    await_done(signal == SIGINT ? 2 : 5);
+    study.send(signal);
+    const Ended end = study.wait();
+    EXPECT_EQ(end.code, 130);
+    EXPECT_TRUE(contains(end.err, "give the same command again to go on"));
+    EXPECT_LT(count("status = 'done'"), 16);
+    EXPECT_EQ(count("status = 'running'"), 0);
+  }
+  expect_resumes(finished());
+}
+
+TEST_F(Interruption, AKilledStudyGoesOn) {
+  Command study(slow + out(), place_);
+  await_done(3);
+  study.send(SIGKILL);
+  EXPECT_EQ(study.wait().code, 128 + SIGKILL);
+  EXPECT_LT(count("status = 'done'"), 16);
+  expect_resumes(finished());
+}
+
+TEST_F(Interruption, OnlyOneProcessWorksInAFolder) {
+  Command study(slow + out(), place_);
+  await_done(1);
+  const Ended second = run(slow + out());
+  EXPECT_EQ(second.code, 1);
+  EXPECT_TRUE(contains(second.err, "is working in " + dir().string()));
+  const Ended status = run(TROUBLED_STUDY " status --json" + out());
+  EXPECT_EQ(status.code, 0);
+  EXPECT_GE(status.json()["training"]["done"].get<int>(), 1);
+  study.send(SIGINT);
+  EXPECT_EQ(study.wait().code, 130);
+}
+
+}  // namespace
+}  // namespace drawpoint::test

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// A study that misbehaves on demand, for the tests: the environment variable TROUBLE says how. Runs with x >
+/// 0.5 are the bad ones.
+
+#include <drawpoint/studies/study.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+using namespace drawpoint;
+
+namespace {
+
+std::string trouble() {
+  const char* value = std::getenv("TROUBLE");
+  return value == nullptr ? "" : value;
+}
+
+/// A run log of so many bytes.
+void write_log(const std::filesystem::path& file, std::size_t bytes) {
+  std::ofstream log(file, std::ios::binary);
+  log << std::string(bytes, 'x');
+  log.close();
+  if (!log) throw std::runtime_error("cannot write the run log");
+}
+
+doe::Outcome good(double x, double y) { return {x * x + y, (x - 1.0) * (x - 1.0) + 0.5 * y}; }
+
+doe::Outcome misbehave(const std::string& how, double x, double y) {
+  if (how == "throw") throw std::runtime_error("the bucket is stuck");
+  if (how == "nan") return {x, std::nan("")};
+  if (how == "count") return {x, y, 3.0};
+  if (how == "exit") std::exit(7);
+  if (how == "hang") std::this_thread::sleep_for(std::chrono::seconds(300));
+  if (how == "crash") {
+    std::cerr << "about to crash\n" << std::flush;
+    std::raise(SIGSEGV);
+  }
+  return good(x, y);
+}
+
+doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunContext& context) {
+  const std::string how = trouble();
+  std::cout << (how == "print" ? "a black box that prints\n" : "");
+  if (how == "slow") std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  if (how == "large") write_log(context.log, 300'000);
+  if (how == "huge") write_log(context.log, 2'000'000);
+  if (how == "shared" || how == "unprepared") {
+    if (!std::filesystem::exists(context.shared / "pile.txt")) return doe::Failure{"no pile"};
+    write_log(context.log, 10);
+  }
+  return x[0] > 0.5 || how == "all" ? misbehave(how == "all" ? "throw" : how, x[0], x[1]) : good(x[0], x[1]);
+}
+
+void prepare(const std::filesystem::path& shared) {
+  if (trouble() == "unprepared") throw std::runtime_error("the pile does not settle");
+  std::ofstream(shared / "pile.txt") << "settled\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  studies::Study study{
+      .name = "troubled",
+      .problem = {.variables = {{"x", "m", 0.0, 1.0}, {"y", "deg", -5.0, 25.0}},
+                  .responses = {{"cost", "EUR", doe::Goal::minimize}, {"wear", "1", doe::Goal::minimize}}},
+      .black_box = simulate,
+      .defaults = {.runs = 12, .validation = 4}};
+  if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
+  if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
+  if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
+  return studies::run(argc, argv, study);
+}

@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <drawpoint/tests/support/contact_pairs.hpp>
+#include <drawpoint/tests/support/rock_pairs.hpp>
+#include <functional>
+#include <set>
+
+using namespace drawpoint;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using engine::contact::box;
+using engine::contact::Collider;
+using engine::contact::ContactFinder;
+using engine::contact::ContactFinderOptions;
+using engine::contact::ConvexPolyhedron;
+using engine::contact::Cylinder;
+using engine::contact::HalfSpace;
+using engine::contact::Manifold;
+using support::collider_of;
+using support::pose_at;
+using support::share;
+
+namespace {
+
+constexpr double margin = 0.01;  // the finder's default
+
+Isometry3d moved(const Isometry3d& X, std::mt19937& rng, double distance, double angle) {
+  std::normal_distribution<double> normal;
+  Isometry3d result = X;
+  result.translation() += distance * Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
+  const Vector3d axis = Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
+  result.linear() = (Eigen::AngleAxisd(angle, axis) * X.linear()).eval();
+  return result;
+}
+
+// A loose heap of rocks over the ground, most of them touching others.
+class Heap {
+ public:
+  Heap(int count, unsigned seed, const ContactFinderOptions& options = {}) : rng_(seed), finder_(options) {
+    finder_.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
+    for (int k = 0; k < count; ++k) {
+      shapes_.push_back(share(support::rock(k).scaled(k % 2 == 0 ? 0.4 : 0.5)));
+      poses_.push_back(pose_at(Vector3d(0.36 * (k % 4), 0.36 * (k / 4 % 4), 0.2 + 0.36 * (k / 16)),
+                               support::random_rotation(rng_)));
+      add(k);
+    }
+  }
+  void add(int k) {
+    const int id = finder_.add(collider_of(shapes_[k], k));
+    finder_.set_pose(id, poses_[k]);
+    ids_.push_back(id);
+  }
+  void shake(double distance, double angle) {
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      poses_[k] = moved(poses_[k], rng_, distance, angle);
+      finder_.set_pose(ids_[k], poses_[k]);
+    }
+  }
+  ContactFinder& finder() { return finder_; }
+  const std::vector<support::SharedShape>& shapes() const { return shapes_; }
+  const std::vector<Isometry3d>& poses() const { return poses_; }
+
+ private:
+  std::mt19937 rng_;
+  ContactFinder finder_;
+  std::vector<support::SharedShape> shapes_;
+  std::vector<Isometry3d> poses_;
+  std::vector<int> ids_;
+};
+
+bool same_bits(const std::vector<Manifold>& x, const std::vector<Manifold>& y) {
+  if (x.size() != y.size()) return false;
+  for (std::size_t m = 0; m < x.size(); ++m) {
+    bool same = x[m].collider_a == y[m].collider_a && x[m].collider_b == y[m].collider_b &&
+                x[m].count == y[m].count && x[m].normal == y[m].normal;
+    for (int k = 0; same && k < x[m].count; ++k)
+      same = x[m].points[k].position == y[m].points[k].position && x[m].points[k].gap == y[m].points[k].gap &&
+             x[m].points[k].feature == y[m].points[k].feature;
+    if (!same) return false;
+  }
+  return true;
+}
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(ContactFinder, ReportsExactlyThePairsThatTouch) {
+  const ContactFinderOptions exact{.margin = margin, .reuse_distance = 0, .reuse_angle = 0, .hysteresis = 0};
+  Heap heap(40, 8, exact);
+  for (int step = 0; step < 15; ++step) {
+    // From small motions, looked up one by one, to large ones, for which the trees are swept as a whole.
+    heap.shake(step % 3 == 0 ? 0.1 : 0.004, 0.02);
+    std::set<std::pair<int, int>> found, expected;
+    for (const Manifold& m : heap.finder().find())
+      if (m.collider_a > 0) found.insert({m.collider_a - 1, m.collider_b - 1});
+    for (int a = 0; a < 40; ++a)
+      for (int b = a + 1; b < 40; ++b)
+        if (!support::contact_of({heap.shapes()[a], heap.poses()[a]}, {heap.shapes()[b], heap.poses()[b]})
+                 .empty())
+          expected.insert({a, b});
+    EXPECT_EQ(found, expected) << "step " << step;
+    EXPECT_GT(found.size(), 20u);
+  }
+}
+
+TEST(ContactFinder, ReusedManifoldsStayWithinTheStatedError) {
+  std::mt19937 rng(9);
+  const ContactFinderOptions options;
+  int reused = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    support::RockPair pair = support::random_rock_pair(rng);
+    ContactFinder finder(options);
+    const int a = finder.add(collider_of(pair.placed_a.shape, 0)),
+              b = finder.add(collider_of(pair.placed_b.shape, 1));
+    finder.set_pose(a, pair.placed_a.pose);
+    for (int step = 0; step < 10; ++step) {
+      const Isometry3d X_WB = moved(pair.placed_b.pose, rng, 0.9e-3, 1.9e-3);
+      finder.set_pose(b, step == 0 ? pair.placed_b.pose : X_WB);
+      const auto& found = finder.find();
+      if (step == 0 && found.empty()) break;
+      if (step == 0 || finder.times().computed > 0) continue;
+      ++reused;
+      const ConvexPolyhedron& small = std::get<ConvexPolyhedron>(*pair.placed_b.shape);
+      const double exact = support::best_separation(pair.a, small.transformed(X_WB));
+      const double bound = 2 * (options.reuse_distance + options.reuse_angle * small.radius());
+      if (exact <= 0) {
+        ASSERT_EQ(found.size(), 1u);
+        ASSERT_NEAR(support::least_gap(found[0]), exact, bound) << "trial " << trial;
+      }
+    }
+  }
+  EXPECT_GT(reused, 1000);
+}
+
+TEST(ContactFinder, CarriesAManifoldWithACommonMotionExactly) {
+  std::mt19937 rng(10);
+  const support::RockPair pair = support::random_rock_pair(rng);
+  ContactFinder finder;
+  const int a = finder.add(collider_of(pair.placed_a.shape, 0)),
+            b = finder.add(collider_of(pair.placed_b.shape, 1));
+  finder.set_pose(a, pair.placed_a.pose);
+  finder.set_pose(b, pair.placed_b.pose);
+  const std::vector<Manifold> before = finder.find();
+  ASSERT_EQ(before.size(), 1u);
+  const Isometry3d X = moved(Isometry3d::Identity(), rng, 3.0, 1.0);
+  finder.set_pose(a, X * pair.placed_a.pose);
+  finder.set_pose(b, X * pair.placed_b.pose);
+  const auto& after = finder.find();
+  ASSERT_EQ(after.size(), 1u);
+  EXPECT_EQ(finder.times().computed, 0);
+  for (int k = 0; k < before[0].count; ++k) {
+    EXPECT_LT((after[0].points[k].position - X * before[0].points[k].position).norm(), 1e-13);
+    EXPECT_NEAR(after[0].points[k].gap, before[0].points[k].gap, 1e-13);
+    EXPECT_EQ(after[0].points[k].feature, before[0].points[k].feature);
+  }
+}
+
+TEST(ContactFinder, SameCallsGiveSameBits) {
+  Heap first(60, 12), second(60, 12);
+  for (int step = 0; step < 40; ++step) {
+    const double distance = step % 5 == 0 ? 0.01 : 2e-4;
+    first.shake(distance, distance), second.shake(distance, distance);
+    ASSERT_TRUE(same_bits(first.finder().find(), second.finder().find())) << "step " << step;
+  }
+}
+
+TEST(ContactFinder, AfterForgettingOnlyThePosesCount) {
+  Heap old(60, 13);
+  for (int step = 0; step < 20; ++step) {
+    old.shake(1e-3, 1e-3);
+    old.finder().find();
+  }
+  ContactFinder fresh;
+  fresh.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
+  for (int k = 0; k < 60; ++k) fresh.set_pose(fresh.add(collider_of(old.shapes()[k], k)), old.poses()[k]);
+  old.finder().forget();
+  EXPECT_TRUE(same_bits(old.finder().find(), fresh.find()));
+}
+
+TEST(ContactFinder, KeepsItsAxisWhenTwoAreNearlyAsGood) {
+  // A cube on the corner of another, in both directions 5 mm deep: which face wins would change with every
+  // nudge.
+  const auto cube = share(box({0.5, 0.5, 0.5}));
+  ContactFinder finder(ContactFinderOptions{.reuse_distance = 0, .reuse_angle = 0});
+  finder.add(collider_of(cube, 0));
+  const int b = finder.add(collider_of(cube, 1));
+  finder.set_pose(b, pose_at({0.995 + 1e-5, 0, 0.995}));
+  const Vector3d normal = finder.find().at(0).normal;
+  for (double nudge : {-2e-5, 3e-5, -4e-5, 5e-5}) {
+    finder.set_pose(b, pose_at({0.995 + nudge, 0, 0.995}));
+    EXPECT_LT((finder.find().at(0).normal - normal).norm(), 1e-12);
+  }
+  finder.set_pose(b, pose_at({0.995 - 2e-4, 0, 0.995}));  // beyond the hysteresis of 0.1 mm
+  EXPECT_GT((finder.find().at(0).normal - normal).norm(), 1);
+}
+
+TEST(ContactFinder, SkipsPairsThatMustNotTouch) {
+  const auto cube = share(box({0.5, 0.5, 0.5}));
+  const auto pairs = [&](Collider a, Collider b) {
+    ContactFinder finder;
+    finder.add(a);
+    finder.add(b);
+    return finder.find().size();
+  };
+  Collider a = collider_of(cube, 0), b = collider_of(cube, 1);
+  EXPECT_EQ(pairs(a, b), 1u);
+  EXPECT_EQ(pairs(a, collider_of(cube, 0)), 0u);
+  EXPECT_EQ(pairs(collider_of(cube, 0, false), collider_of(cube, 1, false)), 0u);
+  EXPECT_EQ(pairs(collider_of(cube, 0, false), b), 1u);
+  a.family = b.family = 2;
+  EXPECT_EQ(pairs(a, b), 0u);
+  b.family = 3;
+  EXPECT_EQ(pairs(a, b), 1u);
+}
+
+TEST(ContactFinder, FollowsAddingRemovingFreezingAndWaking) {
+  const auto cube = share(box({0.5, 0.5, 0.5}));
+  ContactFinder finder;
+  finder.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
+  const int low = finder.add(collider_of(cube, 0)), high = finder.add(collider_of(cube, 1));
+  finder.set_pose(low, pose_at({0, 0, 0.5}));
+  finder.set_pose(high, pose_at({0, 0, 1.5}));
+  const auto pairs = [&] {
+    std::vector<std::pair<int, int>> result;
+    for (const Manifold& m : finder.find()) result.emplace_back(m.collider_a, m.collider_b);
+    return result;
+  };
+  using Pairs = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(pairs(), (Pairs{{0, low}, {low, high}}));
+  finder.set_moves(low, false);
+  EXPECT_EQ(pairs(), (Pairs{{low, high}}));
+  finder.set_moves(high, false);
+  EXPECT_EQ(pairs(), Pairs{});
+  finder.set_moves(low, true);
+  EXPECT_EQ(pairs(), (Pairs{{0, low}, {low, high}}));
+  finder.remove(high);
+  EXPECT_EQ(pairs(), (Pairs{{0, low}}));
+  const int again = finder.add(collider_of(cube, 2));
+  EXPECT_EQ(again, 3);
+  finder.set_pose(again, pose_at({0.2, 0, 1.5}));
+  EXPECT_EQ(pairs(), (Pairs{{0, low}, {low, again}}));
+  EXPECT_EQ(finder.collider(again).body, 2);
+}
+
+TEST(ContactFinder, RefusesBadInput) {
+  ContactFinder finder;
+  EXPECT_EQ(message_of([] { ContactFinder{ContactFinderOptions{.margin = -1}}; }),
+            "contact::ContactFinder: margin is -1.000000 m; give a finite value of at least 0");
+  EXPECT_EQ(message_of([&] { finder.add(Collider{}); }),
+            "contact::ContactFinder: a collider has no shape; set Collider::shape");
+  EXPECT_NE(message_of([&] {
+              finder.add(collider_of(share(Cylinder{-1, 1}), 0));
+            }).find("positive sizes"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] {
+              finder.add(collider_of(share(HalfSpace{{0, 0, 2}, 0}), 0));
+            }).find("unit normal"),
+            std::string::npos);
+  EXPECT_EQ(message_of([&] { finder.remove(7); }),
+            "contact::ContactFinder: there is no collider 7; use a number that add() gave and remove() has "
+            "not taken");
+  const int id = finder.add(collider_of(share(box({1, 1, 1})), 0));
+  EXPECT_NE(message_of([&] {
+              finder.set_pose(id, pose_at({std::nan(""), 0, 0}));
+            }).find("not finite"),
+            std::string::npos);
+}

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/loading/drift.hpp>
+#include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <numeric>
+
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double degree = M_PI / 180, g = 9.81;
+
+// The machine alone on a floor.
+struct Yard {
+  explicit Yard(const LhdOptions& options = {})
+      : lhd(sandvik_lh621(options)), machine(lhd.spec), world({}, mine_materials()), driver(lhd, machine) {
+    world.add_static(std::make_shared<const contact::Shape>(contact::HalfSpace{Vector3d::UnitZ(), 0}),
+                     Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
+    driver.place(0, 0);
+    world.attach(&machine);
+    for (const LhdSurface& s : lhd.surfaces)
+      if (s.touches)
+        world.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
+                             Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
+  }
+  void stand(double seconds) {
+    for (double t = 0; t < seconds; t += world.options().step) world.step();
+  }
+  Lhd lhd;
+  machine::Machine machine;
+  contact::World world;
+  LhdDriver driver;
+};
+
+}  // namespace
+
+TEST(Lhd, WeighsWhatItsPartsWeigh) {
+  const Lhd lhd = sandvik_lh621();
+  double mass = 0;
+  for (const auto& body : lhd.spec.bodies) mass += body.mass;
+  EXPECT_EQ(lhd.spec.bodies.size(), 16u);
+  EXPECT_NEAR(mass, 56800, 1e-6);
+}
+
+// The estimated linkage's own table: lift and tilt cylinder lengths against boom elevation, with the bucket
+// level and racked by 45 deg. The table is rounded to 1 mm; its points to 1 mm too, which moves a length by
+// at most 2 mm.
+TEST(Lhd, CylinderLengthsFollowTheLinkageTable) {
+  const Lhd lhd = sandvik_lh621();
+  machine::Machine machine(lhd.spec);
+  struct Row {
+    double boom, lift, tilt_level, tilt_racked;
+  };
+  const double lift0 = 1.7584, tilt0 = std::hypot(1.12 - 0.10, 2.32 - 1.68), boom0 = -26.13;
+  for (const Row& row :
+       {Row{-28, 1.719, 1.215, 1.742}, Row{-10, 2.090, 1.177, 1.740}, Row{0, 2.285, 1.202, 1.728},
+        Row{20, 2.635, 1.299, 1.710}, Row{46, 2.990, 1.449, 1.739}}) {
+    machine.place(Eigen::Isometry3d::Identity());
+    machine.set_coordinate(lhd.boom, (row.boom - boom0) * degree);
+    EXPECT_NEAR(lift0 + machine.coordinate(lhd.lift_rods[0]), row.lift, 2.5e-3) << row.boom;
+    // Holding the boom as well: move the bucket, then put the boom back where the projection moved it from.
+    const auto tilt_length = [&](double angle) {
+      for (int pass = 0; pass < 20; ++pass) {
+        machine.set_coordinate(lhd.bucket, (angle - row.boom + boom0) * degree);
+        machine.set_coordinate(lhd.boom, (row.boom - boom0) * degree);
+      }
+      return tilt0 + machine.coordinate(lhd.tilt_rod);
+    };
+    EXPECT_NEAR(tilt_length(0), row.tilt_level, 3e-3) << row.boom;
+    EXPECT_NEAR(tilt_length(45), row.tilt_racked, 3e-3) << row.boom;
+    EXPECT_LT(machine.loop_error(), 1e-9);
+  }
+}
+
+// On its tyres: the axle loads are those of the mass budget, 44/56 %, up to the ~0.2 deg by which the
+// softer-loaded end pitches it and the bucket's clearance. Budget: 1.5 m height of the centre times 0.004 rad
+// over 4.9 m = 0.12 % of the weight; motions left after 3 s below 1e-3.
+TEST(Lhd, StandsOnItsTyresWithThePublishedAxleLoads) {
+  Yard yard;
+  yard.stand(3);
+  double front = 0, rear = 0;
+  for (const auto& p : yard.world.problem().points)
+    (p.position.x() > -2.45 ? front : rear) += std::abs(p.impulse.z()) / yard.world.options().step;
+  const double weight = 56800 * g;
+  EXPECT_NEAR(front + rear, weight, 2e-3 * weight);
+  EXPECT_NEAR(front / weight, 0.44, 4e-3);
+  const MachineReading reading = yard.driver.read();
+  EXPECT_GT(reading.tip.z, 0);
+  EXPECT_LT(reading.tip.z, 0.06);
+  EXPECT_LT(yard.machine.loop_error(), 1e-9);
+}
+
+// A load L hung on the bucket changes the hinge force, the link force and the motors as statics says. About
+// G: the link, a two-force member along P-H, balances the load's moment; G takes the rest. By virtual work
+// each motor gives minus the load's power at unit speed of its own joint. All at the actual pose; what is
+// left is unsteadiness after settling: 2e-3 of the load.
+TEST(Lhd, StaticBucketLoadAppearsInHingeGAndInTheMotors) {
+  Yard yard;
+  const Lhd& lhd = yard.lhd;
+  yard.stand(3);
+  const auto world_force = [&] {
+    return Vector3d(yard.machine.pose(lhd.bucket).linear() * yard.machine.joint_wrench(lhd.bucket).force);
+  };
+  const Vector3d g_empty = world_force();
+  const double lift_empty = yard.driver.lift_force(), tilt_empty = yard.driver.tilt_force();
+  const double L = 100e3;
+  for (int k = 0; k < 600; ++k) {
+    yard.machine.add_force(lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -L)});
+    yard.world.step();
+  }
+  const Vector3d G = yard.machine.point(lhd.bucket, lhd.G), c = yard.machine.pose(lhd.bucket).translation();
+  const Vector3d P = yard.machine.point(lhd.link, {1.18, 0, 0.63}),
+                 H = yard.machine.point(lhd.link, {1.94, 0, 1.07});
+  const Vector3d along = (H - P).normalized(), arm = H - G;
+  const double moment = (c - G).cross(Vector3d(0, 0, -L)).y();
+  const Vector3d link = along * (-moment / arm.cross(along).y());
+  EXPECT_LT((world_force() - g_empty - (Vector3d(0, 0, L) - link)).norm(), 5e-3 * L);
+
+  const std::vector<int> still = {lhd.rear, lhd.wheels[0], lhd.wheels[1], lhd.wheels[2], lhd.wheels[3]};
+  const Eigen::MatrixXd S =
+      yard.machine.transmission({lhd.lift_rods[0], lhd.tilt_rod}, {lhd.boom, lhd.bucket}, still);
+  // Power of the load at unit boom rate (the bucket turns with the boom) and at unit tilt rate.
+  const Vector3d F = yard.machine.point(lhd.boom, lhd.F);
+  const Eigen::RowVector2d power(-L * (c - F).x(), -L * (c - G).x());
+  const Eigen::RowVector2d forces = -power * S.inverse();
+  EXPECT_NEAR(yard.driver.lift_force() - lift_empty, forces[0], 5e-3 * std::abs(forces[0]));
+  EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, forces[1], 5e-3 * std::abs(forces[1]));
+  // A passive pin carries no moment about its own axis.
+  EXPECT_NEAR(yard.machine.joint_wrench(lhd.bucket).moment.y(), 0, 1e-6 * L);
+}
+
+// With the thesis's hinge motors the same load's moment about G is the tilt motor's torque and the wrench's
+// axial part.
+TEST(Lhd, WithHingeMotorsTheTiltTorqueIsTheLoadsMoment) {
+  LhdOptions options;
+  options.arm_drive = ArmDrive::hinges;
+  Yard yard(options);
+  yard.stand(3);
+  const double tilt_empty = yard.driver.tilt_force();
+  const double axial_empty = yard.machine.joint_wrench(yard.lhd.bucket).moment.y();
+  const double L = 100e3;
+  for (int k = 0; k < 600; ++k) {
+    yard.machine.add_force(yard.lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -L)});
+    yard.world.step();
+  }
+  const Vector3d G = yard.machine.point(yard.lhd.bucket, yard.lhd.G);
+  const double lever = (yard.machine.pose(yard.lhd.bucket).translation() - G).x();
+  EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, L * lever, 5e-3 * L * lever);
+  EXPECT_NEAR(yard.machine.joint_wrench(yard.lhd.bucket).moment.y() - axial_empty, -L * lever,
+              5e-3 * L * lever);
+}
+
+// Driving at a set speed on the level: the wheels roll without slip to within the rolling radius's 2 %.
+TEST(Lhd, DrivesAtTheSetSpeed) {
+  Yard yard;
+  yard.stand(1);
+  yard.driver.command({1.0, 0, 0});
+  yard.stand(2);
+  const double x = yard.driver.read().front_axle.x();
+  yard.stand(2);
+  EXPECT_NEAR((yard.driver.read().front_axle.x() - x) / 2, 1.0, 0.03);
+  EXPECT_NEAR(yard.driver.read().front_axle.y(), 0, 1e-3);
+}
+
+TEST(HeapedBucket, HoldsTheProfileAndTheHeapOnly) {
+  const Lhd lhd = sandvik_lh621();
+  EXPECT_TRUE(in_heaped_bucket(lhd, {2.6, 0, 0.5}));
+  EXPECT_TRUE(in_heaped_bucket(lhd, {3.5, 1.5, 0.9}));   // in the heap, just above the opening
+  EXPECT_FALSE(in_heaped_bucket(lhd, {4.2, 0, 1.2}));    // beyond it
+  EXPECT_FALSE(in_heaped_bucket(lhd, {2.6, 1.7, 0.5}));  // beside the side wall
+  EXPECT_FALSE(in_heaped_bucket(lhd, {2.6, 0, -0.1}));   // under the floor
+  // Area of the heaped profile times the width is the heaped volume of the estimated bucket, 7.9 m³.
+  int hits = 0;
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k)
+      hits += in_heaped_bucket(lhd, {2.0 + 2.5 * (i + 0.5) / n, 0, 2.5 * (k + 0.5) / n});
+  EXPECT_NEAR(hits * 6.25 / (n * n) * lhd.bucket_width, 7.9, 0.1);
+}

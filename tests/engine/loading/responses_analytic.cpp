@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// The responses on hand-made logs whose values are known in closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/engine/loading/responses.hpp>
+#include <numbers>
+#include <stdexcept>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+constexpr double h = 0.01;
+
+CycleRecord cycle(double t_start, double t_end, double loaded, double spilled) {
+  CycleRecord record;
+  record.t_start = t_start;
+  record.t_end = t_end;
+  record.loaded_mass = loaded;
+  record.spilled_mass = spilled;
+  return record;
+}
+
+record::Table empty_signals() {
+  record::Table table;
+  table.columns = {{"time", "s"},
+                   {"cycle", "1"},
+                   {"hinge_G_torque_x", "N m"},
+                   {"hinge_G_torque_y", "N m"},
+                   {"hinge_G_torque_z", "N m"}};
+  return table;
+}
+
+// One cycle of 1 s with a constant torque.
+LoadingLog constant_torque(double x, double y, double z) {
+  LoadingLog log;
+  log.signals = empty_signals();
+  for (int k = 1; k <= 100; ++k) log.signals.append_row(std::vector<double>{k * h, 1, x, y, z});
+  log.cycles = {cycle(0, 1, 0, 0)};
+  return log;
+}
+
+DamageOptions unfiltered(double tau_y = 145e3) { return {.tau_y = tau_y, .lowpass_hz = 0}; }
+
+template <class F>
+std::string thrown_by(F&& f) {
+  try {
+    f();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Production, MeanOfRatiosAndRatioOfSums) {
+  LoadingLog log;
+  log.cycles = {cycle(0, 20, 8000, 0), cycle(30, 40, 2000, 0)};
+  EXPECT_DOUBLE_EQ(production(log), (400.0 + 200.0) / 2);
+  EXPECT_DOUBLE_EQ(production(log, {.mean = ProductionMean::ratio_of_sums}), 10000.0 / 30.0);
+}
+
+TEST(RockSpill, MeanOverCycles) {
+  LoadingLog log;
+  log.cycles = {cycle(0, 20, 0, 1500), cycle(30, 40, 0, 2500)};
+  EXPECT_DOUBLE_EQ(rock_spill(log), 0.2);
+  EXPECT_DOUBLE_EQ(rock_spill(log, {.m_max = 1000}), 2.0);
+}
+
+// |T| = 145 kNm * 5/3 for 1 s: excess 2/3 of τ_y. 100 summands of a few units in the last place.
+TEST(JointDamage, ConstantTorque) {
+  const LoadingLog log = constant_torque(145e3, 0, 145e3 * 4 / 3);
+  EXPECT_NEAR(joint_damage(log, unfiltered()), 2.0 / 3, 1e-13);
+  EXPECT_NEAR(joint_damage(log), 2.0 / 3, 1e-13);  // a filter leaves a constant alone
+  EXPECT_EQ(joint_damage(constant_torque(100e3, 0, 100e3), unfiltered()), 0);
+}
+
+TEST(JointDamage, TwistingLeavesThePinAxisOut) {
+  const LoadingLog log = constant_torque(0, 580e3, 290e3);
+  DamageOptions options = unfiltered();
+  options.component = TorqueComponent::twisting;
+  EXPECT_NEAR(joint_damage(log, options), 1.0, 1e-13);
+  options.component = TorqueComponent::all;
+  EXPECT_NEAR(joint_damage(log, options), std::sqrt(20.0) - 1, 1e-13);
+}
+
+// A ramp T = 2 τ k/n over n samples: Σ max(2k/n - 1, 0) = m (m + 1) / n over the m = n/2 upper samples.
+TEST(JointDamage, ARampCountsOnlyAboveTheYieldTorque) {
+  LoadingLog log = constant_torque(0, 0, 0);
+  for (std::size_t k = 0; k < 100; ++k)
+    log.signals.values[k * 5 + 4] = -2 * 145e3 * static_cast<double>(k + 1) / 100;
+  EXPECT_NEAR(joint_damage(log, unfiltered()), h * 50 * 51 / 100, 1e-13);
+}
+
+// A step from 0 to T after the first sample. Filtered: T (1 - q^k), q = exp(-2π f h); with the yield torque
+// T/2 the excess over it sums to h/τ Σ max(T/2 - T q^k, 0) = h Σ max(1 - 2 q^k, 0).
+TEST(JointDamage, LowPassOfAStep) {
+  LoadingLog log = constant_torque(0, 0, 200e3);
+  log.signals.values[4] = 0;
+  const double f = 2, q = std::exp(-2 * std::numbers::pi * f * h);
+  double expected = 0;
+  for (int k = 1; k < 100; ++k) expected += h * std::max(1 - 2 * std::pow(q, k), 0.0);
+  EXPECT_NEAR(joint_damage(log, {.tau_y = 100e3, .lowpass_hz = f}), expected, 1e-12);
+  EXPECT_NEAR(joint_damage(log, unfiltered(100e3)), 99 * h, 1e-12);
+}
+
+// A spike of one sample: its damage unfiltered does not shrink with the step if the peak grows as 1/Δt, but
+// is filtered away.
+TEST(JointDamage, LowPassRemovesASpike) {
+  LoadingLog log = constant_torque(0, 0, 0);
+  log.signals.values[50 * 5 + 4] = 1e6;
+  EXPECT_NEAR(joint_damage(log, unfiltered()), h * (1e6 - 145e3) / 145e3, 1e-13);
+  EXPECT_EQ(joint_damage(log, {.lowpass_hz = 2}), 0);  // peak 1e6 (1 - q) = 118 kNm
+}
+
+// What happens between cycles, such as putting the machine back, is not the strategy's doing.
+TEST(JointDamage, OnlyCyclesCount) {
+  LoadingLog log;
+  log.signals = empty_signals();
+  for (int k = 1; k <= 100; ++k) log.signals.append_row(std::vector<double>{k * h, 1, 0, 0, 290e3});
+  for (int k = 101; k <= 200; ++k) log.signals.append_row(std::vector<double>{k * h, 1, 0, 0, 9e6});
+  for (int k = 301; k <= 350; ++k) log.signals.append_row(std::vector<double>{k * h, 2, 0, 0, 290e3});
+  log.cycles = {cycle(0, 100 * h, 0, 0), cycle(300 * h, 350 * h, 0, 0)};
+  EXPECT_NEAR(joint_damage(log, unfiltered()), 1.5,
+              1e-13);  // and the gap of 1 s before the second is no sample
+  DamageOptions options = unfiltered();
+  options.sum = DamageSum::per_cycle;
+  EXPECT_NEAR(joint_damage(log, options), 0.75, 1e-13);
+}
+
+TEST(Responses, SayWhatIsMissing) {
+  const LoadingLog nothing;
+  EXPECT_NE(thrown_by([&] { production(nothing); }).find("the log has no cycle"), std::string::npos);
+  EXPECT_NE(thrown_by([&] { rock_spill(nothing); }).find("the log has no cycle"), std::string::npos);
+  LoadingLog log = constant_torque(0, 0, 0);
+  log.signals.columns[3].name = "something";
+  EXPECT_EQ(thrown_by([&] { joint_damage(log); }),
+            "record::Table: no column \"hinge_G_torque_y\"; there are: time, cycle, hinge_G_torque_x, "
+            "something, hinge_G_torque_z");
+  log.cycles = {cycle(5, 5, 1000, 0)};
+  EXPECT_NE(thrown_by([&] { production(log); }).find("t_end"), std::string::npos);
+  EXPECT_NE(thrown_by([&] { rock_spill(log, {.m_max = 0}); }).find("m_max"), std::string::npos);
+  EXPECT_NE(thrown_by([&] { joint_damage(log, {.tau_y = -1}); }).find("tau_y"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drawpoint::engine::loading

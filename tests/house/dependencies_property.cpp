@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+#include <drawpoint/tests/house/dependency_table.hpp>
+
+using namespace drawpoint::house;
+
+namespace {
+
+const std::filesystem::path root = DRAWPOINT_ROOT;
+
+std::string first_breach(const std::string& path, const std::string& text) {
+  const std::vector<std::string> found = breaches({path, text});
+  return found.empty() ? "" : found.front();
+}
+
+}  // namespace
+
+// The law: no file of a module includes or names what its row does not grant.
+TEST(Dependencies, EverySourceKeepsToTheTable) {
+  const std::vector<Source> all = sources(root, {"doe", "kriging", "pareto", "engine", "studies"});
+  ASSERT_FALSE(all.empty());
+  std::vector<std::string> found;
+  for (const Source& source : all) {
+    EXPECT_NE(row_of(source.path), nullptr) << source.path << " is in no folder of the dependency table";
+    for (const std::string& breach : breaches(source)) found.push_back(breach);
+  }
+  EXPECT_TRUE(found.empty()) << joined(found);
+}
+
+// The checker itself: each kind of breach is found and named, with its line.
+TEST(Dependencies, ABreachIsNamed) {
+  EXPECT_EQ(first_breach("doe/a.hpp", "#pragma once\n#include <drawpoint/kriging/fit.hpp>\n"),
+            "doe/a.hpp:2: <drawpoint/kriging/fit.hpp>: doe/ may not include it");
+  EXPECT_EQ(first_breach("kriging/a.hpp", "#include <drawpoint/pareto/nsga2.hpp>"),
+            "kriging/a.hpp:1: <drawpoint/pareto/nsga2.hpp>: kriging/ may not include it");
+  EXPECT_EQ(first_breach("pareto/a.hpp", "  #  include <drawpoint/kriging/fit.hpp>"),
+            "pareto/a.hpp:1: <drawpoint/kriging/fit.hpp>: pareto/ may not include it");
+  EXPECT_EQ(first_breach("doe/a.hpp", "#include <coin/IpTNLP.hpp>"),
+            "doe/a.hpp:1: <coin/IpTNLP.hpp>: doe/ may not use Ipopt");
+  EXPECT_EQ(first_breach("kriging/a.hpp", "#include <coin/IpStdCInterface.h>"),
+            "kriging/a.hpp:1: <coin/IpStdCInterface.h>: kriging/ may not use Ipopt's C interface");
+  EXPECT_EQ(
+      first_breach("engine/contact/a.cpp", "#include <drawpoint/engine/granular/pile.hpp>"),
+      "engine/contact/a.cpp:1: <drawpoint/engine/granular/pile.hpp>: engine/contact/ may not include it");
+  EXPECT_EQ(first_breach("engine/loading/a.cpp", "#include <drawpoint/studies/study.hpp>"),
+            "engine/loading/a.cpp:1: <drawpoint/studies/study.hpp>: engine/loading/ may not include it");
+  EXPECT_EQ(first_breach("engine/loading/a.cpp", "#include <Simbody.h>"),
+            "engine/loading/a.cpp:1: <Simbody.h>: engine/loading/ may not use Simbody");
+  EXPECT_EQ(first_breach("engine/machine/a.hpp", "#include <SimTKcommon.h>"),
+            "engine/machine/a.hpp:1: <SimTKcommon.h>: Simbody may not be in a header");
+  EXPECT_EQ(first_breach("engine/contact/a.hpp", "#include <fcl/fcl.h>"),
+            "engine/contact/a.hpp:1: <fcl/fcl.h>: FCL may not be in a header");
+  EXPECT_EQ(first_breach("doe/a.hpp", "#include <boost/optional.hpp>"),
+            "doe/a.hpp:1: <boost/optional.hpp>: no known package has it; name it in the dependency table");
+  EXPECT_EQ(first_breach("doe/a.hpp", "#include \"problem.hpp\""),
+            "doe/a.hpp:1: <problem.hpp>: write it as <drawpoint/...>");
+}
+
+TEST(Dependencies, AForwardDeclarationLeaksToo) {
+  EXPECT_EQ(first_breach("engine/machine/a.hpp", "namespace SimTK { class State; }"),
+            "engine/machine/a.hpp: names Simbody");
+  EXPECT_EQ(first_breach("engine/loading/a.cpp", "fcl::Vector3d v;"), "engine/loading/a.cpp: names FCL");
+  EXPECT_EQ(first_breach("engine/machine/a.hpp", "/// Built on SimTK's multibody tree.\n"), "");
+}
+
+TEST(Dependencies, WhatTheTableGrantsPasses) {
+  EXPECT_EQ(first_breach("engine/machine/a.cpp", "#include <Simbody.h>\nSimTK::State s;"), "");
+  EXPECT_EQ(first_breach("engine/contact/a.cpp", "#include <fcl/fcl.h>\nfcl::Vector3d v;"), "");
+  EXPECT_EQ(
+      first_breach("kriging/a.hpp", "#include <Eigen/Dense>\n#include <coin/IpTNLP.hpp>\n#include <cmath>"),
+      "");
+  EXPECT_EQ(
+      first_breach("studies/a.cpp", "#include <sys/wait.h>\n#include <drawpoint/engine/record/run_log.hpp>"),
+      "");
+  EXPECT_EQ(first_breach("tests/doe/a.cpp", "#include <anything/at_all.hpp>"), "");
+}

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/tests/house/sources.hpp>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
+
+/// Who may include whom, and the check of a source file against it.
+///
+/// A file belongs to the row with the longest folder that its path starts with. It may include the standard
+/// library and POSIX, the project folders of its row, and the packages of its row; a package of `in_cpp_only`
+/// never in a header, and its names do not appear in other rows at all, so that users of the module never
+/// need it. Headers of no known package are refused: a new dependency starts as a line here and as a decision
+/// note.
+namespace drawpoint::house {
+
+struct Row {
+  std::string folder;
+  std::vector<std::string> modules;      ///< folders of the project, itself included
+  std::vector<std::string> packages;     ///< in any file
+  std::vector<std::string> in_cpp_only;  ///< in *.cpp
+};
+
+inline const std::vector<Row>& dependency_table() {
+  static const std::vector<Row> table{
+      {"doe/", {"doe/"}, {"Eigen"}, {}},
+      {"kriging/", {"doe/", "kriging/"}, {"Eigen", "Ipopt"}, {}},
+      {"pareto/", {"doe/", "pareto/"}, {"Eigen", "Ipopt"}, {}},
+      {"engine/", {}, {"Eigen"}, {}},  // what the folders share
+      {"engine/contact/", {"engine/contact/"}, {"Eigen"}, {"FCL"}},
+      {"engine/machine/", {"engine/contact/", "engine/machine/"}, {"Eigen"}, {"Simbody"}},
+      {"engine/granular/", {"engine/"}, {"Eigen"}, {}},
+      {"engine/record/", {"engine/"}, {"Eigen"}, {"HDF5"}},
+      {"engine/loading/", {"engine/"}, {"Eigen"}, {}},
+      {"studies/",
+       {"doe/", "kriging/", "pareto/", "engine/", "studies/"},
+       {"Eigen", "nlohmann-json", "CLI11", "SQLiteCpp", "HDF5"},
+       {}}};
+  return table;
+}
+
+/// The package that an included header belongs to; "standard" for the library and POSIX; nothing for an
+/// unknown one.
+inline std::optional<std::string> package_of(const std::string& header) {
+  static const std::vector<std::pair<std::regex, std::string>> packages{
+      {std::regex("(Eigen|unsupported/Eigen)/.*"), "Eigen"},
+      {std::regex("(coin/)?IpStdCInterface\\.h"), "Ipopt's C interface"},
+      {std::regex("coin(-or)?/.*|Ip[A-Z].*\\.hpp"), "Ipopt"},
+      {std::regex("[Ss]imbody.*|SimTK.*"), "Simbody"},
+      {std::regex("(fcl|ccd|octomap)/.*"), "FCL"},
+      {std::regex("hdf5.*|H5.*\\.h"), "HDF5"},
+      {std::regex("SQLiteCpp/.*|sqlite3\\.h"), "SQLiteCpp"},
+      {std::regex("CLI/.*"), "CLI11"},
+      {std::regex("nlohmann/.*"), "nlohmann-json"},
+      {std::regex("[a-z_0-9]+"), "standard"},
+      {std::regex("(unistd|fcntl|spawn|poll|signal|immintrin)\\.h|sys/[a-z]+\\.h"), "standard"}};
+  for (const auto& [pattern, name] : packages) {
+    if (std::regex_match(header, pattern)) return name;
+  }
+  return std::nullopt;
+}
+
+inline bool contains(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+inline const Row* row_of(const std::string& path) {
+  const Row* best = nullptr;
+  for (const Row& row : dependency_table()) {
+    if (path.starts_with(row.folder) && (!best || row.folder.size() > best->folder.size())) best = &row;
+  }
+  return best;
+}
+
+/// Why `header` may not be included by the file `path` of `row`; empty when it may.
+inline std::string objection(const Row& row, const std::string& path, const std::string& header) {
+  static const std::string own = "drawpoint/";
+  if (header.starts_with(own)) {
+    const std::string target = header.substr(own.size());
+    for (const std::string& module : row.modules) {
+      if (target.starts_with(module)) return "";
+    }
+    return row.folder + " may not include it";
+  }
+  const std::optional<std::string> package = package_of(header);
+  if (!package) return "no known package has it; name it in the dependency table";
+  if (*package == "standard" || contains(row.packages, *package)) return "";
+  if (!contains(row.in_cpp_only, *package)) return row.folder + " may not use " + *package;
+  return path.ends_with(".cpp") ? "" : *package + " may not be in a header";
+}
+
+/// Names of Simbody and FCL where their row does not allow them: a forward declaration leaks as an include
+/// does.
+inline std::vector<std::string> leaked_names(const Row& row, const Source& source) {
+  static const std::vector<std::pair<std::regex, std::string>> names{{std::regex("\\bSimTK\\b"), "Simbody"},
+                                                                     {std::regex("\\bfcl::"), "FCL"}};
+  const std::string code = std::regex_replace(source.text, std::regex("//[^\n]*"), "");
+  std::vector<std::string> found;
+  for (const auto& [pattern, package] : names) {
+    const bool allowed = contains(row.in_cpp_only, package) && source.path.ends_with(".cpp");
+    if (!allowed && std::regex_search(code, pattern)) found.push_back(source.path + ": names " + package);
+  }
+  return found;
+}
+
+/// Every breach of the table by one file, as "path:line: <header>: reason". Files outside the table have
+/// none.
+inline std::vector<std::string> breaches(const Source& source) {
+  static const std::regex include("\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
+  const Row* row = row_of(source.path);
+  if (!row) return {};
+  std::vector<std::string> found = leaked_names(*row, source);
+  std::istringstream lines(source.text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::smatch match;
+    if (!std::regex_match(line, match, include)) continue;
+    const std::string why =
+        match[1] == "\"" ? "write it as <drawpoint/...>" : objection(*row, source.path, match[2]);
+    if (why.empty()) continue;
+    found.push_back(source.path + ":" + std::to_string(number) + ": <" + match[2].str() + ">: " + why);
+  }
+  return found;
+}
+
+}  // namespace drawpoint::house

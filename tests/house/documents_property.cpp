@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <drawpoint/tests/house/sources.hpp>
+#include <regex>
+
+using namespace drawpoint::house;
+
+namespace {
+
+const std::filesystem::path root = DRAWPOINT_ROOT;
+
+std::vector<std::filesystem::path> documents() {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(root)) found.push_back(entry.path());
+  for (const std::string folder : {"docs", "tests", "benchmarks", "studies"}) {
+    if (!std::filesystem::exists(root / folder)) continue;
+    std::filesystem::recursive_directory_iterator entry(root / folder), end;
+    for (; entry != end; ++entry) {
+      if (entry->is_directory() && skipped(entry->path())) entry.disable_recursion_pending();
+      found.push_back(entry->path());
+    }
+  }
+  found.erase(
+      std::remove_if(found.begin(), found.end(), [](const auto& path) { return path.extension() != ".md"; }),
+      found.end());
+  return found;
+}
+
+// The links of a Markdown text to files that are not there, seen from the folder it is in.
+std::vector<std::string> dead_links(const std::string& text, const std::filesystem::path& folder) {
+  static const std::regex link("\\]\\(([^)#\\s]+)(#[^)]*)?\\)");
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match) {
+    const std::string target = (*match)[1];
+    const bool elsewhere = target.find("://") != std::string::npos || target.starts_with("mailto:");
+    if (!elsewhere && !std::filesystem::exists(folder / target)) found.push_back(target);
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST(Documents, EveryLinkLeadsSomewhere) {
+  const auto all = documents();
+  ASSERT_FALSE(all.empty());
+  for (const auto& document : all) {
+    const auto dead = dead_links(read_text(document), document.parent_path());
+    EXPECT_TRUE(dead.empty()) << document.lexically_relative(root) << " links to what is not there:\n"
+                              << joined(dead);
+  }
+}
+
+TEST(Documents, ADeadLinkIsFound) {
+  EXPECT_EQ(
+      dead_links("see [a](gone.md) and ![b](gone/b.png#x), not [c](https://example.org) or [d](README.md)",
+                 root),
+      (std::vector<std::string>{"gone.md", "gone/b.png"}));
+}

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/tests/kriging/reference_cases.hpp>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <optional>
+#include <thread>
+
+using namespace drawpoint;
+using namespace drawpoint::kriging;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+double hills(const VectorXd& x) { return std::sin(6 * x[0]) + 2 * std::pow(x[1] - 0.4, 2); }
+
+struct Runs {
+  MatrixXd X;
+  VectorXd y;
+};
+
+Runs hilly(int n, double noise) {
+  Runs runs{reference::design(n, 2, 21), {}};
+  runs.y = reference::values(hills, runs.X);
+  doe::RandomStream random(4);
+  for (double& value : runs.y) value += noise * random.normal();
+  return runs;
+}
+
+const MatrixXd points = reference::design(50, 2, 33);
+
+void expect_same_model(const Model& a, const Model& b) {
+  EXPECT_EQ(a.theta(), b.theta());
+  EXPECT_EQ(a.nugget(), b.nugget());
+  EXPECT_EQ(a.log_likelihood(), b.log_likelihood());
+  EXPECT_EQ(a.mean(points), b.mean(points));
+}
+
+void expect_sound(const Model& model, const MatrixXd& X) {
+  const Prediction p = model.predict(X);
+  EXPECT_TRUE(p.mean.allFinite());
+  EXPECT_TRUE(p.variance.allFinite());
+  EXPECT_GE(p.variance.minCoeff(), 0.0);
+  EXPECT_FALSE(model.message().empty());
+}
+
+}  // namespace
+
+// Powers of two change no bit of the scaled inputs and of the standardised response, so the laws hold
+// exactly: θ and λ stay, predictions scale with y, s² with its square, LL loses n ln 8.
+TEST(Fit, ScalesWithTheUnits) {
+  const Runs runs = hilly(40, 0.05);
+  const Model model = fit(runs.X, runs.y), scaled = fit(0.25 * runs.X, 8.0 * runs.y);
+  EXPECT_EQ(model.theta(), scaled.theta());
+  EXPECT_EQ(model.nugget(), scaled.nugget());
+  EXPECT_EQ(64.0 * model.process_variance(), scaled.process_variance());
+  EXPECT_NEAR(model.log_likelihood() - 40 * std::log(8.0), scaled.log_likelihood(), 1e-12);
+  const Prediction a = model.predict(points), b = scaled.predict(0.25 * points);
+  EXPECT_EQ(VectorXd(8.0 * a.mean), b.mean);
+  EXPECT_EQ(VectorXd(64.0 * a.variance), b.variance);
+}
+
+// Shifts and the order of the runs change the rounding only. Both searches end within 1e-3 of the same
+// maximum, where the predictions are flat to first order: a hundredth of the noise is far above that and far
+// below another maximum.
+TEST(Fit, DependsNeitherOnOffsetsNorOnTheOrderOfTheRuns) {
+  const Runs runs = hilly(40, 0.05);
+  std::vector<int> order(40);
+  std::iota(order.begin(), order.end(), 0);
+  doe::RandomStream random(9);
+  for (int i = 39; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
+  Runs moved = runs;
+  for (int i = 0; i < 40; ++i) {
+    moved.X.row(i) = runs.X.row(order[i]).array() + 7.3;
+    moved.y[i] = runs.y[order[i]] - 11.1;
+  }
+  const Model a = fit(runs.X, runs.y), b = fit(moved.X, moved.y);
+  EXPECT_NEAR(a.log_likelihood(), b.log_likelihood(), 1e-3);
+  const VectorXd difference = a.mean(points).array() - 11.1 - b.mean(points.array() + 7.3).array();
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 5e-4);
+}
+
+TEST(Fit, GivesTheSameBitsAgainAndConcurrently) {
+  const Runs runs = hilly(30, 0.02);
+  const Model alone = fit(runs.X, runs.y);
+  std::vector<std::optional<Model>> models(4);
+  std::vector<std::thread> threads;
+  for (auto& model : models) threads.emplace_back([&] { model = fit(runs.X, runs.y); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& model : models) expect_same_model(alone, *model);
+}
+
+// The maximum is no worse than anything on a grid that knows nothing of the searches.
+TEST(Fit, IsNoWorseThanAGridSearch) {
+  for (const double noise : {0.0, 0.05, 0.5}) {
+    const Runs runs = hilly(30, noise);
+    const double found = fit(runs.X, runs.y).log_likelihood() + 30 * std::log(reference::deviation(runs.y));
+    const detail::TrainingData data = detail::prepare(runs.X, runs.y, {});
+    Likelihood likelihood(data.X, data.y);
+    double best = -1e300;
+    for (double a = -6; a <= 6; a += 0.5)
+      for (double b = -6; b <= 6; b += 0.5)
+        for (double c = -20; c <= 2; c += 2)
+          best = std::max(best, likelihood.value(Eigen::Vector3d(a, b, c)));
+    EXPECT_GE(found, best - 1e-3) << "noise " << noise;
+  }
+}
+
+TEST(Fit, AConstantResponseIsAConstantModel) {
+  const Model model = fit(points, VectorXd::Constant(50, 0.1));
+  EXPECT_EQ(model.status(), Status::constant_response);
+  EXPECT_EQ(model.message(), "all responses equal 0.1: the model is that constant");
+  EXPECT_EQ(model.trend(), 0.1);
+  EXPECT_EQ(model.process_variance(), 0.0);
+  EXPECT_EQ(model.mean(points), VectorXd(VectorXd::Constant(50, 0.1)));
+  EXPECT_TRUE(model.predict(points).variance.isZero(0.0));
+  EXPECT_EQ(model.theta().size(), 2);
+}
+
+TEST(Fit, TakesDuplicatesThatAgreeAndThatDisagree) {
+  const Runs runs = hilly(20, 0.0);
+  MatrixXd X(40, 2);
+  X << runs.X, runs.X;
+  VectorXd y(40);
+  y << runs.y, runs.y;
+  const Model agree = fit(X, y);
+  expect_sound(agree, points);
+  EXPECT_LT(agree.nugget(), 1e-6);
+  y.tail(20).array() += 0.4;
+  const Model disagree = fit(X, y);
+  expect_sound(disagree, points);
+  // Pairs 0.4 apart show a noise variance of 0.2²: λ s² estimates it from 20 pairs, to about a third.
+  EXPECT_NEAR(disagree.nugget() * disagree.process_variance(), 0.04, 0.02);
+}
+
+TEST(Fit, AnInputWithoutEffectGetsASmallTheta) {
+  const MatrixXd X = reference::design(40, 3, 5);
+  const Model model = fit(X, (3.0 * X.col(0).array()).sin() + X.col(1).array());
+  expect_sound(model, X);
+  // Correlation exp(−4θ) across its whole range: the response changes by less than a per mille.
+  EXPECT_LT(model.theta()[2], 2.5e-4);
+}
+
+TEST(Fit, AnInputThatNeverVariesIsIgnored) {
+  Runs runs = hilly(25, 0.0);
+  MatrixXd X(25, 3);
+  X << runs.X, VectorXd::Constant(25, 9.0);
+  const Model model = fit(X, runs.y);
+  EXPECT_NE(model.message().find("input 2 never varies, so predictions ignore it"), std::string::npos)
+      << model.message();
+  MatrixXd elsewhere = X;
+  elsewhere.col(2).setConstant(-1e9);
+  EXPECT_EQ(model.mean(X), model.mean(elsewhere));
+  // The other inputs are fitted as if it were not there.
+  EXPECT_NEAR(model.log_likelihood(), fit(runs.X, runs.y).log_likelihood(), 0.01);
+}
+
+TEST(Fit, TakesFewerRunsThanInputs) {
+  for (const int n : {2, 3, 5}) {
+    const MatrixXd X = reference::design(n, 8, 5);
+    const Model model = fit(X, X.rowwise().sum());
+    expect_sound(model, reference::design(20, 8, 6));
+    EXPECT_TRUE(std::isfinite(model.log_likelihood()));
+  }
+}
+
+// Runs on a line at distances of 1e-9: singular to round-off without a nugget.
+TEST(Fit, RaisesTheNuggetOfASingularMatrixAndSaysSo) {
+  FitOptions options;
+  options.nugget_lower = options.nugget_upper = 1e-30;
+  options.theta_lower = options.theta_upper = 1e-3;
+  const VectorXd x = VectorXd::LinSpaced(50, 0, 1);
+  const Model model = fit(x, x.array().sin(), options);
+  EXPECT_EQ(model.status(), Status::ill_conditioned);
+  EXPECT_NE(model.message().find("the nugget was raised to"), std::string::npos) << model.message();
+  EXPECT_GT(model.nugget(), 1e-30);
+  expect_sound(model, x);
+  EXPECT_LT((model.mean(x) - VectorXd(x.array().sin())).cwiseAbs().maxCoeff(), 1e-2);
+}
+
+TEST(Fit, SaysWhenASearchWasCutShort) {
+  FitOptions options;
+  options.max_iterations = options.starts = 1;
+  const Runs runs = hilly(300, 0.05);
+  const Model model = fit(runs.X, runs.y, options);
+  EXPECT_EQ(model.status(), Status::not_converged) << model.message();
+  expect_sound(model, points);
+}
+
+TEST(Fit, SurvivesExtremeUnits) {
+  const Runs runs = hilly(20, 0.0);
+  for (const double unit : {1e-140, 1e-70, 1e70}) {
+    const Model model = fit(unit * runs.X, unit * runs.y);
+    EXPECT_LT((model.mean(unit * runs.X) / unit - runs.y).cwiseAbs().maxCoeff(), 1e-3) << unit;
+  }
+}
+
+// Ipopt reads ipopt.opt in the working directory and prints by default; a library does neither.
+TEST(Fit, PrintsNothingAndReadsNoOptionFile) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "drawpoint_kriging_silence";
+  std::filesystem::create_directories(folder);
+  std::filesystem::current_path(folder);
+  std::ofstream("ipopt.opt") << "print_level 5\nmax_iter 0\n";
+  const Runs runs = hilly(15, 0.02);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const Model model = fit(runs.X, runs.y);
+  const std::string out = testing::internal::GetCapturedStdout(),
+                    err = testing::internal::GetCapturedStderr();
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(out, "");
+  EXPECT_EQ(err, "");
+  EXPECT_EQ(model.status(), Status::converged) << model.message();
+}

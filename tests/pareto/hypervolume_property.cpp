@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <cmath>
+#include <drawpoint/pareto/hypervolume.hpp>
+#include <drawpoint/tests/doe/problems.hpp>
+#include <drawpoint/tests/pareto/generators.hpp>
+
+namespace drawpoint::pareto {
+namespace {
+
+/// The volume by counting unit cells of the box 0..side in m dimensions: exact for whole numbers.
+double counted(const Eigen::MatrixXd& Y, int side) {
+  const Eigen::Index m = Y.cols();
+  Eigen::RowVectorXd cell = Eigen::RowVectorXd::Zero(m);
+  double covered = 0.0;
+  for (Eigen::Index j = 0; j < m;) {
+    covered += ((Y.rowwise() - cell).array() <= 0.0).rowwise().all().any();
+    for (j = 0; j < m && ++cell[j] == side; ++j) cell[j] = 0.0;  // the next cell, until all have been visited
+  }
+  return covered;
+}
+
+// Small whole numbers: every product and sum is exact, so equality is.
+RC_GTEST_PROP(Hypervolume, IsTheNumberOfCoveredCells, ()) {
+  const int m = *rc::gen::inRange(1, 7), side = m <= 4 ? 5 : 3;
+  const Eigen::MatrixXd Y = support::whole_points(*rc::gen::inRange(1, 25), m, side + 1);
+  RC_ASSERT(hypervolume(Y, Eigen::VectorXd::Constant(m, side)) == counted(Y, side));
+}
+
+RC_GTEST_PROP(Hypervolume, OrderOfRowsAndOfObjectivesDoesNotMatter, ()) {
+  const int m = *rc::gen::inRange(1, 7);
+  const Eigen::MatrixXd Y = support::whole_points(*rc::gen::inRange(1, 25), m, 7);
+  const Eigen::MatrixXd shuffled = Y(support::shuffled_rows(Y.rows()), support::shuffled_rows(m));
+  const Eigen::VectorXd reference = Eigen::VectorXd::Constant(m, 7.0);
+  RC_ASSERT(hypervolume(shuffled, reference) == hypervolume(Y, reference));
+}
+
+// Scaling by powers of two and shifting by whole numbers is exact.
+RC_GTEST_PROP(Hypervolume, ScalesWithTheUnitsAndIgnoresTheOrigin, ()) {
+  const int m = *rc::gen::inRange(1, 7);
+  const Eigen::MatrixXd Y = support::whole_points(*rc::gen::inRange(1, 25), m, 7);
+  Eigen::RowVectorXd scale(m), shift(m);
+  for (double& s : scale) s = std::ldexp(1.0, *rc::gen::resize(100, rc::gen::inRange(-3, 4)));
+  for (double& s : shift) s = *rc::gen::resize(100, rc::gen::inRange(-50, 50));
+  const Eigen::RowVectorXd reference = Eigen::RowVectorXd::Constant(m, 7.0);
+  const Eigen::MatrixXd moved = (Y.rowwise() + shift) * scale.asDiagonal();
+  const Eigen::VectorXd moved_reference = ((reference + shift) * scale.asDiagonal()).transpose();
+  RC_ASSERT(hypervolume(moved, moved_reference) == scale.prod() * hypervolume(Y, reference.transpose()));
+}
+
+TEST(Hypervolume, PointsBeyondTheReferenceAddNothing) {
+  Eigen::MatrixXd Y(3, 4);
+  Y << 1, 1, 1, 1, 0, 0, 0, 2, 0, 0, 5, 0;
+  EXPECT_EQ(hypervolume(Y, Eigen::VectorXd::Constant(4, 2.0)), 1.0);
+  EXPECT_EQ(hypervolume(Y.bottomRows(2), Eigen::VectorXd::Constant(4, 2.0)), 0.0);
+  EXPECT_EQ(hypervolume(Eigen::MatrixXd(0, 4), Eigen::VectorXd::Constant(4, 2.0)), 0.0);
+}
+
+TEST(Hypervolume, BadInputIsNamed) {
+  const auto text = [](const Eigen::MatrixXd& Y, const Eigen::VectorXd& reference) {
+    return support::thrown_text<std::invalid_argument>([&] { hypervolume(Y, reference); });
+  };
+  EXPECT_EQ(text(Eigen::MatrixXd::Zero(2, 3), Eigen::VectorXd::Ones(2)),
+            "pareto::hypervolume: points has 3 columns, reference has 2 entries; both need one an objective");
+  EXPECT_EQ(text(Eigen::MatrixXd::Constant(2, 3, NAN), Eigen::VectorXd::Ones(3)),
+            "pareto::hypervolume: points holds NaN or infinity; leave out failed runs");
+  EXPECT_EQ(text(Eigen::MatrixXd::Zero(2, 3), Eigen::VectorXd::Constant(3, INFINITY)),
+            "pareto::hypervolume: reference holds NaN or infinity; give finite numbers");
+}
+
+}  // namespace
+}  // namespace drawpoint::pareto

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Test functions and point sets of multi-objective optimisation, all minimised.
+///
+/// ZDT1 (Zitzler, Deb, Thiele 2000): f_1 = x_1, f_2 = g (1 - sqrt(f_1/g)), g = 1 + 9 mean(x_2..x_d); front
+/// f_2 = 1 - sqrt(f_1). DTLZ2 (Deb, Thiele, Laumanns, Zitzler 2002), three objectives: front is the unit
+/// sphere's positive octant. The point sets are those by which hypervolume and sorting programs are compared:
+/// splitmix64, row by row.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <drawpoint/doe/outcome.hpp>
+#include <numbers>
+
+namespace drawpoint::support {
+
+inline doe::Outcome zdt1(const Eigen::VectorXd& x) {
+  const double g = 1.0 + 9.0 * x.tail(x.size() - 1).mean();
+  return {x[0], g * (1.0 - std::sqrt(x[0] / g))};
+}
+
+inline doe::Outcome dtlz2(const Eigen::VectorXd& x) {
+  const double g = (x.tail(x.size() - 2).array() - 0.5).square().sum();
+  const double a = 0.5 * std::numbers::pi * x[0], b = 0.5 * std::numbers::pi * x[1];
+  return {(1.0 + g) * std::cos(a) * std::cos(b), (1.0 + g) * std::cos(a) * std::sin(b),
+          (1.0 + g) * std::sin(a)};
+}
+
+/// Standard normals made positive and put on the unit sphere: no point dominates another.
+inline Eigen::MatrixXd sphere_points(int n, int m, doe::Seed seed) {
+  doe::RandomStream random(seed);
+  Eigen::MatrixXd Y(n, m);
+  for (auto row : Y.rowwise()) {
+    for (double& y : row) y = std::abs(random.normal());
+    row.normalize();
+  }
+  return Y;
+}
+
+inline Eigen::MatrixXd cube_points(int n, int m, doe::Seed seed) {
+  doe::RandomStream random(seed);
+  Eigen::MatrixXd Y(n, m);
+  for (auto row : Y.rowwise())
+    for (double& y : row) y = random.uniform();
+  return Y;
+}
+
+}  // namespace drawpoint::support

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// What people and scripts read: progress, durations, the JSON line.
+
+#include "support.hpp"
+
+#include <drawpoint/studies/progress.hpp>
+#include <drawpoint/studies/summary.hpp>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace drawpoint::studies {
+namespace {
+
+TEST(Progress, TimeLeftIsThatOfTheRestAtTheRateOfThisSession) {
+  // 10 runs in 60 s of this session; 30 to go take 180 s.
+  EXPECT_EQ(progress_text({.done = 20, .failed = 1, .total = 50, .session = 10, .seconds = 60.0}),
+            "20/50 runs, 1 failed, 10 a minute, 3.0 min left");
+  EXPECT_EQ(progress_text({.done = 20, .total = 50}), "20/50 runs");
+  EXPECT_EQ(progress_text({.done = 50, .total = 50, .session = 50, .seconds = 10.0}),
+            "50/50 runs, 5.0 a second");
+}
+
+TEST(Progress, DurationsKeepTwoOrThreeFigures) {
+  EXPECT_EQ(duration_text(0.04), "0.0 s");
+  EXPECT_EQ(duration_text(42.0), "42 s");
+  EXPECT_EQ(duration_text(720.0), "12 min");
+  EXPECT_EQ(duration_text(4.0 * 3600.0), "4.0 h");
+  EXPECT_EQ(duration_text(72.0 * 3600.0), "3.0 d");
+}
+
+TEST(Progress, ElsewhereThanOnATerminalOneLineAStep) {
+  const test::TestFolder folder;
+  FILE* file = std::fopen((folder / "out").c_str(), "w");
+  {
+    Progress progress(fileno(file), {.total = 2});
+    progress.finished_one(false);
+    progress.tick();
+    progress.finished_one(true);
+  }
+  std::fclose(file);
+  const std::string text = test::contents(folder / "out");
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  EXPECT_EQ(text.find("0/2 runs\n"), 0u);
+  EXPECT_NE(text.find("2/2 runs, 1 failed"), std::string::npos);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+}
+
+TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
+  const Summary summary{.study = "s",
+                        .training = 40,
+                        .validation = 10,
+                        .failed = 2,
+                        .nrmse = {{"production", 0.0625}, {"spill", std::nan("")}},
+                        .front = 200,
+                        .report = "/a \"b\"/report.html"};
+  const std::string line = json_line(summary);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const auto data = nlohmann::json::parse(line);
+  EXPECT_EQ(data["runs"], 50);
+  EXPECT_EQ(data["failed"], 2);
+  EXPECT_EQ(data["nrmse"]["production"], 0.0625);
+  EXPECT_TRUE(data["nrmse"]["spill"].is_null());
+  EXPECT_EQ(data["front"], 200);
+  EXPECT_EQ(data["report"], "/a \"b\"/report.html");
+  EXPECT_FALSE(data.contains("error"));
+}
+
+TEST(JsonLine, WithoutAReportSaysWhy) {
+  const auto data =
+      nlohmann::json::parse(json_line({.study = "s", .training = 2, .failed = 2, .error = "no models"}));
+  EXPECT_TRUE(data["report"].is_null());
+  EXPECT_EQ(data["error"], "no models");
+}
+
+}  // namespace
+}  // namespace drawpoint::studies

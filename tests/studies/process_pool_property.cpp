@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// However a child ends, the pool says how, keeps its reply and its output, and leaves nothing running.
+
+#include "support.hpp"
+
+#include <signal.h>
+#include <drawpoint/studies/execution.hpp>
+#include <drawpoint/studies/process_pool.hpp>
+
+#include <chrono>
+#include <map>
+#include <thread>
+
+namespace drawpoint::studies {
+namespace {
+
+using std::chrono::milliseconds;
+using test::TestFolder;
+
+class PoolTest : public testing::Test {
+ protected:
+  Job shell(std::int64_t id, const std::string& script, double time_limit = 0.0) {
+    return {.id = id,
+            .executable = "/bin/sh",
+            .arguments = {"-c", script},
+            .output = folder_ / ("out_" + std::to_string(id)),
+            .time_limit = time_limit};
+  }
+
+  std::map<std::int64_t, JobEnd> run_all(const std::vector<Job>& jobs, int at_once) {
+    ProcessPool pool(at_once);
+    std::map<std::int64_t, JobEnd> ends;
+    std::size_t next = 0;
+    while (next < jobs.size() || pool.running() > 0) {
+      while (next < jobs.size() && !pool.full()) pool.start(jobs[next++]);
+      EXPECT_LE(pool.running(), at_once);
+      for (const auto& end : pool.wait(milliseconds(100))) ends[end.id] = end;
+    }
+    return ends;
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(PoolTest, RepliesReachTheRightRun) {
+  std::vector<Job> jobs;
+  for (int id = 1; id <= 20; ++id) jobs.push_back(shell(id, "printf reply-" + std::to_string(id) + " >&3"));
+  const auto ends = run_all(jobs, 3);
+  ASSERT_EQ(ends.size(), 20u);
+  for (const auto& [id, end] : ends) {
+    EXPECT_EQ(end.reply, "reply-" + std::to_string(id));
+    EXPECT_EQ(describe(end), "ended with exit code 0");
+  }
+}
+
+TEST_F(PoolTest, AReplyLargerThanAPipeArrivesWhole) {
+  const auto ends = run_all({shell(1, "head -c 300000 /dev/zero | tr '\\0' x >&3")}, 1);
+  EXPECT_EQ(ends.at(1).reply, std::string(300000, 'x'));
+}
+
+TEST_F(PoolTest, SaysHowAChildEnded) {
+  const auto ends = run_all({shell(1, "exit 3"),
+                             shell(2, "kill -SEGV $$"),
+                             shell(3, "kill -ABRT $$"),
+                             shell(4, "sleep 30", 0.1),
+                             {.id = 5, .executable = "/no/such/program", .output = folder_ / "out_5"}},
+                            5);
+  EXPECT_EQ(describe(ends.at(1)), "ended with exit code 3");
+  EXPECT_EQ(describe(ends.at(2)), "ended by signal SIGSEGV (Segmentation fault)");
+  EXPECT_EQ(describe(ends.at(3)), "ended by signal SIGABRT (Aborted)");
+  EXPECT_EQ(describe(ends.at(4)), "stopped after 0.1 s, its time limit");
+  EXPECT_EQ(describe(ends.at(5)), "could not be started");
+}
+
+TEST_F(PoolTest, ACrashIsAFailureThatNamesTheOutput) {
+  const auto ends =
+      run_all({shell(1, "echo before the end; echo more >&2; kill -SEGV $$"), shell(2, "kill -SEGV $$")}, 1);
+  EXPECT_EQ(test::contents(folder_ / "out_1"), "before the end\nmore\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out_2"));
+  EXPECT_EQ(outcome_of(ends.at(1), folder_ / "out_1").reason(),
+            "the run's process ended by signal SIGSEGV (Segmentation fault); it printed logs/out_1");
+  EXPECT_EQ(outcome_of(ends.at(2), folder_ / "out_2").reason(),
+            "the run's process ended by signal SIGSEGV (Segmentation fault)");
+}
+
+TEST_F(PoolTest, OutcomesSurviveTheChannelBitForBit) {
+  const Eigen::Vector3d y(0.1 + 0.2, -5e-324, 1.7976931348623157e308);
+  JobEnd end;
+  end.reply = reply_text(doe::Outcome(y));
+  EXPECT_EQ(outcome_of(end, "").values(), y);
+  end.reply = reply_text(doe::Failure{"bucket \"stuck\"\nat 3 m, byte \xff"});
+  EXPECT_EQ(outcome_of(end, "").reason(), "bucket \"stuck\"\nat 3 m, byte \xef\xbf\xbd");
+  end.reply = R"({"values":[1.0, 2)";  // cut short by a crash
+  EXPECT_EQ(outcome_of(end, "").reason(), "the run's process ended with exit code 0");
+}
+
+TEST_F(PoolTest, ChildrenHaveOneThreadAndNoTerminal) {
+  const auto ends = run_all({shell(1, "printf $OMP_NUM_THREADS >&3; cat >&3")}, 1);
+  EXPECT_EQ(ends.at(1).reply, "1");
+}
+
+/// Also a program that the child has started ends with it, and a child that ignores SIGTERM.
+TEST_F(PoolTest, TerminateLeavesNothingRunning) {
+  const auto start = std::chrono::steady_clock::now();
+  {
+    ProcessPool pool(2);
+    pool.start(shell(1, "sleep 60 & echo $! > " + (folder_ / "grandchild").string() + "; wait"));
+    pool.start(shell(2, "trap '' TERM; echo ready > " + (folder_ / "stubborn").string() +
+                            "; while true; do sleep 0.05; done"));
+    while (test::contents(folder_ / "grandchild").empty() || test::contents(folder_ / "stubborn").empty()) {
+      std::this_thread::sleep_for(milliseconds(5));
+    }
+    pool.terminate(milliseconds(100));
+    EXPECT_EQ(pool.running(), 0);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  const pid_t grandchild = std::stoi(test::contents(folder_ / "grandchild"));
+  const auto gone = [&] {
+    const std::string state = test::contents("/proc/" + std::to_string(grandchild) + "/stat");
+    return kill(grandchild, 0) != 0 || state.find(") Z ") != std::string::npos;
+  };
+  for (int i = 0; i < 400 && !gone(); ++i)
+    std::this_thread::sleep_for(milliseconds(5));  // the kernel delivers when it can
+  EXPECT_TRUE(gone());
+}
+
+}  // namespace
+}  // namespace drawpoint::studies

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <drawpoint/studies/report/panels.hpp>
+#include <drawpoint/studies/report/summary.hpp>
+#include <drawpoint/studies/report/surface.hpp>
+#include <drawpoint/studies/report/text.hpp>
+#include <drawpoint/tests/studies/report_cases.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+using namespace drawpoint::studies::report_cases;
+
+namespace {
+
+/// What report/web/kriging.js computes.
+double formula_of_page(const detail::Surface& s, const kriging::Model& model, const Eigen::VectorXd& x) {
+  double mean = model.trend();
+  for (Eigen::Index i = 0; i < s.X.rows(); ++i) {
+    double exponent = 0.0;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const double at = 2.0 * (x[k] - s.lower[k]) / (s.upper[k] - s.lower[k]) - 1.0;
+      exponent += model.theta()[k] * (at - s.X(i, k)) * (at - s.X(i, k));
+    }
+    mean += s.weights[i] * std::exp(-exponent);
+  }
+  return mean;
+}
+
+void expect_same_mean(const ReportInput& in, const kriging::Model& model) {
+  const auto found = detail::surface(model, in.problem, in.training.X());
+  ASSERT_TRUE(found);
+  const detail::Surface& s = *found;
+  const Eigen::MatrixXd points = doe::uniform_random(in.problem, 100, 99);
+  const Eigen::VectorXd wanted = model.mean(points);
+  const double range = wanted.maxCoeff() - wanted.minCoeff();
+  // Tikhonov's jitter of 1e-11 moves the means at the runs by 1e-11 times the weights, which a nugget of
+  // 1e-10 and more keeps below 1e10 ranges; smooth responses stay orders below. A colour step of a plot is
+  // 1e-2 of the range.
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    EXPECT_NEAR(formula_of_page(s, model, points.row(i).transpose()), wanted[i], 1e-3 * range);
+}
+
+}  // namespace
+
+TEST(ReportSurface, TheBrowserSeesTheModelsMean) {
+  ReportInput in = input(3, 1, 30, 0);
+  expect_same_mean(in, in.models[0]);  // scaled by the data's range
+  kriging::FitOptions options;
+  options.lower = Eigen::VectorXd::Constant(3, 0.0);
+  options.upper = Eigen::VectorXd::Constant(3, 2.0);
+  expect_same_mean(in, kriging::fit(in.training.X(), in.training.y("y0"), options));  // by the problem's box
+}
+
+TEST(ReportSurface, ReplicatesOfNoisyRunsAreFine) {
+  ReportInput in = input(2, 1, 15, 0);
+  doe::RandomStream random(5);
+  const auto once = in.training.rows;
+  in.training.rows.insert(in.training.rows.end(), once.begin(), once.end());
+  for (doe::Evaluation& e : in.training.rows)
+    e.outcome = doe::Outcome(e.outcome.values()[0] + 0.1 * random.normal());
+  expect_same_mean(in, kriging::fit(in.training.X(), in.training.y("y0")));
+}
+
+TEST(ReportSurface, RefusesAModelOfOtherRuns) {
+  const ReportInput in = input(2, 1, 15, 0);
+  const doe::Problem half{{{"x0", "m", 0.0, 0.5}, {"x1", "m", 0.0, 0.5}}, in.problem.responses};
+  const Eigen::MatrixXd X = doe::latin_hypercube(half, 15);
+  const Eigen::VectorXd y = (X.col(0).array() * 40.0).sin() * (X.col(1).array() * 40.0).cos();
+  EXPECT_FALSE(detail::surface(kriging::fit(X, y), in.problem, in.training.X()));
+}
+
+// f = x0 + 2 x1 on a square: the variances of the terms are 1:4, so the total indices are 0.2 and 0.8.
+// Jansen's terms (a - b)^2/2 have a relative standard deviation of sqrt(7/5) for uniform a, b, so 512 of them
+// give 1.2/sqrt(512) = 5 %; the variance in the denominator, of 1024 values, adds 3 %. Four sigma of 6 % is
+// 24 %; the sum of both indices is as uncertain.
+TEST(ReportInfluence, LinearFunction) {
+  ReportInput in = input(2, 1, 20, 0);
+  const Eigen::MatrixXd X = in.training.X();
+  const Eigen::VectorXd total = detail::influence(kriging::fit(X, X.col(0) + 2.0 * X.col(1)), in.problem);
+  EXPECT_NEAR(total[0], 0.2, 0.24 * 0.2);
+  EXPECT_NEAR(total[1], 0.8, 0.24 * 0.8);
+}
+
+TEST(ReportInfluence, ConstantFunctionHasNone) {
+  const ReportInput in = input(2, 1, 20, 0);
+  EXPECT_EQ(detail::influence(kriging::fit(in.training.X(), Eigen::VectorXd::Constant(20, 3.0)), in.problem),
+            Eigen::VectorXd::Zero(2));
+}
+
+// Ideal point (best of each) is (10, 0) with the goals maximize, minimize. Scaled distances: (0, 1) -> 1;
+// (0.5, 0.25) -> 0.56; (1, 0) -> 1.
+TEST(ReportSummary, BalancedPointIsNearestToTheIdeal) {
+  pareto::Front front;
+  front.Y = Eigen::MatrixXd{{10.0, 4.0}, {6.0, 1.0}, {2.0, 0.0}};
+  EXPECT_EQ(detail::balanced_point(problem(2, 2), front), 1);
+  EXPECT_EQ(detail::balanced_point(problem(2, 2), pareto::Front{}), -1);
+}
+
+TEST(ReportText, NumbersHaveThreeDigits) {
+  EXPECT_EQ(detail::number(412.3), "412");
+  EXPECT_EQ(detail::number(-0.07463), "-0.0746");
+  EXPECT_EQ(detail::number(12345.6), "12346");
+  EXPECT_EQ(detail::number(2.5e7), "2.50e+07");
+  EXPECT_EQ(detail::number(0.0), "0");
+  EXPECT_EQ(detail::number(std::nan("")), "n/a");
+  EXPECT_EQ(detail::number_with_unit(1.5, "1"), "1.50");
+  EXPECT_EQ(detail::percent(0.0712), "7.1 %");
+}
+
+// Two bodies, two frames; x spans -10..10 m about 0, so one unit is 10/32767 m. x = 10 is 32767 = FF 7F, the
+// identity's w too; an absent body is 00 80 and zeros.
+TEST(ReportPanels, PosesArePacked) {
+  const nlohmann::json here = {10.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0},
+                       there = {-10.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+  const nlohmann::json scene = {
+      {"type", "scene"},
+      {"title", "t"},
+      {"caption", "c"},
+      {"shapes", {{{"vertices", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {"faces", {{0, 1, 2}}}}}},
+      {"bodies", {{{"shape", 0}}, {{"shape", 0}}}},
+      {"frames", {{{"t", 0.0}, {"poses", {here, nullptr}}}, {{"t", 1.0}, {"poses", {there, here}}}}}};
+  std::vector<std::string> cautions;
+  const auto packed = detail::checked_panels(nlohmann::json::array({scene}), cautions);
+  ASSERT_TRUE(cautions.empty()) << cautions[0];
+  const auto& poses = packed.at(0).at("poses");
+  EXPECT_DOUBLE_EQ(poses.at("scale").get<double>(), 10.0 / 32767.0);
+  // FF7F 0000 0000 FF7F 0000 0000 0000 | 0080 0000 x6 | 0180 0000 0000 FF7F 0000 0000 0000 | as the first
+  EXPECT_EQ(poses.at("data"), "/38AAAAA/38AAAAAAAAAgAAAAAAAAAAAAAAAAAGAAAAAAP9/AAAAAAAA/38AAAAA/38AAAAAAAA=");
+  EXPECT_FALSE(packed.at(0).at("frames").at(0).contains("poses"));
+}
+
+TEST(ReportPanels, ASceneThatDoesNotHangTogetherIsRefused) {
+  nlohmann::json scene = {{"type", "scene"},
+                          {"title", "t"},
+                          {"caption", "c"},
+                          {"shapes", nlohmann::json::array()},
+                          {"bodies", {{{"shape", 0}}}},
+                          {"frames", nlohmann::json::array()}};
+  std::vector<std::string> cautions;
+  EXPECT_TRUE(detail::checked_panels(nlohmann::json::array({scene}), cautions).empty());
+  ASSERT_EQ(cautions.size(), 1u);
+  EXPECT_EQ(cautions[0], "Figure 1 of the simulation was left out: a body names a shape that is not there.");
+}

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <drawpoint/studies/report/page.hpp>
+#include <drawpoint/tests/studies/report_cases.hpp>
+#include <regex>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+using namespace drawpoint::studies::report_cases;
+
+namespace {
+
+class Report : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("drawpoint_report_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file() const { return folder_ / "report.html"; }
+
+  nlohmann::json written(const ReportInput& in) const {
+    write_report(file(), in);
+    return data_in(text_of(file()));
+  }
+
+  std::ptrdiff_t files() const {
+    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// The page without what stands between <script> and </script>: all that a browser reads as markup.
+std::string markup(const std::string& page) {
+  std::string rest;
+  for (std::size_t at = 0; at != std::string::npos;) {
+    const std::size_t open = page.find("<script", at);
+    const std::size_t end_of_tag = open == std::string::npos ? open : page.find('>', open) + 1;
+    rest += page.substr(at, end_of_tag == std::string::npos ? end_of_tag : end_of_tag - at);
+    at = end_of_tag == std::string::npos ? end_of_tag : page.find("</script", end_of_tag);
+  }
+  return rest;
+}
+
+bool mentions(const nlohmann::json& texts, const std::string& part) {
+  for (const auto& text : texts)
+    if (text.get<std::string>().find(part) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_F(Report, LoadsNothing) {
+  write_report(file(), input(2, 2, 8, 4));
+  const std::string page = text_of(file()), tags = markup(page);
+  EXPECT_GT(page.size(), 4'000'000u) << "the libraries are inside";
+  EXPECT_FALSE(std::regex_search(tags, std::regex("(src|href|srcset|action) *=", std::regex::icase)));
+  EXPECT_EQ(tags.find("@import"), std::string::npos);
+  EXPECT_EQ(tags.find("url("), std::string::npos);
+  EXPECT_NE(tags.find("content=\"default-src 'none'; script-src 'unsafe-inline'"), std::string::npos)
+      << "the page forbids the browser any network";
+  EXPECT_EQ(page.find("@DRAWPOINT_"), std::string::npos) << "every place is filled";
+}
+
+TEST_F(Report, NoTextBecomesMarkup) {
+  ReportInput in = input(2, 2, 8, 4);
+  in.study = in.about = in.command = nasty;
+  in.problem.variables[0].name = in.problem.responses[0].unit = "<b>" + std::string(R"(&%{x})");
+  in.validation.rows[0].outcome = doe::Failure{nasty};
+  in.facts = {{nasty, nasty}};
+  in.warnings = {nasty};
+  in.illustrations = {
+      {{"type", "table"}, {"title", nasty}, {"caption", nasty}, {"columns", {nasty}}, {"rows", {{nasty}}}}};
+  const auto data = written(in);
+  const std::string page = text_of(file());
+  std::size_t scripts = 0;
+  for (std::size_t at = page.find("<script"); at != std::string::npos; at = page.find("<script", at + 1)) {
+    const std::size_t end = page.find("</script", at);
+    ASSERT_NE(end, std::string::npos);
+    ++scripts;
+    at = end;
+  }
+  EXPECT_EQ(scripts, 3u) << "data, plotly.js, the page's own";
+  EXPECT_NE(page.find("<title>&lt;/script&gt;"), std::string::npos);
+  const std::string readable =
+      nasty.substr(0, nasty.size() - 1) + "\xEF\xBF\xBD";  // the broken byte is replaced
+  EXPECT_EQ(data.at("study"), readable);
+  EXPECT_EQ(data.at("facts").at(0).at(1), readable);
+  EXPECT_EQ(data.at("validation").at("rows").at(0).at("reason"), readable);
+  EXPECT_EQ(data.at("illustrations").at(0).at("rows").at(0).at(0), readable);
+}
+
+TEST_F(Report, CopesWithAnyNumberOfVariablesAndResponses) {
+  for (const auto& [d, r] : {std::pair{1, 1}, {1, 3}, {2, 1}, {3, 2}, {7, 4}}) {
+    const auto data = written(input(d, r, 12, 10));
+    EXPECT_EQ(data.at("models").size(), static_cast<std::size_t>(r));
+    EXPECT_EQ(data.at("influence").at(0).size(), static_cast<std::size_t>(d));
+    EXPECT_EQ(data.at("summary").at("trust").size(), static_cast<std::size_t>(r));
+    EXPECT_LT(data.at("main_pair").at(1), d);
+    EXPECT_EQ(data.at("front").at("X").size(), 12u);
+  }
+}
+
+TEST_F(Report, WithoutValidationRunsNothingIsCalledGood) {
+  const auto data = written(input(2, 2, 8, 0));
+  EXPECT_TRUE(data.at("validations").at(0).is_null());
+  for (const auto& verdict : data.at("summary").at("trust")) EXPECT_EQ(verdict.at("grade"), "unknown");
+}
+
+TEST_F(Report, SaysThatAllRunsFailed) {
+  const auto data = written(failed_input());
+  EXPECT_TRUE(data.at("models").empty());
+  EXPECT_EQ(data.at("front").at("X").size(), 0u);
+  EXPECT_TRUE(mentions(data.at("summary").at("sentences"), "No training run succeeded"));
+  EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "8 of 8 runs failed (100 %)"));
+  EXPECT_EQ(data.at("summary").at("trust").at(1).at("grade"), "unknown");
+}
+
+TEST_F(Report, FlagsWhatCannotBeTrusted) {
+  ReportInput in = input(2, 1, 8, 6);
+  in.validation.rows[3].outcome = doe::Failure{"stuck"};
+  kriging::Validation& v = in.validations[0];
+  v.rmse = 1.0;
+  v.nrmse = 0.31;
+  in.front.Y(0, 0) = 1e3;
+  in.warnings = {"mind this"};
+  const auto data = written(in);
+  const auto& cautions = data.at("summary").at("cautions");
+  EXPECT_EQ(cautions.at(0), "mind this");
+  EXPECT_TRUE(mentions(cautions, "1 of 14 runs failed (7.1 %)"));
+  EXPECT_TRUE(mentions(cautions, "y0 is poor (NRMSE 31 %)"));
+  EXPECT_TRUE(mentions(cautions, "Only 5 validation points"));
+  EXPECT_TRUE(mentions(cautions, "simulate it before believing it"));
+  EXPECT_EQ(data.at("summary").at("trust").at(0).at("grade"), "poor");
+}
+
+TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
+  ReportInput in = input(2, 1, 8, 4);
+  in.illustrations = {
+      {{"type", "sketch"}, {"title", "t"}, {"caption", "c"}},
+      {{"type", "table"}, {"title", "t"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1, 2}}}},
+      {{"type", "table"}, {"title", "good"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}},
+      7};
+  const auto data = written(in);
+  ASSERT_EQ(data.at("illustrations").size(), 1u);
+  EXPECT_EQ(data.at("illustrations").at(0).at("title"), "good");
+  const auto& cautions = data.at("summary").at("cautions");
+  EXPECT_TRUE(mentions(
+      cautions, "Figure 1 of the simulation was left out: the type \"sketch\" is none of path, scene"));
+  EXPECT_TRUE(mentions(cautions, "Figure 2 of the simulation was left out: a row has not as many cells"));
+  EXPECT_TRUE(mentions(cautions, "Figure 4 of the simulation was left out: \"type\" is missing"));
+}
+
+TEST_F(Report, IsWrittenWholeOrNotAtAll) {
+  write_report(file(), input(1, 1, 5, 0));
+  const std::string before = text_of(file());
+  ReportInput wrong = input(1, 1, 5, 0);
+  wrong.models.push_back(wrong.models[0]);
+  try {
+    write_report(file(), wrong);
+    FAIL() << "two models for one response were accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "studies::write_report: 2 models for 1 responses; give one each or none");
+  }
+  EXPECT_EQ(text_of(file()), before);
+  EXPECT_EQ(files(), 1) << "no temporary file is left";
+  EXPECT_THROW(write_report(folder_ / "missing" / "report.html", input(1, 1, 5, 0)), std::runtime_error);
+}

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// A folder belongs to one study: same options resume it, other options are refused with what differs, and
+/// nothing in it changes.
+
+#include "support.hpp"
+
+#include <sys/wait.h>
+#include <drawpoint/studies/plan.hpp>
+#include <drawpoint/studies/session.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace drawpoint::studies {
+namespace {
+
+using test::complaint;
+using test::TestFolder;
+
+Study sample() {
+  return {.name = "sample",
+          .problem = test::two_by_two(),
+          .black_box =
+              [](const Eigen::VectorXd& x) {
+                return doe::Outcome{x[0], x[1]};
+              },
+          .defaults = {.runs = 6, .validation = 2}};
+}
+
+class SessionTest : public testing::Test {
+ protected:
+  std::string refused(const Study& study, const Settings& settings) {
+    const std::string before = test::contents(folder_.store());
+    const std::string text = complaint([&] { plan_study(study, folder_, settings); });
+    EXPECT_EQ(test::contents(folder_.store()), before);
+    EXPECT_THROW(plan_study(study, folder_, settings), UsageError);
+    return text;
+  }
+
+  TestFolder place_;
+  const Folder folder_{place_.path()};
+};
+
+TEST_F(SessionTest, NumbersComeFromOptionsThenTheStoreThenTheStudy) {
+  EXPECT_EQ(plan_study(sample(), folder_, {}).runs().size(), 8u);
+  EXPECT_EQ(plan_study(sample(), folder_, {.runs = 9, .validation = 3}).runs().size(), 12u);
+  EXPECT_EQ(plan_study(sample(), folder_, {}).runs().size(), 12u);
+}
+
+TEST_F(SessionTest, DoneRunsStayWhenTheStudyGrows) {
+  {
+    Store store = plan_study(sample(), folder_, {});
+    for (const auto& run : store.runs()) store.save_done(run.id, run.x * 2.0, 0.1);
+  }
+  const Store store = plan_study(sample(), folder_, {.runs = 7});
+  int done = 0;
+  for (const auto& run : store.runs()) {
+    if (run.status != Status::done) continue;
+    ++done;
+    EXPECT_EQ(run.y, run.x * 2.0);
+  }
+  EXPECT_EQ(done, 8);
+  EXPECT_EQ(store.runs().size(), 9u);
+}
+
+TEST_F(SessionTest, OtherOptionsAreRefused) {
+  plan_study(sample(), folder_, {});
+  const std::string text = refused(sample(), {.seed = 7});
+  EXPECT_EQ(text, "studies: " + place_.path().string() +
+                      " holds another study: seed 1 there, 7 here; choose another folder with --out, or move "
+                      "this one away");
+  EXPECT_NE(refused(sample(), {.replicates = 2}).find("replicates 1 there, 2 here"), std::string::npos);
+  EXPECT_NE(refused(sample(), {.runs = 3}).find("--runs 6 or more"), std::string::npos);
+  EXPECT_EQ(plan_study(sample(), folder_, {.seed = 1}).runs().size(), 8u);
+}
+
+TEST_F(SessionTest, OtherProblemsAreRefused) {
+  plan_study(sample(), folder_, {});
+  Study other = sample();
+  other.problem.variables[0].upper = 2.5;
+  EXPECT_NE(refused(other, {}).find("variable \"alpha\": upper bound 2.0 there, 2.5 here"),
+            std::string::npos);
+  other = sample();
+  other.problem.responses[1].limit = 0.3;
+  EXPECT_NE(refused(other, {}).find("response \"spill\": limit 0.25 there, 0.3 here"), std::string::npos);
+  other = sample();
+  other.problem.responses[0].goal = doe::Goal::minimize;
+  EXPECT_NE(refused(other, {}).find("goal maximize there, minimize here"), std::string::npos);
+  other = sample();
+  other.problem.variables.pop_back();
+  EXPECT_NE(refused(other, {}).find("variables are alpha, lip there, alpha here"), std::string::npos);
+  other = sample();
+  other.name = "other";
+  EXPECT_NE(refused(other, {}).find("name \"sample\" there, \"other\" here"), std::string::npos);
+}
+
+TEST_F(SessionTest, AMissingStudySaysSo) {
+  EXPECT_NE(complaint([&] { open_store(sample(), folder_); }).find("there is no study in"),
+            std::string::npos);
+}
+
+TEST(Problems, SurviveTheStoreAsText) {
+  const doe::Problem problem = test::two_by_two();
+  EXPECT_EQ(difference(problem_from_json(nlohmann::json::parse(to_json(problem).dump())), problem), "");
+}
+
+TEST(Folders, ARegularFileInTheWayIsNamed) {
+  const TestFolder place;
+  test::write_file(place / "taken", "x");
+  const std::string text = complaint([&] { make_writable(Folder{place / "taken"}); });
+  EXPECT_NE(text.find((place / "taken").string()), std::string::npos) << text;
+  EXPECT_NE(text.find("--out"), std::string::npos) << text;
+}
+
+TEST(Folders, OneProcessAtATime) {
+  const TestFolder place;
+  const Folder folder{place.path()};
+  const FolderLock lock(folder);
+  const std::string text = complaint([&] { FolderLock second(folder); });
+  EXPECT_NE(text.find("another process (number " + std::to_string(getpid()) + ") is working in"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Folders, ALockDiesWithItsProcess) {
+  const TestFolder place;
+  const Folder folder{place.path()};
+  const pid_t child = fork();
+  if (child == 0) {
+    const FolderLock lock(folder);
+    raise(SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  const FolderLock lock(folder);
+  EXPECT_EQ(test::contents(place / ".lock"), std::to_string(getpid()));
+}
+
+TEST(BlackBoxes, MayTakeSeedAndContext) {
+  const RunContext context{.log = "run.h5", .shared = "shared"};
+  const Eigen::VectorXd x = Eigen::Vector2d(1.0, 2.0);
+  const StudyFunction plain = [](const Eigen::VectorXd& p) { return p.sum(); };
+  const StudyFunction seeded = [](const Eigen::VectorXd& p, doe::Seed seed) {
+    return p[0] + static_cast<double>(seed);
+  };
+  const StudyFunction full = [](const Eigen::VectorXd&, doe::Seed, const RunContext& c) {
+    return doe::Outcome(doe::Failure{c.log.string() + c.shared.string()});
+  };
+  EXPECT_EQ(plain(x, 5, context).values()[0], 3.0);
+  EXPECT_EQ(seeded(x, 5, context).values()[0], 6.0);
+  EXPECT_EQ(full(x, 5, context).reason(), "run.h5shared");
+  EXPECT_FALSE(static_cast<bool>(StudyFunction()));
+}
+
+}  // namespace
+}  // namespace drawpoint::studies

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// The store gives back what it took, bit for bit, and leaves alone what is not its own.
+
+#include "support.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <drawpoint/studies/columns.hpp>
+#include <drawpoint/studies/store.hpp>
+
+#include <cmath>
+
+namespace drawpoint::studies {
+namespace {
+
+using test::complaint;
+using test::TestFolder;
+
+Run planned(std::int64_t id, double alpha, double lip) {
+  studies::Run run;
+  run.id = id;
+  run.point = id;
+  run.seed = 0xfedcba9876543210ull + static_cast<std::uint64_t>(id);
+  run.x = Eigen::Vector2d(alpha, lip);
+  return run;
+}
+
+class StoreTest : public testing::Test {
+ protected:
+  TestFolder folder_;
+  const std::filesystem::path file_ = folder_ / "study.db";
+};
+
+TEST_F(StoreTest, GivesBackEveryBit) {
+  const Eigen::Vector2d y(std::nextafter(1.0, 2.0), -1e-300);
+  {
+    Store store = Store::create(file_, test::identity(true, 3));
+    store.add({planned(1, 0.1 + 0.2, std::nextafter(3.0, 0.0)), planned(2, 1.0 / 3.0, -1.0)});
+    store.mark_running(1);
+    store.save_done(1, y, 0.25);
+    store.save_failed(2, "it's \"stuck\"", 1.5);
+  }
+  const Store store = Store::open(file_);
+  EXPECT_EQ(store.identity().seed, test::identity().seed);
+  EXPECT_EQ(store.identity().replicates, 3);
+  EXPECT_TRUE(store.identity().corners);
+  EXPECT_EQ(difference(store.identity().problem, test::two_by_two()), "");
+  const auto runs = store.runs();
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].seed, 0xfedcba9876543211ull);
+  EXPECT_EQ(runs[0].x, Eigen::Vector2d(0.1 + 0.2, std::nextafter(3.0, 0.0)));
+  EXPECT_EQ(runs[0].y, y);
+  EXPECT_EQ(runs[0].status, Status::done);
+  EXPECT_EQ(runs[0].seconds, 0.25);
+  EXPECT_EQ(runs[0].started.size(), std::string("2000-01-01T00:00:00Z").size());
+  EXPECT_EQ(runs[1].status, Status::failed);
+  EXPECT_EQ(runs[1].reason, "it's \"stuck\"");
+}
+
+TEST_F(StoreTest, TableIsReadableWithPlainSql) {
+  Store store = Store::create(file_, test::identity());
+  store.add({planned(1, 0.5, 2.0)});
+  store.save_done(1, Eigen::Vector2d(7.5, 0.125), 0.25);
+  SQLite::Database database(file_.string());
+  SQLite::Statement query(database,
+                          "SELECT alpha, lip, production, spill, seed FROM runs WHERE status = 'done'");
+  ASSERT_TRUE(query.executeStep());
+  EXPECT_EQ(query.getColumn(0).getDouble(), 0.5);
+  EXPECT_EQ(query.getColumn(1).getDouble(), 2.0);
+  EXPECT_EQ(query.getColumn(2).getDouble(), 7.5);
+  EXPECT_EQ(query.getColumn(3).getDouble(), 0.125);
+  EXPECT_EQ(query.getColumn(4).getString(), std::to_string(0xfedcba9876543211ull));
+}
+
+TEST_F(StoreTest, PlansAgainWhatWasInFlightAndOnDemandWhatFailed) {
+  Store store = Store::create(file_, test::identity());
+  store.add({planned(1, 0.5, 2.0), planned(2, 0.6, 2.0), planned(3, 0.7, 2.0)});
+  store.save_done(1, Eigen::Vector2d(1.0, 2.0), 0.1);
+  store.mark_running(2);
+  store.save_failed(3, "no", 0.1);
+  store.plan_again(false);
+  auto runs = store.runs();
+  EXPECT_EQ(runs[0].status, Status::done);
+  EXPECT_EQ(runs[1].status, Status::planned);
+  EXPECT_EQ(runs[2].status, Status::failed);
+  store.plan_again(true);
+  runs = store.runs();
+  EXPECT_EQ(runs[0].status, Status::done);
+  EXPECT_EQ(runs[2].status, Status::planned);
+  EXPECT_EQ(runs[2].reason, "");
+}
+
+TEST_F(StoreTest, AddsAllRunsOrNone) {
+  Store store = Store::create(file_, test::identity());
+  store.add({planned(1, 0.5, 2.0)});
+  complaint([&] { store.add({planned(2, 0.6, 2.0), planned(1, 0.7, 2.0)}); });
+  EXPECT_EQ(store.runs().size(), 1u);
+}
+
+TEST_F(StoreTest, LeavesAForeignFileAsItIs) {
+  {
+    SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    other.exec("CREATE TABLE runs (id INTEGER PRIMARY KEY)");
+  }
+  const std::string before = test::contents(file_);
+  const std::string text = complaint([&] { Store::open(file_); });
+  EXPECT_NE(text.find("not the store of a Drawpoint study"), std::string::npos) << text;
+  EXPECT_NE(text.find("--out"), std::string::npos) << text;
+  EXPECT_EQ(test::contents(file_), before);
+}
+
+TEST_F(StoreTest, RefusesTextAndEmptyFiles) {
+  test::write_file(file_, "alpha,production\n0.5,12\n" + std::string(4096, 'x'));
+  const std::string before = test::contents(file_);
+  EXPECT_NE(complaint([&] { Store::open(file_); }).find("not a database"), std::string::npos);
+  EXPECT_EQ(test::contents(file_), before);
+  test::write_file(file_, "");
+  EXPECT_NE(complaint([&] { Store::open(file_); }).find("not the store"), std::string::npos);
+}
+
+TEST_F(StoreTest, RefusesADamagedFile) {
+  {
+    Store store = Store::create(file_, test::identity());
+    std::vector<studies::Run> many;
+    for (int id = 1; id <= 500; ++id) many.push_back(planned(id, 0.5, 2.0));
+    store.add(many);
+  }
+  std::string bytes = test::contents(file_);
+  for (std::size_t i = 8192; i < 8192 + 2048; ++i) bytes[i] = '\x5a';  // inside the pages of the table
+  test::write_file(file_, bytes);
+  const std::string text = complaint([&] { Store::open(file_).runs(); });
+  EXPECT_NE(text.find("damaged"), std::string::npos) << text;
+  EXPECT_NE(text.find(file_.string()), std::string::npos) << text;
+  EXPECT_EQ(test::contents(file_), bytes);
+  test::write_file(file_, bytes.substr(0, bytes.size() / 2));
+  EXPECT_NE(complaint([&] { Store::open(file_).runs(); }).find("damaged"), std::string::npos);
+}
+
+TEST_F(StoreTest, RefusesAnotherSchemaVersion) {
+  Store::create(file_, test::identity());
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  EXPECT_NE(complaint([&] { Store::open(file_); }).find("schema version 99"), std::string::npos);
+}
+
+TEST(Columns, AreUniqueWithoutRegardToCase) {
+  const doe::Problem problem{.variables = {{"seed", "1", 0, 1}, {"Speed", "1", 0, 1}, {"a \"b\"", "1", 0, 1}},
+                             .responses = {{"speed", "1"}, {"status", "1"}}};
+  const Columns columns = columns_of(problem);
+  EXPECT_EQ(columns.x, (std::vector<std::string>{"\"x_seed\"", "\"Speed\"", "\"a \"\"b\"\"\""}));
+  EXPECT_EQ(columns.y, (std::vector<std::string>{"\"y_speed\"", "\"y_status\""}));
+}
+
+}  // namespace
+}  // namespace drawpoint::studies
