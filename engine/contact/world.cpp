@@ -208,8 +208,10 @@ StepReport World::step() {
   report.manifolds = static_cast<int>(problem_.rolling.size());
   report.points = static_cast<int>(problem_.points.size());
   report.last_change = solved.last_change;
-  for (const Manifold& m : *manifolds_)
+  for (const Manifold& m : *manifolds_) {
+    if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock) continue;
     for (int k = 0; k < m.count; ++k) report.max_overlap = std::max(report.max_overlap, -m.points[k].gap);
+  }
   report.rest_s = seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
   return report;
 }

@@ -59,9 +59,11 @@ class Emitter {
   RockSampler sampler_;
 };
 
+/// At rest: little energy in all, and nothing on the move. The speed limit lets single rocks tick as their contacts change features
+/// (up to about 0.1 m/s for a step or two) but no rock fall or roll.
 struct RestOptions {
-  double mean_energy = 1e-3;   ///< mean kinetic energy a kilogram [J/kg]
-  double fastest = 0.05;       ///< [m/s]
+  double mean_energy = 1e-4;   ///< mean kinetic energy a kilogram [J/kg]
+  double fastest = 0.2;        ///< [m/s]
   double hold = 1.0;           ///< both for this long [s]
   double cap = 20.0;           ///< give up after [s]
 };

@@ -46,12 +46,17 @@ std::string pile_recipe(const Scenario& s) {
   return recipe;
 }
 
-SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress) {
+SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress,
+                      const std::function<void(const contact::StepReport&)>& on_step) {
   check(scenario);
   contact::World world(scenario.world, mine_materials());
   add_drift(world, scenario.drift);
   const granular::RockLibrary library(scenario.pile.density, static_cast<int>(SurfaceKind::rock));
   granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed);
+  const auto step_world = [&] {
+    const contact::StepReport report = world.step();
+    if (on_step) on_step(report);
+  };
   std::vector<granular::RockSpec> specs;
   double poured = 0;
   const int steps_a_second = std::max(1, static_cast<int>(std::lround(1 / world.options().step)));
@@ -63,11 +68,11 @@ SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)
         poured += world.rocks()[rock].body.mass;
         last_birth = world.time();
       }
-    world.step();
+    step_world();
     if (progress && step % steps_a_second == 0) progress(std::min(1.0, poured / scenario.pile.mass));
   }
   granular::RestWatch watch(scenario.pile.rest);
-  do world.step();
+  do step_world();
   while (!watch.at_rest(world));
   if (progress) progress(1.0);
   SettledPile pile{{}, world.time(), watch.timed_out()};

@@ -14,7 +14,9 @@ export function validation(data) {
     {title: 'Process σ', format: number}];
   const rows = responses.map((r, j) => row(labelled(r), data.models[j], data.validations[j], variables.length));
   const node = section('surrogates', 'How good the surrogates are',
-    'A regression Kriging model stands in for the simulation. It was fitted to the training runs and judged on validation runs that it has never seen.');
+    data.models.length ? 'A regression Kriging model stands in for the simulation. It was fitted to the training runs and judged on validation runs that it has never seen.'
+      : 'No surrogate could be fitted.');
+  if (!data.models.length) return node;
   node.append(el('div', {class: 'block'}, table(columns, rows, {sortable: false}).node, el('p', {class: 'note'},
     'RMSE: root mean square error on the validation runs, in the unit of the response. NRMSE: RMSE over the range of the simulated values. ' +
     'ϑ: how fast the response changes along an input scaled to [-1, 1]; larger is livelier. Nugget: share of run-to-run noise, relative to the process variance.')));

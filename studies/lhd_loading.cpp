@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// The founding case: how should an LHD load from a muckpile in a drift, and what does each choice cost?
+
+#include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/studies/loading_figures.hpp>
+#include <drawpoint/studies/study.hpp>
+
+using namespace drawpoint;
+
+const doe::Problem problem{
+    .variables = {{"alpha", "1", 0.2, 2.0}, {"beta", "1", 0.0, 1.0}, {"gamma", "1", 0.0, 1.0}, {"kappa", "1", 0.0, 1.0}},
+    .responses = {{"production", "kg/s", doe::Goal::maximize},
+                  {"joint_damage", "s", doe::Goal::minimize},
+                  {"rock_spill", "1", doe::Goal::minimize}}};
+
+doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
+  engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
+  scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
+  scenario.seed = seed;
+  scenario.pile_file = run.shared / "pile.h5";
+  scenario.log_file = run.log;
+  const auto log = engine::loading::simulate(scenario);
+  if (!log.completed) return doe::Failure{log.message};
+  return {production(log), joint_damage(log), rock_spill(log)};
+}
+
+int main(int argc, char** argv) {
+  return studies::run(argc, argv, {.name = "lhd_loading", .problem = problem, .black_box = load,
+                                   .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
+                                   .defaults = {.runs = 40, .validation = 12},
+                                   .prepare = studies::settle_pile, .illustrate = studies::loading_figures});
+}

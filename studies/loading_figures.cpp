@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/studies/loading_figures.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace drawpoint::studies {
+namespace {
+
+using engine::loading::CycleRecord;
+using engine::loading::LoadingLog;
+using nlohmann::json;
+
+constexpr int values_a_pose = 7;
+constexpr double picture_interval = 0.5;  // of the replay [s]; keeps the page light
+
+// Three decimals: millimetres, and the text of a number stays short.
+json rounded(double value) { return std::round(value * 1e3) / 1e3; }
+json rounded(const std::vector<double>& values) {
+  json out = json::array();
+  for (double value : values) out.push_back(rounded(value));
+  return out;
+}
+
+std::string fixed(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+struct Rows {
+  std::size_t first, last;  // half open
+};
+
+Rows rows_of(const LoadingLog& log, int cycle) {
+  const std::vector<double> column = log.signals.column("cycle");
+  const auto begin = std::lower_bound(column.begin(), column.end(), cycle);
+  const auto end = std::upper_bound(column.begin(), column.end(), cycle);
+  return {static_cast<std::size_t>(begin - column.begin()), static_cast<std::size_t>(end - column.begin())};
+}
+
+// Every `stride`-th value of a signal in one cycle.
+std::vector<double> thinned(const LoadingLog& log, const char* name, Rows rows, std::size_t stride) {
+  const std::size_t column = log.signals.index(name);
+  std::vector<double> out;
+  for (std::size_t r = rows.first; r < rows.last; r += stride) out.push_back(log.signals.at(r, column));
+  return out;
+}
+
+json stage_paths(const LoadingLog& log, Rows rows, std::size_t stride) {
+  const std::vector<double> stage = thinned(log, "stage", rows, stride), x = thinned(log, "tip_x", rows, stride),
+                            z = thinned(log, "tip_z", rows, stride);
+  json stages = json::array();
+  for (int k = 1; k <= 4; ++k) {
+    json xs = json::array(), zs = json::array();
+    for (std::size_t i = 0; i < stage.size(); ++i)
+      if (stage[i] == k) {
+        xs.push_back(rounded(x[i]));
+        zs.push_back(rounded(z[i]));
+      }
+    stages.push_back({{"name", std::string(name(static_cast<engine::loading::Stage>(k)))}, {"x", xs}, {"z", zs}});
+  }
+  return stages;
+}
+
+json path_panel(const LoadingLog& log, const CycleRecord& cycle) {
+  const Rows rows = rows_of(log, 1);
+  const std::size_t stride = 4;
+  return {{"type", "path"},
+          {"title", "Planned and actual path of the cutting edge"},
+          {"caption", "First cycle of the run shown, from the side. The pile's contour is the mean over the attacked strips before the "
+                      "cycle; planned depth " + fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) +
+                      " m, slope " + fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
+          {"x_label", "along the drift [m]"},
+          {"z_label", "height [m]"},
+          {"contour", {{"x", rounded(cycle.contour_x)}, {"z", rounded(cycle.contour_z)}}},
+          {"planned", {{"x", rounded(cycle.planned_x)}, {"z", rounded(cycle.planned_z)}}},
+          {"actual", {{"x", rounded(thinned(log, "tip_x", rows, stride))}, {"z", rounded(thinned(log, "tip_z", rows, stride))}}},
+          {"stages", stage_paths(log, rows, stride)}};
+}
+
+json shape_of(const engine::contact::ConvexPolyhedron& shape) {
+  json vertices = json::array();
+  for (const auto& v : shape.vertices()) vertices.push_back({rounded(v.x()), rounded(v.y()), rounded(v.z())});
+  return {{"vertices", vertices}, {"faces", shape.faces()}};
+}
+
+json poses_of(const engine::loading::SceneFrame& frame) {
+  json poses = json::array();
+  for (std::size_t b = 0; b + values_a_pose <= frame.poses.size(); b += values_a_pose) {
+    if (std::isnan(frame.poses[b])) {
+      poses.push_back(nullptr);
+      continue;
+    }
+    json pose = json::array();
+    for (int k = 0; k < values_a_pose; ++k) pose.push_back(rounded(frame.poses[b + k]));
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+// The first cycle's frames; the poster shows the bucket as it breaks out.
+json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
+  json shapes = json::array(), bodies = json::array(), frames = json::array();
+  for (const auto& shape : log.scene.shapes) shapes.push_back(shape_of(shape));
+  for (const auto& body : log.scene.bodies)
+    bodies.push_back({{"shape", body.shape}, {"color", body.color}, {"opacity", body.opacity}, {"name", body.name}});
+  int poster = 0;
+  double next = -1;
+  for (const auto& frame : log.scene.frames) {
+    if (frame.cycle != 1 || frame.t < next) continue;
+    next = frame.t + picture_interval - 1e-6;
+    if (frame.label == "curl") poster = static_cast<int>(frames.size());
+    frames.push_back({{"t", rounded(frame.t - cycle.t_start)}, {"label", frame.label}, {"poses", poses_of(frame)}});
+  }
+  const double toe = cycle.plan.toe;
+  return {{"type", "scene"},
+          {"title", "The machine in the drift"},
+          {"caption", "First cycle of the run shown: drag to turn, wheel to zoom, play to watch it load. Walls and roof are drawn "
+                      "transparent."},
+          {"shapes", shapes}, {"bodies", bodies}, {"frames", frames},
+          {"camera", {{"eye", {toe - 7.5, -8.5, 5.0}}, {"target", {toe - 0.5, 0.0, 1.2}}}},
+          {"poster_frame", poster}};
+}
+
+json line(const LoadingLog& log, Rows rows, std::size_t stride, const char* signal, const char* label, double scale) {
+  std::vector<double> t = thinned(log, "time", rows, stride), y = thinned(log, signal, rows, stride);
+  const double start = t.empty() ? 0 : t.front();
+  for (double& value : t) value -= start;
+  for (double& value : y) value *= scale;
+  return {{"name", label}, {"x", rounded(t)}, {"y", rounded(y)}};
+}
+
+json forces_panel(const LoadingLog& log) {
+  const Rows rows = rows_of(log, 1);
+  const std::size_t stride = 4;
+  const bool cylinders = log.texts.at("arm_drive") == "cylinders";
+  return {{"type", "lines"},
+          {"title", "Drive forces and the torque in hinge G"},
+          {"caption", "First cycle of the run shown. The torque components twist the bucket on its pin (about its long and its upright "
+                      "axis); damage counts the time that their magnitude is above the yield torque of 145 kN m."},
+          {"x_label", "time [s]"}, {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
+          {"series", {line(log, rows, stride, "lift_force", "lift", 1e-3), line(log, rows, stride, "tilt_force", "tilt", 1e-3),
+                      line(log, rows, stride, "wheel_torque", "wheels, sum [kN m]", 1e-3),
+                      line(log, rows, stride, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
+                      line(log, rows, stride, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)}}};
+}
+
+json cycles_panel(const LoadingLog& log) {
+  json rows = json::array();
+  for (std::size_t k = 0; k < log.cycles.size(); ++k) {
+    const CycleRecord& c = log.cycles[k];
+    std::string ends;
+    for (const auto& stage : c.stages)
+      ends += (ends.empty() ? "" : ", ") + std::string(name(stage.stage)) + ": " + std::string(name(stage.reason));
+    rows.push_back({std::to_string(k + 1), fixed(c.t_end - c.t_start, 1), fixed(c.loaded_mass, 0), fixed(c.spilled_mass, 0),
+                    fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
+  }
+  return {{"type", "table"},
+          {"title", "Cycles of the run shown"},
+          {"caption", "How each stage ended: at its goal, by its time limit, or because a drive was too slow under load."},
+          {"columns", {"cycle", "time [s]", "loaded [kg]", "spilled [kg]", "planned depth [m]", "planned height [m]", "stages"}},
+          {"rows", rows}};
+}
+
+}  // namespace
+
+void settle_pile(const std::filesystem::path& shared) {
+  engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
+  scenario.pile_file = shared / "pile.h5";
+  int told = -1;
+  engine::loading::prepared_pile(scenario, [&](double share) {
+    const int percent = static_cast<int>(100 * share) / 10 * 10;
+    if (percent == told) return;
+    told = percent;
+    if (percent < 100)
+      std::fprintf(stderr, "pouring the pile: %d %%\n", percent);
+    else
+      std::fprintf(stderr, "pouring the pile: done, settling\n");
+  });
+}
+
+json loading_figures(const std::filesystem::path& log_file) {
+  const LoadingLog log = engine::loading::read_log(log_file);
+  if (log.cycles.empty()) return json::array();
+  const CycleRecord& cycle = log.cycles.front();
+  return json::array({path_panel(log, cycle), scene_panel(log, cycle), forces_panel(log), cycles_panel(log)});
+}
+
+}  // namespace drawpoint::studies
