@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 namespace drawpoint::studies {
 namespace {

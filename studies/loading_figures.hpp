@@ -7,7 +7,7 @@
 /// and the torque that twists hinge G over time, and a table of the cycles. Read from the run log alone.
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 namespace drawpoint::studies {
 

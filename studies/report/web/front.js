@@ -68,7 +68,7 @@ function projection(box, data, objectives, [a, b], shade, chosen) {
       hovertemplate: `point %{customdata}<br>${axisLabel(objectives[a])}: %{x:.4g}<br>${axisLabel(objectives[b])}: %{y:.4g}<extra></extra>`},
   ];
   const ring = (i, symbol, line) => ({x: [data.front.Y[i][a]], y: [data.front.Y[i][b]], mode: 'markers', hoverinfo: 'skip',
-    marker: {symbol, size: 16, color: 'rgba(0,0,0,0)', line: {color: line, width: 2.5}}});
+    marker: {symbol, size: 16, color: line, line: {width: 2.5}}});
   if (data.front.balanced >= 0) traces.push(ring(data.front.balanced, 'diamond-open', colour.ink));
   if (chosen.selected >= 0) traces.push(ring(chosen.selected, 'circle-open', colour.accent));
   draw(box, traces, {showlegend: false, margin: {l: 60, r: 8, t: 12, b: 52}, xaxis: axis(goal(objectives[a])), yaxis: axis(goal(objectives[b]))});

@@ -100,9 +100,9 @@ function map(box, f, variables, [a, b], chosen, solid) {
   const title = {text: axisLabel(f.response), font: {size: 14}, x: 0, xanchor: 'left', xref: 'paper'};
   const range = {zmin: f.range[0], zmax: f.range[1], colorscale: scale, colorbar: {thickness: 11, len: 0.95, outlinewidth: 0, tickfont: {size: 11}}};
   if (solid) {
-    const scene = {xaxis: {title: {text: axisLabel(variables[a])}}, yaxis: {title: {text: axisLabel(variables[b])}}, zaxis: {title: {text: axisLabel(f.response)}}, camera: {eye: {x: -1.5, y: -1.6, z: 0.9}}};
+    const scene = {xaxis: {title: {text: axisLabel(variables[a])}}, yaxis: {title: {text: axisLabel(variables[b])}}, zaxis: {title: {text: axisLabel(f.response)}}, camera: {eye: {x: -1.75, y: -1.85, z: 1.05}, center: {x: 0, y: 0, z: -0.15}}};
     const {zmin, zmax, ...rest} = range;
-    draw(box, [{type: 'surface', x, y, z, cmin: zmin, cmax: zmax, ...rest, contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}}}], {title, margin: {l: 0, r: 0, t: 36, b: 0}, scene});
+    draw(box, [{type: 'surface', x, y, z, cmin: zmin, cmax: zmax, ...rest, showscale: false, contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}}}], {title, margin: {l: 0, r: 0, t: 36, b: 0}, scene});
     return;
   }
   draw(box, [
