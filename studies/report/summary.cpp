@@ -127,10 +127,10 @@ std::string driver_sentence(const ReportInput& input, const std::vector<Eigen::V
   for (std::size_t j = 0; j < influence.size(); ++j) {
     Eigen::Index k = 0;
     if (influence[j].maxCoeff(&k) <= 0.0) continue;
-    text += (text.empty() ? "" : "; ") + pretty(input.problem.responses[j].name) + " depends most on " +
-            pretty(input.problem.variables[static_cast<std::size_t>(k)].name);
+    text += (text.empty() ? "" : ", ") + pretty(input.problem.variables[static_cast<std::size_t>(k)].name) +
+            " for " + pretty(input.problem.responses[j].name);
   }
-  return text.empty() ? "" : capital(text) + ".";
+  return text.empty() ? "" : "The variable that matters most is " + text + ".";
 }
 
 json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {

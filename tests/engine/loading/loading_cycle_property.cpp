@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/pile_store.hpp>
+
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
+namespace {
+
+// A small pile, poured once for all tests of this file, and a strategy that enters it.
+Scenario small_case() {
+  static const std::filesystem::path pile = [] {
+    const auto path = std::filesystem::path(testing::TempDir()) / "drawpoint_cycle_pile.h5";
+    std::filesystem::remove(path);
+    return path;
+  }();
+  Scenario scenario = lh621_in_a_drift();
+  scenario.pile.mass = 25e3;
+  scenario.pile_file = pile;
+  scenario.strategy = {0.6, 0.6, 0.5, 0.5};
+  return scenario;
+}
+
+const LoadingLog& cycle_log() {
+  static const LoadingLog log = simulate(small_case());
+  return log;
+}
+
+}  // namespace
+
+TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
+  const LoadingLog& log = cycle_log();
+  ASSERT_TRUE(log.completed) << log.message;
+  ASSERT_EQ(log.cycles.size(), 1u);
+  const CycleRecord& cycle = log.cycles[0];
+  EXPECT_GT(cycle.loaded_mass, 100.0);
+  double sum = 0;
+  for (double mass : cycle.loaded_rock_masses) sum += mass;
+  EXPECT_DOUBLE_EQ(sum, cycle.loaded_mass);
+  EXPECT_LE(cycle.loaded_mass + cycle.spilled_mass, log.numbers.at("pile_mass"));
+  EXPECT_EQ(cycle.stages.size(), 4u);
+  EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
+}
+
+// Every signal is finite, the machine's loops hold, and what drives is within its force limits: wheels 4 · 81 kN m, lift 2 · 713 kN, tilt
+// 880 kN; limits are impulses divided by the step, so round-off only.
+TEST(LoadingCycle, SignalsAreFiniteAndWithinTheMotorLimits) {
+  const record::Table& signals = cycle_log().signals;
+  ASSERT_GT(signals.rows(), 100u);
+  for (double value : signals.values) ASSERT_TRUE(std::isfinite(value));
+  const auto largest = [&](const char* name) {
+    double most = 0;
+    for (double value : signals.column(name)) most = std::max(most, std::abs(value));
+    return most;
+  };
+  EXPECT_LE(largest("wheel_torque"), 4 * 81e3 * (1 + 1e-9));
+  EXPECT_LE(largest("lift_force"), 2 * 713e3 * (1 + 1e-9));
+  EXPECT_LE(largest("tilt_force"), 880e3 * (1 + 1e-9));
+  // With cylinder drive hinge G is a plain pin: no moment about it, up to round-off of forces of 1e6 N at arms of 1 m.
+  EXPECT_LT(largest("hinge_G_torque_y"), 1.0);
+}
+
+TEST(LoadingCycle, SameScenarioSameBits) {
+  const LoadingLog again = simulate(small_case());
+  EXPECT_EQ(again.signals.values, cycle_log().signals.values);
+  EXPECT_EQ(again.cycles[0].loaded_rock_masses, cycle_log().cycles[0].loaded_rock_masses);
+}
+
+TEST(LoadingCycle, RefusesABadScenarioByName) {
+  Scenario scenario = small_case();
+  scenario.drift.width = 2;
+  try {
+    simulate(scenario);
+    FAIL() << "a drift narrower than the machine was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "loading::Drift: width is 2.000000 m; allowed: 3.6 m (bucket and clearance) to 20 m");
+  }
+}
