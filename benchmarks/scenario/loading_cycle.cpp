@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/pile_store.hpp>
 #include <exception>
 
 #include "step_times.hpp"

@@ -8,7 +8,7 @@
 
 #include "step_times.hpp"
 
-/// Pours a pile of MASS tonnes (default 60) into the drift of the default scenario and lets it settle.
+/// Pours a pile of MASS tonnes (default 80) into the drift of the default scenario and lets it settle.
 /// usage: pile_settling [MASS_t]
 using namespace drawpoint;
 using namespace drawpoint::engine::loading;

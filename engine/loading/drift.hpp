@@ -16,7 +16,7 @@ namespace drawpoint::engine::loading {
 
 struct Drift {
   double length = 20;         ///< [m]
-  double width = 4.5;         ///< [m]
+  double width = 6;           ///< [m]
   double height = 5;          ///< roof above the floor [m]
   double raise_radius = 1.5;  ///< inner radius of the opening [m]
   double raise_widening = 0.15;  ///< radius gained per metre of height [-]

@@ -220,10 +220,11 @@ void Builder::add_bucket_surfaces() {
     const bool floor = k + 1 == n;
     // The floor lies inside the profile so that its underside is the flat z = 0, and thins to the cutting edge.
     const Vector2d offset = floor ? Vector2d(-outward * thickness) : Vector2d(outward * thickness);
-    const Vector2d tip_offset = floor ? Vector2d(offset * 0.25) : offset;
+    const bool heel = k + 2 == n;  // the plate that ends at the floor thickens backward only, nothing hangs below z = 0
+    const Vector2d end_offset = floor ? Vector2d(offset * 0.25) : heel ? Vector2d(-thickness, 0) : offset;
     std::vector<Vector3d> points;
     for (double y : {-half, half}) {
-      for (const Vector2d& p : {a, b, Vector2d(a + offset), Vector2d(b + tip_offset)}) points.emplace_back(p.x(), y, p.y());
+      for (const Vector2d& p : {a, b, Vector2d(a + offset), Vector2d(b + end_offset)}) points.emplace_back(p.x(), y, p.y());
     }
     draw(lhd_.bucket, points, SurfaceKind::steel, true, "#8d8f94");
   }

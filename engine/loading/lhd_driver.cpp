@@ -16,8 +16,7 @@ double elevation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 LhdDriver::LhdDriver(const Lhd& lhd, machine::Machine& machine)
     : lhd_(lhd),
       machine_(machine),
-      arm_(arm_geometry(lhd.F, lhd.G, lhd.K)),
-      rolling_radius_(0.5 * (lhd.tyre_radius + lhd.loaded_radius)) {}
+      arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {}
 
 void LhdDriver::place(double x, double y) {
   // Axles 2 cm above their reference height: the tyres sink to about it under the weight, and the bucket clears the floor.
@@ -36,8 +35,12 @@ MachineReading LhdDriver::read() const {
   return r;
 }
 
+double LhdDriver::rolling_radius(int wheel) const {
+  return 0.5 * (lhd_.tyre_radius + machine_.pose(wheel).translation().z());
+}
+
 void LhdDriver::command(const ActuatorRates& rates) {
-  for (int motor : lhd_.wheel_motors) machine_.set_motor(motor, rates.drive / rolling_radius_);
+  for (int k = 0; k < 4; ++k) machine_.set_motor(lhd_.wheel_motors[k], rates.drive / rolling_radius(lhd_.wheels[k]));
   Eigen::VectorXd speeds = Eigen::Vector2d(rates.boom, rates.tilt);
   if (lhd_.options.arm_drive == ArmDrive::cylinders) {
     const std::vector<int> outside = {lhd_.rear, lhd_.wheels[0], lhd_.wheels[1], lhd_.wheels[2], lhd_.wheels[3]};

@@ -12,8 +12,9 @@
 /// drive speed is the body's, not the wheels': a machine that spins its wheels on the spot does not move.
 ///
 /// With cylinder drive, hinge rates become cylinder speeds through the linkage's own velocity constraints at the present
-/// pose. Both kinds of drive are velocity motors with force limits. The effective rolling radius is the mean of the tyre's
-/// free and loaded radius; a compliant tyre rolls within about 2 % of it.
+/// pose. Both kinds of drive are velocity motors with force limits. Each wheel is
+/// set by its own rolling radius, the mean of the tyre's free radius and its hub's height over the floor, so that axles under different load do not
+/// fight each other as wheels on one rigid shaft would.
 namespace drawpoint::engine::loading {
 
 struct MachineReading {
@@ -44,10 +45,11 @@ class LhdDriver {
   Eigen::Vector3d in_bucket_frame(const Eigen::Vector3d& p_W) const;
 
  private:
+  double rolling_radius(int wheel) const;
+
   const Lhd& lhd_;
   machine::Machine& machine_;
   ArmGeometry arm_;
-  double rolling_radius_;
 };
 
 }  // namespace drawpoint::engine::loading

@@ -15,7 +15,7 @@
 namespace drawpoint::engine::loading {
 
 struct PileOptions {
-  double mass = 60e3;        ///< poured in the pre-simulation [kg]
+  double mass = 80e3;        ///< poured in the pre-simulation [kg]
   double density = 4500;     ///< of the rock [kg/m³]
   double max_height = 8;     ///< pouring stops when the pile reaches it [m]
   std::uint64_t seed = 1;    ///< of the pouring; one pile serves all runs of a study
@@ -38,7 +38,7 @@ struct Scenario {
   std::filesystem::path log_file;   ///< run log to write (HDF5); empty: none
 };
 
-/// The LH621 in a drift 4.5 m wide with a small pile (60 t, about 880 rocks), one cycle: minutes for a whole study.
+/// The LH621 in a drift 6 m wide with a small pile (80 t, about 1200 rocks), one cycle: minutes for a whole study.
 Scenario lh621_in_a_drift();
 
 /// The scale of the founding case: a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
