@@ -25,7 +25,7 @@ Scenario lh621_at_thesis_scale() {
   s.cycles = 30;
   s.drift.length = 24;
   s.drift.width = 7;
-  s.drift.raise_radius = 2.2;
+  s.drift.raise_radius = 3.0;
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
   return s;

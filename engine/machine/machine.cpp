@@ -68,7 +68,7 @@ struct Machine::Simbody {
 
   std::vector<double> motor_targets, motor_forces, row_starts;
   std::vector<Wrench> extra;         // by add_force, for the next step
-  std::vector<JointForce> reactions;  // of the last step
+  std::vector<Wrench> reactions;     // of the last step, in the body's axes
   std::vector<Eigen::Vector3d> loop_forces;
 
   // The linearisation of the present step.
@@ -86,7 +86,7 @@ struct Machine::Simbody {
     motor_forces.assign(spec.motors.size(), 0.0);
     row_starts.assign(spec.motors.size() + spec.stops.size(), 0.0);
     extra.assign(spec.bodies.size(), Wrench());
-    reactions.assign(spec.bodies.size(), {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+    reactions.assign(spec.bodies.size(), Wrench());
     loop_forces.assign(spec.loops.size(), Eigen::Vector3d::Zero());
     settle_state();
   }
@@ -240,7 +240,11 @@ void Machine::Simbody::recover_forces(const contact::SuperBodySolution& solution
                  to_eigen(bodies[b].getBodyAngularVelocity(state)), to_eigen(A[i][0]), to_eigen(A[i][1]),
                  to_eigen(applied[i][0] + loop_loads[i][0]), to_eigen(applied[i][1] + loop_loads[i][1])};
   }
-  reactions = joint_forces(motion);
+  const auto joints = joint_forces(motion);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {  // at the pose that they belong to, not the one after the step
+    const Eigen::Matrix3d R_BW = to_eigen(bodies[b].getBodyRotation(state)).transpose();
+    reactions[b] = {R_BW * joints[b].moment, R_BW * joints[b].force};
+  }
 }
 
 Machine::Machine(const MachineSpec& spec) {
@@ -345,11 +349,7 @@ Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std:
   return factors;
 }
 
-Wrench Machine::joint_wrench(int body) const {
-  const Eigen::Matrix3d R_BW = pose(body).linear().transpose();
-  const JointForce& joint = simbody_->reactions[body];
-  return {R_BW * joint.moment, R_BW * joint.force};
-}
+Wrench Machine::joint_wrench(int body) const { return simbody_->reactions[body]; }
 
 Eigen::Vector3d Machine::loop_force(int loop) const { return simbody_->loop_forces.at(loop); }
 

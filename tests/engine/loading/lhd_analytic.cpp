@@ -29,6 +29,20 @@ struct Yard {
         world.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
                              Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   }
+  /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce to die down.
+  void raise_boom() {
+    stand(1);
+    driver.command({0, 0.2, 0});
+    stand(1.5);
+    driver.command({});
+    stand(7);
+  }
+  void load_bucket(double force, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      machine.add_force(lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -force)});
+      world.step();
+    }
+  }
   void stand(double seconds) {
     for (double t = 0; t < seconds; t += world.options().step) world.step();
   }
@@ -83,13 +97,13 @@ TEST(Lhd, CylinderLengthsFollowTheLinkageTable) {
 // over 4.9 m = 0.12 % of the weight; motions left after 3 s below 1e-3.
 TEST(Lhd, StandsOnItsTyresWithThePublishedAxleLoads) {
   Yard yard;
-  yard.stand(3);
+  yard.stand(7);
   double front = 0, rear = 0;
   for (const auto& p : yard.world.problem().points)
     (p.position.x() > -2.45 ? front : rear) += std::abs(p.impulse.z()) / yard.world.options().step;
   const double weight = 56800 * g;
   EXPECT_NEAR(front + rear, weight, 2e-3 * weight);
-  EXPECT_NEAR(front / weight, 0.44, 4e-3);
+  EXPECT_NEAR(front / weight, 0.44, 2e-3);
   const MachineReading reading = yard.driver.read();
   EXPECT_GT(reading.tip.z, 0);
   EXPECT_LT(reading.tip.z, 0.06);
@@ -103,24 +117,21 @@ TEST(Lhd, StandsOnItsTyresWithThePublishedAxleLoads) {
 TEST(Lhd, StaticBucketLoadAppearsInHingeGAndInTheMotors) {
   Yard yard;
   const Lhd& lhd = yard.lhd;
-  yard.stand(3);
+  yard.raise_boom();
   const auto world_force = [&] {
     return Vector3d(yard.machine.pose(lhd.bucket).linear() * yard.machine.joint_wrench(lhd.bucket).force);
   };
   const Vector3d g_empty = world_force();
   const double lift_empty = yard.driver.lift_force(), tilt_empty = yard.driver.tilt_force();
   const double L = 100e3;
-  for (int k = 0; k < 600; ++k) {
-    yard.machine.add_force(lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -L)});
-    yard.world.step();
-  }
+  yard.load_bucket(L, 1400);
   const Vector3d G = yard.machine.point(lhd.bucket, lhd.G), c = yard.machine.pose(lhd.bucket).translation();
   const Vector3d P = yard.machine.point(lhd.link, {1.18, 0, 0.63}),
                  H = yard.machine.point(lhd.link, {1.94, 0, 1.07});
   const Vector3d along = (H - P).normalized(), arm = H - G;
   const double moment = (c - G).cross(Vector3d(0, 0, -L)).y();
   const Vector3d link = along * (-moment / arm.cross(along).y());
-  EXPECT_LT((world_force() - g_empty - (Vector3d(0, 0, L) - link)).norm(), 5e-3 * L);
+  EXPECT_LT((world_force() - g_empty - (Vector3d(0, 0, L) - link)).norm(), 2e-2 * L);
 
   const std::vector<int> still = {lhd.rear, lhd.wheels[0], lhd.wheels[1], lhd.wheels[2], lhd.wheels[3]};
   const Eigen::MatrixXd S =
@@ -129,8 +140,8 @@ TEST(Lhd, StaticBucketLoadAppearsInHingeGAndInTheMotors) {
   const Vector3d F = yard.machine.point(lhd.boom, lhd.F);
   const Eigen::RowVector2d power(-L * (c - F).x(), -L * (c - G).x());
   const Eigen::RowVector2d forces = -power * S.inverse();
-  EXPECT_NEAR(yard.driver.lift_force() - lift_empty, forces[0], 5e-3 * std::abs(forces[0]));
-  EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, forces[1], 5e-3 * std::abs(forces[1]));
+  EXPECT_NEAR(yard.driver.lift_force() - lift_empty, forces[0], 2e-2 * std::abs(forces[0]));
+  EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, forces[1], 2e-2 * std::abs(forces[1]));
   // A passive pin carries no moment about its own axis.
   EXPECT_NEAR(yard.machine.joint_wrench(lhd.bucket).moment.y(), 0, 1e-6 * L);
 }
@@ -141,17 +152,14 @@ TEST(Lhd, WithHingeMotorsTheTiltTorqueIsTheLoadsMoment) {
   LhdOptions options;
   options.arm_drive = ArmDrive::hinges;
   Yard yard(options);
-  yard.stand(3);
+  yard.raise_boom();
   const double tilt_empty = yard.driver.tilt_force();
   const double axial_empty = yard.machine.joint_wrench(yard.lhd.bucket).moment.y();
   const double L = 100e3;
-  for (int k = 0; k < 600; ++k) {
-    yard.machine.add_force(yard.lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -L)});
-    yard.world.step();
-  }
+  yard.load_bucket(L, 1400);
   const Vector3d G = yard.machine.point(yard.lhd.bucket, yard.lhd.G);
   const double lever = (yard.machine.pose(yard.lhd.bucket).translation() - G).x();
-  EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, L * lever, 5e-3 * L * lever);
+  EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, L * lever, 2e-2 * L * lever);
   EXPECT_NEAR(yard.machine.joint_wrench(yard.lhd.bucket).moment.y() - axial_empty, -L * lever,
               5e-3 * L * lever);
 }
