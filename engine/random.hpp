@@ -6,13 +6,14 @@
 #include <cmath>
 #include <cstdint>
 
-/// Counter-based random numbers for the engine: draw k of seed s is a hash of (s, k), the same on every machine.
-/// Mix: splitmix64 (G. L. Steele et al., "Fast splittable pseudorandom number generators", 2014).
+/// Counter-based random numbers for the engine: draw k of seed s is a hash of (s, k), the same on every
+/// machine. Mix: splitmix64 (G. L. Steele et al., "Fast splittable pseudorandom number generators", 2014).
 namespace drawpoint::engine {
 
 class CounterRandom {
  public:
-  explicit CounterRandom(std::uint64_t seed, std::uint64_t counter = 0) : seed_(mix(seed)), counter_(counter) {}
+  explicit CounterRandom(std::uint64_t seed, std::uint64_t counter = 0)
+      : seed_(mix(seed)), counter_(counter) {}
 
   std::uint64_t counter() const { return counter_; }
   std::uint64_t bits() { return mix(seed_ + 0x9E3779B97F4A7C15ull * ++counter_); }
@@ -22,7 +23,8 @@ class CounterRandom {
   /// Uniform over all rotations (K. Shoemake, "Uniform random rotations", 1992).
   Eigen::Quaterniond rotation() {
     const double u = uniform(), a = 2 * M_PI * uniform(), b = 2 * M_PI * uniform();
-    return {std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a), std::sqrt(u) * std::sin(b)};
+    return {std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a),
+            std::sqrt(u) * std::sin(b)};
   }
 
  private:

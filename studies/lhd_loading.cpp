@@ -8,11 +8,13 @@
 
 using namespace drawpoint;
 
-const doe::Problem problem{
-    .variables = {{"alpha", "1", 0.2, 2.0}, {"beta", "1", 0.0, 1.0}, {"gamma", "1", 0.0, 1.0}, {"kappa", "1", 0.0, 1.0}},
-    .responses = {{"production", "kg/s", doe::Goal::maximize},
-                  {"joint_damage", "s", doe::Goal::minimize},
-                  {"rock_spill", "1", doe::Goal::minimize}}};
+const doe::Problem problem{.variables = {{"alpha", "1", 0.2, 2.0},
+                                         {"beta", "1", 0.0, 1.0},
+                                         {"gamma", "1", 0.0, 1.0},
+                                         {"kappa", "1", 0.0, 1.0}},
+                           .responses = {{"production", "kg/s", doe::Goal::maximize},
+                                         {"joint_damage", "s", doe::Goal::minimize},
+                                         {"rock_spill", "1", doe::Goal::minimize}}};
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
   engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
@@ -26,8 +28,12 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
 }
 
 int main(int argc, char** argv) {
-  return studies::run(argc, argv, {.name = "lhd_loading", .problem = problem, .black_box = load,
-                                   .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
-                                   .defaults = {.runs = 40, .validation = 12},
-                                   .prepare = studies::settle_pile, .illustrate = studies::loading_figures});
+  return studies::run(argc, argv,
+                      {.name = "lhd_loading",
+                       .problem = problem,
+                       .black_box = load,
+                       .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
+                       .defaults = {.runs = 40, .validation = 12},
+                       .prepare = studies::settle_pile,
+                       .illustrate = studies::loading_figures});
 }

@@ -52,8 +52,8 @@ std::vector<double> thinned(const LoadingLog& log, const char* name, Rows rows, 
 }
 
 json stage_paths(const LoadingLog& log, Rows rows, std::size_t stride) {
-  const std::vector<double> stage = thinned(log, "stage", rows, stride), x = thinned(log, "tip_x", rows, stride),
-                            z = thinned(log, "tip_z", rows, stride);
+  const std::vector<double> stage = thinned(log, "stage", rows, stride),
+                            x = thinned(log, "tip_x", rows, stride), z = thinned(log, "tip_z", rows, stride);
   json stages = json::array();
   for (int k = 1; k <= 4; ++k) {
     json xs = json::array(), zs = json::array();
@@ -62,7 +62,8 @@ json stage_paths(const LoadingLog& log, Rows rows, std::size_t stride) {
         xs.push_back(rounded(x[i]));
         zs.push_back(rounded(z[i]));
       }
-    stages.push_back({{"name", std::string(name(static_cast<engine::loading::Stage>(k)))}, {"x", xs}, {"z", zs}});
+    stages.push_back(
+        {{"name", std::string(name(static_cast<engine::loading::Stage>(k)))}, {"x", xs}, {"z", zs}});
   }
   return stages;
 }
@@ -72,14 +73,19 @@ json path_panel(const LoadingLog& log, const CycleRecord& cycle) {
   const std::size_t stride = 4;
   return {{"type", "path"},
           {"title", "Planned and actual path of the cutting edge"},
-          {"caption", "First cycle of the run shown, from the side. The pile's contour is the mean over the attacked strips before the "
-                      "cycle; planned depth " + fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) +
-                      " m, slope " + fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
+          {"caption",
+           "First cycle of the run shown, from the side. The pile's contour is the mean over the attacked "
+           "strips before the "
+           "cycle; planned depth " +
+               fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) + " m, slope " +
+               fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
           {"x_label", "along the drift [m]"},
           {"z_label", "height [m]"},
           {"contour", {{"x", rounded(cycle.contour_x)}, {"z", rounded(cycle.contour_z)}}},
           {"planned", {{"x", rounded(cycle.planned_x)}, {"z", rounded(cycle.planned_z)}}},
-          {"actual", {{"x", rounded(thinned(log, "tip_x", rows, stride))}, {"z", rounded(thinned(log, "tip_z", rows, stride))}}},
+          {"actual",
+           {{"x", rounded(thinned(log, "tip_x", rows, stride))},
+            {"z", rounded(thinned(log, "tip_z", rows, stride))}}},
           {"stages", stage_paths(log, rows, stride)}};
 }
 
@@ -108,26 +114,33 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
   json shapes = json::array(), bodies = json::array(), frames = json::array();
   for (const auto& shape : log.scene.shapes) shapes.push_back(shape_of(shape));
   for (const auto& body : log.scene.bodies)
-    bodies.push_back({{"shape", body.shape}, {"color", body.color}, {"opacity", body.opacity}, {"name", body.name}});
+    bodies.push_back(
+        {{"shape", body.shape}, {"color", body.color}, {"opacity", body.opacity}, {"name", body.name}});
   int poster = 0;
   double next = -1;
   for (const auto& frame : log.scene.frames) {
     if (frame.cycle != 1 || frame.t < next) continue;
     next = frame.t + picture_interval - 1e-6;
     if (frame.label == "curl") poster = static_cast<int>(frames.size());
-    frames.push_back({{"t", rounded(frame.t - cycle.t_start)}, {"label", frame.label}, {"poses", poses_of(frame)}});
+    frames.push_back(
+        {{"t", rounded(frame.t - cycle.t_start)}, {"label", frame.label}, {"poses", poses_of(frame)}});
   }
   const double toe = cycle.plan.toe;
   return {{"type", "scene"},
           {"title", "The machine in the drift"},
-          {"caption", "First cycle of the run shown: drag to turn, wheel to zoom, play to watch it load. Walls and roof are drawn "
-                      "transparent."},
-          {"shapes", shapes}, {"bodies", bodies}, {"frames", frames},
+          {"caption",
+           "First cycle of the run shown: drag to turn, wheel to zoom, play to watch it load. Walls and roof "
+           "are drawn "
+           "transparent."},
+          {"shapes", shapes},
+          {"bodies", bodies},
+          {"frames", frames},
           {"camera", {{"eye", {toe - 7.5, -8.5, 5.0}}, {"target", {toe - 0.5, 0.0, 1.2}}}},
           {"poster_frame", poster}};
 }
 
-json line(const LoadingLog& log, Rows rows, std::size_t stride, const char* signal, const char* label, double scale) {
+json line(const LoadingLog& log, Rows rows, std::size_t stride, const char* signal, const char* label,
+          double scale) {
   std::vector<double> t = thinned(log, "time", rows, stride), y = thinned(log, signal, rows, stride);
   const double start = t.empty() ? 0 : t.front();
   for (double& value : t) value -= start;
@@ -141,13 +154,18 @@ json forces_panel(const LoadingLog& log) {
   const bool cylinders = log.texts.at("arm_drive") == "cylinders";
   return {{"type", "lines"},
           {"title", "Drive forces and the torque in hinge G"},
-          {"caption", "First cycle of the run shown. The torque components twist the bucket on its pin (about its long and its upright "
-                      "axis); damage counts the time that their magnitude is above the yield torque of 145 kN m."},
-          {"x_label", "time [s]"}, {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
-          {"series", {line(log, rows, stride, "lift_force", "lift", 1e-3), line(log, rows, stride, "tilt_force", "tilt", 1e-3),
-                      line(log, rows, stride, "wheel_torque", "wheels, sum [kN m]", 1e-3),
-                      line(log, rows, stride, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
-                      line(log, rows, stride, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)}}};
+          {"caption",
+           "First cycle of the run shown. The torque components twist the bucket on its pin (about its long "
+           "and its upright "
+           "axis); damage counts the time that their magnitude is above the yield torque of 145 kN m."},
+          {"x_label", "time [s]"},
+          {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
+          {"series",
+           {line(log, rows, stride, "lift_force", "lift", 1e-3),
+            line(log, rows, stride, "tilt_force", "tilt", 1e-3),
+            line(log, rows, stride, "wheel_torque", "wheels, sum [kN m]", 1e-3),
+            line(log, rows, stride, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
+            line(log, rows, stride, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)}}};
 }
 
 json cycles_panel(const LoadingLog& log) {
@@ -156,15 +174,20 @@ json cycles_panel(const LoadingLog& log) {
     const CycleRecord& c = log.cycles[k];
     std::string ends;
     for (const auto& stage : c.stages)
-      ends += (ends.empty() ? "" : ", ") + std::string(name(stage.stage)) + ": " + std::string(name(stage.reason));
-    rows.push_back({std::to_string(k + 1), fixed(c.t_end - c.t_start, 1), fixed(c.loaded_mass, 0), fixed(c.spilled_mass, 0),
-                    fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
+      ends += (ends.empty() ? "" : ", ") + std::string(name(stage.stage)) + ": " +
+              std::string(name(stage.reason));
+    rows.push_back({std::to_string(k + 1), fixed(c.t_end - c.t_start, 1), fixed(c.loaded_mass, 0),
+                    fixed(c.spilled_mass, 0), fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
   }
-  return {{"type", "table"},
-          {"title", "Cycles of the run shown"},
-          {"caption", "How each stage ended: at its goal, by its time limit, or because a drive was too slow under load."},
-          {"columns", {"cycle", "time [s]", "loaded [kg]", "spilled [kg]", "planned depth [m]", "planned height [m]", "stages"}},
-          {"rows", rows}};
+  return {
+      {"type", "table"},
+      {"title", "Cycles of the run shown"},
+      {"caption",
+       "How each stage ended: at its goal, by its time limit, or because a drive was too slow under load."},
+      {"columns",
+       {"cycle", "time [s]", "loaded [kg]", "spilled [kg]", "planned depth [m]", "planned height [m]",
+        "stages"}},
+      {"rows", rows}};
 }
 
 }  // namespace

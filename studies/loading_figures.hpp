@@ -3,15 +3,17 @@
 #pragma once
 /// What the loading study adds to a study: the settled pile that all runs share, and the figures of one run.
 ///
-/// Figures: planned and actual tip path over the pile's contour (first cycle), the scene to play and turn, drive forces
-/// and the torque that twists hinge G over time, and a table of the cycles. Read from the run log alone.
+/// Figures: planned and actual tip path over the pile's contour (first cycle), the scene to play and turn,
+/// drive forces and the torque that twists hinge G over time, and a table of the cycles. Read from the run
+/// log alone.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace drawpoint::studies {
 
-/// Pours the pile of the default scenario into `shared`/pile.h5 and tells on standard error how far it is. About a minute.
+/// Pours the pile of the default scenario into `shared`/pile.h5 and tells on standard error how far it is.
+/// About a minute.
 void settle_pile(const std::filesystem::path& shared);
 
 /// Panels for the report from a run log. Throws std::runtime_error if the log cannot be read.

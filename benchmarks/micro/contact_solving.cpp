@@ -16,10 +16,12 @@ namespace {
 World settled_heap(int rocks) {
   World world({}, support::one_material({0.9, 0.5, 1e9, 0}));
   support::add_floor(world);
-  for (const Eigen::Vector3d& n : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
+  for (const Eigen::Vector3d& n : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
+                                   Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
     world.add_static(support::shared(engine::contact::HalfSpace{n, -1.5}), Eigen::Isometry3d::Identity(), 0);
   for (int k = 0; k < rocks; ++k)
-    world.add_rock(support::rock_body(k % 6, 0.4), support::at(-1.1 + 0.55 * (k % 5), -1.1 + 0.55 * (k / 5 % 5), 0.3 + 0.5 * (k / 25)));
+    world.add_rock(support::rock_body(k % 6, 0.4),
+                   support::at(-1.1 + 0.55 * (k % 5), -1.1 + 0.55 * (k / 5 % 5), 0.3 + 0.5 * (k / 25)));
   for (int step = 0; step < 600; ++step) world.step();
   return world;
 }
@@ -27,7 +29,8 @@ World settled_heap(int rocks) {
 const ContactProblem& resting_problem(int rocks) {
   static std::map<int, ContactProblem> made;
   const auto found = made.find(rocks);
-  return found != made.end() ? found->second : made.emplace(rocks, settled_heap(rocks).problem()).first->second;
+  return found != made.end() ? found->second
+                             : made.emplace(rocks, settled_heap(rocks).problem()).first->second;
 }
 
 void contact_sweeps(benchmark::State& state) {
@@ -41,10 +44,15 @@ void contact_sweeps(benchmark::State& state) {
   }
   const double work = static_cast<double>(recorded.points.size()) * sweeps;
   state.counters["points"] = static_cast<double>(recorded.points.size());
-  state.counters["ns_per_point_sweep"] =
-      benchmark::Counter(work * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_point_sweep"] = benchmark::Counter(
+      work * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace
 
-BENCHMARK(contact_sweeps)->Args({200, 20})->Args({200, 150})->Args({800, 20})->Args({800, 150})->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_sweeps)
+    ->Args({200, 20})
+    ->Args({200, 150})
+    ->Args({800, 20})
+    ->Args({800, 150})
+    ->Unit(benchmark::kMillisecond);

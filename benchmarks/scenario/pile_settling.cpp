@@ -19,7 +19,8 @@ int main(int argc, char** argv) try {
   benchmarks::StepTimes times;
   const SettledPile pile = pour_pile(scenario, {}, [&](const auto& report) { times.add(report); });
   times.print("pile settling", pile.poured_s);
-  std::printf("  %zu rocks, %s\n", pile.rocks.size(), pile.timed_out ? "still creeping at the rest criterion's cap" : "at rest");
+  std::printf("  %zu rocks, %s\n", pile.rocks.size(),
+              pile.timed_out ? "still creeping at the rest criterion's cap" : "at rest");
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "pile_settling: %s\n", error.what());

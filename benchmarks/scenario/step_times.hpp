@@ -23,12 +23,15 @@ class StepTimes {
   }
 
   void print(const char* what, double simulated_s) const {
-    const double total = broad_ + narrow_ + machine_ + solver_ + rest_, ms = 1e3 / static_cast<double>(std::max(1L, steps_));
-    std::printf("%s: %ld steps, %.2f s simulated, %.2f s wall, real-time factor %.3f\n", what, steps_, simulated_s, total,
-                total > 0 ? simulated_s / total : 0.0);
-    std::printf("  ms a step: total %.3f = broad %.3f + narrow %.3f + machine %.3f + solver %.3f + rest %.3f\n", total * ms,
-                broad_ * ms, narrow_ * ms, machine_ * ms, solver_ * ms, rest_ * ms);
-    std::printf("  accuracy: most contact points %d, largest overlap of a rock %.2f mm\n", points_, overlap_ * 1e3);
+    const double total = broad_ + narrow_ + machine_ + solver_ + rest_,
+                 ms = 1e3 / static_cast<double>(std::max(1L, steps_));
+    std::printf("%s: %ld steps, %.2f s simulated, %.2f s wall, real-time factor %.3f\n", what, steps_,
+                simulated_s, total, total > 0 ? simulated_s / total : 0.0);
+    std::printf(
+        "  ms a step: total %.3f = broad %.3f + narrow %.3f + machine %.3f + solver %.3f + rest %.3f\n",
+        total * ms, broad_ * ms, narrow_ * ms, machine_ * ms, solver_ * ms, rest_ * ms);
+    std::printf("  accuracy: most contact points %d, largest overlap of a rock %.2f mm\n", points_,
+                overlap_ * 1e3);
   }
 
  private:

@@ -28,7 +28,9 @@ Matrix3d cross_matrix(const Vector3d& r) {
 }
 
 // Largest eigenvalue of a symmetric 2 x 2 matrix.
-double largest_eigenvalue(double a, double b, double d) { return 0.5 * (a + d) + std::hypot(0.5 * (a - d), b); }
+double largest_eigenvalue(double a, double b, double d) {
+  return 0.5 * (a + d) + std::hypot(0.5 * (a - d), b);
+}
 
 // A contact point made ready: frame, block and its inverse pieces.
 struct PointBlock {
@@ -37,10 +39,10 @@ struct PointBlock {
   Matrix3d frame;  // rows n, t1, t2
   Matrix3d W;      // in the frame
   double sigma, target, friction;
-  double inverse_nn;           // 1 / (W_nn + Σ)
-  double inverse_tt[3];        // of the 2 x 2 friction block: xx, xy, yy
+  double inverse_nn;     // 1 / (W_nn + Σ)
+  double inverse_tt[3];  // of the 2 x 2 friction block: xx, xy, yy
   double inverse_rho;
-  Vector3d impulse;            // in the frame
+  Vector3d impulse;              // in the frame
   int rows_a = -1, rows_b = -1;  // first column block in the machine's rows, if that side is a part
 };
 
@@ -101,7 +103,8 @@ class Sweeper {
   Matrix3d response(int index, const Vector3d& arm, const Matrix3d& frame) const {
     const SolverBody& body = problem_.bodies[index];
     const Matrix3d X = cross_matrix(arm);
-    return frame * (body.inverse_mass * Matrix3d::Identity() - X * body.inverse_inertia * X) * frame.transpose();
+    return frame * (body.inverse_mass * Matrix3d::Identity() - X * body.inverse_inertia * X) *
+           frame.transpose();
   }
 
   void add_point(const ContactPoint& point);
@@ -287,7 +290,8 @@ SuperBodySolution Sweeper::store() {
     solution.row_impulses = row_impulses_;
     solution.part_impulses.assign(problem_.machine->part_maps.size(), SpatialVector::Zero());
   }
-  const auto add = [&](int part, double sign, const Vector3d& arm, const Vector3d& impulse, const Vector3d& moment) {
+  const auto add = [&](int part, double sign, const Vector3d& arm, const Vector3d& impulse,
+                       const Vector3d& moment) {
     solution.part_impulses[part].head<3>() += sign * (arm.cross(impulse) + moment);
     solution.part_impulses[part].tail<3>() += sign * impulse;
   };
@@ -312,7 +316,8 @@ SuperBodySolution Sweeper::store() {
 SolverReport solve(ContactProblem& problem, const SolverOptions& options) {
   Sweeper sweeper(problem);
   SolverReport report;
-  for (; report.sweeps < options.sweeps; ++report.sweeps) report.last_change = sweeper.sweep(report.sweeps % 2 == 0);
+  for (; report.sweeps < options.sweeps; ++report.sweeps)
+    report.last_change = sweeper.sweep(report.sweeps % 2 == 0);
   const double load = sweeper.normal_load();
   report.last_change = load > 0 ? report.last_change / load : 0;
   report.machine = sweeper.store();

@@ -16,8 +16,10 @@ void WarmStart::begin_step() {
 
 void WarmStart::begin_pair(int a, int b) {
   const auto key = std::make_pair(a, b);
-  while (cursor_ < old_pairs_.size() && std::make_pair(old_pairs_[cursor_].a, old_pairs_[cursor_].b) < key) ++cursor_;
-  const bool found = cursor_ < old_pairs_.size() && std::make_pair(old_pairs_[cursor_].a, old_pairs_[cursor_].b) == key;
+  while (cursor_ < old_pairs_.size() && std::make_pair(old_pairs_[cursor_].a, old_pairs_[cursor_].b) < key)
+    ++cursor_;
+  const bool found =
+      cursor_ < old_pairs_.size() && std::make_pair(old_pairs_[cursor_].a, old_pairs_[cursor_].b) == key;
   match_ = found ? &old_pairs_[cursor_] : nullptr;
 }
 
@@ -39,9 +41,12 @@ Eigen::Vector3d WarmStart::point(std::uint32_t feature, const Eigen::Vector3d& p
   return best->impulse;
 }
 
-void WarmStart::store_pair(int a, int b, const Eigen::Vector3d& rolling) { pairs_.push_back({a, b, rolling, points_.size(), 0}); }
+void WarmStart::store_pair(int a, int b, const Eigen::Vector3d& rolling) {
+  pairs_.push_back({a, b, rolling, points_.size(), 0});
+}
 
-void WarmStart::store_point(std::uint32_t feature, const Eigen::Vector3d& position, const Eigen::Vector3d& impulse) {
+void WarmStart::store_point(std::uint32_t feature, const Eigen::Vector3d& position,
+                            const Eigen::Vector3d& impulse) {
   points_.push_back({feature, position, impulse, false});
   ++pairs_.back().count;
 }

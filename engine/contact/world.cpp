@@ -14,8 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A point this far apart [m] joins the solve even when it does not close in; with the travel of two steps added it covers
-// whatever the solve itself may set moving.
+// A point this far apart [m] joins the solve even when it does not close in; with the travel of two steps
+// added it covers whatever the solve itself may set moving.
 constexpr double resting_margin = 1e-3;
 constexpr int world_body = 0;  // problem_.bodies[0] never moves
 constexpr int no_family = 0, fixed_family = 1, machine_family = 2;
@@ -24,7 +24,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Matrix3d turned(const Matrix3d& R, const Vector3d& principal) { return R * principal.asDiagonal() * R.transpose(); }
+Matrix3d turned(const Matrix3d& R, const Vector3d& principal) {
+  return R * principal.asDiagonal() * R.transpose();
+}
 
 }  // namespace
 
@@ -34,7 +36,8 @@ World::World(const WorldOptions& options, const MaterialTable& materials)
     throw std::invalid_argument("contact::World: step is " + std::to_string(options.step) +
                                 " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
   if (options.solver.sweeps < 1)
-    throw std::invalid_argument("contact::World: sweeps is " + std::to_string(options.solver.sweeps) + "; allowed: at least 1");
+    throw std::invalid_argument("contact::World: sweeps is " + std::to_string(options.solver.sweeps) +
+                                "; allowed: at least 1");
 }
 
 int World::add_surface(const Surface& surface, const Collider& collider) {
@@ -67,13 +70,15 @@ void World::set_rock_velocity(int rock, const Vector3d& velocity, const Vector3d
 }
 
 int World::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material) {
-  const int id = add_surface({Owner::fixed, -1, material},
-                             {std::move(shape), world_body, material, fixed_family, false, Eigen::Isometry3d::Identity()});
+  const int id = add_surface(
+      {Owner::fixed, -1, material},
+      {std::move(shape), world_body, material, fixed_family, false, Eigen::Isometry3d::Identity()});
   finder_.set_pose(id, pose);
   return id;
 }
 
-void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS, int material) {
+void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
+                           int material) {
   const int id = add_surface({Owner::part, part, material},
                              {std::move(shape), machine_part(part), material, machine_family, true, X_PS});
   finder_.set_pose(id, machine_->part_pose(part));
@@ -83,7 +88,8 @@ void World::place_colliders() {
   for (const Rock& rock : rocks_)
     if (rock.present) finder_.set_pose(rock.collider, rock.pose);
   for (std::size_t id = 0; id < surfaces_.size(); ++id)
-    if (surfaces_[id].owner == Owner::part) finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
+    if (surfaces_[id].owner == Owner::part)
+      finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
 }
 
 void World::fill_bodies() {
@@ -106,7 +112,8 @@ int World::solver_index(const Surface& surface) const {
 
 Vector3d World::origin(const Surface& surface) const {
   if (surface.owner == Owner::part) return super_->origins[surface.index];
-  return surface.owner == Owner::rock ? Vector3d(rocks_[surface.index].pose.translation()) : Vector3d::Zero().eval();
+  return surface.owner == Owner::rock ? Vector3d(rocks_[surface.index].pose.translation())
+                                      : Vector3d::Zero().eval();
 }
 
 Vector3d World::velocity_at(const Surface& surface, const Vector3d& arm) const {
@@ -133,11 +140,17 @@ void World::fill_contacts() {
     const int first = static_cast<int>(problem_.points.size());
     for (int k = 0; k < m.count; ++k) {
       const ManifoldPoint& p = m.points[k];
-      ContactPoint c{.a = solver_index(a), .b = solver_index(b), .feature = p.feature, .position = p.position,
-                     .arm_a = p.position - origin_a, .arm_b = p.position - origin_b, .normal = m.normal};
+      ContactPoint c{.a = solver_index(a),
+                     .b = solver_index(b),
+                     .feature = p.feature,
+                     .position = p.position,
+                     .arm_a = p.position - origin_a,
+                     .arm_b = p.position - origin_b,
+                     .normal = m.normal};
       const Vector3d u = velocity_at(b, c.arm_b) - velocity_at(a, c.arm_a);
       if (p.gap > resting_margin + 2 * h * u.norm()) continue;
-      const SpookTerms terms = spook(p.gap, m.normal.dot(u), material.stiffness / touching, material.damping_time, h);
+      const SpookTerms terms =
+          spook(p.gap, m.normal.dot(u), material.stiffness / touching, material.damping_time, h);
       c.sigma = terms.sigma;
       c.target = terms.target;
       c.friction = material.friction;
@@ -209,10 +222,12 @@ StepReport World::step() {
   report.points = static_cast<int>(problem_.points.size());
   report.last_change = solved.last_change;
   for (const Manifold& m : *manifolds_) {
-    if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock) continue;
+    if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock)
+      continue;
     for (int k = 0; k < m.count; ++k) report.max_overlap = std::max(report.max_overlap, -m.points[k].gap);
   }
-  report.rest_s = seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
+  report.rest_s =
+      seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
   return report;
 }
 
@@ -221,7 +236,8 @@ double World::kinetic_energy() const {
   for (const Rock& rock : rocks_) {
     if (!rock.present) continue;
     const Vector3d w = rock.pose.linear().transpose() * rock.angular_velocity;
-    sum += 0.5 * rock.body.mass * rock.velocity.squaredNorm() + 0.5 * w.dot(rock.body.inertia.cwiseProduct(w));
+    sum +=
+        0.5 * rock.body.mass * rock.velocity.squaredNorm() + 0.5 * w.dot(rock.body.inertia.cwiseProduct(w));
   }
   return sum;
 }

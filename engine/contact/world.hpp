@@ -23,8 +23,9 @@ struct WorldOptions {
   double step = 0.005;                                     ///< h [s]
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);  ///< [m/s²]
   SolverOptions solver;
-  /// Share of last step's impulses to start from, 0 to 1. Full warm starting carries the unconverged part of the solution from
-  /// step to step without loss and lets towers sway; 0.95 forgets it within some twenty steps and keeps most of the head start.
+  /// Share of last step's impulses to start from, 0 to 1. Full warm starting carries the unconverged part of
+  /// the solution from step to step without loss and lets towers sway; 0.95 forgets it within some twenty
+  /// steps and keeps most of the head start.
   double warm_start = 0.95;
   ContactFinderOptions contacts;
 };

@@ -16,14 +16,16 @@ contact::RockBody RockLibrary::body(const RockSpec& spec) const {
     if (known.shape == spec.shape && known.size == spec.size) return body;
   const auto polyhedron = rock_shapes().at(spec.shape).scaled(spec.size);
   const auto properties = contact::mass_properties(polyhedron, density_);
-  made_.push_back({spec, {std::make_shared<const contact::Shape>(polyhedron), properties.mass,
-                          properties.inertia.diagonal(), material_}});
+  made_.push_back({spec,
+                   {std::make_shared<const contact::Shape>(polyhedron), properties.mass,
+                    properties.inertia.diagonal(), material_}});
   return made_.back().second;
 }
 
 namespace {
 
-// Places of the layer: a square grid within the radius, from the middle outward so that the pile grows under the raise.
+// Places of the layer: a square grid within the radius, from the middle outward so that the pile grows under
+// the raise.
 std::vector<Eigen::Vector3d> layer_places(const EmitterOptions& o) {
   std::vector<Eigen::Vector3d> places;
   const int reach = static_cast<int>(o.radius / o.spacing) + 1;
@@ -46,7 +48,8 @@ bool free_place(const contact::World& world, const Eigen::Vector3d& place, doubl
 Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t seed)
     : options_(options), turns_(seed), sampler_(seed, density) {}
 
-std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library, std::vector<RockSpec>& specs, double mass) {
+std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library,
+                               std::vector<RockSpec>& specs, double mass) {
   std::vector<int> born;
   for (const Eigen::Vector3d& place : layer_places(options_)) {
     if (mass <= 0) break;
@@ -67,7 +70,8 @@ std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library
 bool RestWatch::at_rest(const contact::World& world) {
   const double h = world.options().step, mass = present_mass(world);
   elapsed_ += h;
-  const bool calm = mass == 0 || (world.kinetic_energy() / mass < options_.mean_energy && world.fastest_rock() < options_.fastest);
+  const bool calm = mass == 0 || (world.kinetic_energy() / mass < options_.mean_energy &&
+                                  world.fastest_rock() < options_.fastest);
   calm_ = calm ? calm_ + h : 0;
   timed_out_ = calm_ < options_.hold && elapsed_ >= options_.cap;
   return calm_ >= options_.hold || timed_out_;

@@ -11,9 +11,10 @@
 
 /// Rocks as data, the emitter that pours them and the settling of a pile.
 ///
-/// Rocks have one of six shapes and one of the four sizes of the distribution by mass; the emitter draws sizes to a mass
-/// quota and shapes evenly, turns each at random and lets it go at the top of the raise, a layer of free places at a time,
-/// so that no two are born overlapping. All random numbers are counter-based: the seed gives the pile, bit for bit.
+/// Rocks have one of six shapes and one of the four sizes of the distribution by mass; the emitter draws
+/// sizes to a mass quota and shapes evenly, turns each at random and lets it go at the top of the raise, a
+/// layer of free places at a time, so that no two are born overlapping. All random numbers are counter-based:
+/// the seed gives the pile, bit for bit.
 namespace drawpoint::engine::granular {
 
 struct RockSpec {
@@ -50,8 +51,10 @@ struct EmitterOptions {
 class Emitter {
  public:
   Emitter(const EmitterOptions& options, double density, std::uint64_t seed);
-  /// Fills the free places of the layer, at most up to `mass` [kg] (the last rock may exceed it). Returns the new rocks' indices.
-  std::vector<int> emit(contact::World& world, const RockLibrary& library, std::vector<RockSpec>& specs, double mass);
+  /// Fills the free places of the layer, at most up to `mass` [kg] (the last rock may exceed it). Returns the
+  /// new rocks' indices.
+  std::vector<int> emit(contact::World& world, const RockLibrary& library, std::vector<RockSpec>& specs,
+                        double mass);
 
  private:
   EmitterOptions options_;
@@ -59,13 +62,13 @@ class Emitter {
   RockSampler sampler_;
 };
 
-/// At rest: little energy in all, and nothing on the move. The speed limit lets single rocks tick as their contacts change features
-/// (up to about 0.1 m/s for a step or two) but no rock fall or roll.
+/// At rest: little energy in all, and nothing on the move. The speed limit lets single rocks tick as their
+/// contacts change features (up to about 0.1 m/s for a step or two) but no rock fall or roll.
 struct RestOptions {
-  double mean_energy = 1e-4;   ///< mean kinetic energy a kilogram [J/kg]
-  double fastest = 0.2;        ///< [m/s]
-  double hold = 1.0;           ///< both for this long [s]
-  double cap = 20.0;           ///< give up after [s]
+  double mean_energy = 1e-4;  ///< mean kinetic energy a kilogram [J/kg]
+  double fastest = 0.2;       ///< [m/s]
+  double hold = 1.0;          ///< both for this long [s]
+  double cap = 20.0;          ///< give up after [s]
 };
 
 /// Watches a world come to rest.

@@ -21,7 +21,8 @@ constexpr double slab = 0.5;  // thickness of roof and raise [m]
 
 void require(bool fine, const char* name, double value, const char* allowed) {
   if (!fine)
-    throw std::invalid_argument("loading::Drift: " + std::string(name) + " is " + std::to_string(value) + " m; allowed: " + allowed);
+    throw std::invalid_argument("loading::Drift: " + std::string(name) + " is " + std::to_string(value) +
+                                " m; allowed: " + allowed);
 }
 
 void add(contact::World& world, Shape shape) {
@@ -83,7 +84,8 @@ void check(const Drift& d) {
   require(d.length >= 10 && d.length <= 200, "length", d.length, "10 to 200 m");
   require(d.width >= 3.6 && d.width <= 20, "width", d.width, "3.6 m (bucket and clearance) to 20 m");
   require(d.height >= 3.5 && d.height <= 20, "height", d.height, "3.5 m (the machine is 3 m high) to 20 m");
-  require(d.raise_radius >= 1 && 2 * d.raise_radius < d.width, "raise radius", d.raise_radius, "1 m to half the drift's width");
+  require(d.raise_radius >= 1 && 2 * d.raise_radius < d.width, "raise radius", d.raise_radius,
+          "1 m to half the drift's width");
   require(d.raise_height > d.height + 1, "raise height", d.raise_height, "more than a metre above the roof");
 }
 
@@ -104,7 +106,8 @@ granular::EmitterOptions emitter_of(const Drift& d) {
 }
 
 contact::MaterialTable mine_materials(double tyre_stiffness) {
-  const int rock = 0, steel = static_cast<int>(SurfaceKind::steel), tyre = static_cast<int>(SurfaceKind::tyre);
+  const int rock = 0, steel = static_cast<int>(SurfaceKind::steel),
+            tyre = static_cast<int>(SurfaceKind::tyre);
   // Young's moduli of the tables times 0.1 m, but not softer than 1e8 N/m: rock on steel or floor at 1e8 Pa.
   contact::MaterialTable table(surface_kinds);
   table.set(rock, rock, {0.9, 0.5, 1e9, 0});

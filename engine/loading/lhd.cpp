@@ -15,21 +15,24 @@ using machine::JointKind;
 
 const Vector3d nose_up = -Vector3d::UnitY();  // positive angles raise the nose
 constexpr double wheelbase = 4.9, half_track = 1.1, tyre_half_width = 0.445;
-constexpr double lift_side = 0.45;          // lateral place of the lift cylinders [m]
-constexpr double rear_axle_share = 0.56;    // of the empty weight
+constexpr double lift_side = 0.45;        // lateral place of the lift cylinders [m]
+constexpr double rear_axle_share = 0.56;  // of the empty weight
 
 // Reference-pose points (x, z) of the linkage, all in the machine's middle plane.
 Vector3d at(double x, double z, double y = 0) { return {x, y, z}; }
-const Vector3d F = at(-0.60, 1.80), G = at(2.05, 0.50), K = at(3.85, 0.00), H = at(1.94, 1.07), E = at(1.31, 1.42),
-               Q = at(1.12, 2.32), P = at(1.18, 0.63), T = at(0.10, 1.68), B = at(-0.65, 0.60), D = at(1.108, 0.628);
+const Vector3d F = at(-0.60, 1.80), G = at(2.05, 0.50), K = at(3.85, 0.00), H = at(1.94, 1.07),
+               E = at(1.31, 1.42), Q = at(1.12, 2.32), P = at(1.18, 0.63), T = at(0.10, 1.68),
+               B = at(-0.65, 0.60), D = at(1.108, 0.628);
 
 // Solid box with its length along `along` (in the x-z plane), width along y.
-Matrix3d box_inertia(double mass, double length, double width, double height, const Vector3d& along = Vector3d::UnitX()) {
+Matrix3d box_inertia(double mass, double length, double width, double height,
+                     const Vector3d& along = Vector3d::UnitX()) {
   Matrix3d R;
   R.col(0) = along.normalized();
   R.col(1) = Vector3d::UnitY();
   R.col(2) = R.col(0).cross(R.col(1));
-  const Vector3d I(width * width + height * height, length * length + height * height, length * length + width * width);
+  const Vector3d I(width * width + height * height, length * length + height * height,
+                   length * length + width * width);
   return R * (mass / 12 * I).asDiagonal() * R.transpose();
 }
 
@@ -77,11 +80,13 @@ class Builder {
 
   void add_chassis();
   void add_arm();
-  std::array<int, 2> add_cylinder(const std::string& name, const Vector3d& from, const Vector3d& to, int driven);
+  std::array<int, 2> add_cylinder(const std::string& name, const Vector3d& from, const Vector3d& to,
+                                  int driven);
   void balance_axles();
   void add_motors();
   void add_stops();
-  void draw(int body, const std::vector<Vector3d>& points, SurfaceKind kind, bool touches, const std::string& color);
+  void draw(int body, const std::vector<Vector3d>& points, SurfaceKind kind, bool touches,
+            const std::string& color);
   void draw_bar(int body, const Vector3d& from, const Vector3d& to, double width, double height, bool touches,
                 const std::string& color);
   void draw_box(int body, const Vector3d& low, const Vector3d& high, bool touches, const std::string& color);
@@ -100,8 +105,8 @@ void Builder::add_chassis() {
   front.centre = at(-0.5, 1.1);
   front.inertia = box_inertia(front.mass, 2.6, 2.2, 1.4);
   lhd_.front = add(front);
-  lhd_.rear = add(hinged("rear unit", lhd_.front, at(-wheelbase / 2, 0.95), Vector3d::UnitX(), 25200, at(-5.9, 1.2),
-                         box_inertia(25200, 5.5, 2.6, 1.8)));
+  lhd_.rear = add(hinged("rear unit", lhd_.front, at(-wheelbase / 2, 0.95), Vector3d::UnitX(), 25200,
+                         at(-5.9, 1.2), box_inertia(25200, 5.5, 2.6, 1.8)));
   const char* names[] = {"front left wheel", "front right wheel", "rear left wheel", "rear right wheel"};
   for (int k = 0; k < 4; ++k) {
     const Vector3d hub = at(k < 2 ? 0 : -wheelbase, r, k % 2 == 0 ? half_track : -half_track);
@@ -111,31 +116,37 @@ void Builder::add_chassis() {
 }
 
 // Barrel and rod of a cylinder from its frame pin to its rod pin on `driven`; the rod pin closes a loop.
-std::array<int, 2> Builder::add_cylinder(const std::string& name, const Vector3d& from, const Vector3d& to, int driven) {
+std::array<int, 2> Builder::add_cylinder(const std::string& name, const Vector3d& from, const Vector3d& to,
+                                         int driven) {
   const Vector3d along = (to - from).normalized();
   const double length = (to - from).norm();
   const Vector3d barrel_centre = from + 0.35 * length * along, rod_centre = from + 0.75 * length * along;
   const int barrel = add(hinged(name + " barrel", lhd_.front, from, nose_up, 350, barrel_centre,
                                 box_inertia(350, 0.7 * length, 0.26, 0.26, along)));
-  BodySpec rod{name + " rod", barrel, JointKind::slider, to, along, 200, rod_centre,
-               box_inertia(200, 0.5 * length, 0.14, 0.14, along)};
+  BodySpec rod{name + " rod", barrel, JointKind::slider, to,
+               along,         200,    rod_centre,        box_inertia(200, 0.5 * length, 0.14, 0.14, along)};
   const int rod_index = add(rod);
   lhd_.spec.loops.push_back({name + " rod pin", driven, rod_index, to, Vector3d::UnitY()});
   return {barrel, rod_index};
 }
 
 void Builder::add_arm() {
-  lhd_.boom = add(hinged("boom", lhd_.front, F, nose_up, 3600, at(0.78, 1.17), box_inertia(3600, 2.9, 1.3, 0.6, G - F)));
-  lhd_.bucket = add(hinged("bucket", lhd_.boom, G, nose_up, 4800, at(2.60, 0.60), box_inertia(4800, 1.5, 3.2, 1.5)));
-  lhd_.bell_crank = add(hinged("bell-crank", lhd_.boom, E, nose_up, 700, at(1.20, 1.46), box_inertia(700, 1.7, 0.35, 0.3, Q - P)));
-  lhd_.link = add(hinged("link", lhd_.bell_crank, P, nose_up, 350, 0.5 * (P + H), box_inertia(350, 0.95, 0.3, 0.2, H - P)));
+  lhd_.boom = add(
+      hinged("boom", lhd_.front, F, nose_up, 3600, at(0.78, 1.17), box_inertia(3600, 2.9, 1.3, 0.6, G - F)));
+  lhd_.bucket =
+      add(hinged("bucket", lhd_.boom, G, nose_up, 4800, at(2.60, 0.60), box_inertia(4800, 1.5, 3.2, 1.5)));
+  lhd_.bell_crank = add(hinged("bell-crank", lhd_.boom, E, nose_up, 700, at(1.20, 1.46),
+                               box_inertia(700, 1.7, 0.35, 0.3, Q - P)));
+  lhd_.link = add(hinged("link", lhd_.bell_crank, P, nose_up, 350, 0.5 * (P + H),
+                         box_inertia(350, 0.95, 0.3, 0.2, H - P)));
   lhd_.spec.loops.push_back({"link pin", lhd_.bucket, lhd_.link, H, Vector3d::UnitY()});
   const auto tilt = add_cylinder("tilt cylinder", T, Q, lhd_.bell_crank);
   lhd_.tilt_barrel = tilt[0];
   lhd_.tilt_rod = tilt[1];
   for (int k = 0; k < 2; ++k) {
     const Vector3d side(0, k == 0 ? lift_side : -lift_side, 0);
-    const auto lift = add_cylinder(k == 0 ? "left lift cylinder" : "right lift cylinder", B + side, D + side, lhd_.boom);
+    const auto lift =
+        add_cylinder(k == 0 ? "left lift cylinder" : "right lift cylinder", B + side, D + side, lhd_.boom);
     lhd_.lift_barrels[k] = lift[0];
     lhd_.lift_rods[k] = lift[1];
   }
@@ -165,7 +176,8 @@ void Builder::add_motors() {
     lhd_.tilt_motors = {motor(lhd_.bucket, o.tilt_torque)};
     return;
   }
-  lhd_.lift_motors = {motor(lhd_.lift_rods[0], o.lift_cylinder_force), motor(lhd_.lift_rods[1], o.lift_cylinder_force)};
+  lhd_.lift_motors = {motor(lhd_.lift_rods[0], o.lift_cylinder_force),
+                      motor(lhd_.lift_rods[1], o.lift_cylinder_force)};
   lhd_.tilt_motors = {motor(lhd_.tilt_rod, o.tilt_cylinder_force)};
 }
 
@@ -177,14 +189,15 @@ void Builder::add_stops() {
                      {"oscillation", lhd_.rear, -roll, roll}};
 }
 
-void Builder::draw(int body, const std::vector<Vector3d>& points, SurfaceKind kind, bool touches, const std::string& color) {
+void Builder::draw(int body, const std::vector<Vector3d>& points, SurfaceKind kind, bool touches,
+                   const std::string& color) {
   std::vector<Vector3d> local;
   for (const Vector3d& p : points) local.push_back(p - lhd_.spec.bodies[body].centre);
   lhd_.surfaces.push_back({body, ConvexPolyhedron::hull_of(local), kind, touches, color});
 }
 
-void Builder::draw_bar(int body, const Vector3d& from, const Vector3d& to, double width, double height, bool touches,
-                       const std::string& color) {
+void Builder::draw_bar(int body, const Vector3d& from, const Vector3d& to, double width, double height,
+                       bool touches, const std::string& color) {
   const Vector3d up = (to - from).normalized().cross(-Vector3d::UnitY()) * (height / 2);
   std::vector<Vector3d> points;
   for (const Vector3d& end : {from, to})
@@ -193,10 +206,12 @@ void Builder::draw_bar(int body, const Vector3d& from, const Vector3d& to, doubl
   draw(body, points, SurfaceKind::steel, touches, color);
 }
 
-void Builder::draw_box(int body, const Vector3d& low, const Vector3d& high, bool touches, const std::string& color) {
+void Builder::draw_box(int body, const Vector3d& low, const Vector3d& high, bool touches,
+                       const std::string& color) {
   std::vector<Vector3d> points;
   for (int corner = 0; corner < 8; ++corner)
-    points.emplace_back(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z());
+    points.emplace_back(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                        corner & 4 ? high.z() : low.z());
   draw(body, points, SurfaceKind::steel, touches, color);
 }
 
@@ -206,10 +221,12 @@ void Builder::add_chassis_surfaces() {
   draw_box(lhd_.rear, {-6.0, -0.62, 0.6}, {-2.6, 0.62, 1.9}, false, "#d9a21b");
   draw_box(lhd_.rear, {-4.6, 0.62, 1.95}, {-3.2, 1.45, 2.9}, false, "#3a3f47");
   for (int wheel : lhd_.wheels)
-    lhd_.surfaces.push_back({wheel, contact::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
+    lhd_.surfaces.push_back(
+        {wheel, contact::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
 }
 
-// Plates of the shell, 8 cm thick, outside the profile; the floor's front edge is a wedge. Two side walls close it.
+// Plates of the shell, 8 cm thick, outside the profile; the floor's front edge is a wedge. Two side walls
+// close it.
 void Builder::add_bucket_surfaces() {
   const double half = lhd_.bucket_width / 2, thickness = 0.08;
   const auto& profile = lhd_.bucket_profile;
@@ -218,13 +235,16 @@ void Builder::add_bucket_surfaces() {
     const Vector2d a = profile[k], b = profile[(k + 1) % n];
     const Vector2d along = (b - a).normalized(), outward(along.y(), -along.x());
     const bool floor = k + 1 == n;
-    // The floor lies inside the profile so that its underside is the flat z = 0, and thins to the cutting edge.
+    // The floor lies inside the profile so that its underside is the flat z = 0, and thins to the cutting
+    // edge.
     const Vector2d offset = floor ? Vector2d(-outward * thickness) : Vector2d(outward * thickness);
-    const bool heel = k + 2 == n;  // the plate that ends at the floor thickens backward only, nothing hangs below z = 0
+    const bool heel =
+        k + 2 == n;  // the plate that ends at the floor thickens backward only, nothing hangs below z = 0
     const Vector2d end_offset = floor ? Vector2d(offset * 0.25) : heel ? Vector2d(-thickness, 0) : offset;
     std::vector<Vector3d> points;
     for (double y : {-half, half}) {
-      for (const Vector2d& p : {a, b, Vector2d(a + offset), Vector2d(b + end_offset)}) points.emplace_back(p.x(), y, p.y());
+      for (const Vector2d& p : {a, b, Vector2d(a + offset), Vector2d(b + end_offset)})
+        points.emplace_back(p.x(), y, p.y());
     }
     draw(lhd_.bucket, points, SurfaceKind::steel, true, "#8d8f94");
   }
@@ -256,7 +276,8 @@ bool inside_polygon(const std::vector<Vector2d>& polygon, const Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Vector2d &a = polygon[i], &b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
       inside = !inside;
   }
   return inside;

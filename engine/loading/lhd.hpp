@@ -8,15 +8,18 @@
 #include <string>
 #include <vector>
 
-/// The load-haul-dump machine of the founding case, Sandvik LH621 class, as a machine specification with surfaces.
+/// The load-haul-dump machine of the founding case, Sandvik LH621 class, as a machine specification with
+/// surfaces.
 ///
-/// 16 bodies: front and rear unit, four wheels, boom, bucket, bell-crank, link, and barrel and rod of one tilt and two lift
-/// cylinders. Arm: 11 hinges (7 in the tree, 4 loop pins) and 3 prismatics, two freedoms. The rear unit oscillates about the
-/// long axis; steering is locked straight, as the attack is. 57 t, axle loads empty 44/56 %.
+/// 16 bodies: front and rear unit, four wheels, boom, bucket, bell-crank, link, and barrel and rod of one
+/// tilt and two lift cylinders. Arm: 11 hinges (7 in the tree, 4 loop pins) and 3 prismatics, two freedoms.
+/// The rear unit oscillates about the long axis; steering is locked straight, as the attack is. 57 t, axle
+/// loads empty 44/56 %.
 ///
-/// Frame and reference pose: x forward from the front axle line, y left, z up from the floor, bucket flat on the floor.
-/// Hinge points are an estimated, consistent Z-bar linkage: no manufacturer publishes them. Masses and inertias are estimates
-/// too (solid boxes and cylinders); published are payload 21 t, weight, power and tyre size.
+/// Frame and reference pose: x forward from the front axle line, y left, z up from the floor, bucket flat on
+/// the floor. Hinge points are an estimated, consistent Z-bar linkage: no manufacturer publishes them. Masses
+/// and inertias are estimates too (solid boxes and cylinders); published are payload 21 t, weight, power and
+/// tyre size.
 namespace drawpoint::engine::loading {
 
 /// What moves the arm.
@@ -31,7 +34,7 @@ struct LhdOptions {
   double tilt_cylinder_force = 880e3;  ///< [N]: 200 mm bore at 28 MPa
   double lift_torque = 1696e3;         ///< [N m] at F, used with ArmDrive::hinges
   double tilt_torque = 673e3;          ///< [N m] at G, used with ArmDrive::hinges
-  double wheel_torque = 81e3;          ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
+  double wheel_torque = 81e3;  ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
 };
 
 enum class SurfaceKind { rock, terrain, steel, tyre };  ///< rows of the material table
@@ -54,19 +57,20 @@ struct Lhd {
   std::array<int, 2> lift_barrels, lift_rods;
   std::array<int, 4> wheel_motors;
   std::vector<int> lift_motors, tilt_motors;
-  Eigen::Vector3d F, G, K;    ///< boom hinge, bucket hinge, cutting edge (middle), reference pose [m]
-  double tyre_radius;         ///< free radius [m]
-  double loaded_radius;       ///< axle height under the machine's own weight [m]
-  double bucket_width;        ///< [m]
-  double bucket_volume;       ///< heaped 2:1 [m³]
-  std::vector<Eigen::Vector2d> bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]
+  Eigen::Vector3d F, G, K;  ///< boom hinge, bucket hinge, cutting edge (middle), reference pose [m]
+  double tyre_radius;       ///< free radius [m]
+  double loaded_radius;     ///< axle height under the machine's own weight [m]
+  double bucket_width;      ///< [m]
+  double bucket_volume;     ///< heaped 2:1 [m³]
+  std::vector<Eigen::Vector2d>
+      bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]
   std::vector<LhdSurface> surfaces;
 };
 
 Lhd sandvik_lh621(const LhdOptions& options = {});
 
-/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket: the profile plus a
-/// 2:1 heap on the plane between the cutting edge and the top lip.
+/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket:
+/// the profile plus a 2:1 heap on the plane between the cutting edge and the top lip.
 bool in_heaped_bucket(const Lhd& lhd, const Eigen::Vector3d& p_M);
 
 }  // namespace drawpoint::engine::loading

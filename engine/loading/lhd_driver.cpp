@@ -14,12 +14,11 @@ double elevation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 }  // namespace
 
 LhdDriver::LhdDriver(const Lhd& lhd, machine::Machine& machine)
-    : lhd_(lhd),
-      machine_(machine),
-      arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {}
+    : lhd_(lhd), machine_(machine), arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {}
 
 void LhdDriver::place(double x, double y) {
-  // Axles 2 cm above their reference height: the tyres sink to about it under the weight, and the bucket clears the floor.
+  // Axles 2 cm above their reference height: the tyres sink to about it under the weight, and the bucket
+  // clears the floor.
   machine_.place(Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.02)));
   command({});
 }
@@ -31,7 +30,8 @@ MachineReading LhdDriver::read() const {
   r.tip_y = k.y();
   const Eigen::Vector3d axle(0, 0, lhd_.loaded_radius);
   r.front_axle = machine_.point(lhd_.front, axle);
-  r.actual = {machine_.point_velocity(lhd_.front, axle).x(), machine_.speed(lhd_.boom), machine_.speed(lhd_.bucket)};
+  r.actual = {machine_.point_velocity(lhd_.front, axle).x(), machine_.speed(lhd_.boom),
+              machine_.speed(lhd_.bucket)};
   return r;
 }
 
@@ -40,11 +40,14 @@ double LhdDriver::rolling_radius(int wheel) const {
 }
 
 void LhdDriver::command(const ActuatorRates& rates) {
-  for (int k = 0; k < 4; ++k) machine_.set_motor(lhd_.wheel_motors[k], rates.drive / rolling_radius(lhd_.wheels[k]));
+  for (int k = 0; k < 4; ++k)
+    machine_.set_motor(lhd_.wheel_motors[k], rates.drive / rolling_radius(lhd_.wheels[k]));
   Eigen::VectorXd speeds = Eigen::Vector2d(rates.boom, rates.tilt);
   if (lhd_.options.arm_drive == ArmDrive::cylinders) {
-    const std::vector<int> outside = {lhd_.rear, lhd_.wheels[0], lhd_.wheels[1], lhd_.wheels[2], lhd_.wheels[3]};
-    speeds = machine_.transmission({lhd_.lift_rods[0], lhd_.tilt_rod}, {lhd_.boom, lhd_.bucket}, outside) * speeds;
+    const std::vector<int> outside = {lhd_.rear, lhd_.wheels[0], lhd_.wheels[1], lhd_.wheels[2],
+                                      lhd_.wheels[3]};
+    speeds =
+        machine_.transmission({lhd_.lift_rods[0], lhd_.tilt_rod}, {lhd_.boom, lhd_.bucket}, outside) * speeds;
   }
   for (int motor : lhd_.lift_motors) machine_.set_motor(motor, speeds[0]);
   for (int motor : lhd_.tilt_motors) machine_.set_motor(motor, speeds[1]);

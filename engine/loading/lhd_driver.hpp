@@ -8,27 +8,29 @@
 
 /// Reads a machine as the executor sees it and turns its commands into motor speeds.
 ///
-/// The bucket angle is the world elevation of G to K less that of the reference pose; positive = nose up. Rates are those of the joints (the chassis's own pitching is left out). The actual
-/// drive speed is the body's, not the wheels': a machine that spins its wheels on the spot does not move.
+/// The bucket angle is the world elevation of G to K less that of the reference pose; positive = nose up.
+/// Rates are those of the joints (the chassis's own pitching is left out). The actual drive speed is the
+/// body's, not the wheels': a machine that spins its wheels on the spot does not move.
 ///
-/// With cylinder drive, hinge rates become cylinder speeds through the linkage's own velocity constraints at the present
-/// pose. Both kinds of drive are velocity motors with force limits. Each wheel is
-/// set by its own rolling radius, the mean of the tyre's free radius and its hub's height over the floor, so that axles under different load do not
-/// fight each other as wheels on one rigid shaft would.
+/// With cylinder drive, hinge rates become cylinder speeds through the linkage's own velocity constraints at
+/// the present pose. Both kinds of drive are velocity motors with force limits. Each wheel is set by its own
+/// rolling radius, the mean of the tyre's free radius and its hub's height over the floor, so that axles
+/// under different load do not fight each other as wheels on one rigid shaft would.
 namespace drawpoint::engine::loading {
 
 struct MachineReading {
-  TipPose tip;                  ///< middle of the cutting edge, world, and bucket angle
-  double tip_y = 0;             ///< [m]
-  ActuatorRates actual;         ///< forward speed of the front unit, rates of hinges F and G
-  Eigen::Vector3d front_axle;   ///< world [m]
+  TipPose tip;                 ///< middle of the cutting edge, world, and bucket angle
+  double tip_y = 0;            ///< [m]
+  ActuatorRates actual;        ///< forward speed of the front unit, rates of hinges F and G
+  Eigen::Vector3d front_axle;  ///< world [m]
 };
 
 class LhdDriver {
  public:
   LhdDriver(const Lhd& lhd, machine::Machine& machine);
 
-  /// Stands the machine at rest in its reference pose with the front axle line at (x, y), heading +x, on its tyres.
+  /// Stands the machine at rest in its reference pose with the front axle line at (x, y), heading +x, on its
+  /// tyres.
   void place(double x, double y);
   MachineReading read() const;
   void command(const ActuatorRates& rates);

@@ -11,7 +11,7 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-constexpr double stand_time = 0.6;  // for the tyres to take the weight before the clock starts [s]
+constexpr double stand_time = 0.6;    // for the tyres to take the weight before the clock starts [s]
 constexpr int trouble_interval = 50;  // steps between checks of the whole state
 
 class LoadingRun {
@@ -61,11 +61,21 @@ class LoadingRun {
 
 void LoadingRun::describe() {
   const Scenario& s = scenario_;
-  log_.numbers = {{"alpha", s.strategy.alpha}, {"beta", s.strategy.beta}, {"gamma", s.strategy.gamma}, {"kappa", s.strategy.kappa},
-                  {"seed", static_cast<double>(s.seed)}, {"cycles", s.cycles}, {"standoff", s.standoff},
-                  {"drift_length", s.drift.length}, {"drift_width", s.drift.width}, {"drift_height", s.drift.height},
-                  {"pile_mass", site_.initial_mass()}, {"rocks", static_cast<double>(site_.world().rocks().size())},
-                  {"density", s.pile.density}, {"step", s.world.step}, {"sweeps", s.world.solver.sweeps}};
+  log_.numbers = {{"alpha", s.strategy.alpha},
+                  {"beta", s.strategy.beta},
+                  {"gamma", s.strategy.gamma},
+                  {"kappa", s.strategy.kappa},
+                  {"seed", static_cast<double>(s.seed)},
+                  {"cycles", s.cycles},
+                  {"standoff", s.standoff},
+                  {"drift_length", s.drift.length},
+                  {"drift_width", s.drift.width},
+                  {"drift_height", s.drift.height},
+                  {"pile_mass", site_.initial_mass()},
+                  {"rocks", static_cast<double>(site_.world().rocks().size())},
+                  {"density", s.pile.density},
+                  {"step", s.world.step},
+                  {"sweeps", s.world.solver.sweeps}};
   log_.texts = {{"machine", "Sandvik LH621 class"},
                 {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
                 {"pile_recipe", pile_recipe(s)}};
@@ -102,7 +112,8 @@ Plan LoadingRun::plan(CycleRecord& record) const {
   record.column_heights.assign(model.heights.data(), model.heights.data() + model.heights.size());
   if (!plan.feasible) return plan;
   record.contour_z = contour(model, model.rows[plan.row]);
-  for (std::size_t i = 0; i < record.contour_z.size(); ++i) record.contour_x.push_back(model.grid.x(static_cast<double>(i)));
+  for (std::size_t i = 0; i < record.contour_z.size(); ++i)
+    record.contour_x.push_back(model.grid.x(static_cast<double>(i)));
   for (const TipPose& tip : planned_path(plan, options.arm)) {
     record.planned_x.push_back(tip.x);
     record.planned_z.push_back(tip.z);
@@ -165,7 +176,8 @@ bool LoadingRun::run_cycle(int cycle) {
   scene_.frame(site_, cycle, "end of cycle");
 
   record.loaded_rock_masses = site_.bucket_masses();
-  record.loaded_mass = std::accumulate(record.loaded_rock_masses.begin(), record.loaded_rock_masses.end(), 0.0);
+  record.loaded_mass =
+      std::accumulate(record.loaded_rock_masses.begin(), record.loaded_rock_masses.end(), 0.0);
   record.spilled_mass = mass_in_front(columns(false), site_.rocks(false));
   site_.empty_bucket();
   log_.cycles.push_back(record);

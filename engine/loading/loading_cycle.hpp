@@ -7,16 +7,19 @@
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <functional>
 
-/// Simulates loading cycles: plan from the pile as it lies, drive in, lift, curl, back out, weigh, refill, wait for rest, again.
+/// Simulates loading cycles: plan from the pile as it lies, drive in, lift, curl, back out, weigh, refill,
+/// wait for rest, again.
 ///
-/// Every cycle starts with the machine in its reference pose, straight in front of the planned place: hauling, dumping and driving are
-/// left out. After the cycle the bucket's rocks are taken away and weighed, spilled rocks stay where they lie, and the raise lets rocks
-/// fall in until the drift holds its first mass again. Rocks that lie where the machine must stand are taken away and logged
+/// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
+/// hauling, dumping and driving are left out. After the cycle the bucket's rocks are taken away and weighed,
+/// spilled rocks stay where they lie, and the raise lets rocks fall in until the drift holds its first mass
+/// again. Rocks that lie where the machine must stand are taken away and logged
 /// (`cleared_mass`).
 ///
-/// Failure is data: a pile without a place to load, or a solution that breaks down, gives a log with completed = false and
-/// a message; the cycles done before are in it. Throws std::invalid_argument for a bad scenario and std::runtime_error if a file
-/// cannot be read or written. Deterministic. Cost: some ms a step and 1000 rocks.
+/// Failure is data: a pile without a place to load, or a solution that breaks down, gives a log with
+/// completed = false and a message; the cycles done before are in it. Throws std::invalid_argument for a bad
+/// scenario and std::runtime_error if a file cannot be read or written. Deterministic. Cost: some ms a step
+/// and 1000 rocks.
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {

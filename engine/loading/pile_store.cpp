@@ -102,24 +102,28 @@ void write_pile(const std::filesystem::path& path, const SettledPile& pile, cons
 SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario) {
   const record::Reader file(path, pile_kind);
   if (file.text("/", "recipe") != pile_recipe(scenario))
-    throw std::runtime_error("loading::read_pile: " + path.string() +
-                             " was made for another drift, pile or solver; remove it to pour a new one, or name another file");
+    throw std::runtime_error(
+        "loading::read_pile: " + path.string() +
+        " was made for another drift, pile or solver; remove it to pour a new one, or name another file");
   const auto shapes = file.integers("/shape").values;
   const auto sizes = file.doubles("/size").values, poses = file.doubles("/pose").values;
   if (sizes.size() != shapes.size() || poses.size() != 12 * shapes.size())
-    throw std::runtime_error("loading::read_pile: " + path.string() + " contradicts itself; remove it to pour a new pile");
+    throw std::runtime_error("loading::read_pile: " + path.string() +
+                             " contradicts itself; remove it to pour a new pile");
   SettledPile pile{{}, file.number("/", "poured_s"), file.integer("/", "timed_out") != 0};
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     granular::PlacedRock rock{{shapes[k], sizes[k]}, Eigen::Isometry3d::Identity()};
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column) rock.pose.matrix()(row, column) = poses[12 * k + 4 * row + column];
+      for (int column = 0; column < 4; ++column)
+        rock.pose.matrix()(row, column) = poses[12 * k + 4 * row + column];
     pile.rocks.push_back(rock);
   }
   return pile;
 }
 
 SettledPile prepared_pile(const Scenario& scenario, const std::function<void(double)>& progress) {
-  if (!scenario.pile_file.empty() && std::filesystem::exists(scenario.pile_file)) return read_pile(scenario.pile_file, scenario);
+  if (!scenario.pile_file.empty() && std::filesystem::exists(scenario.pile_file))
+    return read_pile(scenario.pile_file, scenario);
   const SettledPile pile = pour_pile(scenario, progress);
   if (!scenario.pile_file.empty()) write_pile(scenario.pile_file, pile, scenario);
   return pile;

@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-/// The common initial state of all runs: a pile poured through the raise and left to settle, saved and read back.
+/// The common initial state of all runs: a pile poured through the raise and left to settle, saved and read
+/// back.
 ///
-/// The file carries what the pile was made from (drift, rocks, step, solver) as one line of text; reading it for anything else is refused,
-/// so that a study can never start from another study's pile unnoticed.
+/// The file carries what the pile was made from (drift, rocks, step, solver) as one line of text; reading it
+/// for anything else is refused, so that a study can never start from another study's pile unnoticed.
 namespace drawpoint::engine::loading {
 
 struct SettledPile {
@@ -23,8 +24,8 @@ struct SettledPile {
 /// What decides the pile, as text.
 std::string pile_recipe(const Scenario& scenario);
 
-/// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once a simulated second. Stops early when the pile
-/// reaches max_height or the raise is full.
+/// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once a simulated second.
+/// Stops early when the pile reaches max_height or the raise is full.
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress = {},
                       const std::function<void(const contact::StepReport&)>& on_step = {});
 

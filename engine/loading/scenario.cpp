@@ -9,7 +9,8 @@ namespace {
 
 void require(bool fine, const std::string& name, double value, const std::string& allowed) {
   if (!fine)
-    throw std::invalid_argument("loading::Scenario: " + name + " is " + std::to_string(value) + "; allowed: " + allowed);
+    throw std::invalid_argument("loading::Scenario: " + name + " is " + std::to_string(value) +
+                                "; allowed: " + allowed);
 }
 
 }  // namespace
@@ -37,7 +38,8 @@ void check(const Scenario& s) {
   require(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
   require(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
   require(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");
-  require(s.pile.density >= 1000 && s.pile.density <= 10000, "rock density [kg/m3]", s.pile.density, "1000 to 10 000 kg/m3");
+  require(s.pile.density >= 1000 && s.pile.density <= 10000, "rock density [kg/m3]", s.pile.density,
+          "1000 to 10 000 kg/m3");
   require(s.frame_interval > 0, "frame interval [s]", s.frame_interval, "above 0 s");
 }
 

@@ -15,10 +15,10 @@
 namespace drawpoint::engine::loading {
 
 struct PileOptions {
-  double mass = 80e3;        ///< poured in the pre-simulation [kg]
-  double density = 4500;     ///< of the rock [kg/m³]
-  double max_height = 8;     ///< pouring stops when the pile reaches it [m]
-  std::uint64_t seed = 1;    ///< of the pouring; one pile serves all runs of a study
+  double mass = 80e3;      ///< poured in the pre-simulation [kg]
+  double density = 4500;   ///< of the rock [kg/m³]
+  double max_height = 8;   ///< pouring stops when the pile reaches it [m]
+  std::uint64_t seed = 1;  ///< of the pouring; one pile serves all runs of a study
   granular::RestOptions rest;
 };
 
@@ -26,7 +26,7 @@ struct Scenario {
   Strategy strategy;
   std::uint64_t seed = 1;  ///< of what differs between runs: the rocks that refill the pile
   int cycles = 1;
-  double standoff = 2.0;   ///< tip to toe at the start [m]
+  double standoff = 2.0;  ///< tip to toe at the start [m]
   Drift drift;
   PileOptions pile;
   LhdOptions machine;
@@ -34,11 +34,13 @@ struct Scenario {
   ColumnOptions columns;
   contact::WorldOptions world;
   double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
-  std::filesystem::path pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew
-  std::filesystem::path log_file;   ///< run log to write (HDF5); empty: none
+  std::filesystem::path
+      pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew
+  std::filesystem::path log_file;  ///< run log to write (HDF5); empty: none
 };
 
-/// The LH621 in a drift 6 m wide with a small pile (80 t, about 1200 rocks), one cycle: minutes for a whole study.
+/// The LH621 in a drift 6 m wide with a small pile (80 t, about 1200 rocks), one cycle: minutes for a whole
+/// study.
 Scenario lh621_in_a_drift();
 
 /// The scale of the founding case: a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.

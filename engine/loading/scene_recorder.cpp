@@ -20,22 +20,27 @@ ConvexPolyhedron drawable(const contact::Shape& shape) {
 }
 
 ConvexPolyhedron block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return contact::box(0.5 * (high - low)).transformed(Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))));
+  return contact::box(0.5 * (high - low))
+      .transformed(Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))));
 }
 
 void append_pose(std::vector<float>& poses, const Eigen::Isometry3d& X) {
   const Eigen::Quaterniond q(X.linear());
-  for (double value : {X.translation().x(), X.translation().y(), X.translation().z(), q.w(), q.x(), q.y(), q.z()})
+  for (double value :
+       {X.translation().x(), X.translation().y(), X.translation().z(), q.w(), q.x(), q.y(), q.z()})
     poses.push_back(static_cast<float>(value));
 }
 
-void append_hidden(std::vector<float>& poses) { poses.insert(poses.end(), values_a_pose, std::numeric_limits<float>::quiet_NaN()); }
+void append_hidden(std::vector<float>& poses) {
+  poses.insert(poses.end(), values_a_pose, std::numeric_limits<float>::quiet_NaN());
+}
 
 }  // namespace
 
 SceneRecorder::SceneRecorder(const Site& site, const Drift& d) {
   for (const LhdSurface& s : site.lhd().surfaces) {
-    scene_.bodies.push_back({static_cast<int>(scene_.shapes.size()), s.color, 1.0, site.lhd().spec.bodies[s.body].name});
+    scene_.bodies.push_back(
+        {static_cast<int>(scene_.shapes.size()), s.color, 1.0, site.lhd().spec.bodies[s.body].name});
     scene_.shapes.push_back(drawable(s.shape));
   }
   machine_bodies_ = scene_.bodies.size();
@@ -69,7 +74,8 @@ void SceneRecorder::add_rocks(const Site& site) {
 void SceneRecorder::frame(const Site& site, int cycle, const std::string& label) {
   add_rocks(site);
   SceneFrame frame{site.world().time(), cycle, label, {}};
-  for (std::size_t k = 0; k < machine_bodies_; ++k) append_pose(frame.poses, site.machine().pose(site.lhd().surfaces[k].body));
+  for (std::size_t k = 0; k < machine_bodies_; ++k)
+    append_pose(frame.poses, site.machine().pose(site.lhd().surfaces[k].body));
   for (std::size_t k = 0; k < fixed_bodies_; ++k) append_pose(frame.poses, Eigen::Isometry3d::Identity());
   for (const contact::Rock& rock : site.world().rocks()) {
     if (rock.present)

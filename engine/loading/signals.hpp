@@ -8,8 +8,8 @@
 
 /// The raw signals of a run at full rate: one row a step, every quantity that a response may need.
 ///
-/// Wrenches: on the child by its parent at the joint, in the child's axes, mean over the step; hinge G is the bucket's. Its y
-/// component is about the pin: zero with cylinder drive, the tilt torque with hinge motors.
+/// Wrenches: on the child by its parent at the joint, in the child's axes, mean over the step; hinge G is the
+/// bucket's. Its y component is about the pin: zero with cylinder drive, the tilt torque with hinge motors.
 namespace drawpoint::engine::loading {
 
 class SignalRecorder {

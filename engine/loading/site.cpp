@@ -9,10 +9,13 @@ namespace {
 
 using contact::ConvexPolyhedron;
 
-// The box that the machine fills behind its cutting edge, with 10 cm of room: rocks may not lie there at the start.
+// The box that the machine fills behind its cutting edge, with 10 cm of room: rocks may not lie there at the
+// start.
 constexpr double machine_length = 12.2, machine_half_width = 1.7, machine_top = 2.0, room = 0.1;
 
-const ConvexPolyhedron& polyhedron(const contact::Rock& rock) { return std::get<ConvexPolyhedron>(*rock.body.shape); }
+const ConvexPolyhedron& polyhedron(const contact::Rock& rock) {
+  return std::get<ConvexPolyhedron>(*rock.body.shape);
+}
 
 }  // namespace
 
@@ -29,8 +32,8 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
   world_.attach(&machine_);
   for (const LhdSurface& s : lhd_.surfaces)
     if (s.touches)
-      world_.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape), Eigen::Isometry3d::Identity(),
-                            static_cast<int>(s.kind));
+      world_.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
+                            Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   for (const granular::PlacedRock& rock : pile.rocks) {
     world_.add_rock(library_.body(rock.spec), rock.pose);
     specs_.push_back(rock.spec);
@@ -55,7 +58,8 @@ bool Site::in_bucket(int rock) const {
 std::vector<double> Site::bucket_masses() const {
   std::vector<double> masses;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k)
-    if (world_.rocks()[k].present && in_bucket(static_cast<int>(k))) masses.push_back(world_.rocks()[k].body.mass);
+    if (world_.rocks()[k].present && in_bucket(static_cast<int>(k)))
+      masses.push_back(world_.rocks()[k].body.mass);
   return masses;
 }
 
@@ -66,7 +70,8 @@ void Site::empty_bucket() {
 
 double Site::place_machine(double tip_x, double y, double back) {
   const auto in_lane = [&](const contact::Rock& rock) {
-    return rock.present && std::abs(rock.pose.translation().y() - y) < machine_half_width + polyhedron(rock).radius() &&
+    return rock.present &&
+           std::abs(rock.pose.translation().y() - y) < machine_half_width + polyhedron(rock).radius() &&
            rock.pose.translation().z() < machine_top;
   };
   const double nearest = tip_x - back;
@@ -99,13 +104,15 @@ std::string Site::trouble() const {
     const contact::Rock& rock = world_.rocks()[k];
     if (!rock.present) continue;
     const Eigen::Vector3d& p = rock.pose.translation();
-    const bool inside = p.z() > -0.5 && std::abs(p.y()) < drift_.width && p.x() < drift_.length + 1 && p.z() < 3 * drift_.raise_height;
+    const bool inside = p.z() > -0.5 && std::abs(p.y()) < drift_.width && p.x() < drift_.length + 1 &&
+                        p.z() < 3 * drift_.raise_height;
     if (!p.allFinite() || !rock.velocity.allFinite() || !inside)
       return "rock " + std::to_string(k) + " left the drift at t = " + std::to_string(world_.time()) +
              " s: the contact solution broke down; use a smaller step or more sweeps";
   }
   if (!driver_.read().front_axle.allFinite())
-    return "the machine's position is not finite at t = " + std::to_string(world_.time()) + " s; use a smaller step";
+    return "the machine's position is not finite at t = " + std::to_string(world_.time()) +
+           " s; use a smaller step";
   return {};
 }
 

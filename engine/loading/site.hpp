@@ -31,8 +31,9 @@ class Site {
 
   void empty_bucket();
 
-  /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket clear of rocks lying in
-  /// its way (at most `back` [m]). Rocks that would still lie inside the machine are taken away; returns their mass [kg].
+  /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket
+  /// clear of rocks lying in its way (at most `back` [m]). Rocks that would still lie inside the machine are
+  /// taken away; returns their mass [kg].
   double place_machine(double tip_x, double y, double back = 4.0);
 
   /// Lets new rocks fall in until the mass in the drift is what it was at the start. Call once a step.
@@ -44,7 +45,6 @@ class Site {
   std::string trouble() const;
 
  private:
-
   Drift drift_;
   Lhd lhd_;
   machine::Machine machine_;

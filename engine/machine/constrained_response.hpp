@@ -6,9 +6,9 @@
 
 /// The factor N of a constrained machine's response A = N Nᵀ to impulses.
 ///
-/// With Z an orthonormal basis of the null space of G (rank-revealing QR of Gᵀ, so redundant rows do no harm) and
-/// ZᵀMZ = LLᵀ, N = Z L⁻ᵀ satisfies G N = 0 and NᵀMN = 1, and N Nᵀ = M⁻¹ − M⁻¹Gᵀ(G M⁻¹Gᵀ)⁺G M⁻¹.
-/// Cost O(n³).
+/// With Z an orthonormal basis of the null space of G (rank-revealing QR of Gᵀ, so redundant rows do no harm)
+/// and ZᵀMZ = LLᵀ, N = Z L⁻ᵀ satisfies G N = 0 and NᵀMN = 1, and N Nᵀ = M⁻¹ − M⁻¹Gᵀ(G M⁻¹Gᵀ)⁺G M⁻¹. Cost
+/// O(n³).
 namespace drawpoint::engine::machine {
 
 /// M: n x n symmetric positive definite; G: m x n (m may be 0). Returns N: n x r, r = n - rank(G).

@@ -12,10 +12,11 @@
 namespace drawpoint::engine::machine {
 namespace {
 
-// A joint stop acts once the coordinate is past its limit or would pass it within the step; its position error is
-// removed over about this many steps, gently enough not to throw the load.
+// A joint stop acts once the coordinate is past its limit or would pass it within the step; its position
+// error is removed over about this many steps, gently enough not to throw the load.
 constexpr double stop_relaxation = 0.2;
-// A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one it is in.
+// A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one
+// it is in.
 constexpr double coordinate_step = 0.05;
 constexpr double loop_tolerance = 1e-11;  // [m], what projection aims at; the promise is 1e-9
 
@@ -23,14 +24,18 @@ SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()};
 Eigen::Vector3d to_eigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 SimTK::SpatialVec to_simbody(const Wrench& w) { return {to_simbody(w.moment), to_simbody(w.force)}; }
 
-Eigen::Map<const Eigen::VectorXd> view(const SimTK::Vector& v) { return {v.size() ? &v[0] : nullptr, v.size()}; }
+Eigen::Map<const Eigen::VectorXd> view(const SimTK::Vector& v) {
+  return {v.size() ? &v[0] : nullptr, v.size()};
+}
 Eigen::MatrixXd to_eigen(const SimTK::Matrix& m) {
   Eigen::MatrixXd out(m.nrow(), m.ncol());
   for (int j = 0; j < m.ncol(); ++j)
     for (int i = 0; i < m.nrow(); ++i) out(i, j) = m(i, j);
   return out;
 }
-SimTK::Vector to_simbody(const Eigen::VectorXd& v) { return SimTK::Vector(static_cast<int>(v.size()), v.data()); }
+SimTK::Vector to_simbody(const Eigen::VectorXd& v) {
+  return SimTK::Vector(static_cast<int>(v.size()), v.data());
+}
 
 Eigen::Matrix3d to_eigen(const SimTK::Rotation& R) {
   Eigen::Matrix3d out;
@@ -67,8 +72,8 @@ struct Machine::Simbody {
   SimTK::State state;
 
   std::vector<double> motor_targets, motor_forces, row_starts;
-  std::vector<Wrench> extra;         // by add_force, for the next step
-  std::vector<Wrench> reactions;     // of the last step, in the body's axes
+  std::vector<Wrench> extra;      // by add_force, for the next step
+  std::vector<Wrench> reactions;  // of the last step, in the body's axes
   std::vector<Eigen::Vector3d> loop_forces;
 
   // The linearisation of the present step.
@@ -92,18 +97,20 @@ struct Machine::Simbody {
   }
 
   void add_body(const BodySpec& body) {
-    SimTK::MobilizedBody& parent = body.parent < 0 ? static_cast<SimTK::MobilizedBody&>(matter.updGround())
-                                                   : bodies[body.parent];
+    SimTK::MobilizedBody& parent =
+        body.parent < 0 ? static_cast<SimTK::MobilizedBody&>(matter.updGround()) : bodies[body.parent];
     const Eigen::Vector3d parent_origin =
         body.parent < 0 ? Eigen::Vector3d::Zero().eval() : spec.bodies[body.parent].centre;
     const SimTK::Body::Rigid rigid(mass_properties(body));
     if (body.joint == JointKind::free) {
-      bodies.push_back(SimTK::MobilizedBody::Free(parent, SimTK::Transform(to_simbody(Eigen::Vector3d(body.centre - parent_origin))),
-                                                  rigid, SimTK::Transform()));
+      bodies.push_back(SimTK::MobilizedBody::Free(
+          parent, SimTK::Transform(to_simbody(Eigen::Vector3d(body.centre - parent_origin))), rigid,
+          SimTK::Transform()));
       return;
     }
     const bool hinge = body.joint == JointKind::hinge;
-    const SimTK::CoordinateAxis along = hinge ? SimTK::CoordinateAxis(SimTK::ZAxis) : SimTK::CoordinateAxis(SimTK::XAxis);
+    const SimTK::CoordinateAxis along =
+        hinge ? SimTK::CoordinateAxis(SimTK::ZAxis) : SimTK::CoordinateAxis(SimTK::XAxis);
     const SimTK::Rotation R(SimTK::UnitVec3(to_simbody(body.joint_axis)), along);
     const SimTK::Transform X_PF(R, to_simbody(Eigen::Vector3d(body.joint_point - parent_origin)));
     const SimTK::Transform X_BM(R, to_simbody(Eigen::Vector3d(body.joint_point - body.centre)));
@@ -115,7 +122,8 @@ struct Machine::Simbody {
 
   void add_loop(const LoopPinSpec& loop) {
     loops.emplace_back(bodies[loop.line_body], SimTK::UnitVec3(to_simbody(loop.axis)),
-                       to_simbody(Eigen::Vector3d(loop.point - spec.bodies[loop.line_body].centre)), bodies[loop.point_body],
+                       to_simbody(Eigen::Vector3d(loop.point - spec.bodies[loop.line_body].centre)),
+                       bodies[loop.point_body],
                        to_simbody(Eigen::Vector3d(loop.point - spec.bodies[loop.point_body].centre)));
   }
 
@@ -125,7 +133,8 @@ struct Machine::Simbody {
     try {
       system.project(state, loop_tolerance);
     } catch (const std::exception& error) {
-      throw std::runtime_error(std::string("machine::Machine: the loops cannot be closed at this pose (") + error.what() +
+      throw std::runtime_error(std::string("machine::Machine: the loops cannot be closed at this pose (") +
+                               error.what() +
                                "); move the joints closer to a pose that the linkage can reach");
     }
     system.realize(state, SimTK::Stage::Velocity);
@@ -164,8 +173,10 @@ void Machine::Simbody::linearise_dynamics() {
 }
 
 // Gravity and added forces on every body, with the contact impulses over the step when they are known.
-SimTK::Vector_<SimTK::SpatialVec> Machine::Simbody::loads(const std::vector<contact::SpatialVector>* part_impulses) const {
-  SimTK::Vector_<SimTK::SpatialVec> forces(matter.getNumBodies(), SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
+SimTK::Vector_<SimTK::SpatialVec> Machine::Simbody::loads(
+    const std::vector<contact::SpatialVector>* part_impulses) const {
+  SimTK::Vector_<SimTK::SpatialVec> forces(matter.getNumBodies(),
+                                           SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Wrench total = extra[b];
     total.force += spec.bodies[b].mass * gravity;
@@ -182,15 +193,15 @@ void Machine::Simbody::build_rows() {
   super.rows.clear();
   for (std::size_t m = 0; m < spec.motors.size(); ++m) {
     const double limit = spec.motors[m].max_force * h;
-    super.rows.push_back({N.row(speed_index(spec.motors[m].body)).transpose(), motor_targets[m], 0.0, -limit, limit, row_starts[m]});
+    super.rows.push_back({N.row(speed_index(spec.motors[m].body)).transpose(), motor_targets[m], 0.0, -limit,
+                          limit, row_starts[m]});
   }
   for (std::size_t s = 0; s < spec.stops.size(); ++s) {
     const StopSpec& stop = spec.stops[s];
     const auto [gap, sign] = nearer_stop(stop);
     const double target = gap >= 0 ? -gap / h : -stop_relaxation * gap / h;
     super.rows.push_back({sign * N.row(speed_index(stop.body)).transpose(), target, 0.0, 0.0,
-                          std::numeric_limits<double>::infinity(),
-                          row_starts[spec.motors.size() + s]});
+                          std::numeric_limits<double>::infinity(), row_starts[spec.motors.size() + s]});
   }
 }
 
@@ -213,7 +224,8 @@ SimTK::Vector_<SimTK::SpatialVec> Machine::Simbody::recover_loops(const Eigen::V
   return total;
 }
 
-void Machine::Simbody::recover_forces(const contact::SuperBodySolution& solution, const Eigen::VectorXd& acceleration) {
+void Machine::Simbody::recover_forces(const contact::SuperBodySolution& solution,
+                                      const Eigen::VectorXd& acceleration) {
   const std::size_t n_motors = spec.motors.size();
   SimTK::Vector mobility(state.getNU(), 0.0);
   for (std::size_t m = 0; m < n_motors; ++m) {
@@ -235,13 +247,21 @@ void Machine::Simbody::recover_forces(const contact::SuperBodySolution& solution
     const int i = bodies[b].getMobilizedBodyIndex();
     const Eigen::Matrix3d R = to_eigen(bodies[b].getBodyRotation(state));
     const BodySpec& body = spec.bodies[b];
-    motion[b] = {body.parent, body.mass, R * body.inertia * R.transpose(), to_eigen(bodies[b].getBodyOriginLocation(state)),
-                 to_eigen(bodies[b].findStationLocationInGround(state, to_simbody(local(static_cast<int>(b), body.joint_point)))),
-                 to_eigen(bodies[b].getBodyAngularVelocity(state)), to_eigen(A[i][0]), to_eigen(A[i][1]),
-                 to_eigen(applied[i][0] + loop_loads[i][0]), to_eigen(applied[i][1] + loop_loads[i][1])};
+    motion[b] = {body.parent,
+                 body.mass,
+                 R * body.inertia * R.transpose(),
+                 to_eigen(bodies[b].getBodyOriginLocation(state)),
+                 to_eigen(bodies[b].findStationLocationInGround(
+                     state, to_simbody(local(static_cast<int>(b), body.joint_point)))),
+                 to_eigen(bodies[b].getBodyAngularVelocity(state)),
+                 to_eigen(A[i][0]),
+                 to_eigen(A[i][1]),
+                 to_eigen(applied[i][0] + loop_loads[i][0]),
+                 to_eigen(applied[i][1] + loop_loads[i][1])};
   }
   const auto joints = joint_forces(motion);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {  // at the pose that they belong to, not the one after the step
+  for (std::size_t b = 0; b < bodies.size();
+       ++b) {  // at the pose that they belong to, not the one after the step
     const Eigen::Matrix3d R_BW = to_eigen(bodies[b].getBodyRotation(state)).transpose();
     reactions[b] = {R_BW * joints[b].moment, R_BW * joints[b].force};
   }
@@ -275,7 +295,8 @@ void Machine::set_coordinate(int body, double value) {
   const double start = coordinate(body);
   const int steps = 1 + static_cast<int>(std::abs(value - start) / coordinate_step);
   for (int k = 1; k <= steps; ++k) {
-    s.bodies[body].lockAt(s.state, start + (value - start) * k / steps);  // held while the rest of its loops follow
+    s.bodies[body].lockAt(s.state,
+                          start + (value - start) * k / steps);  // held while the rest of its loops follow
     s.settle_state();
   }
   s.bodies[body].unlock(s.state);
@@ -299,11 +320,14 @@ double Machine::loop_error() const {
 double Machine::energy(const Eigen::Vector3d& gravity) const {
   const Simbody& s = *simbody_;
   double total = s.matter.calcKineticEnergy(s.state);
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) total -= s.spec.bodies[b].mass * gravity.dot(pose(static_cast<int>(b)).translation());
+  for (std::size_t b = 0; b < s.bodies.size(); ++b)
+    total -= s.spec.bodies[b].mass * gravity.dot(pose(static_cast<int>(b)).translation());
   return total;
 }
 
-Eigen::Isometry3d Machine::pose(int body) const { return to_eigen(simbody_->bodies[body].getBodyTransform(simbody_->state)); }
+Eigen::Isometry3d Machine::pose(int body) const {
+  return to_eigen(simbody_->bodies[body].getBodyTransform(simbody_->state));
+}
 Eigen::Isometry3d Machine::part_pose(int part) const { return pose(part); }
 
 Eigen::Vector3d Machine::point(int body, const Eigen::Vector3d& p_M) const {
@@ -311,7 +335,8 @@ Eigen::Vector3d Machine::point(int body, const Eigen::Vector3d& p_M) const {
 }
 
 Eigen::Vector3d Machine::point_velocity(int body, const Eigen::Vector3d& p_M) const {
-  return to_eigen(simbody_->bodies[body].findStationVelocityInGround(simbody_->state, to_simbody(simbody_->local(body, p_M))));
+  return to_eigen(simbody_->bodies[body].findStationVelocityInGround(simbody_->state,
+                                                                     to_simbody(simbody_->local(body, p_M))));
 }
 
 Eigen::Vector3d Machine::angular_velocity(int body) const {
@@ -322,7 +347,7 @@ void Machine::set_motor(int motor, double speed) { simbody_->motor_targets.at(mo
 double Machine::motor_force(int motor) const { return simbody_->motor_forces.at(motor); }
 
 Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std::vector<int>& drivers,
-                                     const std::vector<int>& held) const {
+                                      const std::vector<int>& held) const {
   const Simbody& s = *simbody_;
   SimTK::Matrix matrix;
   s.matter.calcG(s.state, matrix);
@@ -340,12 +365,14 @@ Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std:
   Eigen::MatrixXd A(m + static_cast<Eigen::Index>(still.size()) + fixed, n);
   A.topRows(m) = G;
   for (std::size_t i = 0; i < still.size(); ++i) A.row(m + static_cast<Eigen::Index>(i)) = still[i];
-  for (Eigen::Index d = 0; d < fixed; ++d) A.row(A.rows() - fixed + d) = Eigen::RowVectorXd::Unit(n, s.speed_index(drivers[d]));
+  for (Eigen::Index d = 0; d < fixed; ++d)
+    A.row(A.rows() - fixed + d) = Eigen::RowVectorXd::Unit(n, s.speed_index(drivers[d]));
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(A.rows(), fixed);
   B.bottomRows(fixed).setIdentity();
   const Eigen::MatrixXd speeds = A.colPivHouseholderQr().solve(B);
   Eigen::MatrixXd factors(static_cast<Eigen::Index>(driven.size()), fixed);
-  for (std::size_t k = 0; k < driven.size(); ++k) factors.row(static_cast<Eigen::Index>(k)) = speeds.row(s.speed_index(driven[k]));
+  for (std::size_t k = 0; k < driven.size(); ++k)
+    factors.row(static_cast<Eigen::Index>(k)) = speeds.row(s.speed_index(driven[k]));
   return factors;
 }
 

@@ -8,16 +8,18 @@
 
 /// An articulated machine on Simbody, stepped as a super-body of the contact solver.
 ///
-/// Per step of h: Simbody gives M(q), G(q), the system Jacobian and the bias f − C(q, u); N spans the null space of G with
-/// Nᵀ M N = 1, so that w = NᵀM u and w* = w + h Nᵀ(f − C). The solver returns w⁺; then u⁺ = N w⁺, q⁺ = q + h Q(q) u⁺, and q
-/// is projected on to the loops (error below 1e-9 m). First order in h, like the rocks' stepper.
+/// Per step of h: Simbody gives M(q), G(q), the system Jacobian and the bias f − C(q, u); N spans the null
+/// space of G with Nᵀ M N = 1, so that w = NᵀM u and w* = w + h Nᵀ(f − C). The solver returns w⁺; then u⁺ = N
+/// w⁺, q⁺ = q + h Q(q) u⁺, and q is projected on to the loops (error below 1e-9 m). First order in h, like
+/// the rocks' stepper.
 ///
 /// Joint forces follow from the step's accelerations: the loop multipliers from the equations of motion,
-/// Gᵀλ = f − C − M (u⁺ − u)/h (least squares, exact up to round-off as the residual lies in the range of Gᵀ), then every
-/// tree joint by Newton-Euler from the leaves to the root. A wrench is a mean over the step.
+/// Gᵀλ = f − C − M (u⁺ − u)/h (least squares, exact up to round-off as the residual lies in the range of Gᵀ),
+/// then every tree joint by Newton-Euler from the leaves to the root. A wrench is a mean over the step.
 ///
-/// Cost: O(n³) with n speeds, about 0.1-0.2 ms for n = 21. Not thread-safe; copies share nothing (not copyable).
-/// Throws std::invalid_argument for a bad specification, std::runtime_error if the loops cannot be closed.
+/// Cost: O(n³) with n speeds, about 0.1-0.2 ms for n = 21. Not thread-safe; copies share nothing (not
+/// copyable). Throws std::invalid_argument for a bad specification, std::runtime_error if the loops cannot be
+/// closed.
 namespace drawpoint::engine::machine {
 
 struct Wrench {
@@ -49,15 +51,16 @@ class Machine final : public contact::ArticulatedBody {
   Eigen::Vector3d point_velocity(int body, const Eigen::Vector3d& p_M) const;
   Eigen::Vector3d angular_velocity(int body) const;
 
-  void set_motor(int motor, double speed);           ///< [rad/s] or [m/s]
-  double motor_force(int motor) const;               ///< mean over the last step [N m] or [N]
+  void set_motor(int motor, double speed);  ///< [rad/s] or [m/s]
+  double motor_force(int motor) const;      ///< mean over the last step [N m] or [N]
 
-  /// How fast the joints `driven` move for unit speed of each of the joints `drivers`, with free bases and the joints `held` at
-  /// rest: driven x drivers. The drivers must be as many as the freedoms that are left.
+  /// How fast the joints `driven` move for unit speed of each of the joints `drivers`, with free bases and
+  /// the joints `held` at rest: driven x drivers. The drivers must be as many as the freedoms that are left.
   Eigen::MatrixXd transmission(const std::vector<int>& driven, const std::vector<int>& drivers,
                                const std::vector<int>& held) const;
 
-  /// Wrench that the parent put on the body at its joint point in the last step, mean over the step, in the body's axes.
+  /// Wrench that the parent put on the body at its joint point in the last step, mean over the step, in the
+  /// body's axes.
   Wrench joint_wrench(int body) const;
   /// Force on the point body of a loop pin in the last step, world axes [N].
   Eigen::Vector3d loop_force(int loop) const;

@@ -7,17 +7,23 @@
 namespace drawpoint::engine::machine {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("machine::MachineSpec: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("machine::MachineSpec: " + what);
+}
 
 void check_body(const BodySpec& body, int index) {
   const std::string name = "body \"" + body.name + "\": ";
-  if (body.parent >= index) refuse(name + "its parent must stand before it; list bodies from the root outward");
+  if (body.parent >= index)
+    refuse(name + "its parent must stand before it; list bodies from the root outward");
   if (!(body.mass > 0)) refuse(name + "mass is " + std::to_string(body.mass) + " kg; give a positive mass");
   const Eigen::Vector3d I = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues();
   if (!(I[0] > 0) || I[0] + I[1] < I[2] * (1 - 1e-9))
-    refuse(name + "no rigid body has this inertia; the principal moments must be positive and obey the triangle inequality");
+    refuse(name +
+           "no rigid body has this inertia; the principal moments must be positive and obey the triangle "
+           "inequality");
   if (body.joint != JointKind::free && std::abs(body.joint_axis.norm() - 1) > 1e-9)
-    refuse(name + "the joint axis has length " + std::to_string(body.joint_axis.norm()) + "; give a unit vector");
+    refuse(name + "the joint axis has length " + std::to_string(body.joint_axis.norm()) +
+           "; give a unit vector");
 }
 
 void check_joint_of(const MachineSpec& spec, int body, const std::string& who) {
@@ -38,7 +44,8 @@ void check(const MachineSpec& spec) {
   }
   for (const auto& stop : spec.stops) {
     check_joint_of(spec, stop.body, "stop \"" + stop.name + "\"");
-    if (!(stop.lower < stop.upper)) refuse("stop \"" + stop.name + "\": the lower limit is not below the upper one");
+    if (!(stop.lower < stop.upper))
+      refuse("stop \"" + stop.name + "\": the lower limit is not below the upper one");
   }
 }
 

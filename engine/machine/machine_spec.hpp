@@ -6,16 +6,18 @@
 #include <string>
 #include <vector>
 
-/// An articulated machine as plain data: a tree of rigid bodies, the pins that close its loops, motors and stops.
+/// An articulated machine as plain data: a tree of rigid bodies, the pins that close its loops, motors and
+/// stops.
 ///
-/// Everything is given once, in the *machine frame* at the *reference pose*, where every joint coordinate is zero.
-/// A body's own frame has its origin at the centre of mass and the axes of the machine frame at the reference pose.
-/// Hinge coordinates are angles about `axis` (right hand) [rad], slider coordinates lengths along it [m].
+/// Everything is given once, in the *machine frame* at the *reference pose*, where every joint coordinate is
+/// zero. A body's own frame has its origin at the centre of mass and the axes of the machine frame at the
+/// reference pose. Hinge coordinates are angles about `axis` (right hand) [rad], slider coordinates lengths
+/// along it [m].
 ///
-/// A loop pin lets a point of one body move only on the pin's axis fixed in the other: two equations, the planar-reduced
-/// hinge. In a planar linkage a second full hinge would add three redundant equations whose reactions are indeterminate;
-/// leaving them out puts all lateral load on the tree's hinges, as the clearance of real pins and the spherical bearings
-/// of real cylinder ends do.
+/// A loop pin lets a point of one body move only on the pin's axis fixed in the other: two equations, the
+/// planar-reduced hinge. In a planar linkage a second full hinge would add three redundant equations whose
+/// reactions are indeterminate; leaving them out puts all lateral load on the tree's hinges, as the clearance
+/// of real pins and the spherical bearings of real cylinder ends do.
 namespace drawpoint::engine::machine {
 
 enum class JointKind { free, hinge, slider };

@@ -38,8 +38,8 @@ int main() {
   const double worst = (prediction.mean - observe(X_new)).cwiseAbs().maxCoeff();
 
   // The formula is smooth and spans about 3.7 units; a mean of the data alone is off by more than 1, a
-  // surrogate that uses the 36 points by less than 1e-3. One per cent of the span tells them apart with room on
-  // both sides.
+  // surrogate that uses the 36 points by less than 1e-3. One per cent of the span tells them apart with room
+  // on both sides.
   const bool good =
       worst < 0.037 && prediction.variance.minCoeff() >= 0.0 && std::isfinite(model.log_likelihood());
   std::printf("worst error %.2e on %d new points: %s\n", worst, static_cast<int>(X_new.rows()),

@@ -4,7 +4,8 @@
 
 #include <drawpoint/engine/machine/machine.hpp>
 
-/// Small mechanisms with known answers, shared by tests and benchmarks. All move in the x-z plane about axes along y.
+/// Small mechanisms with known answers, shared by tests and benchmarks. All move in the x-z plane about axes
+/// along y.
 namespace drawpoint::support {
 
 inline Eigen::Matrix3d rod_inertia(double mass, double length, const Eigen::Vector3d& direction) {
@@ -36,8 +37,9 @@ inline engine::machine::MachineSpec simple_pendulum(double length, double mass) 
   return {{bob}, {}, {}, {}};
 }
 
-/// A parallelogram of three 1 m rods of 1 kg on two ground hinges 1 m apart: crank and rocker hang (direction -1) or stand (+1), the
-/// coupler joins their ends. The same as a single pendulum of known inertia, which makes it an exact test of the loop.
+/// A parallelogram of three 1 m rods of 1 kg on two ground hinges 1 m apart: crank and rocker hang (direction
+/// -1) or stand (+1), the coupler joins their ends. The same as a single pendulum of known inertia, which
+/// makes it an exact test of the loop.
 inline engine::machine::MachineSpec parallelogram_four_bar(double direction) {
   const Eigen::Vector3d left(0, 0, direction), right(1, 0, direction);
   engine::machine::MachineSpec spec;

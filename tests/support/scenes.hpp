@@ -30,7 +30,8 @@ inline engine::contact::RockBody box_body(const Vector3d& half, double density =
 }
 
 inline void add_floor(engine::contact::World& world) {
-  world.add_static(shared(engine::contact::HalfSpace{Vector3d::UnitZ(), 0}), Eigen::Isometry3d::Identity(), 0);
+  world.add_static(shared(engine::contact::HalfSpace{Vector3d::UnitZ(), 0}), Eigen::Isometry3d::Identity(),
+                   0);
 }
 
 inline Eigen::Isometry3d at(double x, double y, double z) {

@@ -6,8 +6,8 @@
 #include <drawpoint/tests/support/rocks.hpp>
 
 using namespace drawpoint;
-using engine::contact::World;
 using Eigen::Vector3d;
+using engine::contact::World;
 
 namespace {
 
@@ -36,10 +36,11 @@ Vector3d angular_momentum(const World& world) {
 
 }  // namespace
 
-// Every impulse acts on both rocks in opposite directions, so linear momentum is kept to round-off: 1e-12 of the largest
-// single momentum. Angular momentum about the origin: impulses act at one common point; free flight keeps r x p. Contact is
-// inelastic with friction, so kinetic energy may only fall, but for the push that removes overlap: the elastic energy k δ²/2
-// stored in a penetration of at most v h; it is bounded here by 1 % of the energy of the impact.
+// Every impulse acts on both rocks in opposite directions, so linear momentum is kept to round-off: 1e-12 of
+// the largest single momentum. Angular momentum about the origin: impulses act at one common point; free
+// flight keeps r x p. Contact is inelastic with friction, so kinetic energy may only fall, but for the push
+// that removes overlap: the elastic energy k δ²/2 stored in a penetration of at most v h; it is bounded here
+// by 1 % of the energy of the impact.
 TEST(Impact, TwoRocksKeepMomentumAndGainNoEnergy) {
   engine::CounterRandom random(3);
   for (int trial = 0; trial < 40; ++trial) {
@@ -48,7 +49,8 @@ TEST(Impact, TwoRocksKeepMomentumAndGainNoEnergy) {
     a.translation() = Vector3d(-0.5, 0.1 * random.uniform(), 0.1 * random.uniform());
     b.translation() = Vector3d(0.5, 0, 0);
     const double speed = 1 + 4 * random.uniform();
-    world.add_rock(support::rock_body(trial % 6, 0.6), a, Vector3d(speed, 0, 0), Vector3d(0, 2 * random.uniform(), 0));
+    world.add_rock(support::rock_body(trial % 6, 0.6), a, Vector3d(speed, 0, 0),
+                   Vector3d(0, 2 * random.uniform(), 0));
     world.add_rock(support::rock_body((trial + 1) % 6, 0.4), b, Vector3d(-1, 0, 0));
     const Vector3d p = momentum(world), L = angular_momentum(world);
     const double energy = world.kinetic_energy(), scale = world.rocks()[0].body.mass * speed;
@@ -67,7 +69,8 @@ TEST(Impact, TwoRocksKeepMomentumAndGainNoEnergy) {
 // Torque-free rotation keeps angular momentum to round-off over 20 000 turns-steps, whatever the shape.
 TEST(FreeRotation, KeepsAngularMomentum) {
   World world = free_space();
-  world.add_rock(support::rock_body(2, 0.5), Eigen::Isometry3d::Identity(), Vector3d::Zero(), Vector3d(1, 5, 0.3));
+  world.add_rock(support::rock_body(2, 0.5), Eigen::Isometry3d::Identity(), Vector3d::Zero(),
+                 Vector3d(1, 5, 0.3));
   const Vector3d L = angular_momentum(world);
   for (int k = 0; k < 20000; ++k) world.step();
   EXPECT_LT((angular_momentum(world) - L).norm(), 20000 * 1e-15 * 10 * L.norm());

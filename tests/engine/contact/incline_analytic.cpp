@@ -6,14 +6,15 @@
 #include <drawpoint/tests/support/scenes.hpp>
 
 using namespace drawpoint;
-using engine::contact::World;
 using Eigen::Vector3d;
+using engine::contact::World;
 
 namespace {
 
 constexpr double h = 0.005, g = 9.81;
 
-// A flat block (0.8 x 0.8 x 0.2 m, so that it cannot tip below 76 deg) on a slope, laid down at its rest overlap.
+// A flat block (0.8 x 0.8 x 0.2 m, so that it cannot tip below 76 deg) on a slope, laid down at its rest
+// overlap.
 World block_on_slope(double angle, double friction) {
   engine::contact::WorldOptions options;
   options.gravity = support::tilted_gravity(angle);
@@ -26,9 +27,9 @@ World block_on_slope(double angle, double friction) {
 
 }  // namespace
 
-// Below the friction angle the block sticks: after the contact has taken up its load (a few steps) it must not move. What is
-// left is the solver's error: with 100 warm-started sweeps on four points it is far below 1e-6 m/s; the test allows 1e-5 m
-// in two seconds.
+// Below the friction angle the block sticks: after the contact has taken up its load (a few steps) it must
+// not move. What is left is the solver's error: with 100 warm-started sweeps on four points it is far below
+// 1e-6 m/s; the test allows 1e-5 m in two seconds.
 TEST(BlockOnIncline, SticksBelowTheFrictionAngle) {
   const double mu = 0.6;  // friction angle 30.96 deg
   for (double degrees : {5.0, 15.0, 25.0, 30.5}) {
@@ -41,10 +42,11 @@ TEST(BlockOnIncline, SticksBelowTheFrictionAngle) {
   }
 }
 
-// Above it slides with a = g (sin α − μ cos α). The stepper is first order: after n steps v = n h a exactly for a constant
-// force, so the error is that of the normal force while the contact settles. The block starts at zero overlap; in a time of
-// about 2τ = 4h it loses up to μ g cos α per step: |Δv| ≤ 4 h μ g = 0.12 m/s is too crude a bound to test with, so the
-// acceleration is measured after 0.25 s, when the normal force is steady: then only the solver's error remains (< 1e-4).
+// Above it slides with a = g (sin α − μ cos α). The stepper is first order: after n steps v = n h a exactly
+// for a constant force, so the error is that of the normal force while the contact settles. The block starts
+// at zero overlap; in a time of about 2τ = 4h it loses up to μ g cos α per step: |Δv| ≤ 4 h μ g = 0.12 m/s is
+// too crude a bound to test with, so the acceleration is measured after 0.25 s, when the normal force is
+// steady: then only the solver's error remains (< 1e-4).
 TEST(BlockOnIncline, SlidesWithTheExactAccelerationAboveIt) {
   const double mu = 0.6;
   for (double degrees : {32.0, 40.0, 55.0}) {
@@ -58,8 +60,9 @@ TEST(BlockOnIncline, SlidesWithTheExactAccelerationAboveIt) {
   }
 }
 
-// The cone is circular: a block thrown in any direction on a level floor stops after v²/(2 μ g) on a straight line. Distance error:
-// one step's travel from the O(h) integration, v h = 0.01 m, of which the semi-implicit rule takes half: bound v h.
+// The cone is circular: a block thrown in any direction on a level floor stops after v²/(2 μ g) on a straight
+// line. Distance error: one step's travel from the O(h) integration, v h = 0.01 m, of which the semi-implicit
+// rule takes half: bound v h.
 TEST(BlockOnFloor, StopsAtTheSameDistanceInEveryDirection) {
   const double mu = 0.5, v = 2.0, exact = v * v / (2 * mu * g);
   for (int k = 0; k < 16; ++k) {

@@ -29,7 +29,8 @@ struct Yard {
         world.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
                              Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   }
-  /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce to die down.
+  /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce
+  /// to die down.
   void raise_boom() {
     stand(1);
     driver.command({0, 0.2, 0});

@@ -46,8 +46,8 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
 }
 
-// Every signal is finite, the machine's loops hold, and what drives is within its force limits: wheels 4 · 81 kN m, lift 2 · 713 kN, tilt
-// 880 kN; limits are impulses divided by the step, so round-off only.
+// Every signal is finite, the machine's loops hold, and what drives is within its force limits: wheels 4 · 81
+// kN m, lift 2 · 713 kN, tilt 880 kN; limits are impulses divided by the step, so round-off only.
 TEST(LoadingCycle, SignalsAreFiniteAndWithinTheMotorLimits) {
   const record::Table& signals = cycle_log().signals;
   ASSERT_GT(signals.rows(), 100u);
@@ -60,7 +60,8 @@ TEST(LoadingCycle, SignalsAreFiniteAndWithinTheMotorLimits) {
   EXPECT_LE(largest("wheel_torque"), 4 * 81e3 * (1 + 1e-9));
   EXPECT_LE(largest("lift_force"), 2 * 713e3 * (1 + 1e-9));
   EXPECT_LE(largest("tilt_force"), 880e3 * (1 + 1e-9));
-  // With cylinder drive hinge G is a plain pin: no moment about it, up to round-off of forces of 1e6 N at arms of 1 m.
+  // With cylinder drive hinge G is a plain pin: no moment about it, up to round-off of forces of 1e6 N at
+  // arms of 1 m.
   EXPECT_LT(largest("hinge_G_torque_y"), 1.0);
 }
 
@@ -77,6 +78,7 @@ TEST(LoadingCycle, RefusesABadScenarioByName) {
     simulate(scenario);
     FAIL() << "a drift narrower than the machine was accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "loading::Drift: width is 2.000000 m; allowed: 3.6 m (bucket and clearance) to 20 m");
+    EXPECT_STREQ(error.what(),
+                 "loading::Drift: width is 2.000000 m; allowed: 3.6 m (bucket and clearance) to 20 m");
   }
 }

@@ -29,8 +29,9 @@ double mass_of(const granular::PlacedRock& rock) {
 
 }  // namespace
 
-// Table 3: 20, 30, 30, 20 % of the mass in rocks of 0.3, 0.4, 0.6, 0.8 m. The emitter draws to a mass quota, which
-// is never off by more than the heaviest rocks of all sizes together: 0.24 · 4500 · (0.3³ + 0.4³ + 0.6³ + 0.8³) = 885 kg.
+// Table 3: 20, 30, 30, 20 % of the mass in rocks of 0.3, 0.4, 0.6, 0.8 m. The emitter draws to a mass quota,
+// which is never off by more than the heaviest rocks of all sizes together: 0.24 · 4500 · (0.3³ + 0.4³ + 0.6³
+// + 0.8³) = 885 kg.
 TEST(SettledPile, HasTheMassDistributionOfTheTable) {
   std::map<double, double> by_size;
   double total = 0;
@@ -47,8 +48,8 @@ TEST(SettledPile, HasTheMassDistributionOfTheTable) {
   EXPECT_NEAR(by_size[0.8] / total, 0.2, bound);
 }
 
-// Every rock came to rest inside the drift: centre above the floor by at least a sixth of its length (the thinnest half of any of the
-// six rocks is 0.22 of it), within the walls and before the back wall.
+// Every rock came to rest inside the drift: centre above the floor by at least a sixth of its length (the
+// thinnest half of any of the six rocks is 0.22 of it), within the walls and before the back wall.
 TEST(SettledPile, LiesAtRestInsideTheDrift) {
   const Drift drift = small_pile(20e3).drift;
   EXPECT_FALSE(twenty_tonnes().timed_out);
@@ -65,7 +66,8 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 TEST(SettledPile, IsTheSameBitForBitWhenPouredAgain) {
   const SettledPile a = pour_pile(small_pile(10e3)), b = pour_pile(small_pile(10e3));
   ASSERT_EQ(a.rocks.size(), b.rocks.size());
-  for (std::size_t k = 0; k < a.rocks.size(); ++k) EXPECT_TRUE(a.rocks[k].pose.matrix() == b.rocks[k].pose.matrix());
+  for (std::size_t k = 0; k < a.rocks.size(); ++k)
+    EXPECT_TRUE(a.rocks[k].pose.matrix() == b.rocks[k].pose.matrix());
 }
 
 TEST(SettledPile, IsReadBackExactlyAndOnlyForItsOwnRecipe) {

@@ -14,7 +14,8 @@ Eigen::MatrixXd random_matrix(std::mt19937& rng, Eigen::Index rows, Eigen::Index
   return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(rng); });
 }
 
-// M = B Bᵀ + 1 has condition numbers of about 1e2 here; results may differ by that times n·eps: 1e2·20·2e-16 ≈ 5e-13.
+// M = B Bᵀ + 1 has condition numbers of about 1e2 here; results may differ by that times n·eps: 1e2·20·2e-16
+// ≈ 5e-13.
 constexpr double tolerance = 1e-11;
 
 }  // namespace
@@ -23,10 +24,12 @@ TEST(ConstrainedResponse, NormalisesTheMassMatrixAndKeepsTheConstraints) {
   std::mt19937 rng(7);
   for (int trial = 0; trial < 50; ++trial) {
     const Eigen::Index n = 3 + trial % 18, m = trial % 3;
-    const Eigen::MatrixXd B = random_matrix(rng, n, n), M = B * B.transpose() + Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd B = random_matrix(rng, n, n),
+                          M = B * B.transpose() + Eigen::MatrixXd::Identity(n, n);
     const Eigen::MatrixXd G = random_matrix(rng, m, n), N = constrained_response(M, G);
     ASSERT_EQ(N.cols(), n - m);
-    EXPECT_LT((N.transpose() * M * N - Eigen::MatrixXd::Identity(n - m, n - m)).cwiseAbs().maxCoeff(), tolerance);
+    EXPECT_LT((N.transpose() * M * N - Eigen::MatrixXd::Identity(n - m, n - m)).cwiseAbs().maxCoeff(),
+              tolerance);
     const Eigen::MatrixXd W = M.inverse();
     Eigen::MatrixXd A = W;
     if (m > 0) {

@@ -13,7 +13,8 @@ namespace {
 
 const Eigen::Vector3d gravity(0, 0, -9.81);
 
-// Steps a machine on its own: no contacts, no limits reached, so the free velocity is the solution and motor rows idle.
+// Steps a machine on its own: no contacts, no limits reached, so the free velocity is the solution and motor
+// rows idle.
 void step_alone(Machine& machine, double h) {
   const auto& super = machine.linearise(h, gravity);
   engine::contact::SuperBodySolution solution;
@@ -38,13 +39,16 @@ double time_of_crossing(Machine& machine, double h, const std::function<double()
 }  // namespace
 
 // Released at rest from horizontal (90 deg from the lowest point) a simple pendulum has the period
-// 4 K(sin 45 deg) sqrt(L/g), K(1/√2) = 1.8540746773013719. Semi-implicit Euler keeps a perturbed energy; its period error is
-// O(h²ω²/24) plus O(h) of the phase, cancelled by measuring from crossing to crossing. The interpolation of the crossing
-// costs at most h²·a/(8·v) ~ 1e-7 s. With h = 1 ms and ω ≈ 3.1: (3.1e-3)²/24 = 4e-7 relative; 1e-5 leaves a factor 25.
+// 4 K(sin 45 deg) sqrt(L/g), K(1/√2) = 1.8540746773013719. Semi-implicit Euler keeps a perturbed energy; its
+// period error is O(h²ω²/24) plus O(h) of the phase, cancelled by measuring from crossing to crossing. The
+// interpolation of the crossing costs at most h²·a/(8·v) ~ 1e-7 s. With h = 1 ms and ω ≈ 3.1: (3.1e-3)²/24 =
+// 4e-7 relative; 1e-5 leaves a factor 25.
 TEST(Pendulum, HasTheExactPeriodAtLargeAmplitude) {
   const double L = 1, period = 4 * 1.8540746773013719 * std::sqrt(L / 9.81);
   Machine machine(support::simple_pendulum(L, 1));
-  const auto height = [&] { return machine.coordinate(0) + M_PI / 2; };  // zero at the lowest point, positive at the start
+  const auto height = [&] {
+    return machine.coordinate(0) + M_PI / 2;
+  };  // zero at the lowest point, positive at the start
   const double first = time_of_crossing(machine, 1e-3, height, 1);
   Machine again(support::simple_pendulum(L, 1));
   const auto height_again = [&] { return again.coordinate(0) + M_PI / 2; };
@@ -52,7 +56,8 @@ TEST(Pendulum, HasTheExactPeriodAtLargeAmplitude) {
   EXPECT_NEAR((fifth - first) / 4, period, 1e-5 * period);
 }
 
-// At the lowest point the hinge carries m (g + v²/L) = 3 m g after a release from horizontal; a step's mean is off by O(h).
+// At the lowest point the hinge carries m (g + v²/L) = 3 m g after a release from horizontal; a step's mean
+// is off by O(h).
 TEST(Pendulum, HingeForceAtTheLowestPointIsThreeTimesTheWeight) {
   Machine machine(support::simple_pendulum(1, 2));
   const double h = 1e-4;
@@ -61,12 +66,13 @@ TEST(Pendulum, HingeForceAtTheLowestPointIsThreeTimesTheWeight) {
   // Error budget: speed error O(h g / v) = 2e-4 relative, direction O(h v / L) = 5e-4.
   EXPECT_NEAR(force.z(), 3 * 2 * 9.81, 3 * 2 * 9.81 * 2e-3);
   EXPECT_NEAR(force.x(), 0, 3 * 2 * 9.81 * 2e-3);
-  EXPECT_NEAR(machine.joint_wrench(0).moment.norm(), 0, 1e-4);  // the bob's own inertia: 0.4e-6·2·g/L ~ 8e-6 N m
+  EXPECT_NEAR(machine.joint_wrench(0).moment.norm(), 0,
+              1e-4);  // the bob's own inertia: 0.4e-6·2·g/L ~ 8e-6 N m
 }
 
-// The parallelogram's coupler translates, so hanging at angle θ it obeys I θ̈ = -2 g sin θ with two rods of 1/3 kg m² about
-// the ground and a coupler of m L² = 1: a pendulum of length (5/3)/2 = 5/6 m. From rest at 1 rad its period is
-// 4 K(sin 0.5) sqrt(5/(6 g)). Budget as for the simple pendulum.
+// The parallelogram's coupler translates, so hanging at angle θ it obeys I θ̈ = -2 g sin θ with two rods of
+// 1/3 kg m² about the ground and a coupler of m L² = 1: a pendulum of length (5/3)/2 = 5/6 m. From rest at 1
+// rad its period is 4 K(sin 0.5) sqrt(5/(6 g)). Budget as for the simple pendulum.
 TEST(FourBar, ClosedLoopSwingsLikeItsEquivalentPendulum) {
   const auto four_bar = support::parallelogram_four_bar(-1);
   Machine machine(four_bar), again(four_bar);
@@ -74,19 +80,24 @@ TEST(FourBar, ClosedLoopSwingsLikeItsEquivalentPendulum) {
   again.set_coordinate(0, 1.0);
   ASSERT_NEAR(machine.coordinate(0), 1.0, 1e-9);
   double worst_loop = machine.loop_error();
-  const double first = time_of_crossing(machine, 1e-3, [&] { return machine.coordinate(0); }, 1);
-  const double fourth = time_of_crossing(again, 1e-3, [&] {
-    worst_loop = std::max(worst_loop, again.loop_error());
-    return again.coordinate(0);
-  }, 4);
+  const double first = time_of_crossing(
+      machine, 1e-3, [&] { return machine.coordinate(0); }, 1);
+  const double fourth = time_of_crossing(
+      again, 1e-3,
+      [&] {
+        worst_loop = std::max(worst_loop, again.loop_error());
+        return again.coordinate(0);
+      },
+      4);
   const double period = 4 * std::comp_ellint_1(std::sin(0.5)) * std::sqrt(5.0 / 6.0 / 9.81);
   EXPECT_NEAR((fourth - first) / 3, period, 1e-5 * period);
   EXPECT_LT(worst_loop, 1e-9);
 }
 
-// Statics of the same four-bar, tilted by 30 deg toward +x and held by a pure moment on the crank of 2 g sin 30 deg. The coupler
-// pivots about the crank, so the pin carries half its weight: P_z = -g/2 on the rocker. The rocker's own moment balance,
-// g/4 + P_x cos 30 - P_z sin 30 = 0, gives P_x = -g/(2 cos 30). The step solves a linear system: round-off only.
+// Statics of the same four-bar, tilted by 30 deg toward +x and held by a pure moment on the crank of 2 g sin
+// 30 deg. The coupler pivots about the crank, so the pin carries half its weight: P_z = -g/2 on the rocker.
+// The rocker's own moment balance, g/4 + P_x cos 30 - P_z sin 30 = 0, gives P_x = -g/(2 cos 30). The step
+// solves a linear system: round-off only.
 TEST(FourBar, LoopPinAndGroundHingesCarryTheStaticLoad) {
   Machine machine(support::parallelogram_four_bar(+1));
   machine.set_coordinate(0, -M_PI / 6);
@@ -114,6 +125,7 @@ TEST(MachineSpec, RefusesABodyWithoutMass) {
     Machine machine(spec);
     FAIL() << "a body without mass was accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "machine::MachineSpec: body \"bob\": mass is 0.000000 kg; give a positive mass");
+    EXPECT_STREQ(error.what(),
+                 "machine::MachineSpec: body \"bob\": mass is 0.000000 kg; give a positive mass");
   }
 }
