@@ -5,6 +5,7 @@
 #include <drawpoint/engine/loading/pile_store.hpp>
 #include <drawpoint/studies/loading_figures.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -135,7 +136,7 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
           {"shapes", shapes},
           {"bodies", bodies},
           {"frames", frames},
-          {"camera", {{"eye", {toe - 7.5, -8.5, 5.0}}, {"target", {toe - 0.5, 0.0, 1.2}}}},
+          {"camera", {{"eye", {toe - 3.5, -11.0, 5.5}}, {"target", {toe - 1.2, 0.0, 1.3}}}},
           {"poster_frame", poster}};
 }
 
@@ -155,9 +156,9 @@ json forces_panel(const LoadingLog& log) {
   return {{"type", "lines"},
           {"title", "Drive forces and the torque in hinge G"},
           {"caption",
-           "First cycle of the run shown. The torque components twist the bucket on its pin (about its long "
-           "and its upright "
-           "axis); damage counts the time that their magnitude is above the yield torque of 145 kN m."},
+           "First cycle of the run shown. The two torque components twist the bucket on its pin. Damage "
+           "integrates the excess "
+           "of the torque over the yield torque of 145 kN m, low-passed at 20 Hz, relative to it."},
           {"x_label", "time [s]"},
           {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
           {"series",
@@ -196,7 +197,7 @@ void settle_pile(const std::filesystem::path& shared) {
   engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
   scenario.pile_file = shared / "pile.h5";
   int told = -1;
-  engine::loading::prepared_pile(scenario, [&](double share) {
+  const auto pile = engine::loading::prepared_pile(scenario, [&](double share) {
     const int percent = static_cast<int>(100 * share) / 10 * 10;
     if (percent == told) return;
     told = percent;
@@ -205,6 +206,8 @@ void settle_pile(const std::filesystem::path& shared) {
     else
       std::fprintf(stderr, "pouring the pile: done, settling\n");
   });
+  std::fprintf(stderr, "the pile: %zu rocks, %s after %.0f s\n", pile.rocks.size(),
+               pile.timed_out ? "still creeping" : "at rest", pile.poured_s);
 }
 
 json loading_figures(const std::filesystem::path& log_file) {

@@ -32,6 +32,11 @@ double largest_eigenvalue(double a, double b, double d) {
   return 0.5 * (a + d) + std::hypot(0.5 * (a - d), b);
 }
 
+// Below this, relative to the largest eigenvalue's power, a block counts as singular.
+constexpr double singular = 1e-12;
+
+double inverse_or_zero(double x) { return x > 0 ? 1.0 / x : 0.0; }
+
 // A contact point made ready: frame, block and its inverse pieces.
 struct PointBlock {
   int a, b;
@@ -143,12 +148,16 @@ void Sweeper::add_point(const ContactPoint& point) {
   if (p.b >= 0) p.W += response(p.b, p.arm_b, p.frame);
   if (p.rows_a >= 0) p.W += part_rows_[p.rows_a] * part_rows_[p.rows_a].transpose();
   if (p.rows_b >= 0) p.W += part_rows_[p.rows_b] * part_rows_[p.rows_b].transpose();
-  p.inverse_nn = 1.0 / (p.W(0, 0) + p.sigma);
-  const double a = p.W(1, 1), b = p.W(1, 2), d = p.W(2, 2), det = a * d - b * b;
-  p.inverse_tt[0] = d / det;
-  p.inverse_tt[1] = -b / det;
-  p.inverse_tt[2] = a / det;
-  p.inverse_rho = 1.0 / largest_eigenvalue(a, b, d);
+  p.inverse_nn = inverse_or_zero(p.W(0, 0) + p.sigma);
+  const double a = p.W(1, 1), b = p.W(1, 2), d = p.W(2, 2), rho = largest_eigenvalue(a, b, d);
+  p.inverse_rho = inverse_or_zero(rho);
+  // A part with few freedoms may not answer in some direction; then the scalar step stands for the 2 x 2
+  // inverse.
+  const double det = a * d - b * b;
+  const bool regular = det > singular * rho * rho;
+  p.inverse_tt[0] = regular ? d / det : p.inverse_rho;
+  p.inverse_tt[1] = regular ? -b / det : 0;
+  p.inverse_tt[2] = regular ? a / det : p.inverse_rho;
   p.impulse = p.frame * point.impulse;
   p.impulse[0] = std::max(0.0, p.impulse[0]);
   const double slip = p.impulse.tail<2>().norm(), limit = p.friction * p.impulse[0];
@@ -171,9 +180,11 @@ void Sweeper::add_rolling(const RollingRow& row) {
   if (r.b >= 0) W += problem_.bodies[r.b].inverse_inertia;
   if (r.rows_a >= 0) W += part_rows_[r.rows_a] * part_rows_[r.rows_a].transpose();
   if (r.rows_b >= 0) W += part_rows_[r.rows_b] * part_rows_[r.rows_b].transpose();
-  r.inverse_W = W.inverse();
   // The largest absolute row sum bounds the largest eigenvalue from above, within a factor 3: a safe step.
-  r.inverse_rho = 1.0 / W.cwiseAbs().rowwise().sum().maxCoeff();
+  const double rho = W.cwiseAbs().rowwise().sum().maxCoeff();
+  r.inverse_rho = inverse_or_zero(rho);
+  const bool regular = W.determinant() > singular * rho * rho * rho;
+  r.inverse_W = regular ? W.inverse().eval() : r.inverse_rho * Matrix3d::Identity();
   r.impulse = row.impulse;
   apply(r, r.impulse);
   rolling_.push_back(r);

@@ -13,7 +13,7 @@
 /// radially: its fixed points slide against the impulse even where W_tt is anisotropic, so the cone is
 /// circular. Sweeps alternate direction. Impulses start from the values given.
 ///
-/// Cost: about 50 ns a point a sweep between rocks, O(r) more on a machine part. Deterministic: fixed order,
+/// Cost: about 70 ns a point a sweep between rocks, O(r) more on a machine part. Deterministic: fixed order,
 /// no threads. Reference: M. Servin et al., "Examining the smooth and nonsmooth discrete element approaches
 /// to granular matter", IJNME 97 (2014).
 namespace drawpoint::engine::contact {

@@ -51,9 +51,4 @@ void WarmStart::store_point(std::uint32_t feature, const Eigen::Vector3d& positi
   ++pairs_.back().count;
 }
 
-void WarmStart::clear() {
-  pairs_.clear();
-  points_.clear();
-}
-
 }  // namespace drawpoint::engine::contact

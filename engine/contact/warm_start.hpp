@@ -35,8 +35,6 @@ class WarmStart {
   void store_pair(int a, int b, const Eigen::Vector3d& rolling);
   void store_point(std::uint32_t feature, const Eigen::Vector3d& position, const Eigen::Vector3d& impulse);
 
-  void clear();
-
  private:
   struct Pair {
     int a, b;

@@ -76,7 +76,6 @@ class World {
   const std::vector<Rock>& rocks() const { return rocks_; }
   double time() const { return time_; }
   const WorldOptions& options() const { return options_; }
-  const std::vector<Manifold>& manifolds() const { return *manifolds_; }
   const ContactProblem& problem() const { return problem_; }  ///< of the last step, with its impulses
 
   double kinetic_energy() const;  ///< of the rocks [J]

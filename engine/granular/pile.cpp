@@ -24,8 +24,7 @@ contact::RockBody RockLibrary::body(const RockSpec& spec) const {
 
 namespace {
 
-// Places of the layer: a square grid within the radius, from the middle outward so that the pile grows under
-// the raise.
+// Places of the layer: a square grid within the radius.
 std::vector<Eigen::Vector3d> layer_places(const EmitterOptions& o) {
   std::vector<Eigen::Vector3d> places;
   const int reach = static_cast<int>(o.radius / o.spacing) + 1;
@@ -46,12 +45,12 @@ bool free_place(const contact::World& world, const Eigen::Vector3d& place, doubl
 }  // namespace
 
 Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t seed)
-    : options_(options), turns_(seed), sampler_(seed, density) {}
+    : options_(options), places_(layer_places(options)), turns_(seed), sampler_(seed, density) {}
 
 std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library,
                                std::vector<RockSpec>& specs, double mass) {
   std::vector<int> born;
-  for (const Eigen::Vector3d& place : layer_places(options_)) {
+  for (const Eigen::Vector3d& place : places_) {
     if (mass <= 0) break;
     if (!free_place(world, place, options_.spacing)) continue;
     const RockDraw draw = sampler_.next();

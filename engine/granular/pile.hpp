@@ -6,7 +6,6 @@
 #include <drawpoint/engine/contact/world.hpp>
 #include <drawpoint/engine/granular/size_distribution.hpp>
 #include <drawpoint/engine/random.hpp>
-#include <string>
 #include <vector>
 
 /// Rocks as data, the emitter that pours them and the settling of a pile.
@@ -43,7 +42,7 @@ class RockLibrary {
 struct EmitterOptions {
   Eigen::Vector3d centre = {0, 0, 8};  ///< middle of the emitting layer [m]
   double radius = 1.2;                 ///< rocks are born within this radius [m]
-  double spacing = 0.85;               ///< of the places in the layer [m], at least the largest rock
+  double spacing = 0.91;               ///< of the places in the layer [m], at least the largest rock
   double speed = 2.0;                  ///< downward at birth [m/s]
 };
 
@@ -58,6 +57,7 @@ class Emitter {
 
  private:
   EmitterOptions options_;
+  std::vector<Eigen::Vector3d> places_;
   CounterRandom turns_;
   RockSampler sampler_;
 };

@@ -17,7 +17,9 @@ using contact::Shape;
 using Eigen::Vector3d;
 
 constexpr int terrain = static_cast<int>(SurfaceKind::terrain);
-constexpr double slab = 0.5;  // thickness of roof and raise [m]
+constexpr double slab = 0.5;  // thickness of the roof [m]
+// The ring covers the corners of the roof's square opening, at 1.41 of its radius.
+constexpr double ring_share = 0.45;
 
 void require(bool fine, const char* name, double value, const char* allowed) {
   if (!fine)
@@ -54,7 +56,7 @@ void add_raise(contact::World& world, const Drift& d) {
       const double phi = 2 * M_PI * angle / sides, corner = 1 / std::cos(M_PI / sides);
       for (double z : {0.0, rise}) {
         const double inner = (d.raise_radius + d.raise_widening * z) * corner;
-        for (double r : {inner, inner + slab})
+        for (double r : {inner, inner + ring_share * inner})
           points.emplace_back(d.raise_axis().x() + r * std::cos(phi), r * std::sin(phi), d.height + z);
       }
     }
@@ -86,6 +88,10 @@ void check(const Drift& d) {
   require(d.height >= 3.5 && d.height <= 20, "height", d.height, "3.5 m (the machine is 3 m high) to 20 m");
   require(d.raise_radius >= 1 && 2 * d.raise_radius < d.width, "raise radius", d.raise_radius,
           "1 m to half the drift's width");
+  require(d.raise_widening >= 0 && d.raise_widening <= 1, "raise widening (m per m)", d.raise_widening,
+          "0 to 1");
+  require(d.wall_roughness == 0 || (d.wall_roughness >= 0.2 && d.wall_roughness <= 2), "wall roughness",
+          d.wall_roughness, "0 (smooth) or 0.2 to 2 m");
   require(d.raise_height > d.height + 1, "raise height", d.raise_height, "more than a metre above the roof");
 }
 
@@ -101,8 +107,8 @@ void add_drift(contact::World& world, const Drift& drift) {
 
 granular::EmitterOptions emitter_of(const Drift& d) {
   const double z = d.raise_height - 0.6;
-  const double radius = d.raise_radius + d.raise_widening * (z - d.height) - 0.45;
-  return {{d.raise_axis().x(), d.raise_axis().y(), z}, radius, 0.85, 2.0};
+  const double radius = d.raise_radius + d.raise_widening * (z - d.height) - 0.46;
+  return {{d.raise_axis().x(), d.raise_axis().y(), z}, radius, 0.91, 2.0};
 }
 
 contact::MaterialTable mine_materials(double tyre_stiffness) {

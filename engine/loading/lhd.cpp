@@ -166,19 +166,18 @@ void Builder::balance_axles() {
 void Builder::add_motors() {
   auto& motors = lhd_.spec.motors;
   const LhdOptions& o = lhd_.options;
-  const auto motor = [&](int body, double limit) {
-    motors.push_back({lhd_.spec.bodies[body].name + " motor", body, limit});
+  const auto motor = [&](const std::vector<int>& bodies, double limit) {
+    motors.push_back({lhd_.spec.bodies[bodies.front()].name + " motor", bodies, limit});
     return static_cast<int>(motors.size()) - 1;
   };
-  for (int k = 0; k < 4; ++k) lhd_.wheel_motors[k] = motor(lhd_.wheels[k], o.wheel_torque);
+  for (int k = 0; k < 4; ++k) lhd_.wheel_motors[k] = motor({lhd_.wheels[k]}, o.wheel_torque);
   if (o.arm_drive == ArmDrive::hinges) {
-    lhd_.lift_motors = {motor(lhd_.boom, o.lift_torque)};
-    lhd_.tilt_motors = {motor(lhd_.bucket, o.tilt_torque)};
+    lhd_.lift_motor = motor({lhd_.boom}, o.lift_torque);
+    lhd_.tilt_motor = motor({lhd_.bucket}, o.tilt_torque);
     return;
   }
-  lhd_.lift_motors = {motor(lhd_.lift_rods[0], o.lift_cylinder_force),
-                      motor(lhd_.lift_rods[1], o.lift_cylinder_force)};
-  lhd_.tilt_motors = {motor(lhd_.tilt_rod, o.tilt_cylinder_force)};
+  lhd_.lift_motor = motor({lhd_.lift_rods[0], lhd_.lift_rods[1]}, o.lift_cylinder_force);
+  lhd_.tilt_motor = motor({lhd_.tilt_rod}, o.tilt_cylinder_force);
 }
 
 // Strokes relative to the reference pose, and the oscillation of the rear unit.

@@ -20,6 +20,10 @@
 /// the floor. Hinge points are an estimated, consistent Z-bar linkage: no manufacturer publishes them. Masses
 /// and inertias are estimates too (solid boxes and cylinders); published are payload 21 t, weight, power and
 /// tyre size.
+///
+/// Bucket, boom, front unit and wheels touch rocks; the rear unit, cylinders, bell-crank and link are only
+/// drawn. Both lift cylinders are one motor. Cylinder limits are those of the full piston in both directions;
+/// pulling, a real cylinder has only its ring area.
 namespace drawpoint::engine::loading {
 
 /// What moves the arm.
@@ -56,7 +60,7 @@ struct Lhd {
   std::array<int, 4> wheels;  ///< front left, front right, rear left, rear right
   std::array<int, 2> lift_barrels, lift_rods;
   std::array<int, 4> wheel_motors;
-  std::vector<int> lift_motors, tilt_motors;
+  int lift_motor, tilt_motor;
   Eigen::Vector3d F, G, K;  ///< boom hinge, bucket hinge, cutting edge (middle), reference pose [m]
   double tyre_radius;       ///< free radius [m]
   double loaded_radius;     ///< axle height under the machine's own weight [m]

@@ -49,17 +49,16 @@ void LhdDriver::command(const ActuatorRates& rates) {
     speeds =
         machine_.transmission({lhd_.lift_rods[0], lhd_.tilt_rod}, {lhd_.boom, lhd_.bucket}, outside) * speeds;
   }
-  for (int motor : lhd_.lift_motors) machine_.set_motor(motor, speeds[0]);
-  for (int motor : lhd_.tilt_motors) machine_.set_motor(motor, speeds[1]);
+  machine_.set_motor(lhd_.lift_motor, speeds[0]);
+  machine_.set_motor(lhd_.tilt_motor, speeds[1]);
 }
 
 double LhdDriver::lift_force() const {
-  double sum = 0;
-  for (int motor : lhd_.lift_motors) sum += machine_.motor_force(motor);
-  return sum;
+  const auto cylinders = lhd_.spec.motors[lhd_.lift_motor].bodies.size();
+  return static_cast<double>(cylinders) * machine_.motor_force(lhd_.lift_motor);
 }
 
-double LhdDriver::tilt_force() const { return machine_.motor_force(lhd_.tilt_motors[0]); }
+double LhdDriver::tilt_force() const { return machine_.motor_force(lhd_.tilt_motor); }
 
 double LhdDriver::wheel_torque() const {
   double sum = 0;
@@ -67,8 +66,12 @@ double LhdDriver::wheel_torque() const {
   return sum;
 }
 
-double LhdDriver::lift_speed() const { return machine_.speed(lhd_.spec.motors[lhd_.lift_motors[0]].body); }
-double LhdDriver::tilt_speed() const { return machine_.speed(lhd_.spec.motors[lhd_.tilt_motors[0]].body); }
+double LhdDriver::lift_speed() const {
+  return machine_.speed(lhd_.spec.motors[lhd_.lift_motor].bodies.front());
+}
+double LhdDriver::tilt_speed() const {
+  return machine_.speed(lhd_.spec.motors[lhd_.tilt_motor].bodies.front());
+}
 
 Eigen::Vector3d LhdDriver::in_bucket_frame(const Eigen::Vector3d& p_W) const {
   return machine_.pose(lhd_.bucket).inverse() * p_W + lhd_.spec.bodies[lhd_.bucket].centre;

@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/scene_recorder.hpp>
 #include <drawpoint/engine/loading/signals.hpp>
-#include <limits>
+#include <exception>
 #include <numeric>
-#include <stdexcept>
 
 namespace drawpoint::engine::loading {
 namespace {
 
-constexpr double stand_time = 0.6;    // for the tyres to take the weight before the clock starts [s]
-constexpr int trouble_interval = 50;  // steps between checks of the whole state
+constexpr double stand_time = 0.6;       // for the tyres to take the weight before the clock starts [s]
+constexpr double room_under_roof = 1.0;  // for the bucket's lip to pass when it curls at the top [m]
+constexpr int trouble_interval = 50;     // steps between checks of the whole state
 
 class LoadingRun {
  public:
@@ -27,7 +26,7 @@ class LoadingRun {
 
   LoadingLog run() {
     bool fine = true;
-    for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = run_cycle(cycle);
+    for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = attempt(cycle);
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
     log_.signals = signals_.take();
@@ -37,6 +36,7 @@ class LoadingRun {
 
  private:
   void describe();
+  bool attempt(int cycle);
   bool run_cycle(int cycle);
   Plan plan(CycleRecord& record) const;
   bool execute(int cycle, CycleRecord& record);
@@ -65,7 +65,6 @@ void LoadingRun::describe() {
                   {"beta", s.strategy.beta},
                   {"gamma", s.strategy.gamma},
                   {"kappa", s.strategy.kappa},
-                  {"seed", static_cast<double>(s.seed)},
                   {"cycles", s.cycles},
                   {"standoff", s.standoff},
                   {"drift_length", s.drift.length},
@@ -75,9 +74,19 @@ void LoadingRun::describe() {
                   {"rocks", static_cast<double>(site_.world().rocks().size())},
                   {"density", s.pile.density},
                   {"step", s.world.step},
-                  {"sweeps", s.world.solver.sweeps}};
+                  {"sweeps", s.world.solver.sweeps},
+                  {"warm_start", s.world.warm_start},
+                  {"set_drive_in", s.executor.speeds.drive_in},
+                  {"set_lift", s.executor.speeds.lift},
+                  {"set_curl", s.executor.speeds.curl},
+                  {"set_back_out", s.executor.speeds.back_out},
+                  {"wheel_torque_limit", s.machine.wheel_torque},
+                  {"lift_cylinder_limit", s.machine.lift_cylinder_force},
+                  {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
   log_.texts = {{"machine", "Sandvik LH621 class"},
                 {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
+                {"seed", std::to_string(s.seed)},
+                {"version", DRAWPOINT_VERSION},
                 {"pile_recipe", pile_recipe(s)}};
 }
 
@@ -97,7 +106,7 @@ PlannerOptions LoadingRun::planner_options() const {
   options.bucket_volume = site_.lhd().bucket_volume;
   options.bucket_width = site_.lhd().bucket_width;
   options.standoff = scenario_.standoff;
-  options.height_limit = scenario_.drift.height - 1.0;
+  options.height_limit = scenario_.drift.height - room_under_roof;
   options.x_limit = scenario_.drift.length - scenario_.drift.wall_roughness;
   options.arm = site_.driver().arm();
   return options;
@@ -161,6 +170,16 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
   site_.driver().command({});
   record.stages = executor.results();
   return true;
+}
+
+// A diverged state makes the parts below refuse their input; the cycles done before are still worth keeping.
+bool LoadingRun::attempt(int cycle) {
+  try {
+    return run_cycle(cycle);
+  } catch (const std::exception& error) {
+    return fail("cycle " + std::to_string(cycle) +
+                " broke down at t = " + std::to_string(site_.world().time()) + " s: " + error.what());
+  }
 }
 
 bool LoadingRun::run_cycle(int cycle) {

@@ -40,9 +40,15 @@ std::string pile_recipe(const Scenario& s) {
   add_number(recipe, "mass", s.pile.mass);
   add_number(recipe, "density", s.pile.density);
   add_number(recipe, "max_height", s.pile.max_height);
-  add_number(recipe, "seed", static_cast<double>(s.pile.seed));
+  recipe += "seed=" + std::to_string(s.pile.seed) + " ";
   add_number(recipe, "step", s.world.step);
   add_number(recipe, "sweeps", s.world.solver.sweeps);
+  add_number(recipe, "warm_start", s.world.warm_start);
+  add_number(recipe, "gravity", s.world.gravity.norm());
+  add_number(recipe, "margin", s.world.contacts.margin);
+  add_number(recipe, "reuse_distance", s.world.contacts.reuse_distance);
+  add_number(recipe, "rest_speed", s.pile.rest.fastest);
+  add_number(recipe, "rest_energy", s.pile.rest.mean_energy);
   return recipe;
 }
 

@@ -24,7 +24,8 @@ struct PileOptions {
 
 struct Scenario {
   Strategy strategy;
-  std::uint64_t seed = 1;  ///< of what differs between runs: the rocks that refill the pile
+  std::uint64_t seed =
+      1;  ///< of the rocks that refill the pile between cycles; without effect on a single cycle
   int cycles = 1;
   double standoff = 2.0;  ///< tip to toe at the start [m]
   Drift drift;
@@ -39,6 +40,9 @@ struct Scenario {
   std::filesystem::path log_file;  ///< run log to write (HDF5); empty: none
 };
 
+/// Speeds are the `thesis_like` preset, 2-3 times what such a machine's hydraulics deliver, as the founding
+/// case's 12 s cycles demand; set executor.speeds = machine_speeds() for engineering conclusions.
+///
 /// The LH621 in a drift 6 m wide with a small pile (80 t, about 1200 rocks), one cycle: minutes for a whole
 /// study.
 Scenario lh621_in_a_drift();

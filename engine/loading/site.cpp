@@ -78,7 +78,7 @@ double Site::place_machine(double tip_x, double y, double back) {
   double x = tip_x;
   for (const contact::Rock& rock : world_.rocks()) {
     const double left = rock.pose.translation().x() - polyhedron(rock).radius() - room;
-    if (in_lane(rock) && left < x) x = std::max(left, nearest);
+    if (in_lane(rock) && left < x && left >= nearest) x = left;  // farther rocks are taken away below
   }
   double cleared = 0;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
@@ -91,8 +91,6 @@ double Site::place_machine(double tip_x, double y, double back) {
   driver_.place(x - lhd_.K.x(), y);
   return cleared;
 }
-
-bool Site::refilled() const { return granular::present_mass(world_) >= initial_mass_; }
 
 void Site::refill() {
   const double missing = initial_mass_ - granular::present_mass(world_);

@@ -38,7 +38,6 @@ class Site {
 
   /// Lets new rocks fall in until the mass in the drift is what it was at the start. Call once a step.
   void refill();
-  bool refilled() const;
 
   double initial_mass() const { return initial_mass_; }
   /// Empty, or what is wrong with the state: a value that is not finite, a rock outside the drift.

@@ -6,15 +6,12 @@
 #include <drawpoint/engine/machine/constrained_response.hpp>
 #include <drawpoint/engine/machine/joint_forces.hpp>
 #include <drawpoint/engine/machine/machine.hpp>
-#include <limits>
+#include <drawpoint/engine/machine/machine_rows.hpp>
 #include <stdexcept>
 
 namespace drawpoint::engine::machine {
 namespace {
 
-// A joint stop acts once the coordinate is past its limit or would pass it within the step; its position
-// error is removed over about this many steps, gently enough not to throw the load.
-constexpr double stop_relaxation = 0.2;
 // A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one
 // it is in.
 constexpr double coordinate_step = 0.05;
@@ -143,13 +140,8 @@ struct Machine::Simbody {
   Eigen::Vector3d local(int body, const Eigen::Vector3d& p_M) const { return p_M - spec.bodies[body].centre; }
   Eigen::Index speed_index(int body) const { return bodies[body].getFirstUIndex(state); }
 
-  // The side of a stop that can act next: distance left [rad] or [m] and the direction in which it pushes.
-  struct StopSide {
-    double gap, sign;
-  };
-  StopSide nearer_stop(const StopSpec& stop) const {
-    const double q = bodies[stop.body].getOneQ(state, 0), low = q - stop.lower, high = stop.upper - q;
-    return low < high ? StopSide{low, 1.0} : StopSide{high, -1.0};
+  StopSide side_of(const StopSpec& stop) const {
+    return nearer_stop(stop, bodies[stop.body].getOneQ(state, 0));
   }
 
   void linearise_dynamics();
@@ -191,18 +183,15 @@ SimTK::Vector_<SimTK::SpatialVec> Machine::Simbody::loads(
 
 void Machine::Simbody::build_rows() {
   super.rows.clear();
-  for (std::size_t m = 0; m < spec.motors.size(); ++m) {
-    const double limit = spec.motors[m].max_force * h;
-    super.rows.push_back({N.row(speed_index(spec.motors[m].body)).transpose(), motor_targets[m], 0.0, -limit,
-                          limit, row_starts[m]});
+  const std::size_t n_motors = spec.motors.size();
+  for (std::size_t m = 0; m < n_motors; ++m) {
+    Eigen::RowVectorXd joints = Eigen::RowVectorXd::Zero(N.cols());
+    for (int body : spec.motors[m].bodies) joints += N.row(speed_index(body));
+    super.rows.push_back(motor_row(spec.motors[m], joints, motor_targets[m], h, row_starts[m]));
   }
-  for (std::size_t s = 0; s < spec.stops.size(); ++s) {
-    const StopSpec& stop = spec.stops[s];
-    const auto [gap, sign] = nearer_stop(stop);
-    const double target = gap >= 0 ? -gap / h : -stop_relaxation * gap / h;
-    super.rows.push_back({sign * N.row(speed_index(stop.body)).transpose(), target, 0.0, 0.0,
-                          std::numeric_limits<double>::infinity(), row_starts[spec.motors.size() + s]});
-  }
+  for (std::size_t s = 0; s < spec.stops.size(); ++s)
+    super.rows.push_back(stop_row(side_of(spec.stops[s]), N.row(speed_index(spec.stops[s].body)), h,
+                                  row_starts[n_motors + s]));
 }
 
 // Loop forces on every body from the generalised force that they must add up to; each pin owns two rows of G.
@@ -230,11 +219,11 @@ void Machine::Simbody::recover_forces(const contact::SuperBodySolution& solution
   SimTK::Vector mobility(state.getNU(), 0.0);
   for (std::size_t m = 0; m < n_motors; ++m) {
     motor_forces[m] = solution.row_impulses[m] / h;
-    mobility[static_cast<int>(speed_index(spec.motors[m].body))] += motor_forces[m];
+    for (int body : spec.motors[m].bodies) mobility[static_cast<int>(speed_index(body))] += motor_forces[m];
   }
   for (std::size_t s = 0; s < spec.stops.size(); ++s)
     mobility[static_cast<int>(speed_index(spec.stops[s].body))] +=
-        nearer_stop(spec.stops[s]).sign * solution.row_impulses[n_motors + s] / h;
+        side_of(spec.stops[s]).sign * solution.row_impulses[n_motors + s] / h;
   SimTK::Vector residual, udot = to_simbody(acceleration);
   const auto applied = loads(&solution.part_impulses);
   matter.calcResidualForceIgnoringConstraints(state, mobility, applied, udot, residual);  // = −Gᵀλ
@@ -339,10 +328,6 @@ Eigen::Vector3d Machine::point_velocity(int body, const Eigen::Vector3d& p_M) co
                                                                      to_simbody(simbody_->local(body, p_M))));
 }
 
-Eigen::Vector3d Machine::angular_velocity(int body) const {
-  return to_eigen(simbody_->bodies[body].getBodyAngularVelocity(simbody_->state));
-}
-
 void Machine::set_motor(int motor, double speed) { simbody_->motor_targets.at(motor) = speed; }
 double Machine::motor_force(int motor) const { return simbody_->motor_forces.at(motor); }
 
@@ -351,26 +336,16 @@ Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std:
   const Simbody& s = *simbody_;
   SimTK::Matrix matrix;
   s.matter.calcG(s.state, matrix);
-  const Eigen::MatrixXd G = to_eigen(matrix);
-  const Eigen::Index n = s.state.getNU(), m = G.rows();
-  const Eigen::Index fixed = static_cast<Eigen::Index>(drivers.size());
-  // Loops closed, held joints and free bases at rest, one driver at unit speed: a consistent linear system.
-  std::vector<Eigen::RowVectorXd> still;
+  std::vector<Eigen::Index> still, driving;
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const bool base = s.spec.bodies[b].joint == JointKind::free;
     const bool hold = std::find(held.begin(), held.end(), static_cast<int>(b)) != held.end();
     for (int k = 0; (base || hold) && k < s.bodies[b].getNumU(s.state); ++k)
-      still.push_back(Eigen::RowVectorXd::Unit(n, s.speed_index(static_cast<int>(b)) + k));
+      still.push_back(s.speed_index(static_cast<int>(b)) + k);
   }
-  Eigen::MatrixXd A(m + static_cast<Eigen::Index>(still.size()) + fixed, n);
-  A.topRows(m) = G;
-  for (std::size_t i = 0; i < still.size(); ++i) A.row(m + static_cast<Eigen::Index>(i)) = still[i];
-  for (Eigen::Index d = 0; d < fixed; ++d)
-    A.row(A.rows() - fixed + d) = Eigen::RowVectorXd::Unit(n, s.speed_index(drivers[d]));
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(A.rows(), fixed);
-  B.bottomRows(fixed).setIdentity();
-  const Eigen::MatrixXd speeds = A.colPivHouseholderQr().solve(B);
-  Eigen::MatrixXd factors(static_cast<Eigen::Index>(driven.size()), fixed);
+  for (int joint : drivers) driving.push_back(s.speed_index(joint));
+  const Eigen::MatrixXd speeds = driven_speeds(to_eigen(matrix), still, driving);
+  Eigen::MatrixXd factors(static_cast<Eigen::Index>(driven.size()), speeds.cols());
   for (std::size_t k = 0; k < driven.size(); ++k)
     factors.row(static_cast<Eigen::Index>(k)) = speeds.row(s.speed_index(driven[k]));
   return factors;

@@ -49,7 +49,6 @@ class Machine final : public contact::ArticulatedBody {
   /// World position / velocity of the body point that stands at p_M in the reference pose.
   Eigen::Vector3d point(int body, const Eigen::Vector3d& p_M) const;
   Eigen::Vector3d point_velocity(int body, const Eigen::Vector3d& p_M) const;
-  Eigen::Vector3d angular_velocity(int body) const;
 
   void set_motor(int motor, double speed);  ///< [rad/s] or [m/s]
   double motor_force(int motor) const;      ///< mean over the last step [N m] or [N]

@@ -39,7 +39,9 @@ void check(const MachineSpec& spec) {
   if (spec.bodies.empty()) refuse("no bodies; list at least one");
   for (std::size_t i = 0; i < spec.bodies.size(); ++i) check_body(spec.bodies[i], static_cast<int>(i));
   for (const auto& motor : spec.motors) {
-    check_joint_of(spec, motor.body, "motor \"" + motor.name + "\"");
+    if (motor.bodies.empty())
+      refuse("motor \"" + motor.name + "\": it drives no joint; name at least one body");
+    for (int body : motor.bodies) check_joint_of(spec, body, "motor \"" + motor.name + "\"");
     if (!(motor.max_force >= 0)) refuse("motor \"" + motor.name + "\": the force limit must not be negative");
   }
   for (const auto& stop : spec.stops) {

@@ -41,10 +41,11 @@ struct LoopPinSpec {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
 };
 
-/// Drives the joint of `body` to a set speed with a bounded force: |F| ≤ max_force [N] or [N m].
+/// Drives the joints of `bodies` to a set mean speed with one bounded force on each: |F| ≤ max_force [N] or
+/// [N m]. Several joints are cylinders fed in parallel: the same pressure, so the same force, in all.
 struct MotorSpec {
   std::string name;
-  int body = 0;
+  std::vector<int> bodies;
   double max_force = 0;
 };
 

@@ -143,6 +143,10 @@ TEST(Lhd, StaticBucketLoadAppearsInHingeGAndInTheMotors) {
   const Eigen::RowVector2d forces = -power * S.inverse();
   EXPECT_NEAR(yard.driver.lift_force() - lift_empty, forces[0], 2e-2 * std::abs(forces[0]));
   EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, forces[1], 2e-2 * std::abs(forces[1]));
+  // Both lift cylinders share one pressure, so the load in the middle puts nothing sideways on them: equal
+  // axial forces.
+  const auto axial = [&](int k) { return yard.machine.joint_wrench(lhd.lift_rods[k]).force.norm(); };
+  EXPECT_NEAR(axial(0), axial(1), 1e-2 * axial(0));
   // A passive pin carries no moment about its own axis.
   EXPECT_NEAR(yard.machine.joint_wrench(lhd.bucket).moment.y(), 0, 1e-6 * L);
 }

@@ -71,6 +71,25 @@ TEST(LoadingCycle, SameScenarioSameBits) {
   EXPECT_EQ(again.cycles[0].loaded_rock_masses, cycle_log().cycles[0].loaded_rock_masses);
 }
 
+// Two cycles: the first cycle is that of the one-cycle run bit for bit, the bucket's rocks are gone and the
+// raise has made up for them, but for at most the heaviest rock (550 kg) too much, and other seeds give other
+// refills.
+TEST(LoadingCycle, RefillsBetweenCyclesBySeed) {
+  Scenario scenario = small_case();
+  scenario.cycles = 2;
+  const LoadingLog log = simulate(scenario);
+  ASSERT_TRUE(log.completed) << log.message;
+  ASSERT_EQ(log.cycles.size(), 2u);
+  EXPECT_EQ(log.cycles[0].loaded_rock_masses, cycle_log().cycles[0].loaded_rock_masses);
+  EXPECT_GT(log.cycles[1].t_start, log.cycles[0].t_end + scenario.pile.rest.hold - 1e-9);
+  EXPECT_GT(log.scene.bodies.size(), cycle_log().scene.bodies.size());
+  scenario.seed = 2;
+  const LoadingLog other = simulate(scenario);
+  ASSERT_TRUE(other.completed) << other.message;
+  EXPECT_EQ(other.cycles[0].loaded_rock_masses, log.cycles[0].loaded_rock_masses);
+  EXPECT_NE(other.cycles[1].loaded_rock_masses, log.cycles[1].loaded_rock_masses);
+}
+
 TEST(LoadingCycle, RefusesABadScenarioByName) {
   Scenario scenario = small_case();
   scenario.drift.width = 2;
