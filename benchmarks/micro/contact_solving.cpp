@@ -45,7 +45,7 @@ void contact_sweeps(benchmark::State& state) {
   const double work = static_cast<double>(recorded.points.size()) * sweeps;
   state.counters["points"] = static_cast<double>(recorded.points.size());
   state.counters["time_per_point_sweep"] = benchmark::Counter(
-      work * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      work, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace
