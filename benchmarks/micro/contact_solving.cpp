@@ -44,8 +44,8 @@ void contact_sweeps(benchmark::State& state) {
   }
   const double work = static_cast<double>(recorded.points.size()) * sweeps;
   state.counters["points"] = static_cast<double>(recorded.points.size());
-  state.counters["time_per_point_sweep"] = benchmark::Counter(
-      work, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time_per_point_sweep"] =
+      benchmark::Counter(work, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace
