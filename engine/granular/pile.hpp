@@ -31,7 +31,6 @@ class RockLibrary {
  public:
   explicit RockLibrary(double density = 4500, int material = 0);
   contact::RockBody body(const RockSpec& spec) const;
-  double density() const { return density_; }
 
  private:
   double density_;

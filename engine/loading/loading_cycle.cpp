@@ -40,7 +40,7 @@ class LoadingRun {
   bool run_cycle(int cycle);
   Plan plan(CycleRecord& record) const;
   bool execute(int cycle, CycleRecord& record);
-  bool step_quietly();
+  bool step(const std::function<void(const contact::StepReport&)>& record = {});
   bool wait_for_rest();
   bool fail(const std::string& message) {
     log_.message = message;
@@ -130,9 +130,11 @@ Plan LoadingRun::plan(CycleRecord& record) const {
   return plan;
 }
 
-bool LoadingRun::step_quietly() {
+// One step of the world; `record` sees its report before the state is checked.
+bool LoadingRun::step(const std::function<void(const contact::StepReport&)>& record) {
   const contact::StepReport report = site_.world().step();
   if (hooks_.on_step) hooks_.on_step(report);
+  if (record) record(report);
   if (++steps_ % trouble_interval != 0) return true;
   const std::string trouble = site_.trouble();
   return trouble.empty() || fail(trouble);
@@ -142,7 +144,7 @@ bool LoadingRun::wait_for_rest() {
   granular::RestWatch watch(scenario_.pile.rest);
   do {
     site_.refill();
-    if (!step_quietly()) return false;
+    if (!step()) return false;
   } while (!watch.at_rest(site_.world()));
   return true;
 }
@@ -159,13 +161,10 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
     }
     if (executor.finished()) break;
     site_.driver().command(set);
-    const contact::StepReport report = site_.world().step();
-    if (hooks_.on_step) hooks_.on_step(report);
-    signals_.append(site_, cycle, executor, set, report);
-    if (++steps_ % trouble_interval == 0) {
-      const std::string trouble = site_.trouble();
-      if (!trouble.empty()) return fail(trouble);
-    }
+    const auto log_signals = [&](const contact::StepReport& report) {
+      signals_.append(site_, cycle, executor, set, report);
+    };
+    if (!step(log_signals)) return false;
   }
   site_.driver().command({});
   record.stages = executor.results();
@@ -188,7 +187,7 @@ bool LoadingRun::run_cycle(int cycle) {
   if (!record.plan.feasible) return fail("cycle " + std::to_string(cycle) + ": " + record.plan.message);
   cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
   for (double t = 0; t < stand_time; t += site_.world().options().step)
-    if (!step_quietly()) return false;
+    if (!step()) return false;
   record.t_start = site_.world().time();
   if (!execute(cycle, record)) return false;
   record.t_end = site_.world().time();
