@@ -20,14 +20,17 @@ using SpatialMap = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using SpatialVector = Eigen::Matrix<double, 6, 1>;
 
 /// One scalar row J w of the machine itself: a motor (two-sided limits) or a joint stop (one-sided).
-/// Law: J w⁺ + sigma·λ = target with lower ≤ λ ≤ upper (complementary at the limits); impulses in N s or N m
-/// s.
+/// Motor: J w⁺ = target with lower ≤ λ ≤ upper, complementary at the limits. Stop: J w⁺ ≥ −g/h while the gap
+/// g is open; past the end it asks for |g| / recovery back. Impulses over the step, in N s or N m s.
 struct SuperBodyRow {
+  enum class Kind { motor, stop };
+  Kind kind = Kind::motor;
   Eigen::VectorXd jacobian;  ///< length r
-  double target = 0;         ///< [m/s] or [rad/s]
-  double sigma = 0;          ///< regularisation, velocity per impulse
+  double target = 0;         ///< motors: [m/s] or [rad/s]
+  double gap = 0;            ///< stops: at the step's start [m] or [rad], negative past the end
+  double recovery = 0;       ///< stops: time to take an overrun back [s], > 0
   double lower = 0, upper = 0;
-  double start = 0;  ///< impulse to start from (last step's), [N s]
+  double start = 0;  ///< impulse to start from (last substep's, as ContactPoint::start)
 };
 
 /// The machine during one step.
@@ -41,10 +44,12 @@ struct SuperBody {
 
 /// What the solver gives back.
 struct SuperBodySolution {
-  Eigen::VectorXd velocity;  ///< w at the end of the step, length r
+  Eigen::VectorXd velocity;       ///< w at the end of the step, length r
+  Eigen::VectorXd mean_velocity;  ///< over the step: what moves the positions
   std::vector<SpatialVector>
       part_impulses;  ///< contact impulse on each part at its origin (moment; force) [N m s; N s]
-  std::vector<double> row_impulses;  ///< in the order of SuperBody::rows
+  std::vector<double> row_impulses;  ///< over the step, in the order of SuperBody::rows
+  std::vector<double> row_starts;    ///< what the next step's rows start from
 };
 
 /// A machine that takes part in the contact solve.

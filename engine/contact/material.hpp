@@ -6,17 +6,24 @@
 
 /// Contact materials: what happens between two kinds of surface.
 ///
-/// Normal law: linear, f = k δ, with k the stiffness of the pair of bodies shared by the points of its
-/// manifold. The thesis's Young's modulus E is read as k = E ℓ with ℓ = 0.1 m for rock on rock (1e9 N/m); see
-/// docs/decisions. Friction: Coulomb with a circular cone. Rolling resistance: a moment of at most μ_r R*
-/// times the normal force, once a pair. Restitution is zero: every pair of the founding case has e = 0.
+/// Normal law, selectable: *linear*, f = k δ, with k the stiffness of the pair of bodies shared by the points
+/// of its manifold; *Hertz*, f = k_n δ^(3/2) with k_n = (4/3) E* √R*, shared likewise, R* from the radii of
+/// the spheres of the bodies' volumes. The founding case's Young's modulus E is read as linear with k = E ℓ,
+/// ℓ = 0.1 m for rock on rock (1e9 N/m); see docs/decisions. Friction: Coulomb with a circular cone. Rolling
+/// and spinning resistance: moments of at most μ_r R* and μ_s R* times the normal force, once a pair.
+/// Restitution: Newton's law by an impulse stage before the step, for approaches faster than `impact_speed`.
 namespace drawpoint::engine::contact {
+
+enum class NormalLaw { linear, hertz };
 
 struct Material {
   double friction = 0;      ///< Coulomb coefficient μ, ≥ 0
   double rolling = 0;       ///< rolling-resistance coefficient μ_r, ≥ 0
-  double stiffness = 1e9;   ///< k of the pair of bodies [N/m], > 0
+  double stiffness = 1e9;   ///< linear: k of the pair of bodies [N/m], > 0; Hertz: E* [Pa]
   double damping_time = 0;  ///< SPOOK relaxation time τ [s]; at least two steps are used
+  double spinning = 0;      ///< spinning-resistance coefficient μ_s, ≥ 0
+  double restitution = 0;   ///< e, 0 to 1
+  NormalLaw law = NormalLaw::linear;
 };
 
 /// Symmetric table of pairs of surface kinds 0 .. kinds-1.

@@ -100,7 +100,8 @@ void World::fill_bodies() {
     SolverBody& body = problem_.bodies[k + 1];
     body.inverse_mass = 1 / rock.body.mass;
     body.inverse_inertia = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse());
-    body.velocity = rock.velocity + options_.step * options_.gravity;
+    body.velocity = rock.velocity;
+    body.push = options_.step * options_.gravity;
     body.angular_velocity = rock.angular_velocity;
   }
 }
@@ -128,58 +129,69 @@ Vector3d World::velocity_at(const Surface& surface, const Vector3d& arm) const {
 
 void World::fill_contacts() {
   problem_.points.clear();
-  problem_.rolling.clear();
-  const double h = options_.step;
+  problem_.pairs.clear();
+  problem_.step = options_.step;
   for (const Manifold& m : *manifolds_) {
     const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
     const Material& material = materials_.of(a.material, b.material);
     warm_start_.begin_pair(m.collider_a, m.collider_b);
-    const Vector3d origin_a = origin(a), origin_b = origin(b);
-    const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
-                                                        [](const ManifoldPoint& p) { return p.gap <= 0; }));
     const int first = static_cast<int>(problem_.points.size());
-    for (int k = 0; k < m.count; ++k) {
-      const ManifoldPoint& p = m.points[k];
-      ContactPoint c{.a = solver_index(a),
-                     .b = solver_index(b),
-                     .feature = p.feature,
-                     .position = p.position,
-                     .arm_a = p.position - origin_a,
-                     .arm_b = p.position - origin_b,
-                     .normal = m.normal};
-      const Vector3d u = velocity_at(b, c.arm_b) - velocity_at(a, c.arm_a);
-      if (p.gap > resting_margin + 2 * h * u.norm()) continue;
-      const SpookTerms terms =
-          spook(p.gap, m.normal.dot(u), material.stiffness / touching, material.damping_time, h);
-      c.sigma = terms.sigma;
-      c.target = terms.target;
-      c.friction = material.friction;
-      c.impulse = options_.warm_start * warm_start_.point(p.feature, p.position);
-      problem_.points.push_back(c);
-    }
+    fill_points(m, a, b, material);
     const int count = static_cast<int>(problem_.points.size()) - first;
-    if (count > 0)
-      problem_.rolling.push_back({solver_index(a), solver_index(b), m.collider_a, m.collider_b, first, count,
-                                  material.rolling * m.radius, options_.warm_start * warm_start_.rolling()});
+    if (count == 0) continue;
+    problem_.pairs.push_back({.a = solver_index(a),
+                              .b = solver_index(b),
+                              .collider_a = m.collider_a,
+                              .collider_b = m.collider_b,
+                              .first = first,
+                              .count = count,
+                              .rolling_arm = material.rolling * m.radius,
+                              .spinning_arm = material.spinning * m.radius,
+                              .start = options_.warm_start * warm_start_.rolling()});
+  }
+}
+
+void World::fill_points(const Manifold& m, const Surface& a, const Surface& b, const Material& material) {
+  const Vector3d origin_a = origin(a), origin_b = origin(b);
+  const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
+                                                      [](const ManifoldPoint& p) { return p.gap <= 0; }));
+  for (int k = 0; k < m.count; ++k) {
+    const ManifoldPoint& p = m.points[k];
+    ContactPoint c{.feature = p.feature,
+                   .position = p.position,
+                   .arm_a = p.position - origin_a,
+                   .arm_b = p.position - origin_b,
+                   .normal = m.normal,
+                   .gap = p.gap};
+    const Vector3d u = velocity_at(b, c.arm_b) - velocity_at(a, c.arm_a);
+    if (p.gap > resting_margin + 2 * options_.step * u.norm()) continue;
+    const double stiffness = material.law == NormalLaw::linear
+                                 ? material.stiffness
+                                 : hertz_stiffness(material.stiffness, m.radius, -p.gap);
+    c.stiffness = stiffness / touching;
+    c.damping_time = material.damping_time;
+    c.friction = material.friction;
+    c.restitution = material.restitution;
+    c.start = options_.warm_start * warm_start_.point(p.feature, p.position);
+    problem_.points.push_back(c);
   }
 }
 
 void World::move_rocks() {
-  const double h = options_.step;
   for (std::size_t k = 0; k < rocks_.size(); ++k) {
     Rock& rock = rocks_[k];
     if (!rock.present) continue;
     rock.velocity = problem_.bodies[k + 1].velocity;
-    const Vector3d w = problem_.bodies[k + 1].angular_velocity;
-    rock.pose.translation() += h * rock.velocity;
-    const double angle = h * w.norm();
+    const Vector3d w = problem_.bodies[k + 1].angular_velocity, turn = problem_.bodies[k + 1].turn;
+    rock.pose.translation() += problem_.bodies[k + 1].travel;
+    const double angle = turn.norm();
     if (angle == 0) {
       rock.angular_velocity = w;
       continue;
     }
     const Vector3d momentum = turned(rock.pose.linear(), rock.body.inertia) * w;
     Eigen::Quaterniond q(rock.pose.linear());
-    q = (Eigen::AngleAxisd(angle, w.normalized()) * q).normalized();
+    q = (Eigen::AngleAxisd(angle, turn / angle) * q).normalized();
     rock.pose.linear() = q.toRotationMatrix();
     rock.angular_velocity = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse()) * momentum;
   }
@@ -204,11 +216,11 @@ StepReport World::step() {
   const auto solver_start = std::chrono::steady_clock::now();
   const SolverReport solved = solve(problem_, options_.solver);
   report.solver_s = seconds_since(solver_start);
-  for (const RollingRow& row : problem_.rolling) {
-    warm_start_.store_pair(row.collider_a, row.collider_b, row.impulse);
-    for (int k = row.first; k < row.first + row.count; ++k) {
+  for (const ContactPair& pair : problem_.pairs) {
+    warm_start_.store_pair(pair.collider_a, pair.collider_b, pair.start);
+    for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const ContactPoint& p = problem_.points[k];
-      warm_start_.store_point(p.feature, p.position, p.impulse);
+      warm_start_.store_point(p.feature, p.position, p.start);
     }
   }
   move_rocks();
@@ -218,7 +230,7 @@ StepReport World::step() {
     report.machine_s += seconds_since(advance_start);
   }
   time_ += options_.step;
-  report.manifolds = static_cast<int>(problem_.rolling.size());
+  report.manifolds = static_cast<int>(problem_.pairs.size());
   report.points = static_cast<int>(problem_.points.size());
   report.last_change = solved.last_change;
   for (const Manifold& m : *manifolds_) {

@@ -93,6 +93,7 @@ class World {
   void place_colliders();
   void fill_bodies();
   void fill_contacts();
+  void fill_points(const Manifold& m, const Surface& a, const Surface& b, const Material& material);
   int solver_index(const Surface& surface) const;
   Eigen::Vector3d origin(const Surface& surface) const;
   Eigen::Vector3d velocity_at(const Surface& surface, const Eigen::Vector3d& arm) const;

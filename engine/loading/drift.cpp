@@ -116,11 +116,11 @@ contact::MaterialTable mine_materials(double tyre_stiffness) {
             tyre = static_cast<int>(SurfaceKind::tyre);
   // Young's moduli of the tables times 0.1 m, but not softer than 1e8 N/m: rock on steel or floor at 1e8 Pa.
   contact::MaterialTable table(surface_kinds);
-  table.set(rock, rock, {0.9, 0.5, 1e9, 0});
-  table.set(rock, terrain, {1.0, 0.9, 1e8, 0});
-  table.set(rock, steel, {1.0, 0.9, 1e8, 0});
-  table.set(rock, tyre, {1.0, 0.9, 1e8, 0});
-  table.set(terrain, steel, {1.0, 0.9, 1e8, 0});
+  table.set(rock, rock, {0.9, 0.5, 1e9, 0, 0.5});
+  table.set(rock, terrain, {1.0, 0.9, 1e8, 0, 0.9});
+  table.set(rock, steel, {1.0, 0.9, 1e8, 0, 0.9});
+  table.set(rock, tyre, {1.0, 0.9, 1e8, 0, 0.9});
+  table.set(terrain, steel, {1.0, 0.9, 1e8, 0, 0.9});
   // A tyre's damping ratio is about 0.1: τ = 2 ζ sqrt(m/k) with a quarter of the machine on each.
   table.set(terrain, tyre, {0.8, 0.0, tyre_stiffness, 0.2 * std::sqrt(14e3 / tyre_stiffness)});
   return table;

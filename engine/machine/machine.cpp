@@ -382,11 +382,11 @@ void Machine::advance(const contact::SuperBodySolution& solution) {
   Simbody& s = *simbody_;
   const Eigen::VectorXd u = s.N * solution.velocity;
   s.recover_forces(solution, (u - view(s.state.getU())) / s.h);
-  s.row_starts = solution.row_impulses;
+  s.row_starts = solution.row_starts;
   std::fill(s.extra.begin(), s.extra.end(), Wrench());
 
   SimTK::Vector qdot;
-  s.matter.multiplyByN(s.state, false, to_simbody(u), qdot);
+  s.matter.multiplyByN(s.state, false, to_simbody(Eigen::VectorXd(s.N * solution.mean_velocity)), qdot);
   s.state.updQ() += s.h * qdot;
   s.state.updU() = to_simbody(u);
   // Speeds are not projected here: the next w = NᵀMu is their mass-weighted projection, which keeps momentum.

@@ -9,9 +9,9 @@
 /// An articulated machine on Simbody, stepped as a super-body of the contact solver.
 ///
 /// Per step of h: Simbody gives M(q), G(q), the system Jacobian and the bias f − C(q, u); N spans the null
-/// space of G with Nᵀ M N = 1, so that w = NᵀM u and w* = w + h Nᵀ(f − C). The solver returns w⁺; then u⁺ = N
-/// w⁺, q⁺ = q + h Q(q) u⁺, and q is projected on to the loops (error below 1e-9 m). First order in h, like
-/// the rocks' stepper.
+/// space of G with Nᵀ M N = 1, so that w = NᵀM u and w* = w + h Nᵀ(f − C). The solver returns w⁺ and w̄, its
+/// mean over the substeps; then u⁺ = N w⁺, q⁺ = q + h Q(q) N w̄, and q is projected on to the loops (error
+/// below 1e-9 m). First order in h, like the rocks' stepper.
 ///
 /// Joint forces follow from the step's accelerations: the loop multipliers from the equations of motion,
 /// Gᵀλ = f − C − M (u⁺ − u)/h (least squares, exact up to round-off as the residual lies in the range of Gᵀ),

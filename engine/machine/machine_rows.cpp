@@ -6,7 +6,7 @@
 namespace drawpoint::engine::machine {
 namespace {
 
-constexpr double overrun_share = 0.2;  // of an overrun, taken back a step
+constexpr double recovery_steps = 5;  // over which an overrun is taken back
 
 }  // namespace
 
@@ -18,13 +18,25 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate) {
 contact::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
                                 double h, double start) {
   const double limit = motor.max_force * h;
-  return {joints.transpose(), static_cast<double>(motor.bodies.size()) * speed, 0.0, -limit, limit, start};
+  contact::SuperBodyRow row;
+  row.jacobian = joints.transpose();
+  row.target = static_cast<double>(motor.bodies.size()) * speed;
+  row.lower = -limit;
+  row.upper = limit;
+  row.start = start;
+  return row;
 }
 
 contact::SuperBodyRow stop_row(const StopSide& side, const Eigen::RowVectorXd& joint, double h,
                                double start) {
-  const double target = side.gap >= 0 ? -side.gap / h : -overrun_share * side.gap / h;
-  return {side.sign * joint.transpose(), target, 0.0, 0.0, std::numeric_limits<double>::infinity(), start};
+  contact::SuperBodyRow row;
+  row.kind = contact::SuperBodyRow::Kind::stop;
+  row.jacobian = side.sign * joint.transpose();
+  row.gap = side.gap;
+  row.recovery = recovery_steps * h;
+  row.upper = std::numeric_limits<double>::infinity();
+  row.start = start;
+  return row;
 }
 
 }  // namespace drawpoint::engine::machine

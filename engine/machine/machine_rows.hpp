@@ -9,7 +9,7 @@
 ///
 /// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with |λ| ≤ h · max_force, λ the impulse on each.
 /// Stop: with the distance g left to the nearer end of the stroke and the direction s in which that end
-/// pushes, s J w⁺ ≥ −g/h; past the end (g < 0) it asks for 0.2 |g|/h back, so that an overrun is taken out
+/// pushes, s J w⁺ ≥ −g/h; past the end (g < 0) it asks for |g|/5h back, so that an overrun is taken out
 /// over some five steps and the load is not thrown. First order in h.
 namespace drawpoint::engine::machine {
 

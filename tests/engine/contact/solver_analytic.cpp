@@ -9,6 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double rigid = 1e30;  // [N/m]
 constexpr double machine_mass = 57e3, rock_mass = 50;
 
 // A machine that can only slide along x: one coordinate w = sqrt(M) v, one part at the origin.
@@ -28,9 +29,14 @@ ContactProblem push(const SuperBody& machine) {
   problem.bodies.resize(2);
   problem.bodies[1].inverse_mass = 1 / rock_mass;
   problem.bodies[1].inverse_inertia = Eigen::Matrix3d::Identity();
+  problem.step = 0.01;
+  ContactPair pair;
+  pair.a = machine_part(0);
+  pair.b = 1;
+  pair.count = 1;
+  problem.pairs = {pair};
   ContactPoint point;
-  point.a = machine_part(0);
-  point.b = 1;
+  point.stiffness = rigid;
   point.position = Vector3d(1, 0, 0);
   point.arm_a = Vector3d(1, 0, 0);
   point.arm_b = Vector3d(-0.2, 0, 0);
@@ -92,17 +98,13 @@ TEST(SuperBody, MotorStopsAtItsForceLimit) {
 TEST(SuperBody, StaysFiniteWhereItCannotAnswer) {
   const SuperBody machine = sled(1);
   ContactProblem problem = push(machine);
-  problem.points[0].b = 0;
+  problem.pairs[0].b = 0;
   problem.points[0].normal = -Vector3d::UnitZ();
   problem.points[0].friction = 0.8;
-  RollingRow row;
-  row.a = machine_part(0);
-  row.count = 1;
-  row.arm = 0.1;
-  problem.rolling = {row};
+  problem.pairs[0].rolling_arm = problem.pairs[0].spinning_arm = 0.1;
   const SolverReport report = solve(problem, {.sweeps = 5});
   EXPECT_TRUE(problem.points[0].impulse.allFinite());
-  EXPECT_TRUE(problem.rolling[0].impulse.allFinite());
+  EXPECT_TRUE(problem.pairs[0].impulse.allFinite());
   EXPECT_NEAR(report.machine.velocity[0] / std::sqrt(machine_mass), 1, 1e-12);
 }
 
@@ -116,19 +118,20 @@ TEST(RollingResistance, TakesItsLimitFromASpinningBody) {
     problem.bodies[1].inverse_inertia = 0.5 * Eigen::Matrix3d::Identity();
     problem.bodies[1].velocity = Vector3d(0, 0, -0.1);
     problem.bodies[1].angular_velocity = Vector3d(0, 0, spin);
+    problem.step = 0.01;
     ContactPoint point;
-    point.b = 1;
+    point.stiffness = rigid;
     point.position = point.arm_a = Vector3d::Zero();
     point.arm_b = Vector3d(0, 0, -0.3);
     point.normal = Vector3d::UnitZ();
     problem.points = {point};
-    RollingRow row;
-    row.b = 1;
-    row.count = 1;
-    row.arm = 0.1;
-    problem.rolling = {row};
+    ContactPair pair;
+    pair.b = 1;
+    pair.count = 1;
+    pair.spinning_arm = 0.1;
+    problem.pairs = {pair};
     solve(problem, {.sweeps = 10});
-    const double press = rock_mass * 0.1, loss = std::min(0.5 * row.arm * press, spin);
+    const double press = rock_mass * 0.1, loss = std::min(0.5 * pair.spinning_arm * press, spin);
     EXPECT_NEAR(problem.points[0].impulse.z(), press, 1e-12);
     EXPECT_NEAR(problem.bodies[1].angular_velocity.z(), spin - loss, 1e-12);
   }
