@@ -8,6 +8,8 @@ find_package(Threads REQUIRED)
 if(DRAWPOINT_BUILD_ENGINE)
   find_package(Simbody 3.7 REQUIRED)
   find_package(fcl 0.7 REQUIRED)
+  find_package(TBB 2021 REQUIRED COMPONENTS tbb)
+  find_package(hwy 1.0 REQUIRED)
   enable_language(C) # FindHDF5 compiles a C program
   set(HDF5_PREFER_PARALLEL OFF)
   find_package(HDF5 REQUIRED COMPONENTS C)

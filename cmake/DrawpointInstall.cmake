@@ -72,6 +72,6 @@ drawpoint_deb(pareto "Drawpoint: multi-objective search (headers)" ${toolkit})
 if(DRAWPOINT_BUILD_ENGINE)
   list(APPEND CPACK_COMPONENTS_ALL engine)
   drawpoint_deb(engine "Drawpoint: articulated machines among convex rocks (library and headers)"
-                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libsimbody-dev libfcl-dev libhdf5-dev)
+                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libsimbody-dev libfcl-dev libtbb-dev libhwy-dev libhdf5-dev)
 endif()
 include(CPack)

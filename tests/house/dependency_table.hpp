@@ -30,7 +30,7 @@ inline const std::vector<Row>& dependency_table() {
       {"kriging/", {"doe/", "kriging/"}, {"Eigen", "Ipopt"}, {}},
       {"pareto/", {"doe/", "pareto/"}, {"Eigen", "Ipopt"}, {}},
       {"engine/", {}, {"Eigen"}, {}},  // what the folders share
-      {"engine/contact/", {"engine/contact/"}, {"Eigen"}, {"FCL"}},
+      {"engine/contact/", {"engine/contact/"}, {"Eigen"}, {"FCL", "oneTBB", "Highway"}},
       {"engine/machine/", {"engine/contact/", "engine/machine/"}, {"Eigen"}, {"Simbody"}},
       {"engine/granular/", {"engine/"}, {"Eigen"}, {}},
       {"engine/record/", {"engine/"}, {"Eigen"}, {"HDF5"}},
@@ -51,6 +51,8 @@ inline std::optional<std::string> package_of(const std::string& header) {
       {std::regex("coin(-or)?/.*|Ip[A-Z].*\\.hpp"), "Ipopt"},
       {std::regex("[Ss]imbody.*|SimTK.*"), "Simbody"},
       {std::regex("(fcl|ccd|octomap)/.*"), "FCL"},
+      {std::regex("(oneapi/)?tbb/.*"), "oneTBB"},
+      {std::regex("hwy/.*"), "Highway"},
       {std::regex("hdf5.*|H5.*\\.h"), "HDF5"},
       {std::regex("SQLiteCpp/.*|sqlite3\\.h"), "SQLiteCpp"},
       {std::regex("CLI/.*"), "CLI11"},
@@ -92,11 +94,14 @@ inline std::string objection(const Row& row, const std::string& path, const std:
   return path.ends_with(".cpp") ? "" : *package + " may not be in a header";
 }
 
-/// Names of Simbody and FCL where their row does not allow them: a forward declaration leaks as an include
-/// does.
+/// Names of the engine's packages where their row does not allow them: a forward declaration leaks as an
+/// include does.
 inline std::vector<std::string> leaked_names(const Row& row, const Source& source) {
-  static const std::vector<std::pair<std::regex, std::string>> names{{std::regex("\\bSimTK\\b"), "Simbody"},
-                                                                     {std::regex("\\bfcl::"), "FCL"}};
+  static const std::vector<std::pair<std::regex, std::string>> names{
+      {std::regex("\\bSimTK\\b"), "Simbody"},
+      {std::regex("\\bfcl::"), "FCL"},
+      {std::regex("\\btbb::"), "oneTBB"},
+      {std::regex("\\bhwy::|\\bHWY_"), "Highway"}};
   const std::string code = std::regex_replace(source.text, std::regex("//[^\n]*"), "");
   std::vector<std::string> found;
   for (const auto& [pattern, package] : names) {
