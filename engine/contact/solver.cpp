@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/contact/coloured_solver.hpp>
 #include <drawpoint/engine/contact/sequential_solver.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
 #include <stdexcept>
@@ -17,7 +18,8 @@ Method method_named(std::string_view name) {
 }
 
 SolverReport solve(ContactProblem& problem, const SolverOptions& options) {
-  return solve_sequentially(problem, options);
+  return options.method == Method::coloured ? solve_coloured(problem, options)
+                                            : solve_sequentially(problem, options);
 }
 
 }  // namespace drawpoint::engine::contact

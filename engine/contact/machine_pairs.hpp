@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/pair_batch.hpp>
+#include <drawpoint/engine/contact/sequential_sweeper.hpp>
+
+/// The machine's rows and the pairs that touch it, swept in double precision on the velocities of a batch
+/// solve.
+namespace drawpoint::engine::contact::detail {
+
+class MachinePairs {
+ public:
+  MachinePairs(const ContactProblem& problem, int substeps);
+
+  void refresh(const std::vector<BodyRow>& end);
+  void start(std::vector<BodyRow>& bodies);
+  void extrapolate() { sweeper_.extrapolate(); }
+  double sweep(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
+  void finish() { sweeper_.finish(); }
+  double normal_load() const { return sweeper_.normal_load(); }
+  SuperBodySolution store(ContactProblem& problem);
+
+ private:
+  static ContactProblem part_of_problem(const ContactProblem& problem, std::vector<int>& rows,
+                                        std::vector<int>& members);
+  void fetch(const std::vector<BodyRow>& bodies);
+  void put_back(std::vector<BodyRow>& bodies) const;
+
+  std::vector<int> rows_, members_;  // body row of each body, pair of each pair of the part
+  ContactProblem part_;
+  SequentialSweeper sweeper_;
+};
+
+}  // namespace drawpoint::engine::contact::detail

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+/// Eight pairs that share no moving body, side by side: what a SIMD lane works on.
+///
+/// Single precision; an array of eight holds one number of eight pairs. Row k of a body array holds a body's
+/// velocity and angular velocity, padded to 32 bytes. Fixed bodies have rows of their own, one a lane, which
+/// stay zero, so that no two lanes ever write the same row. Lanes without a pair answer nothing; lanes
+/// without a point have a gap of `no_gap`: either changes nothing.
+namespace drawpoint::engine::contact::detail {
+
+constexpr int batch_lanes = 8;
+constexpr float no_gap = 1e10f;  // [m]
+using Lanes = float[batch_lanes];
+
+struct alignas(32) BodyRow {
+  float velocity[4] = {}, angular_velocity[4] = {};
+};
+
+/// Inverse inertia (xx, xy, xz, yy), (yz, zz), inverse mass.
+struct alignas(32) BodyResponse {
+  float inertia[4] = {}, rest[4] = {};
+};
+
+struct alignas(32) PointBatch {
+  Lanes arm[3];  // from A's centre
+  Lanes gap, upsilon, sigma, target;
+  Lanes inverse_nn, inverse_tt[3], inverse_rho, w10, w20;
+  Lanes impulse[3], total[3];  // in the frame; of the substep, of the step
+};
+
+struct alignas(32) PairBatch {
+  std::int32_t a[batch_lanes], b[batch_lanes];       // body rows
+  Lanes normal[3], tangent[3];                       // the second tangent is their cross product
+  Lanes offset[3];                                   // arm from B's centre − arm from A's centre
+  Lanes mass_a, mass_b, inertia_a[6], inertia_b[6];  // inverses
+  Lanes friction;
+  Lanes rolling_arm, spinning_arm;
+  Lanes moment_inverse_nn, moment_inverse_tt[3], moment_inverse_rho, moment_w10, moment_w20;
+  Lanes moment[3], moment_total[3];  // in the frame
+  Lanes change;                      // Σ|Δλ| of the last sweep
+  std::int32_t first, points;        // point batches
+  std::int32_t pairs;                // lanes in use
+  bool resists;                      // any rolling or spinning
+};
+
+/// The arrays that a kernel works on.
+struct BatchArrays {
+  PairBatch* pairs;
+  PointBatch* points;
+  BodyRow* bodies;     // velocities
+  const BodyRow* end;  // velocities at the end of the last substep
+  const BodyResponse* responses;
+};
+
+struct Substep {
+  float h;     // [s]
+  bool first;  // of the step: gaps are those of its start
+};
+
+struct BatchRange {
+  int begin, end;
+};
+
+/// The kernels, run with the best instruction set of this machine; all sets give the same bits. Batches of a
+/// range must share no body.
+/// Responses and their inverses, from arms, normals and bodies.
+void prepare_batches(const BatchArrays& arrays, BatchRange range);
+/// Gaps and targets of a substep, from the velocities at the end of the last one.
+void refresh_batches(const BatchArrays& arrays, BatchRange range, const Substep& substep);
+/// Start impulses on the bodies.
+void start_batches(const BatchArrays& arrays, BatchRange range);
+void sweep_batches(const BatchArrays& arrays, BatchRange range);
+
+}  // namespace drawpoint::engine::contact::detail
