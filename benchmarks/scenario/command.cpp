@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "command.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
+
+namespace drawpoint::benchmarks {
+namespace {
+
+constexpr int failure = 1, wrong_usage = 2;
+
+std::string plain(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+}  // namespace
+
+CLI::Validator between(double low, double high, const std::string& unit, const std::string& advice) {
+  const std::string range = plain(low) + " to " + plain(high) + (unit.empty() ? "" : " " + unit);
+  const auto check = [=](std::string& text) -> std::string {
+    std::size_t read = 0;
+    double value = std::nan("");
+    try {
+      value = std::stod(text, &read);
+    } catch (const std::logic_error&) {
+      read = 0;
+    }
+    if (read == text.size() && value >= low && value <= high) return {};
+    return "\"" + text + "\" is not in the range " + range + "; " + advice;
+  };
+  return CLI::Validator(check, "[" + range + "]");
+}
+
+void add_engine_flags(CLI::App& app, EngineFlags& flags) {
+  auto& world = flags.world;
+  app.add_option("--dt", world.step, "time step [s]")
+      ->check(between(1e-5, 0.1, "s", "rocks of 0.3 m need 0.002 to 0.01 s"))
+      ->capture_default_str();
+  app.add_option("--sweeps", world.solver.sweeps, "sweeps of the contact solver a step")
+      ->check(between(1, 1e6, "", "10 to 150 are usual, 1000 and more a reference"))
+      ->capture_default_str();
+}
+
+engine::contact::WorldOptions world_options(const EngineFlags& flags) { return flags.world; }
+
+nlohmann::json described(const engine::contact::WorldOptions& options) {
+  return {{"dt_s", options.step}, {"sweeps", options.solver.sweeps}};
+}
+
+int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action) {
+  const auto complain = [&](const char* what, int code) {
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), what);
+    return code;
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    const std::string text = std::string(error.what()) + "; see " + app.get_name() + " --help";
+    return complain(text.c_str(), wrong_usage);
+  }
+  try {
+    const int code = action();
+    if (std::fflush(stdout) == 0) return code;
+    return complain("cannot write to standard output; is the disk full?", failure);
+  } catch (const std::invalid_argument& error) {
+    return complain(error.what(), wrong_usage);
+  } catch (const std::exception& error) {
+    return complain(error.what(), failure);
+  }
+}
+
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (terminal_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::show(const std::string& what, int done, int total) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || (done < total && now - shown_ < std::chrono::milliseconds(200))) return;
+  shown_ = now;
+  std::fprintf(stderr, "\r\033[K%s %d/%d", what.c_str(), done, total);
+  std::fflush(stderr);
+}
+
+}  // namespace drawpoint::benchmarks

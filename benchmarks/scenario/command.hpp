@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <drawpoint/engine/contact/world.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// What the commands of this folder share: the flags that choose the engine's step and solver, checked
+/// numbers, exit codes and progress.
+///
+/// Exit codes: 0 done, 1 the run failed (its message is on stderr), 2 wrong usage. Results go to stdout: a
+/// table, or with --json one JSON object on one line. Progress goes to stderr, and only to a terminal.
+namespace drawpoint::benchmarks {
+
+/// Accepts numbers from low to high; the error names the value, the range and what to choose.
+CLI::Validator between(double low, double high, const std::string& unit, const std::string& advice);
+
+/// The flags; the defaults are those of WorldOptions{}.
+struct EngineFlags {
+  engine::contact::WorldOptions world;
+  std::string method, freeze;
+};
+
+void add_engine_flags(CLI::App& app, EngineFlags& flags);
+/// The world's options as the flags choose them. Throws std::invalid_argument for what this engine cannot do.
+engine::contact::WorldOptions world_options(const EngineFlags& flags);
+/// The options as they go into the results.
+nlohmann::json described(const engine::contact::WorldOptions& options);
+
+/// Parses, acts and turns what goes wrong into an exit code.
+int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action);
+
+/// One line on a terminal, rewritten at most five times a second: "settle 120/500".
+class Progress {
+ public:
+  Progress();
+  ~Progress();  ///< clears the line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(const std::string& what, int done, int total);
+
+ private:
+  bool terminal_;
+  std::chrono::steady_clock::time_point shown_{};
+};
+
+}  // namespace drawpoint::benchmarks
