@@ -20,6 +20,19 @@ std::string plain(double value) {
   return text.str();
 }
 
+CLI::Validator known_method() {
+  return CLI::Validator(
+      [](std::string& name) -> std::string {
+        try {
+          engine::contact::method_named(name);
+          return {};
+        } catch (const std::invalid_argument& error) {
+          return error.what();
+        }
+      },
+      "NAME");
+}
+
 }  // namespace
 
 CLI::Validator between(double low, double high, const std::string& unit, const std::string& advice) {
@@ -40,18 +53,50 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags) {
   auto& world = flags.world;
+  flags.method = to_string(world.solver.method);
   app.add_option("--dt", world.step, "time step [s]")
       ->check(between(1e-5, 0.1, "s", "rocks of 0.3 m need 0.002 to 0.01 s"))
       ->capture_default_str();
-  app.add_option("--sweeps", world.solver.sweeps, "sweeps of the contact solver a step")
-      ->check(between(1, 1e6, "", "10 to 150 are usual, 1000 and more a reference"))
+  app.add_option("--method", flags.method, "contact solver: sequential (the reference) or coloured")
+      ->check(known_method())
+      ->capture_default_str();
+  app.add_option("--substeps", world.solver.substeps, "substeps of the contact solver a step")
+      ->check(between(1, 1000, "", "1 to 16 are usual"))
+      ->capture_default_str();
+  app.add_option("--sweeps", world.solver.sweeps, "sweeps of the contact solver a substep")
+      ->check(between(1, 1e6, "", "1 to 150 are usual, 1000 and more a reference"))
+      ->capture_default_str();
+  app.add_option("--threads", world.solver.threads, "threads; they change the time only")
+      ->check(between(1, 256, "", "no more than there are cores"))
+      ->capture_default_str();
+  app.add_option("--freeze", flags.freeze, "let rocks at rest freeze; this engine has no freezing yet")
+      ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
 }
 
-engine::contact::WorldOptions world_options(const EngineFlags& flags) { return flags.world; }
+engine::contact::WorldOptions world_options(const EngineFlags& flags) {
+  engine::contact::WorldOptions options = flags.world;
+  options.solver.method = engine::contact::method_named(flags.method);
+  if (flags.freeze == "on")
+    throw std::invalid_argument("--freeze: \"on\" is not possible: this engine has no freezing; use off");
+  return options;
+}
 
 nlohmann::json described(const engine::contact::WorldOptions& options) {
-  return {{"dt_s", options.step}, {"sweeps", options.solver.sweeps}};
+  return {{"dt_s", options.step},
+          {"method", to_string(options.solver.method)},
+          {"substeps", options.solver.substeps},
+          {"sweeps", options.solver.sweeps},
+          {"threads", options.solver.threads},
+          {"freeze", "off"}};
+}
+
+std::string in_words(const nlohmann::json& j) {
+  std::ostringstream text;
+  text << "dt " << 1e3 * j.at("dt_s").get<double>() << " ms, " << j.at("method").get<std::string>() << ", "
+       << j.at("substeps") << " x " << j.at("sweeps") << " sweeps, threads " << j.at("threads") << ", freeze "
+       << j.at("freeze").get<std::string>();
+  return text.str();
 }
 
 int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action) {

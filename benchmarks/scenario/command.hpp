@@ -22,7 +22,7 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 /// The flags; the defaults are those of WorldOptions{}.
 struct EngineFlags {
   engine::contact::WorldOptions world;
-  std::string method, freeze;
+  std::string method, freeze = "off";
 };
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags);
@@ -30,6 +30,8 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags);
 engine::contact::WorldOptions world_options(const EngineFlags& flags);
 /// The options as they go into the results.
 nlohmann::json described(const engine::contact::WorldOptions& options);
+/// "dt 5 ms, sequential, 1 x 25 sweeps, threads 1, freeze off", from described().
+std::string in_words(const nlohmann::json& described);
 
 /// Parses, acts and turns what goes wrong into an exit code.
 int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action);

@@ -79,8 +79,7 @@ nlohmann::json run(double ratio, const EngineFlags& flags) {
 
 void print_table(const nlohmann::json& j) {
   const auto number = [&](const char* key) { return j.at(key).get<double>(); };
-  std::printf("mass ratio %g:1, dt %g ms, %d sweeps, %g s\n", number("ratio"), 1e3 * number("dt_s"),
-              j.at("sweeps").get<int>(), MassRatioTable::duration);
+  std::printf("mass ratio %g:1, %g s; %s\n", number("ratio"), MassRatioTable::duration, in_words(j).c_str());
   std::printf("overlap    %.4f %% of the small cube at the end, %.4f %% at most\n",
               100 * number("overlap_fraction"), 100 * number("overlap_fraction_peak"));
   std::printf("height     %.6f m, rigid %.6f m\n", number("height_m"), number("expected_height_m"));

@@ -115,8 +115,8 @@ void print_times(const char* what, double ms, const nlohmann::json& parts) {
 }
 
 void print_table(const nlohmann::json& j) {
-  std::printf("%d rocks, %.1f t, dt %g ms, %d sweeps\n", j.at("rocks").get<int>(), number(j, "mass_kg") / 1e3,
-              1e3 * number(j, "dt_s"), j.at("sweeps").get<int>());
+  std::printf("%d rocks, %.1f t; %s\n", j.at("rocks").get<int>(), number(j, "mass_kg") / 1e3,
+              in_words(j).c_str());
   print_times("rest", number(j, "ms_rest"), j.at("ms_rest_parts"));
   print_times("dig", number(j, "ms_dig"), j.at("ms_dig_parts"));
   std::printf("contact points %d in %d manifolds at rest, %d while digging\n", j.at("contacts").get<int>(),

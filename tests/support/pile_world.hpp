@@ -47,7 +47,13 @@ class PrescribedBody final : public engine::contact::ArticulatedBody {
 
 inline engine::contact::MaterialTable pile_materials(const PileMaterial& m) {
   engine::contact::MaterialTable table(1);
-  table.set(0, 0, {m.friction, m.rolling, m.stiffness, m.damping_time});
+  table.set(0, 0,
+            {.friction = m.friction,
+             .rolling = m.rolling,
+             .stiffness = m.stiffness,
+             .damping_time = m.damping_time,
+             .spinning = m.spinning,
+             .restitution = m.restitution});
   return table;
 }
 
