@@ -51,27 +51,30 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
   return CLI::Validator(check, "[" + range + "]");
 }
 
-void add_engine_flags(CLI::App& app, EngineFlags& flags) {
-  auto& world = flags.world;
-  flags.method = to_string(world.solver.method);
-  app.add_option("--dt", world.step, "time step [s]")
-      ->check(between(1e-5, 0.1, "s", "rocks of 0.3 m need 0.002 to 0.01 s"))
-      ->capture_default_str();
+void add_method_flags(CLI::App& app, EngineFlags& flags) {
+  flags.method = to_string(flags.world.solver.method);
   app.add_option("--method", flags.method, "contact solver: sequential (the reference) or coloured")
       ->check(known_method())
       ->capture_default_str();
-  app.add_option("--substeps", world.solver.substeps, "substeps of the contact solver a step")
-      ->check(between(1, 1000, "", "1 to 16 are usual"))
-      ->capture_default_str();
-  app.add_option("--sweeps", world.solver.sweeps, "sweeps of the contact solver a substep")
-      ->check(between(1, 1e6, "", "1 to 150 are usual, 1000 and more a reference"))
-      ->capture_default_str();
-  app.add_option("--threads", world.solver.threads, "threads; they change the time only")
+  app.add_option("--threads", flags.world.solver.threads, "threads; they change the time only")
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
   app.add_option("--freeze", flags.freeze, "let rocks at rest freeze; this engine has no freezing yet")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
+}
+
+void add_engine_flags(CLI::App& app, EngineFlags& flags) {
+  app.add_option("--dt", flags.world.step, "time step [s]")
+      ->check(between(1e-5, 0.1, "s", "rocks of 0.3 m need 0.002 to 0.01 s"))
+      ->capture_default_str();
+  app.add_option("--substeps", flags.world.solver.substeps, "substeps of the contact solver a step")
+      ->check(between(1, 1000, "", "1 to 16 are usual"))
+      ->capture_default_str();
+  app.add_option("--sweeps", flags.world.solver.sweeps, "sweeps of the contact solver a substep")
+      ->check(between(1, 1e6, "", "1 to 150 are usual, 1000 and more a reference"))
+      ->capture_default_str();
+  add_method_flags(app, flags);
 }
 
 engine::contact::WorldOptions world_options(const EngineFlags& flags) {

@@ -26,6 +26,8 @@ struct EngineFlags {
 };
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags);
+/// Of these only --method, --threads and --freeze.
+void add_method_flags(CLI::App& app, EngineFlags& flags);
 /// The world's options as the flags choose them. Throws std::invalid_argument for what this engine cannot do.
 engine::contact::WorldOptions world_options(const EngineFlags& flags);
 /// The options as they go into the results.

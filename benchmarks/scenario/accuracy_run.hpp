@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pile_run.hpp"
+
+/// One settled pile, gone on with by one choice of step and solver: how true it stays and what the blade
+/// feels.
+///
+/// The pile is handed over as positions (at rest, nothing remembered), given 0.5 s to take up the loads, held
+/// for 1 s, over which drift is measured, and dug for 1 s. The drag is the contact force on the blade against
+/// its motion, in windows of 10 ms so that steps of any length compare, over the last 0.6 s.
+namespace drawpoint::benchmarks {
+
+struct SettledState {
+  support::RockPile pile;
+  std::vector<support::RockState> states;
+};
+
+/// Drops and settles the pile of `seed` for RockPile::settle_time.
+SettledState settled_pile(int rocks, std::uint64_t seed, const engine::contact::WorldOptions& options,
+                          Progress& progress);
+
+struct AccuracySample {
+  double ms_rest = 0, ms_dig = 0;                             ///< wall time a step, median and mean
+  double overlap_mean = 0, overlap_p99 = 0, overlap_max = 0;  ///< at rest
+  double dig_overlap_p99 = 0;                                 ///< at the end of digging
+  double drift = 0;                                           ///< mean over rocks [m/s]
+  double drag = 0, drag_error = 0;  ///< mean [N] and its standard error over six blocks of 0.1 s
+  double drag_p95 = 0;              ///< [N]
+  double mass_moved = 0;            ///< Σ m Δx / travel of the blade, over the whole dig [kg]
+};
+
+/// Goes on from the settled pile. `offset` [m] displaces every other rock upwards: a run and its twin with an
+/// offset of a micrometre differ by what chaos alone does.
+AccuracySample accuracy_sample(const SettledState& settled, const engine::contact::WorldOptions& options,
+                               double offset, Progress& progress);
+
+}  // namespace drawpoint::benchmarks
