@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/tests/end_to_end/support.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::test;
+
+/// The commands of benchmarks/scenario, run as scripts run them, on scenes that take a fraction of a second.
+namespace {
+
+const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY;
+const std::string tiny = pile + " --rocks 40 --settle 60 --steps 20 --dig 20 --json";
+
+using ScenarioCommands = StudyTest;
+
+void expect_number(const nlohmann::json& j, const char* key, double low, double high) {
+  ASSERT_TRUE(j.contains(key)) << key;
+  ASSERT_TRUE(j[key].is_number()) << key;
+  EXPECT_GE(j[key].get<double>(), low) << key;
+  EXPECT_LE(j[key].get<double>(), high) << key;
+}
+
+}  // namespace
+
+TEST_F(ScenarioCommands, PilePrintsOneObjectWithItsFields) {
+  const Ended run = this->run(tiny);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
+  EXPECT_TRUE(run.err.empty()) << run.err;  // no progress without a terminal
+  const nlohmann::json j = run.json();
+  expect_number(j, "ms_rest", 1e-6, 1e4);
+  expect_number(j, "ms_dig", 1e-6, 1e4);
+  expect_number(j, "contacts", 40, 40 * 40);  // every rock lies on something
+  expect_number(j, "overlap_p99", 0, j["overlap_max"]);
+  expect_number(j, "overlap_mean", 0, j["overlap_max"]);
+  expect_number(j, "overlap_max", 0, 1);
+  expect_number(j, "dig_overlap_p99", 0, 1);
+  expect_number(j, "drift_mm_s", 0, j["drift_worst_mm_s"]);
+  expect_number(j, "kinetic_energy_per_rock_j", 0, 1e3);
+  EXPECT_EQ(j.at("hash").get<std::string>().size(), 16u);
+  EXPECT_EQ(j.at("rest_steps"), 20);
+}
+
+TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
+  const nlohmann::json j = run(pile + " --rocks 2 --settle 1 --steps 1 --dig 1 --json").json();
+  const engine::contact::WorldOptions options;
+  EXPECT_EQ(j.at("dt_s"), options.step);
+  EXPECT_EQ(j.at("method"), to_string(options.solver.method));
+  EXPECT_EQ(j.at("substeps"), options.solver.substeps);
+  EXPECT_EQ(j.at("sweeps"), options.solver.sweeps);
+  EXPECT_EQ(j.at("threads"), options.solver.threads);
+}
+
+TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
+  const auto hash = [&](const std::string& flags) { return run(tiny + flags).json().at("hash"); };
+  const nlohmann::json once = hash("");
+  EXPECT_EQ(hash(""), once);
+  EXPECT_EQ(hash(" --threads 2"), once);
+  for (const char* flags : {" --seed 2", " --sweeps 10", " --substeps 2", " --dt 0.004", " --dig 21"})
+    EXPECT_NE(hash(flags), once) << flags;
+}
+
+TEST_F(ScenarioCommands, PileWithoutJsonPrintsATable) {
+  const Ended run = this->run(pile + " --rocks 5 --settle 5 --steps 5 --dig 5");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(contains(run.out, "5 rocks"));
+  EXPECT_TRUE(contains(run.out, "ms a step"));
+}
+
+// Each leg carries less than 1 kN at 1:1, which presses a pair of bodies of 1e9 N/m by less than 1e-6 m. The
+// solver adds about 3 n/N g h² for n = 2 bodies on top of each other and N sweeps: 6e-5 m with 25 sweeps at 5
+// ms. Both together are below 1e-4 m at each of the two joints: 5e-4 of the small cube, and 2e-4 m in height.
+TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
+  const Ended run = this->run(table + " --ratio 1 --dt 0.005 --substeps 1 --sweeps 25 --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json j = run.json();
+  EXPECT_DOUBLE_EQ(j.at("expected_height_m"), 0.32);
+  expect_number(j, "height_m", 0.32 - 2e-4, 0.32 + 2e-4);
+  expect_number(j, "overlap_fraction", 0, 5e-4);
+  expect_number(j, "overlap_fraction_peak", j["overlap_fraction"], 1);
+}
+
+TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
+  const Ended run = this->run(study +
+                              " --rocks 6 --seeds 2 --dt 0.01 --substeps 1 --sweeps 5 --reference-dt 0.01"
+                              " --reference-sweeps 20 --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json rows = run.json().at("configurations");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("name"), "reference");
+  EXPECT_EQ(rows[0].at("mass_moved_difference").at("mean"), 0);
+  EXPECT_EQ(rows[1].at("name"), "twin");
+  EXPECT_EQ(rows[2].at("sweeps"), 5);
+  EXPECT_TRUE(rows[2].at("drag_n").at("half_width").is_number());
+}
+
+TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
+  const auto refused = [&](const std::string& line, const std::string& value, const std::string& range) {
+    const Ended run = this->run(line);
+    EXPECT_EQ(run.code, 2) << line;
+    EXPECT_TRUE(run.out.empty()) << line;
+    EXPECT_TRUE(contains(run.err, value));
+    EXPECT_TRUE(contains(run.err, range));
+  };
+  refused(pile + " --rocks 0", "--rocks: \"0\"", "1 to 100000");
+  refused(pile + " --rocks many", "--rocks: \"many\"", "1 to 100000");
+  refused(pile + " --dt 0.5", "--dt: \"0.5\"", "1e-05 to 0.1 s");
+  refused(pile + " --dt nan", "--dt: \"nan\"", "1e-05 to 0.1 s");
+  refused(pile + " --settle -1", "--settle: \"-1\"", "1 to 1e+07 steps");
+  refused(pile + " --sweeps 0", "--sweeps: \"0\"", "1 to 1e+06");
+  refused(pile + " --threads 0", "--threads: \"0\"", "1 to 256");
+  refused(pile + " --method fastest", "\"fastest\"", "sequential, coloured");
+  refused(pile + " --freeze maybe", "maybe", "on,off");
+  refused(pile + " --rock 5", "--rock", "--help");
+  refused(table + " --ratio 0", "--ratio: \"0\"", "0.001 to 1e+06");
+  refused(study + " --dt 0.005,1", "--dt: \"1\"", "1e-05 to 0.01 s");
+}
+
+TEST_F(ScenarioCommands, HelpTeaches) {
+  for (const std::string& program : {pile, table, study}) {
+    const Ended run = this->run(program + " --help");
+    EXPECT_EQ(run.code, 0);
+    EXPECT_TRUE(contains(run.out, "Fields of --json"));
+    EXPECT_TRUE(contains(run.out, "--method"));
+  }
+}
