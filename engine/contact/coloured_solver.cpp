@@ -29,7 +29,10 @@ class ColouredSolver {
   SolverReport solve() {
     for (int s = 0; s < options_.substeps; ++s) {
       begin_substep(s == 0);
-      for (int k = 0; k < options_.sweeps; ++k) sweep(k % 2 == 0);
+      for (int k = 0; k < most_sweeps(options_, problem_.points.size()); ++k) {
+        if (k >= options_.sweeps && change() <= options_.tolerance * normal_load()) break;
+        sweep(k % 2 == 0);
+      }
       machine_.finish();
       travel();
     }
@@ -37,6 +40,8 @@ class ColouredSolver {
   }
 
  private:
+  double change() const { return batches_.change() + machine_change_; }
+  double normal_load() const { return batches_.normal_load() + machine_.normal_load(); }
   float h() const { return static_cast<float>(problem_.step / options_.substeps); }
 
   template <class Kernel>
@@ -87,7 +92,7 @@ class ColouredSolver {
   }
 
   void sweep(bool forward) {
-    change_ = machine_.sweep(batches_.bodies, forward);
+    machine_change_ = machine_.sweep(batches_.bodies, forward);
     const std::vector<BatchRange>& colours = batches_.colours();
     for (std::size_t c = 0; c < colours.size(); ++c)
       over(colours[forward ? c : colours.size() - 1 - c],
@@ -114,8 +119,8 @@ class ColouredSolver {
     batches_.store(problem_, options_.substeps);
     SolverReport report;
     report.machine = machine_.store(problem_);
-    const double load = batches_.normal_load() + machine_.normal_load();
-    report.last_change = load > 0 ? (batches_.change() + change_) / load : 0;
+    const double load = normal_load();
+    report.last_change = load > 0 ? change() / load : 0;
     return report;
   }
 
@@ -125,7 +130,7 @@ class ColouredSolver {
   detail::MachinePairs machine_;
   detail::StageTeam team_;
   std::vector<BodyRow> travel_;  // ∫ v dt, ∫ ω dt
-  double change_ = 0;            // of the machine's pairs in the last sweep
+  double machine_change_ = 0;
 };
 
 }  // namespace

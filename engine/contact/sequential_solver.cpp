@@ -42,7 +42,10 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
       sweeper.extrapolate();
     }
     begin.swap(now);
-    for (int k = 0; k < options.sweeps; ++k) change = sweeper.sweep(k % 2 == 0);
+    for (int k = 0; k < most_sweeps(options, problem.points.size()); ++k) {
+      if (k >= options.sweeps && change <= options.tolerance * sweeper.normal_load()) break;
+      change = sweeper.sweep(k % 2 == 0);
+    }
     sweeper.finish();
     for (SolverBody& body : problem.bodies) {
       body.travel += h * body.velocity;

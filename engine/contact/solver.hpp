@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <drawpoint/engine/contact/contact_problem.hpp>
 #include <string_view>
 
@@ -29,17 +30,20 @@ std::string_view to_string(Method method);
 Method method_named(std::string_view name);
 
 struct SolverOptions {
-  Method method = Method::sequential;
-  int substeps = 1;  ///< S ≥ 1
-  int sweeps = 25;   ///< a substep, ≥ 1
-  int threads = 1;   ///< ≥ 1; never changes a bit
+  Method method = Method::coloured;
+  int substeps = 16;  ///< S ≥ 1
+  int sweeps = 1;     ///< a substep, at least, ≥ 1
+  /// Small problems are cheap to solve well: a substep adds sweeps until a sweep changes less than
+  /// `tolerance` of the normal load, or until sweeps times points exceed `spare_work`. 0: never.
+  int spare_work = 4000;
+  double tolerance = 1e-5;
+  int threads = 1;  ///< ≥ 1; never changes a bit
 };
 
-/// How far a solution is from its law, relative to the contact load (0 when there is no load).
-struct Residual {
-  double complementarity = 0;  ///< of the normals
-  double cone = 0;             ///< of friction
-};
+/// Sweeps a substep at most, for so many points.
+inline int most_sweeps(const SolverOptions& options, std::size_t points) {
+  return std::max(options.sweeps, options.spare_work / std::max(1, static_cast<int>(points)));
+}
 
 struct SolverReport {
   double last_change = 0;  ///< Σ|Δλ| of the last sweep over Σ λ_n (0 when there is no load)
