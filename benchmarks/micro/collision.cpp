@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Collision: one pair of rocks (axis, manifold, and FCL's two solvers on the same pairs), and find() on a bed
-// of rocks that rest, shake and roll. Pairs touch or nearly touch: separations uniform in [-20, 10] mm.
+// Collision: one pair of rocks (axis, manifold, and FCL's two solvers on the same pairs), and steps of a
+// recorded pile at rest and sliding. Pairs touch or nearly touch: separations uniform in [-20, 10] mm.
 #include <benchmark/benchmark.h>
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision.h>
@@ -9,11 +9,14 @@
 #include <drawpoint/engine/contact/contact_finder.hpp>
 #include <drawpoint/engine/contact/convex_contact.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
+#include <drawpoint/tests/support/dense_rocks.hpp>
+#include <map>
 #include <random>
 
 namespace {
 
 using namespace drawpoint::engine;
+namespace support = drawpoint::support;
 using contact::detail::AxisQuery;
 using contact::detail::AxisSearch;
 using contact::detail::CollisionHull;
@@ -76,12 +79,12 @@ BENCHMARK(separating_axis);
 void axis_and_manifold(benchmark::State& state) {
   const auto pairs = rock_pairs();
   contact::detail::ConvexContactSearch search;
+  contact::detail::ConvexContact contact;
   std::size_t k = 0;
   double points = 0;
   for (auto _ : state) {
     const RockPair& p = pairs[k++ % pairs.size()];
-    const auto contact =
-        search.find({hulls()[p.a], hulls()[p.b], p.X_WA.inverse() * p.X_WB}, {0.011, 1e-4, {}});
+    search.find({hulls()[p.a], hulls()[p.b], p.X_WA.inverse() * p.X_WB}, {0.011, 1e-4, {}}, contact);
     points += contact.count;
   }
   state.counters["points"] = benchmark::Counter(points, benchmark::Counter::kAvgIterations);
@@ -136,82 +139,76 @@ void fcl_collide(benchmark::State& state, fcl::GJKSolverType solver) {
 BENCHMARK_CAPTURE(fcl_collide, libccd, fcl::GST_LIBCCD);
 BENCHMARK_CAPTURE(fcl_collide, indep, fcl::GST_INDEP);
 
-// A bed of rocks of 0.40 and 0.45 m on a plane, at random turns on a grid of 0.3 m, so that each touches
-// about six others.
-class Bed {
+// A finder that is shown a recorded motion of a pile, to and fro.
+class Replay {
  public:
-  explicit Bed(int count) : rng_(3) {
-    std::vector<std::shared_ptr<const contact::Shape>> shapes;
-    for (const auto& rock : granular::rock_shapes())
-      shapes.push_back(std::make_shared<contact::Shape>(rock.scaled(0.45)));
-    for (const auto& rock : granular::rock_shapes())
-      shapes.push_back(std::make_shared<contact::Shape>(rock.scaled(0.4)));
-    finder_.add({std::make_shared<contact::Shape>(contact::HalfSpace{Vector3d::UnitZ(), 0}), -1, 0, 0, false,
-                 Isometry3d::Identity()});
-    const int side = 10;
-    for (int k = 0; k < count; ++k) {
-      const Vector3d cell(k % side, k / side % side, k / (side * side));
-      poses_.push_back(random_pose(rng_, 0.3 * cell + Vector3d(0, 0, 0.14)));
-      ids_.push_back(finder_.add(
-          {shapes[static_cast<std::size_t>(k) % shapes.size()], k, 0, 0, true, Isometry3d::Identity()}));
-      finder_.set_pose(ids_.back(), poses_.back());
-    }
+  Replay(const support::RockPile& pile, const std::vector<support::RockPile::Frame>& frames,
+         const contact::ContactFinderOptions& options = {})
+      : frames_(frames), finder_(options) {
+    for (const auto& wall : pile.walls) finder_.add({wall, -1, 0, 0, false, Isometry3d::Identity()});
+    for (std::size_t k = 0; k < pile.shapes.size(); ++k)
+      ids_.push_back(finder_.add({pile.shapes[k], static_cast<int>(k), 0, 0, true, Isometry3d::Identity()}));
+    place();
     finder_.find();
   }
 
-  // Every rock moves by a step of this length [m] and turns by the angle [rad] in a random direction.
-  void shake(double step, double angle) {
-    std::normal_distribution<double> normal;
-    for (std::size_t k = 0; k < poses_.size(); ++k) {
-      Isometry3d X = poses_[k];
-      X.translation() += step * Vector3d(normal(rng_), normal(rng_), normal(rng_)).normalized();
-      X.linear() = Eigen::AngleAxisd(angle, Vector3d(normal(rng_), normal(rng_), normal(rng_)).normalized()) *
-                   X.linear();
-      finder_.set_pose(ids_[k], X);
-    }
+  void advance() {
+    if (frame_ + 1 == frames_.size()) forward_ = false;
+    if (frame_ == 0) forward_ = true;
+    frame_ += forward_ ? 1 : -1;
+    place();
   }
   contact::ContactFinder& finder() { return finder_; }
 
  private:
-  std::mt19937 rng_;
+  void place() {
+    for (std::size_t k = 0; k < ids_.size(); ++k) finder_.set_pose(ids_[k], frames_[frame_][k]);
+  }
+
+  const std::vector<support::RockPile::Frame>& frames_;
   contact::ContactFinder finder_;
-  std::vector<Isometry3d> poses_;
   std::vector<int> ids_;
+  std::size_t frame_ = 0;
+  bool forward_ = true;
 };
 
-// Arguments: rocks, step [µm], turn [µrad].
-void find(benchmark::State& state) {
-  Bed bed(static_cast<int>(state.range(0)));
-  const double step = 1e-6 * static_cast<double>(state.range(1)),
-               angle = 1e-6 * static_cast<double>(state.range(2));
+const support::RockPile& pile_of(int count) {
+  static std::map<int, support::RockPile> piles;
+  const auto known = piles.find(count);
+  return known != piles.end() ? known->second
+                              : piles.emplace(count, support::record_pile(count, 600, 12, 12)).first->second;
+}
+
+// set_pose() of all rocks and find(), a step. Arguments: rocks; 0 at rest, 1 sliding.
+void find_in_pile(benchmark::State& state) {
+  const auto& pile = pile_of(static_cast<int>(state.range(0)));
+  Replay replay(pile, state.range(1) == 0 ? pile.rest : pile.slide);
   double points = 0, computed = 0, manifolds = 0, broad = 0, narrow = 0;
   for (auto _ : state) {
-    state.PauseTiming();
-    bed.shake(step, angle);
-    state.ResumeTiming();
-    const auto& found = bed.finder().find();
+    replay.advance();
+    const auto& found = replay.finder().find();
     manifolds += static_cast<double>(found.size());
     for (const auto& m : found) points += m.count;
-    computed += bed.finder().times().computed;
-    broad += 1e3 * bed.finder().times().broad;
-    narrow += 1e3 * bed.finder().times().narrow;
+    computed += replay.finder().times().computed;
+    broad += 1e6 * replay.finder().times().broad;
+    narrow += 1e6 * replay.finder().times().narrow;
   }
   const auto average = [](double sum) { return benchmark::Counter(sum, benchmark::Counter::kAvgIterations); };
-  state.counters["pairs"] = bed.finder().times().pairs;
+  state.counters["pairs"] = replay.finder().times().pairs;
   state.counters["computed"] = average(computed);
   state.counters["manifolds"] = average(manifolds);
   state.counters["points"] = average(points);
-  state.counters["broad_ms"] = average(broad);
-  state.counters["narrow_ms"] = average(narrow);
+  state.counters["broad_us"] = average(broad);
+  state.counters["narrow_us"] = average(narrow);
 }
-BENCHMARK(find)
-    ->ArgNames({"rocks", "um", "urad"})
-    ->Args({500, 0, 0})
-    ->Args({1000, 0, 0})
-    ->Args({500, 20, 20})
-    ->Args({1000, 20, 20})
-    ->Args({500, 5000, 20000})
-    ->Args({1000, 5000, 20000})
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(find_in_pile)
+    ->ArgNames({"rocks", "slides"})
+    ->Args({300, 0})
+    ->Args({300, 1})
+    ->Args({1000, 0})
+    ->Args({1000, 1})
+    ->Args({3000, 0})
+    ->Args({3000, 1})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -9,13 +9,27 @@
 namespace drawpoint::engine::contact::detail {
 namespace {
 
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+// FCL takes boxes that differ by round-off for equal and keeps the older one. Its boxes are larger by this
+// [m], and what it finds is checked against the true ones.
+constexpr double round_off = 1e-6;
+// Above this share of changed boxes one sweep of the trees is cheaper than single look-ups.
+constexpr int sweep_share = 3;
+// Fewer pairs than this are sorted by comparing.
+constexpr std::size_t few = 512;
+
 // An FCL object that is nothing but its box: FCL would compute the box of a turned shape from its bounding
 // sphere.
 class BoxObject : public fcl::CollisionObjectd {
  public:
   BoxObject(const std::shared_ptr<fcl::CollisionGeometryd>& geometry, int id)
       : fcl::CollisionObjectd(geometry), id_(id) {}
-  void set_box(const Eigen::AlignedBox3d& box) { aabb = fcl::AABBd(box.min(), box.max()); }
+  void set_box(const AlignedBox3d& box) {
+    const Vector3d growth = Vector3d::Constant(round_off);
+    aabb = fcl::AABBd(box.min() - growth, box.max() + growth);
+  }
   int id() const { return id_; }
 
  private:
@@ -23,19 +37,55 @@ class BoxObject : public fcl::CollisionObjectd {
 };
 
 struct Entry {
-  std::unique_ptr<BoxObject> object;
-  bool moves = false, changed = false, changed_before = false, dirty = false;
+  std::unique_ptr<BoxObject> object;  // none for a half-space
+  bool plane = false, moves = false, changed = false, changed_before = false, dirty = false;
 };
 
-bool collect(fcl::CollisionObjectd* first, fcl::CollisionObjectd* second, void* pairs) {
+struct Collector {
+  const std::vector<AlignedBox3d>& boxes;
+  std::vector<BroadPhase::Pair>& pairs;
+};
+
+bool collect(fcl::CollisionObjectd* first, fcl::CollisionObjectd* second, void* data) {
+  Collector& collector = *static_cast<Collector*>(data);
   const int a = static_cast<BoxObject*>(first)->id(), b = static_cast<BoxObject*>(second)->id();
-  if (a != b)
-    static_cast<std::vector<BroadPhase::Pair>*>(pairs)->emplace_back(std::min(a, b), std::max(a, b));
+  if (a != b && collector.boxes[a].intersects(collector.boxes[b]))
+    collector.pairs.emplace_back(std::min(a, b), std::max(a, b));
   return false;  // go on
 }
 
-// Above this share of changed boxes one sweep of the trees is cheaper than single look-ups.
-constexpr int sweep_share = 4;
+// Sorts pairs of numbers below `end` by counting, the second member first; then removes repeats.
+class PairSorter {
+ public:
+  void sort(std::vector<BroadPhase::Pair>& pairs, std::size_t end) {
+    if (pairs.size() < few) {
+      std::sort(pairs.begin(), pairs.end());
+    } else {
+      spare_.resize(pairs.size());
+      distribute(pairs, spare_, end, [](const BroadPhase::Pair& p) { return p.second; });
+      distribute(spare_, pairs, end, [](const BroadPhase::Pair& p) { return p.first; });
+    }
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  }
+
+ private:
+  template <class Key>
+  void distribute(const std::vector<BroadPhase::Pair>& from, std::vector<BroadPhase::Pair>& to,
+                  std::size_t end, const Key& key) {
+    place_.assign(end + 1, 0);
+    for (const auto& pair : from) ++place_[static_cast<std::size_t>(key(pair)) + 1];
+    for (std::size_t k = 1; k <= end; ++k) place_[k] += place_[k - 1];
+    for (const auto& pair : from) to[place_[static_cast<std::size_t>(key(pair))]++] = pair;
+  }
+
+  std::vector<BroadPhase::Pair> spare_;
+  std::vector<std::size_t> place_;
+};
+
+bool reaches(const AlignedBox3d& box, const Plane& plane) {
+  const Vector3d lowest = (plane.normal.array() > 0).select(box.min(), box.max());
+  return plane.normal.dot(lowest) <= plane.offset;
+}
 
 }  // namespace
 
@@ -50,36 +100,58 @@ class BroadPhase::Impl {
     entry.changed = true;
   }
 
-  void add(int id, const Eigen::AlignedBox3d& box, bool moves) {
-    if (static_cast<std::size_t>(id) >= entries_.size()) entries_.resize(static_cast<std::size_t>(id) + 1);
-    Entry& entry = at(id);
+  Entry& make(int id, bool moves) {
+    const auto size = std::max(entries_.size(), static_cast<std::size_t>(id) + 1);
+    entries_.resize(size);
+    boxes_.resize(size);
+    planes_.resize(size);
+    at(id).moves = moves;
+    mark(id);
+    return at(id);
+  }
+
+  void add(int id, const AlignedBox3d& box, bool moves) {
+    Entry& entry = make(id, moves);
     entry.object = std::make_unique<BoxObject>(geometry_, id);
     entry.object->set_box(box);
-    entry.moves = moves;
+    boxes_[id] = box;
     tree(moves).registerObject(entry.object.get());
-    mark(id);
+  }
+
+  void add(int id, const Plane& plane, bool moves) {
+    make(id, moves).plane = true;
+    planes_[id] = plane;
+    plane_ids_.push_back(id);
   }
 
   void remove(int id) {
     Entry& entry = at(id);
-    tree(entry.moves).unregisterObject(entry.object.get());
+    mark(id);
+    if (entry.object) tree(entry.moves).unregisterObject(entry.object.get());
     entry.object.reset();
+    entry.plane = false;
+    std::erase(plane_ids_, id);
+  }
+
+  void set_box(int id, const AlignedBox3d& box) {
+    boxes_[id] = box;
+    at(id).object->set_box(box);
+    at(id).dirty = true;
     mark(id);
   }
 
-  void set_box(int id, const Eigen::AlignedBox3d& box) {
-    at(id).object->set_box(box);
-    at(id).dirty = true;
+  void set_plane(int id, const Plane& plane) {
+    planes_[id] = plane;
     mark(id);
   }
 
   void set_moves(int id, bool moves) {
     Entry& entry = at(id);
     if (entry.moves == moves) return;
-    tree(entry.moves).unregisterObject(entry.object.get());
+    if (entry.object) tree(entry.moves).unregisterObject(entry.object.get());
     entry.moves = moves;
     entry.dirty = false;
-    tree(moves).registerObject(entry.object.get());
+    if (entry.object) tree(moves).registerObject(entry.object.get());
     mark(id);
   }
 
@@ -103,6 +175,14 @@ class BroadPhase::Impl {
   }
 
   bool changed(int id) const { return entries_[static_cast<std::size_t>(id)].changed_before; }
+  const AlignedBox3d& box(int id) const { return boxes_[static_cast<std::size_t>(id)]; }
+  const std::vector<int>& pending() const { return changed_; }
+
+  void set_pending(const std::vector<int>& ids) {
+    // The trees must take the boxes over all the same.
+    update();
+    for (int id : ids) mark(id);
+  }
 
  private:
   void refresh(fcl::DynamicAABBTreeCollisionManagerd& tree,
@@ -113,34 +193,58 @@ class BroadPhase::Impl {
       tree.setup();
   }
 
+  void meet_plane(int plane, int box) {
+    const Entry& entry = at(box);
+    if (entry.object && (entry.moves || at(plane).moves) && reaches(boxes_[box], planes_[plane]))
+      pairs_.emplace_back(std::min(plane, box), std::max(plane, box));
+  }
+
+  void meet_all(int plane) {
+    for (std::size_t id = 0; id < entries_.size(); ++id) meet_plane(plane, static_cast<int>(id));
+  }
+
+  int sweep() {
+    Collector collector{boxes_, pairs_};
+    moving_.collide(&collector, collect);
+    if (moving_.size() > 0 && fixed_.size() > 0) moving_.collide(&fixed_, &collector, collect);
+    for (int plane : plane_ids_) meet_all(plane);
+    return 2;
+  }
+
+  int look_up_changed() {
+    Collector collector{boxes_, pairs_};
+    int look_ups = 0;
+    for (int id : before_) {
+      Entry& entry = at(id);
+      if (entry.plane) meet_all(id);
+      if (!entry.object) continue;
+      ++look_ups;
+      moving_.collide(entry.object.get(), &collector, collect);
+      if (entry.moves) fixed_.collide(entry.object.get(), &collector, collect);
+      for (int plane : plane_ids_) meet_plane(plane, id);
+    }
+    return look_ups;
+  }
+
   Changes look_up() {
     pairs_.clear();
     if (before_.empty()) return {false, false, pairs_, 0};
     const bool everything = before_.size() * sweep_share > moving_.size() + fixed_.size();
-    int look_ups = everything ? 2 : 0;
-    if (everything) {
-      moving_.collide(&pairs_, collect);
-      if (moving_.size() > 0 && fixed_.size() > 0) moving_.collide(&fixed_, &pairs_, collect);
-    } else {
-      for (int id : before_) {
-        Entry& entry = at(id);
-        if (!entry.object) continue;
-        ++look_ups;
-        moving_.collide(entry.object.get(), &pairs_, collect);
-        if (entry.moves) fixed_.collide(entry.object.get(), &pairs_, collect);
-      }
-    }
-    std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    const int look_ups = everything ? sweep() : look_up_changed();
+    sorter_.sort(pairs_, entries_.size());
     return {true, everything, pairs_, look_ups};
   }
 
   std::shared_ptr<fcl::CollisionGeometryd> geometry_ = std::make_shared<fcl::Sphered>(1.0);
   std::vector<Entry> entries_;
+  std::vector<AlignedBox3d> boxes_;
+  std::vector<Plane> planes_;
+  std::vector<int> plane_ids_;
   fcl::DynamicAABBTreeCollisionManagerd moving_, fixed_;
   std::vector<int> changed_, before_;
   std::vector<fcl::CollisionObjectd*> moved_, fixed_moved_;
   std::vector<Pair> pairs_;
+  PairSorter sorter_;
 };
 
 BroadPhase::BroadPhase() : impl_(std::make_unique<Impl>()) {}
@@ -148,11 +252,16 @@ BroadPhase::~BroadPhase() = default;
 BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 
-void BroadPhase::add(int id, const Eigen::AlignedBox3d& box, bool moves) { impl_->add(id, box, moves); }
+void BroadPhase::add(int id, const AlignedBox3d& box, bool moves) { impl_->add(id, box, moves); }
+void BroadPhase::add(int id, const Plane& plane, bool moves) { impl_->add(id, plane, moves); }
 void BroadPhase::remove(int id) { impl_->remove(id); }
-void BroadPhase::set_box(int id, const Eigen::AlignedBox3d& box) { impl_->set_box(id, box); }
+void BroadPhase::set_box(int id, const AlignedBox3d& box) { impl_->set_box(id, box); }
+void BroadPhase::set_plane(int id, const Plane& plane) { impl_->set_plane(id, plane); }
 void BroadPhase::set_moves(int id, bool moves) { impl_->set_moves(id, moves); }
 BroadPhase::Changes BroadPhase::update() { return impl_->update(); }
 bool BroadPhase::changed(int id) const { return impl_->changed(id); }
+const AlignedBox3d& BroadPhase::box(int id) const { return impl_->box(id); }
+const std::vector<int>& BroadPhase::pending() const { return impl_->pending(); }
+void BroadPhase::set_pending(const std::vector<int>& ids) { impl_->set_pending(ids); }
 
 }  // namespace drawpoint::engine::contact::detail

@@ -49,39 +49,36 @@ int reduce_to_four(std::vector<ClipPoint>& points, const Vector3d& along) {
   return wider ? 4 : 3;
 }
 
-void Clipper::clear() {
-  reference_.clear();
-  incident_.clear();
-}
-
-// Keeps the part of the polygon on the inner side of the plane through one reference edge.
-void Clipper::cut(const Corner& from, const Corner& to, const Vector3d& normal, std::uint32_t group) {
-  const Vector3d outward = (to.position - from.position).cross(normal);
-  const double offset = outward.dot(from.position);
+// Keeps the part of the polygon on the inner side of the plane that stands on one side of the reference face.
+void Clipper::cut(const HullCorner& side, std::uint32_t group) {
+  bool crosses = false;
+  for (Node& node : polygon_) {
+    node.beyond = side.outward.dot(node.position) - side.reach;
+    crosses = crosses || node.beyond > 0;
+  }
+  if (!crosses) return;
   next_.clear();
   for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Node &here = polygon_[k], &ahead = polygon_[(k + 1) % polygon_.size()];
-    const double d = outward.dot(here.position) - offset, e = outward.dot(ahead.position) - offset;
-    if (d <= 0) next_.push_back(here);
-    if ((d <= 0) == (e <= 0)) continue;
+    const Node &here = polygon_[k], &ahead = polygon_[k + 1 < polygon_.size() ? k + 1 : 0];
+    if (here.beyond <= 0) next_.push_back(here);
+    if ((here.beyond <= 0) == (ahead.beyond <= 0)) continue;
     // A crossing on the way out goes on along the reference edge, one on the way in along its own edge.
-    const Vector3d crossing = here.position + d / (d - e) * (ahead.position - here.position);
-    const int onward = d <= 0 ? reference_mark | from.index : here.edge;
-    next_.push_back(
-        {crossing, onward, feature_number(group, here.edge, static_cast<std::uint32_t>(from.index))});
+    const double share = here.beyond / (here.beyond - ahead.beyond);
+    const int onward = here.beyond <= 0 ? reference_mark | side.vertex : here.edge;
+    next_.push_back({here.position + share * (ahead.position - here.position), 0, onward,
+                     feature_number(group, here.edge, static_cast<std::uint32_t>(side.vertex))});
   }
   polygon_.swap(next_);
 }
 
-const std::vector<ClipPoint>& Clipper::clip(const Vector3d& normal, double margin, std::uint32_t group) {
-  polygon_.clear();
-  for (const Corner& c : incident_)
-    polygon_.push_back({c.position, c.index, feature_number(group, c.index, vertex_mark)});
-  for (std::size_t k = 0; k < reference_.size() && !polygon_.empty(); ++k)
-    cut(reference_[k], reference_[(k + 1) % reference_.size()], normal, group);
+const std::vector<ClipPoint>& Clipper::clip(const CollisionHull& reference, int face, double margin,
+                                            std::uint32_t group) {
+  for (const HullCorner& side : reference.corners(face)) cut(side, group);
   points_.clear();
+  const Vector3d& normal = reference.normals[static_cast<std::size_t>(face)];
+  const double offset = reference.offsets[static_cast<std::size_t>(face)];
   for (const Node& node : polygon_) {
-    const double gap = normal.dot(node.position - reference_[0].position);
+    const double gap = normal.dot(node.position) - offset;
     if (gap <= margin) points_.push_back({node.position, gap, node.feature});
   }
   points_.resize(static_cast<std::size_t>(reduce_to_four(points_, normal)));

@@ -3,16 +3,16 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 #include <cstdint>
+#include <drawpoint/engine/contact/collision_hull.hpp>
 #include <vector>
 
 /// Facing polygons clipped to a manifold (Sutherland and Hodgman 1974) and the choice of four points.
 ///
-/// The incident polygon is cut by the planes through the edges of the reference polygon along its normal;
-/// what is left within the margin of the reference plane is the contact. Each point knows its origin, a
-/// vertex of the incident polygon or a crossing of two edges, as a number that stays the same while the same
-/// features touch.
+/// The incident polygon is cut by the planes on the sides of the reference face; what is left within the
+/// margin of the face's own plane is the contact. Each point knows its origin, a vertex of the incident
+/// polygon or a crossing of two edges, as a number that stays the same while the same features touch. All in
+/// the frame of the reference shape. Cost: some 10 ns for each side that cuts, less for one that does not.
 namespace drawpoint::engine::contact::detail {
 
 struct ClipPoint {
@@ -34,27 +34,26 @@ int reduce_to_four(std::vector<ClipPoint>& points, const Eigen::Vector3d& along)
 
 class Clipper {
  public:
-  struct Corner {
-    Eigen::Vector3d position;
-    int index;  ///< of the vertex in its shape
-  };
-  void clear();
-  void add_reference(const Corner& corner) { reference_.push_back(corner); }
-  void add_incident(const Corner& corner) { incident_.push_back(corner); }
+  void clear() { polygon_.clear(); }
+  /// A corner of the incident polygon and its number in its shape; either sense of turning will do.
+  void add_incident(const Eigen::Vector3d& position, int vertex, std::uint32_t group) {
+    polygon_.push_back({position, 0, vertex, feature_number(group, vertex, vertex_mark)});
+  }
 
-  /// Clips the incident polygon to the reference polygon (counter-clockwise about its outward normal), keeps
-  /// what is within the margin and reduces it to four points. `group`: upper byte of the feature numbers.
-  const std::vector<ClipPoint>& clip(const Eigen::Vector3d& normal, double margin, std::uint32_t group);
+  /// Clips the incident polygon to the face, keeps what is within the margin and reduces it to four points.
+  /// `group`: upper byte of the feature numbers.
+  const std::vector<ClipPoint>& clip(const CollisionHull& reference, int face, double margin,
+                                     std::uint32_t group);
 
  private:
   struct Node {
     Eigen::Vector3d position;
-    int edge;  // incident vertex at which the polygon edge after this node starts
+    double beyond;  // the side that is being cut
+    int edge;       // incident vertex at which the polygon edge after this node starts
     std::uint32_t feature;
   };
-  void cut(const Corner& from, const Corner& to, const Eigen::Vector3d& normal, std::uint32_t group);
+  void cut(const HullCorner& side, std::uint32_t group);
 
-  std::vector<Corner> reference_, incident_;
   std::vector<Node> polygon_, next_;
   std::vector<ClipPoint> points_;
 };

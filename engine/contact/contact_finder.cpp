@@ -2,22 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/contact/contact_finder.hpp>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <drawpoint/engine/contact/finder_items.hpp>
-#include <drawpoint/engine/contact/pair_cache.hpp>
-#include <drawpoint/engine/contact/plane_contact.hpp>
+#include <drawpoint/engine/contact/finder_state.hpp>
+#include <drawpoint/engine/contact/narrow_phase.hpp>
 #include <limits>
-#include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace drawpoint::engine::contact {
 namespace {
 
-using detail::Item;
-using detail::PairState;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
@@ -36,19 +32,25 @@ void check(const ContactFinderOptions& options) {
   at_least_zero("reuse_distance", options.reuse_distance, "m");
   at_least_zero("reuse_angle", options.reuse_angle, "rad");
   at_least_zero("hysteresis", options.hysteresis, "m");
+  if (options.threads < 1 || options.threads > 256)
+    refuse("threads is " + std::to_string(options.threads) + "; give 1 to 256");
+}
+
+void check(int collider, const Isometry3d& pose) {
+  const Vector3d p = pose.translation();
+  const double skew = (pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity()).squaredNorm();
+  if (p.allFinite() && skew < 1e-12) return;
+  std::ostringstream text;
+  text << "the pose of collider " << collider << " has ";
+  if (!p.allFinite())
+    text << "translation (" << p.x() << ", " << p.y() << ", " << p.z() << ") m, which is not finite; ";
+  else
+    text << "axes that are off orthonormal by " << std::sqrt(skew) << "; allowed: 1e-6; ";
+  refuse(text.str() + "give a rigid motion");
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Manifold between(const Item& a, const Item& b, int id_a, int id_b) {
-  Manifold manifold;
-  manifold.collider_a = id_a, manifold.collider_b = id_b;
-  manifold.body_a = a.collider.body, manifold.body_b = b.collider.body;
-  manifold.radius = 1 / (1 / a.equivalent_radius + 1 / b.equivalent_radius);
-  manifold.count = 0;
-  return manifold;
 }
 
 }  // namespace
@@ -56,42 +58,46 @@ Manifold between(const Item& a, const Item& b, int id_a, int id_b) {
 class ContactFinder::Impl {
  public:
   explicit Impl(const ContactFinderOptions& options)
-      : options_(options), search_margin_(options.margin + options.reuse_distance) {
-    check(options);
-  }
+      : options_(options),
+        growth_(0.5 * (options.margin + options.reuse_distance)),
+        narrow_((check(options), options)) {}
 
   int add(const Collider& collider) {
-    const int id = static_cast<int>(items_.size());
-    items_.push_back(hulls_.make_item(collider));
-    Item& item = items_.back();
-    item.place(Isometry3d::Identity());
-    if (item.hull) boxes_.add(id, fat_box(item), collider.moves);
+    const int id = items_.size();
+    items_.add(hulls_.make_item(collider));
+    if (items_.item[id].hull)
+      boxes_.add(id, fat_box(id), collider.moves);
+    else
+      boxes_.add(id, fat_plane(id), collider.moves);
     return id;
   }
 
   void remove(int id) {
-    if (at(id).hull) boxes_.remove(id);
-    at(id) = Item{};
+    require(id);
+    boxes_.remove(id);
+    items_.remove(id);
   }
 
-  Item& at(int id) {
-    if (id < 0 || static_cast<std::size_t>(id) >= items_.size() ||
-        !items_[static_cast<std::size_t>(id)].alive())
-      refuse("there is no collider " + std::to_string(id) +
-             "; use a number that add() gave and remove() has not taken");
-    return items_[static_cast<std::size_t>(id)];
+  const Collider& collider(int id) const {
+    require(id);
+    return items_.item[id].collider;
   }
 
   void set_pose(int id, const Isometry3d& X_WB) {
-    if (!X_WB.matrix().allFinite()) refuse("the pose of collider " + std::to_string(id) + " is not finite");
-    at(id).place(X_WB);
+    require(id);
+    check(id, X_WB);
+    items_.place(id, X_WB);
+    auto& item = items_.item[id];
+    if (item.restless || (item.hull && items_.travelled[id] - item.boxed_at <= options_.slack)) return;
+    item.restless = true;
+    restless_.push_back(id);
   }
 
   void set_moves(int id, bool moves) {
-    Item& item = at(id);
-    if (item.collider.moves == moves) return;
-    item.collider.moves = moves;
-    if (item.hull) boxes_.set_moves(id, moves);
+    require(id);
+    if (items_.traits[id].moves == moves) return;
+    items_.traits[id].moves = items_.item[id].collider.moves = moves;
+    boxes_.set_moves(id, moves);
   }
 
   const std::vector<Manifold>& find() {
@@ -100,163 +106,94 @@ class ContactFinder::Impl {
     broad_phase();
     times_.broad = seconds_since(start);
     const auto middle = std::chrono::steady_clock::now();
-    find_planes();
-    find_pairs();
+    times_.computed = narrow_.run(items_, pairs_, manifolds_);
     times_.narrow = seconds_since(middle);
     return manifolds_;
   }
 
   void forget() {
     pairs_.forget();
-    for (std::size_t id = 0; id < items_.size(); ++id) {
-      if (!items_[id].hull) continue;
-      items_[id].travelled = 0;
-      boxes_.set_box(static_cast<int>(id), fat_box(items_[id]));
+    for (int id = 0; id < items_.size(); ++id) {
+      items_.travelled[id] = 0;
+      if (items_.item[id].hull) boxes_.set_box(id, fat_box(id));
     }
+  }
+
+  void save(std::vector<std::byte>& bytes) const {
+    detail::save_state({options_, items_, boxes_, pairs_}, bytes);
+  }
+
+  void restore(std::span<const std::byte> bytes) {
+    const detail::FinderState state = detail::read_state({options_, items_, boxes_, pairs_}, bytes);
+    restless_.clear();
+    for (int id = 0; id < items_.size(); ++id) {
+      if (!items_.traits[id].alive) continue;
+      const auto& saved = state.colliders[id];
+      set_moves(id, saved.moves);
+      items_.placed[id].R = saved.R, items_.placed[id].p = saved.p, items_.placed[id].centre = saved.centre;
+      items_.travelled[id] = saved.travelled;
+      items_.item[id].boxed_at = saved.boxed_at;
+      items_.item[id].restless = saved.restless;
+      if (saved.restless) restless_.push_back(id);
+      if (items_.item[id].hull)
+        boxes_.set_box(id, saved.box);
+      else
+        boxes_.set_plane(id, fat_plane(id));
+    }
+    boxes_.set_pending(state.pending);
+    pairs_.assign(state.entries, state.pairs);
   }
 
   const FinderTimes& times() const { return times_; }
 
  private:
-  Item& item(int id) { return items_[static_cast<std::size_t>(id)]; }
+  void require(int id) const {
+    if (id < 0 || id >= items_.size() || !items_.traits[id].alive)
+      refuse("there is no collider " + std::to_string(id) +
+             "; use a number that add() gave and remove() has not taken");
+  }
 
-  Eigen::AlignedBox3d fat_box(Item& item) const {
-    Eigen::AlignedBox3d box = item.box();
-    const Vector3d growth = Vector3d::Constant(0.5 * search_margin_ + options_.slack);
+  Eigen::AlignedBox3d fat_box(int id) {
+    Eigen::AlignedBox3d box = items_.box(id);
+    const Vector3d growth = Vector3d::Constant(growth_ + options_.slack);
     box.min() -= growth, box.max() += growth;
-    item.boxed_at = item.travelled;
+    items_.item[id].boxed_at = items_.travelled[id];
     return box;
   }
 
-  static bool may_touch(const Item& a, const Item& b) {
-    return a.collider.body != b.collider.body && (a.collider.moves || b.collider.moves) &&
-           (a.collider.family <= 0 || a.collider.family != b.collider.family);
+  detail::Plane fat_plane(int id) const {
+    detail::Plane plane = items_.plane(id);
+    plane.offset += growth_;
+    return plane;
   }
 
   void broad_phase() {
-    for (std::size_t id = 0; id < items_.size(); ++id)
-      if (items_[id].hull && items_[id].travelled - items_[id].boxed_at > options_.slack)
-        boxes_.set_box(static_cast<int>(id), fat_box(items_[id]));
+    for (int id : restless_) {
+      if (!items_.traits[id].alive) continue;
+      items_.item[id].restless = false;
+      if (items_.item[id].hull) {
+        boxes_.set_box(id, fat_box(id));
+      } else {
+        boxes_.set_plane(id, fat_plane(id));
+        pairs_.forget(id);
+      }
+    }
+    restless_.clear();
     const auto changes = boxes_.update();
     times_.fcl_calls = changes.look_ups;
-    if (changes.any)
-      pairs_.update(boxes_, changes, [this](int a, int b) { return may_touch(item(a), item(b)); });
+    if (changes.any) pairs_.update(boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); });
     times_.pairs = static_cast<int>(pairs_.entries().size());
   }
 
-  // Contacts with half-spaces, ordered like the pairs so that find_pairs() can interleave them.
-  void find_planes() {
-    plane_manifolds_.clear();
-    for (std::size_t p = 0; p < items_.size(); ++p) {
-      if (!items_[p].plane) continue;
-      const detail::Plane plane = items_[p].plane_in_world();
-      for (std::size_t s = 0; s < items_.size(); ++s)
-        if (items_[s].hull && may_touch(items_[p], items_[s]))
-          touch_plane(plane, static_cast<int>(p), static_cast<int>(s));
-    }
-    std::sort(plane_manifolds_.begin(), plane_manifolds_.end(), [](const Manifold& x, const Manifold& y) {
-      return std::pair(x.collider_a, x.collider_b) < std::pair(y.collider_a, y.collider_b);
-    });
-  }
-
-  void touch_plane(const detail::Plane& plane, int plane_id, int shape_id) {
-    const Item &ground = item(plane_id), &shape = item(shape_id);
-    if (plane.normal.dot(shape.centre) - plane.offset > shape.hull->radius + options_.margin) return;
-    if (shape.cylinder)
-      detail::plane_contact(plane, *shape.cylinder, shape.X_WC, options_.margin, clip_);
-    else
-      detail::plane_contact(plane, *shape.hull, shape.X_WC, options_.margin, clip_);
-    if (clip_.empty()) return;
-    const bool first = plane_id < shape_id;
-    Manifold manifold =
-        first ? between(ground, shape, plane_id, shape_id) : between(shape, ground, shape_id, plane_id);
-    manifold.normal = first ? plane.normal : Vector3d(-plane.normal);
-    for (const detail::ClipPoint& p : clip_)
-      manifold.points[static_cast<std::size_t>(manifold.count++)] = {p.position - 0.5 * p.gap * plane.normal,
-                                                                     p.gap, p.feature};
-    plane_manifolds_.push_back(manifold);
-  }
-
-  void find_pairs() {
-    manifolds_.clear();
-    auto plane = plane_manifolds_.begin();
-    for (const auto& entry : pairs_.entries()) {
-      const Item &a = item(entry.a), &b = item(entry.b);
-      PairState& state = pairs_.state(entry);
-      if (!still_good(a, b, state)) compute(a, b, state);
-      if (state.contact.count == 0) continue;
-      for (; plane != plane_manifolds_.end() &&
-             std::pair(plane->collider_a, plane->collider_b) < std::pair(entry.a, entry.b);
-           ++plane)
-        manifolds_.push_back(*plane);
-      carry_along(a, b, entry, state.contact);
-    }
-    manifolds_.insert(manifolds_.end(), plane, plane_manifolds_.end());
-  }
-
-  // Whether the shapes have moved so little against each other that the remembered contact serves. First by
-  // how far both have travelled, which costs nothing; then by where they stand against each other.
-  bool still_good(const Item& a, const Item& b, const PairState& state) const {
-    if (!state.known) return false;
-    const Item &small = a.hull->radius < b.hull->radius ? a : b, &large = &small == &a ? b : a;
-    const bool touching = state.contact.count > 0;
-    const double travelled = a.travelled + b.travelled - state.travelled, r = small.hull->radius;
-    const double free = state.contact.separation - options_.margin;
-    if (travelled <= (touching ? std::min(options_.reuse_distance, options_.reuse_angle * r) : free))
-      return true;
-    const Eigen::Matrix3d R_WL = large.X_WC.linear();
-    const double distance =
-        (R_WL.transpose() * (small.centre - large.X_WC.translation()) - state.centre).norm();
-    if (distance > (touching ? options_.reuse_distance : free)) return false;
-    // ‖ΔR‖_F/√2 is the largest displacement of a unit vector, 2 sin(θ/2).
-    const double turn =
-        (R_WL.transpose() * small.X_WC.linear() - state.orientation).norm() / std::numbers::sqrt2;
-    return touching ? turn <= options_.reuse_angle : distance + turn * r <= free;
-  }
-
-  void compute(const Item& a, const Item& b, PairState& state) {
-    ++times_.computed;
-    const Item &small = a.hull->radius < b.hull->radius ? a : b, &large = &small == &a ? b : a;
-    const Eigen::Matrix3d R_WL = large.X_WC.linear();
-    state.known = true;
-    state.travelled = a.travelled + b.travelled;
-    state.centre = R_WL.transpose() * (small.centre - large.X_WC.translation());
-    state.orientation = R_WL.transpose() * small.X_WC.linear();
-    const double apart = (a.centre - b.centre).norm() - a.hull->radius - b.hull->radius;
-    if (apart > search_margin_) {
-      state.contact.count = 0;
-      state.contact.separation = apart;
-      return;
-    }
-    state.contact = convex_.find({*a.hull, *b.hull, a.X_WC.inverse() * b.X_WC},
-                                 {search_margin_, options_.hysteresis, state.contact.feature});
-  }
-
-  // The remembered contact at the present poses.
-  void carry_along(const Item& a, const Item& b, const detail::PairCache::Entry& entry,
-                   const detail::ConvexContact& contact) {
-    Manifold& manifold = manifolds_.emplace_back(between(a, b, entry.a, entry.b));
-    manifold.normal = (contact.normal_of_b ? b : a).X_WC.linear() * contact.normal;
-    for (int k = 0; k < contact.count; ++k) {
-      const detail::Anchors& anchors = contact.points[static_cast<std::size_t>(k)];
-      const Vector3d on_a = a.X_WC * anchors.on_a, on_b = b.X_WC * anchors.on_b;
-      const double gap = manifold.normal.dot(on_b - on_a);
-      if (gap <= options_.margin)
-        manifold.points[static_cast<std::size_t>(manifold.count++)] = {0.5 * (on_a + on_b), gap,
-                                                                       anchors.feature};
-    }
-    if (manifold.count == 0) manifolds_.pop_back();
-  }
-
   ContactFinderOptions options_;
-  double search_margin_;
-  std::vector<Item> items_;
+  double growth_;  // half of how near shapes must come to be searched
+  detail::Items items_;
   detail::HullLibrary hulls_;
   detail::BroadPhase boxes_;
   detail::PairCache pairs_;
-  detail::ConvexContactSearch convex_;
-  std::vector<detail::ClipPoint> clip_;
-  std::vector<Manifold> manifolds_, plane_manifolds_;
+  detail::NarrowPhase narrow_;
+  std::vector<int> restless_;  // have left their boxes, or are half-spaces that were moved
+  std::vector<Manifold> manifolds_;
   FinderTimes times_;
 };
 
@@ -267,11 +204,13 @@ ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
 
 int ContactFinder::add(const Collider& collider) { return impl_->add(collider); }
 void ContactFinder::remove(int collider) { impl_->remove(collider); }
-const Collider& ContactFinder::collider(int collider) const { return impl_->at(collider).collider; }
+const Collider& ContactFinder::collider(int collider) const { return impl_->collider(collider); }
 void ContactFinder::set_pose(int collider, const Isometry3d& X_WB) { impl_->set_pose(collider, X_WB); }
 void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }
 void ContactFinder::forget() { impl_->forget(); }
+void ContactFinder::save(std::vector<std::byte>& bytes) const { impl_->save(bytes); }
+void ContactFinder::restore(std::span<const std::byte> bytes) { impl_->restore(bytes); }
 
 }  // namespace drawpoint::engine::contact

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstddef>
 #include <drawpoint/engine/contact/manifold.hpp>
 #include <drawpoint/engine/contact/shape.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 /// Finds all contacts of a scene, step after step.
@@ -21,9 +23,12 @@
 ///
 /// Pairs that have hardly moved against each other reuse their manifold, carried along rigidly. A point's gap
 /// then changes with the motion, |Δgap| ≤ m, and so does the true overlap: the deepest reported gap is off by
-/// at most 2m, m = reuse_distance + reuse_angle · (radius of the smaller shape). Same calls, same bits. After
-/// forget() results depend on the present poses alone. Not for concurrent use. World frame, SI units. Cost:
-/// about 0.1 µs a pair reused, 1 to 2 µs a pair computed.
+/// at most 2m, m = reuse_distance + reuse_angle · (radius of the smaller shape). Two colliders that do not
+/// move are no pair and cost nothing.
+///
+/// Same calls, same bits, on any number of threads and any x86-64 machine. save() and restore() carry over
+/// all that later results depend on. Not for concurrent use. World frame, SI units. Cost: 2 ns a pair apart
+/// at rest, 30 to 60 ns a contact reused, 0.3 to 0.8 µs a contact computed.
 namespace drawpoint::engine::contact {
 
 struct Collider {
@@ -42,6 +47,7 @@ struct ContactFinderOptions {
   double reuse_distance = 1e-3;  ///< [m] ≥ 0; relative motion below which a manifold is carried along
   double reuse_angle = 2e-3;     ///< [rad] ≥ 0; the same for rotation
   double hysteresis = 1e-4;  ///< [m] ≥ 0; last time's axis is kept while its overlap is the least within this
+  int threads = 1;           ///< 1 to 256; the results do not depend on it
 };
 
 /// Of the last find().
@@ -66,7 +72,8 @@ class ContactFinder {
   void remove(int collider);
   const Collider& collider(int collider) const;
 
-  /// Throws std::invalid_argument for a pose that is not finite.
+  /// Throws std::invalid_argument for a pose that is not finite or whose axes are not orthonormal within
+  /// 1e-6.
   void set_pose(int collider, const Eigen::Isometry3d& X_WB);
   /// Freezes or wakes a collider; between two frozen ones nothing is searched.
   void set_moves(int collider, bool moves);
@@ -75,8 +82,15 @@ class ContactFinder {
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
 
-  /// Drops everything remembered between calls (manifolds, axes, boxes): call it on both sides of a snapshot.
+  /// Drops everything remembered between calls (manifolds, axes, boxes).
   void forget();
+
+  /// Appends the state to `bytes`: poses, boxes, odometers, pairs and their contacts, in this machine's
+  /// number format. A finder with the same options and colliders that restores it goes on with the same bits.
+  void save(std::vector<std::byte>& bytes) const;
+  /// Takes over a state. Throws std::runtime_error, and leaves the finder as it was, when the bytes are not
+  /// the state of a finder with these options and colliders: what is wrong, where, and what was expected.
+  void restore(std::span<const std::byte> bytes);
 
  private:
   class Impl;

@@ -12,7 +12,8 @@
 /// Face axis: the facing polygon of the other shape is clipped to the face's prism and reduced to four
 /// points. Edge axis: the nearest points of the two edges. Separated shapes whose polygons do not face each
 /// other: the nearest points of their edges, if within the margin. So shapes nearer than the margin always
-/// give a point, and shapes farther apart never.
+/// give a point, and shapes farther apart never. When there is no point, the normal is A's and n·x = reach is
+/// a plane on A that B was clear of.
 namespace drawpoint::engine::contact::detail {
 
 struct Anchors {
@@ -23,23 +24,24 @@ struct Anchors {
 
 struct ConvexContact {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< from A to B, in the frame of its owner
-  bool normal_of_b = false;                          ///< the face that gives the normal belongs to B
-  std::array<Anchors, 4> points;
-  int count = 0;
   double separation = 0;  ///< lower bound on the distance when count = 0, separation along the axis otherwise
-  Feature feature;        ///< hint for next time
+  double reach = 0;       ///< of A along the normal
+  int count = 0;
+  bool normal_of_b = false;  ///< the face that gives the normal belongs to B
+  Feature feature;           ///< hint for next time
+  std::array<Anchors, 4> points;
 };
 
 class ConvexContactSearch {
  public:
-  ConvexContact find(const HullPair& pair, const AxisQuery& query);
+  /// Into `contact`, whatever it held.
+  void find(const HullPair& pair, const AxisQuery& query, ConvexContact& contact);
 
  private:
   void touch(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void face_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void edge_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) const;
-  void nearest_contact(const HullPair& pair, double margin, ConvexContact& contact) const;
-  void support_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) const;
+  void nearest_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
 
   AxisSearch axes_;
   Clipper clipper_;

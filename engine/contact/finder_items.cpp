@@ -32,32 +32,58 @@ void check(const HalfSpace& plane) {
 
 }  // namespace
 
-void Item::place(const Eigen::Isometry3d& X_WB) {
-  const Eigen::Isometry3d before = X_WC;
-  X_WC = X_WB * collider.X_BC;
-  if (!hull) return;
-  const Eigen::Vector3d moved = X_WC * hull->centre;
-  travelled +=
-      (moved - centre).norm() + (X_WC.linear() - before.linear()).norm() / std::numbers::sqrt2 * hull->radius;
-  centre = moved;
+void Items::add(Item added) {
+  const bool half_space = added.plane != nullptr;
+  double radius = 0;
+  if (added.cylinder)
+    radius = std::cbrt(1.5 * added.cylinder->radius * added.cylinder->radius * added.cylinder->half_width);
+  else if (!half_space)
+    radius = added.hull->equivalent_radius;
+  const Collider& c = added.collider;
+  traits.push_back({c.body, c.family, c.moves, true, half_space ? 0 : 1 / radius});
+  placed.emplace_back();
+  placed.back().hull = added.hull.get();
+  travelled.push_back(0);
+  item.push_back(std::move(added));
+  place(size() - 1, Eigen::Isometry3d::Identity());
 }
 
-Eigen::AlignedBox3d Item::box() const {
+void Items::remove(int id) {
+  item[id] = Item{};
+  placed[id] = Placement{};
+  traits[id] = Traits{};
+}
+
+void Items::place(int id, const Eigen::Isometry3d& X_WB) {
+  const Eigen::Isometry3d& X_BC = item[id].collider.X_BC;
+  Placement& here = placed[id];
+  const Eigen::Matrix3d before = here.R;
+  here.R = X_WB.linear() * X_BC.linear();
+  here.p = X_WB * X_BC.translation();
+  if (!here.hull) return;
+  const Eigen::Vector3d moved = here.at(here.hull->centre);
+  travelled[id] +=
+      (moved - here.centre).norm() + (here.R - before).norm() / std::numbers::sqrt2 * here.hull->radius;
+  here.centre = moved;
+}
+
+Eigen::AlignedBox3d Items::box(int id) const {
   // A cylinder's box is the true one, which holds the inscribed prism.
-  Eigen::AlignedBox3d box;
-  if (cylinder) {
-    const Eigen::Vector3d axis = X_WC.linear().col(1);
+  const Placement& here = placed[id];
+  if (const Cylinder* cylinder = item[id].cylinder) {
+    const Eigen::Vector3d axis = here.R.col(1);
     const Eigen::Vector3d reach = cylinder->half_width * axis.cwiseAbs() +
                                   cylinder->radius * (1 - axis.array().square()).max(0).sqrt().matrix();
-    return {X_WC.translation() - reach, X_WC.translation() + reach};
+    return {here.p - reach, here.p + reach};
   }
-  for (const Eigen::Vector3d& p : hull->vertices) box.extend(X_WC * p);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : here.hull->vertices) box.extend(here.at(p));
   return box;
 }
 
-Plane Item::plane_in_world() const {
-  const Eigen::Vector3d normal = X_WC.linear() * plane->normal;
-  return {normal, plane->offset + normal.dot(X_WC.translation())};
+Plane Items::plane(int id) const {
+  const Eigen::Vector3d normal = placed[id].R * item[id].plane->normal;
+  return {normal, item[id].plane->offset + normal.dot(placed[id].p)};
 }
 
 std::shared_ptr<const CollisionHull> HullLibrary::hull_of(const Shape& shape) {
@@ -81,17 +107,9 @@ Item HullLibrary::make_item(const Collider& collider) {
   const Shape& shape = *collider.shape;
   item.plane = std::get_if<HalfSpace>(&shape);
   item.cylinder = std::get_if<Cylinder>(&shape);
-  if (item.plane) {
-    check(*item.plane);
-    item.equivalent_radius = std::numeric_limits<double>::infinity();
-    return item;
-  }
+  if (item.plane) check(*item.plane);
   if (item.cylinder) check(*item.cylinder);
-  item.hull = hull_of(shape);
-  item.equivalent_radius =
-      item.cylinder
-          ? std::cbrt(0.75 * item.cylinder->radius * item.cylinder->radius * 2 * item.cylinder->half_width)
-          : item.hull->equivalent_radius;
+  if (!item.plane) item.hull = hull_of(shape);
   return item;
 }
 

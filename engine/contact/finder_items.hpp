@@ -8,26 +8,54 @@
 #include <drawpoint/engine/contact/plane_contact.hpp>
 #include <map>
 #include <memory>
+#include <vector>
 
-/// A collider as the finder keeps it: its shape ready for collision, its pose, and an odometer.
+/// Colliders as the finder keeps them, apart by how often they are read: odometers for every pair at every
+/// step, placements for every contact, the rest now and then.
 namespace drawpoint::engine::contact::detail {
+
+/// Where a collider is and what it looks like; two cache lines.
+struct Placement {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();   ///< axes of the shape in the world, as columns
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();       ///< origin of the shape in the world
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the hull, in the world
+  const CollisionHull* hull = nullptr;               ///< none for a half-space
+
+  Eigen::Vector3d at(const Eigen::Vector3d& local) const { return R * local + p; }
+};
+
+struct Traits {
+  int body = -1, family = 0;
+  bool moves = false, alive = false;
+  double inverse_radius = 0;  ///< of the equivalent sphere [1/m]; 0 for a half-space
+};
 
 struct Item {
   Collider collider;
-  std::shared_ptr<const CollisionHull> hull;  ///< none for a half-space
-  const Cylinder* cylinder = nullptr;         ///< set for cylinders, beside the hull
-  const HalfSpace* plane = nullptr;           ///< set for half-spaces
-  double equivalent_radius = 0;               ///< of the sphere of the same volume [m]
+  std::shared_ptr<const CollisionHull> hull;
+  const Cylinder* cylinder = nullptr;  ///< set for cylinders, beside the hull
+  const HalfSpace* plane = nullptr;    ///< set for half-spaces
+  double boxed_at = 0;                 ///< odometer when the box of the broad phase was made [m]
+  bool restless = false;               ///< has left that box
+};
 
-  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the hull, in the world
-  double travelled = 0;  ///< bound on the way of every point so far: Σ |Δcentre| + ‖ΔR‖ radius [m]
-  double boxed_at = 0;   ///< odometer when the box of the broad phase was made
+struct Items {
+  std::vector<Item> item;
+  std::vector<Placement> placed;
+  std::vector<Traits> traits;
+  /// Bound on the way of every point of a shape so far: Σ |Δcentre| + ‖ΔR‖ radius [m].
+  std::vector<double> travelled;
 
-  bool alive() const { return collider.shape != nullptr; }
-  void place(const Eigen::Isometry3d& X_WB);
-  Eigen::AlignedBox3d box() const;  ///< tight, in the world
-  Plane plane_in_world() const;
+  int size() const { return static_cast<int>(item.size()); }
+  void add(Item item);
+  void remove(int id);
+  void place(int id, const Eigen::Isometry3d& X_WB);
+  Eigen::AlignedBox3d box(int id) const;  ///< tight, in the world
+  Plane plane(int id) const;              ///< in the world
+  bool may_touch(int a, int b) const {
+    const Traits &ta = traits[a], &tb = traits[b];
+    return ta.body != tb.body && (ta.moves || tb.moves) && (ta.family <= 0 || ta.family != tb.family);
+  }
 };
 
 /// Makes items; colliders with one shape share one hull.

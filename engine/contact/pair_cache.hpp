@@ -8,29 +8,36 @@
 #include <limits>
 #include <vector>
 
-/// The pairs that may touch, in order, each with what is remembered of it: its contact, where the shapes
-/// stood against each other when that was computed, and how far they had travelled by then. Memory is reused,
+/// The pairs that may touch, in order, each with what is remembered of it. A short entry says until when
+/// nothing has to be asked and whether there is a contact; only pairs that touch or have moved look at their
+/// state: the contact, and where the shapes stood against each other when it was computed. Memory is reused,
 /// not returned.
 namespace drawpoint::engine::contact::detail {
 
 struct PairState {
-  bool known = false;
   ConvexContact contact;
-  double travelled = 0;                              ///< odometers of both [m]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the smaller shape, in the frame of the larger
   Eigen::Matrix3d orientation =
       Eigen::Matrix3d::Zero();  ///< of the smaller shape, in the frame of the larger
 };
 
+struct PairEntry {
+  static constexpr double at_once = -std::numeric_limits<double>::infinity();
+
+  int a, b;  ///< a < b
+  int slot;
+  int count = 0;           ///< points of the contact
+  double limit = at_once;  ///< sum of both odometers up to which what is remembered holds [m]
+};
+
 class PairCache {
  public:
-  struct Entry {
-    int a, b;  ///< a < b
-    int slot;
-  };
-
-  const std::vector<Entry>& entries() const { return entries_; }
-  PairState& state(const Entry& entry) { return states_[static_cast<std::size_t>(entry.slot)]; }
+  std::vector<PairEntry>& entries() { return entries_; }
+  const std::vector<PairEntry>& entries() const { return entries_; }
+  PairState& state(const PairEntry& entry) { return states_[static_cast<std::size_t>(entry.slot)]; }
+  const PairState& state(const PairEntry& entry) const {
+    return states_[static_cast<std::size_t>(entry.slot)];
+  }
 
   /// Takes over the changes; `allowed(a, b)` says which pairs count.
   template <class Allowed>
@@ -42,7 +49,7 @@ class PairCache {
         if (allowed(found->first, found->second))
           merged_.push_back({found->first, found->second, new_slot()});
     };
-    for (const Entry& entry : entries_) {
+    for (const PairEntry& entry : entries_) {
       add_until({entry.a, entry.b});
       const bool again = found != changes.pairs.end() && *found == BroadPhase::Pair{entry.a, entry.b};
       if (again) ++found;
@@ -56,10 +63,29 @@ class PairCache {
   }
 
   void forget() {
-    for (const Entry& entry : entries_) state(entry) = PairState{};
+    for (PairEntry& entry : entries_) forget(entry);
+  }
+  /// The pairs of one collider only.
+  void forget(int id) {
+    for (PairEntry& entry : entries_)
+      if (entry.a == id || entry.b == id) forget(entry);
+  }
+
+  /// Replaces all pairs by these; their slots are given anew.
+  void assign(const std::vector<PairEntry>& entries, const std::vector<PairState>& states) {
+    entries_ = entries;
+    states_ = states;
+    free_.clear();
+    for (std::size_t k = 0; k < entries_.size(); ++k) entries_[k].slot = static_cast<int>(k);
   }
 
  private:
+  void forget(PairEntry& entry) {
+    state(entry) = PairState{};
+    entry.count = 0;
+    entry.limit = PairEntry::at_once;
+  }
+
   int new_slot() {
     if (free_.empty()) {
       states_.emplace_back();
@@ -71,7 +97,7 @@ class PairCache {
     return slot;
   }
 
-  std::vector<Entry> entries_, merged_;
+  std::vector<PairEntry> entries_, merged_;
   std::vector<PairState> states_;
   std::vector<int> free_;
 };

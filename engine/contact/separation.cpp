@@ -3,199 +3,264 @@
 #include <drawpoint/engine/contact/separation.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/contact/hull_sweeps.hpp>
 #include <drawpoint/engine/contact/segments.hpp>
 #include <limits>
-#include <numeric>
 
 namespace drawpoint::engine::contact::detail {
 namespace {
 
-using Eigen::Array4d;
 using Eigen::Vector3d;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 // Faces beat edge pairs that are better by less: where they tie, a face gives the richer manifold. Below the
 // 1e-6 m to which depths are promised.
 constexpr double face_preference = 1e-7;
+// Round-off of a height over a plane, for coordinates up to some 100 m. Bounds are eased by it, so that it
+// costs at most a candidate too many.
+constexpr double round_off = 1e-12;
 // Squared sine below which two edges are parallel and some face normal stands in for their axis.
 constexpr double parallel = 1e-14;
+// Nearer centres than this give no direction [m].
+constexpr double concentric = 1e-9;
 
-void transform(const Eigen::Isometry3d& X, const CollisionHull& hull, Eigen::ArrayXd& x, Eigen::ArrayXd& y,
-               Eigen::ArrayXd& z) {
-  const Eigen::Matrix3d R = X.linear();
-  const Vector3d p = X.translation();
-  x = R(0, 0) * hull.x + R(0, 1) * hull.y + R(0, 2) * hull.z + p.x();
-  y = R(1, 0) * hull.x + R(1, 1) * hull.y + R(1, 2) * hull.z + p.y();
-  z = R(2, 0) * hull.x + R(2, 1) * hull.y + R(2, 2) * hull.z + p.z();
+// The point of a face's polygon that lies next to a point of its plane, on the line to the face's middle.
+Vector3d within(const CollisionHull& hull, int face, const Vector3d& p) {
+  const Vector3d &middle = hull.middles[face], out = p - middle;
+  double share = 1;
+  for (const HullCorner& corner : hull.corners(face)) {
+    const double across = corner.outward.dot(out), room = corner.reach - corner.outward.dot(middle);
+    if (across * share > room) share = room / across;
+  }
+  return middle + share * out;
 }
 
-int nearest_vertex(const double* distances, int count) {
-  return static_cast<int>(std::min_element(distances, distances + count) - distances);
+// Whether a direction between the two faces of an edge may separate by more than `least`, as seen by a point
+// at the given heights over the faces. Between the faces the height over the edge is a cosine: it is largest
+// at an end, or inside when the point lies beyond both faces.
+bool may_win(const HullEdge& edge, const Vector3d& start, const Vector3d& p, double left, double right,
+             double least) {
+  if (std::max(left, right) > least) return true;
+  const Vector3d from = p - start;
+  if (edge.beyond_left.dot(from) <= -round_off || edge.beyond_right.dot(from) <= -round_off) return false;
+  const double along = edge.along.dot(from);
+  return from.squaredNorm() - along * along / edge.along.squaredNorm() > least * least;
+}
+
+// Calls `see(e)` once for each edge of the hull that may win.
+template <class See>
+void for_edges(const CollisionHull& hull, const std::vector<double>& over, const Vector3d& p, double least,
+               const See& see) {
+  const double live = std::min(least, 0.0);  // a point under both faces of an edge is nearest to a face
+  for (int f = 0; f < hull.face_count(); ++f) {
+    if (over[f] <= live) continue;
+    for (int e : hull.edges_of(f)) {
+      const HullEdge& edge = hull.edges[e];
+      const int other = edge.left == f ? edge.right : edge.left;
+      if (other < f && over[other] > live) continue;  // seen from there
+      if (may_win(edge, hull.vertices[edge.start], p, over[edge.left], over[edge.right], least)) see(e);
+    }
+  }
 }
 
 }  // namespace
 
-void AxisSearch::place(const HullPair& pair) {
-  transform(pair.X_AB, pair.b, bx_, by_, bz_);
-  transform(pair.X_AB.inverse(), pair.a, ax_, ay_, az_);
-  const auto grow = [](auto& buffer, std::size_t size) {
-    if (buffer.size() < size) buffer.resize(size);
-  };
-  grow(to_a_, static_cast<std::size_t>(pair.a.face_count() * bx_.size()));
-  grow(to_b_, static_cast<std::size_t>(pair.b.face_count() * ax_.size()));
-  grow(outside_, static_cast<std::size_t>(std::max(ax_.size(), bx_.size())));
+double lowest_of_b(const HullPair& pair, const Vector3d& n) {
+  return lowest(pair.b, pair.X_AB.linear().transpose() * n).height + n.dot(pair.X_AB.translation());
 }
 
-void AxisSearch::note_face(FeatureKind kind, int face, double separation) {
-  const Feature feature = kind == FeatureKind::face_a ? Feature{kind, face, -1} : Feature{kind, -1, face};
-  if (separation > best_.separation) best_.feature = feature, best_.separation = separation;
-  if (feature == query_.hint) hinted_.feature = feature, hinted_.separation = separation;
+Axis AxisSearch::face_of_a(const HullPair& pair, int face) const {
+  Axis axis;
+  axis.feature = {FeatureKind::face_a, face, -1};
+  axis.normal = pair.a.normals[face];
+  axis.reach = pair.a.offsets[face];
+  const Support low = lowest(pair.b, pair.X_AB.linear().transpose() * axis.normal);
+  axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.reach;
+  axis.support = low.vertex;
+  return axis;
 }
 
-// False as soon as a face separates the shapes by more than the margin.
-bool AxisSearch::sweep_faces(const CollisionHull& hull, const Vertices& v, double margin, FeatureKind kind) {
-  std::vector<double>& distances = kind == FeatureKind::face_a ? to_a_ : to_b_;
-  for (int f = 0; f < hull.face_count(); ++f) {
-    const Vector3d& n = hull.normals[f];
-    double* row = distances.data() + f * v.count;
-    Array4d least = Array4d::Constant(std::numeric_limits<double>::infinity());
-    for (Eigen::Index k = 0; k < v.count; k += 4) {
-      const Array4d d = n.x() * Array4d::Map(v.x + k) + n.y() * Array4d::Map(v.y + k) +
-                        n.z() * Array4d::Map(v.z + k) - hull.offsets[f];
-      Array4d::Map(row + k) = d;
-      least = least.min(d);
-    }
-    note_face(kind, f, least.minCoeff());
-    if (best_.separation > margin) return false;
-  }
-  return true;
-}
-
-// Edges of one shape that are not wholly outside one plane of the other moved out by the bound.
-void AxisSearch::near_edges(const CollisionHull& hull, const CollisionHull& other,
-                            const std::vector<double>& distances, std::vector<int>& result) {
-  const std::size_t padded = static_cast<std::size_t>(hull.x.size());
-  std::fill_n(outside_.begin(), padded, 0);
-  const int planes =
-      std::min(other.face_count(), 64);  // one bit a plane; planes beyond prune nothing, which is safe
-  for (int f = 0; f < planes; ++f) {
-    const double* row = distances.data() + f * padded;
-    const std::uint64_t bit = std::uint64_t{1} << f;
-    for (std::size_t k = 0; k < padded; ++k) outside_[k] |= row[k] > bound_ ? bit : 0;
-  }
-  const auto reaches = [&](const HullEdge& edge) {
-    const std::uint64_t start = outside_[edge.start], end = outside_[edge.end];
-    if (start & end) return false;
-    double from = 0, to = 1;
-    for (std::uint64_t cut = start | end; cut != 0; cut &= cut - 1) {
-      const double* row = distances.data() + static_cast<std::size_t>(__builtin_ctzll(cut)) * padded;
-      const double d0 = row[edge.start] - bound_, d1 = row[edge.end] - bound_, t = d0 / (d0 - d1);
-      if (d0 > 0)
-        from = std::max(from, t);
-      else
-        to = std::min(to, t);
-    }
-    return from <= to + 1e-9;  // slack for round-off: keeping an edge too many costs time only
-  };
-  result.clear();
-  for (std::size_t e = 0; e < hull.edges.size(); ++e)
-    if (reaches(hull.edges[e])) result.push_back(static_cast<int>(e));
+Axis AxisSearch::face_of_b(const HullPair& pair, int face) const {
+  Axis axis;
+  axis.feature = {FeatureKind::face_b, -1, face};
+  const Vector3d inward = pair.X_AB.linear() * pair.b.normals[face];
+  axis.normal = -inward;
+  const Support low = lowest(pair.a, inward);
+  axis.reach = -low.height;
+  axis.separation = low.height - inward.dot(pair.X_AB.translation()) - pair.b.offsets[face];
+  axis.support = low.vertex;
+  return axis;
 }
 
 // The axis of two edges, if their arcs on the Gauss map cross.
-bool AxisSearch::edge_axis(const HullPair& pair, int edge_a, int edge_b, Axis& axis) const {
-  const HullEdge &ea = pair.a.edges[edge_a], &eb = pair.b.edges[edge_b];
-  const Vector3d along_a = pair.a.vertices[ea.end] - pair.a.vertices[ea.start];
-  const Vector3d along_b = vertex_b(eb.end) - vertex_b(eb.start);
-  const Vector3d b_along_a = pair.X_AB.linear().transpose() * along_a;
-  const double cba = pair.b.normals[eb.left].dot(b_along_a), dba = pair.b.normals[eb.right].dot(b_along_a);
+bool AxisSearch::edge_axis(const HullPair& pair, const EdgeOfA& first, const EdgeOfB& second,
+                           Axis& axis) const {
+  const HullEdge &ea = pair.a.edges[first.edge], &eb = pair.b.edges[second.edge];
+  const double cba = pair.b.normals[eb.left].dot(first.along_in_b),
+               dba = pair.b.normals[eb.right].dot(first.along_in_b);
   if (cba * dba >= 0) return false;
-  const double adc = pair.a.normals[ea.left].dot(along_b), bdc = pair.a.normals[ea.right].dot(along_b);
+  const double adc = pair.a.normals[ea.left].dot(second.along),
+               bdc = pair.a.normals[ea.right].dot(second.along);
   if (adc * bdc >= 0 || cba * bdc >= 0) return false;
-  Vector3d n = along_a.cross(along_b);
+  Vector3d n = ea.along.cross(second.along);
   const double square = n.squaredNorm();
-  if (square < parallel * along_a.squaredNorm() * along_b.squaredNorm()) return false;
+  if (square < parallel * ea.along.squaredNorm() * second.along.squaredNorm()) return false;
   n /= std::sqrt(square);
   if (n.dot(pair.a.normals[ea.left] + pair.a.normals[ea.right]) < 0) n = -n;
-  axis.feature = {FeatureKind::edges, edge_a, edge_b};
+  axis.feature = {FeatureKind::edges, first.edge, second.edge};
   axis.normal = n;
-  axis.separation = n.dot(vertex_b(eb.start) - pair.a.vertices[ea.start]);
+  axis.reach = n.dot(pair.a.vertices[ea.start]);
+  axis.separation = n.dot(second.start) - axis.reach;
   return true;
 }
 
-void AxisSearch::sweep_edges(const HullPair& pair) {
+// Of features that were an axis once; kind none when they no longer are.
+Axis AxisSearch::axis_of(const HullPair& pair, const Feature& feature) const {
+  if (feature.kind == FeatureKind::face_a) return face_of_a(pair, feature.a);
+  if (feature.kind == FeatureKind::face_b) return face_of_b(pair, feature.b);
   Axis axis;
-  Axis best_edges;
-  best_edges.separation = best_.separation + face_preference;
-  for (int ea : edges_a_)
-    for (int eb : edges_b_) {
-      if (!edge_axis(pair, ea, eb, axis)) continue;
-      if (axis.separation > best_edges.separation) best_edges = axis;
-      if (axis.feature == query_.hint) hinted_ = axis;
-    }
-  if (best_edges.feature.kind == FeatureKind::edges) best_ = best_edges;
+  if (feature.kind == FeatureKind::edges) {
+    const Eigen::Matrix3d R = pair.X_AB.linear();
+    const HullEdge& eb = pair.b.edges[feature.b];
+    edge_axis(pair, {feature.a, R.transpose() * pair.a.edges[feature.a].along},
+              {feature.b, R * eb.along, pair.vertex_b(eb.start)}, axis);
+  }
+  return axis;
 }
 
-// Fills in what the sweeps did not need.
-void AxisSearch::complete(const HullPair& pair, Axis& axis) const {
+AxisSearch::Witness AxisSearch::witness_of(const HullPair& pair, const Axis& axis) const {
   if (axis.feature.kind == FeatureKind::face_a) {
-    axis.normal = pair.a.normals[axis.feature.a];
-    axis.support = nearest_vertex(to_a_.data() + axis.feature.a * bx_.size(), pair.b.vertex_count());
-  } else if (axis.feature.kind == FeatureKind::face_b) {
-    axis.normal = -(pair.X_AB.linear() * pair.b.normals[axis.feature.b]);
-    axis.support = nearest_vertex(to_b_.data() + axis.feature.b * ax_.size(), pair.a.vertex_count());
+    const Vector3d on_b = pair.vertex_b(axis.support);
+    return {within(pair.a, axis.feature.a, on_b - axis.separation * axis.normal), on_b};
   }
+  if (axis.feature.kind == FeatureKind::face_b) {
+    const Vector3d on_a = pair.a.vertices[axis.support];
+    const Vector3d in_b =
+        pair.X_AB.linear().transpose() * (on_a + axis.separation * axis.normal - pair.X_AB.translation());
+    return {on_a, pair.X_AB * within(pair.b, axis.feature.b, in_b)};
+  }
+  const HullEdge &ea = pair.a.edges[axis.feature.a], &eb = pair.b.edges[axis.feature.b];
+  const auto [on_a, on_b] = nearest_points({pair.a.vertices[ea.start], pair.a.vertices[ea.end]},
+                                           {pair.vertex_b(eb.start), pair.vertex_b(eb.end)});
+  return {on_a, on_b};
+}
+
+// The hint, or the line of centres, which has no features but bounds what can win: shapes that overlap do so
+// by no more along the best axis, and some axis does not overlap when they are apart.
+Axis AxisSearch::guess(const HullPair& pair, Witness& witness) {
+  Axis axis = axis_of(pair, query_.hint);
+  floor_ = axis.separation;
+  if (axis.feature.kind != FeatureKind::none) {
+    witness = witness_of(pair, axis);
+    return axis;
+  }
+  const Vector3d line = pair.X_AB * pair.b.centre - pair.a.centre;
+  const double length = line.norm();
+  axis.normal = length > concentric ? Vector3d(line / length) : Vector3d::UnitZ();
+  const Support high = lowest(pair.a, -axis.normal),
+                low = lowest(pair.b, pair.X_AB.linear().transpose() * axis.normal);
+  axis.reach = -high.height;
+  axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.reach;
+  floor_ = std::min(axis.separation, 0.0) - face_preference;
+  witness = {pair.a.vertices[high.vertex], pair.vertex_b(low.vertex)};
+  return axis;
+}
+
+void AxisSearch::measure(const HullPair& pair, const Witness& witness) {
+  heights(pair.a, witness.on_b, over_a_.data());
+  heights(pair.b, pair.X_AB.linear().transpose() * (witness.on_a - pair.X_AB.translation()), over_b_.data());
+}
+
+// False as soon as a face separates the shapes by more than the margin.
+bool AxisSearch::sweep_faces(const HullPair& pair) {
+  const auto note = [this](const Axis& axis) {
+    if (axis.separation > best_.separation) {
+      best_ = axis;
+      floor_ = std::max(floor_, axis.separation);
+    }
+    return axis.separation <= query_.margin;
+  };
+  for (int f = 0; f < pair.a.face_count(); ++f)
+    if (over_a_[f] > floor_ - round_off && !note(face_of_a(pair, f))) return false;
+  for (int f = 0; f < pair.b.face_count(); ++f)
+    if (over_b_[f] > floor_ - round_off && !note(face_of_b(pair, f))) return false;
+  return true;
+}
+
+// The best pair of edges, if one separates by more than `best_edges` already does.
+void AxisSearch::sweep_edges(const HullPair& pair, const Witness& witness, Axis& best_edges) {
+  const Eigen::Matrix3d R = pair.X_AB.linear();
+  const double least = best_edges.separation;
+  edges_a_.clear();
+  edges_b_.clear();
+  for_edges(pair.a, over_a_, witness.on_b, least, [&](int e) {
+    edges_a_.push_back({e, R.transpose() * pair.a.edges[e].along});
+  });
+  if (edges_a_.empty()) return;
+  for_edges(pair.b, over_b_, R.transpose() * (witness.on_a - pair.X_AB.translation()), least, [&](int e) {
+    edges_b_.push_back({e, R * pair.b.edges[e].along, pair.vertex_b(pair.b.edges[e].start)});
+  });
+  Axis axis;
+  for (const EdgeOfA& ea : edges_a_)
+    for (const EdgeOfB& eb : edges_b_)
+      if (edge_axis(pair, ea, eb, axis) && axis.separation > best_edges.separation) best_edges = axis;
 }
 
 Axis AxisSearch::find(const HullPair& pair, const AxisQuery& query) {
   query_ = query;
-  best_ = hinted_ = Axis{};
-  best_.separation = -std::numeric_limits<double>::infinity();
-  place(pair);
-  const Vertices of_b{bx_.data(), by_.data(), bz_.data(), bx_.size()};
-  const Vertices of_a{ax_.data(), ay_.data(), az_.data(), ax_.size()};
-  if (!sweep_faces(pair.a, of_b, query.margin, FeatureKind::face_a)) return best_;
-  if (!sweep_faces(pair.b, of_a, query.margin, FeatureKind::face_b)) return best_;
-  best_face_ = best_;
-  bound_ = std::max(query.margin, -best_.separation) + face_preference;
-  near_edges(pair.a, pair.b, to_b_, edges_a_);
-  near_edges(pair.b, pair.a, to_a_, edges_b_);
-  return finish(pair);
+  over_a_.resize(std::max<std::size_t>(over_a_.size(), pair.a.nx.size()));
+  over_b_.resize(std::max<std::size_t>(over_b_.size(), pair.b.nx.size()));
+  Witness witness;
+  const Axis first = guess(pair, witness);
+  if (first.separation > query.margin) return first;
+  const bool hinted = first.feature.kind != FeatureKind::none,
+             by_edges = first.feature.kind == FeatureKind::edges;
+  best_ = hinted && !by_edges ? first : Axis{};
+  if (hinted == by_edges) best_.separation = -infinity;  // no face yet
+  if (by_edges) floor_ -= face_preference;               // a face may win that is worse by less
+  measure(pair, witness);
+  if (!sweep_faces(pair)) return best_;
+  const bool edges_lead = by_edges && first.separation > best_.separation + face_preference;
+  if (!edges_lead && best_.feature != first.feature) {
+    witness = witness_of(pair, best_);
+    measure(pair, witness);
+  }
+  Axis best_edges = edges_lead ? first : Axis{};
+  if (!edges_lead) best_edges.separation = best_.separation + face_preference;
+  sweep_edges(pair, witness, best_edges);
+  if (best_edges.feature.kind == FeatureKind::edges) best_ = best_edges;
+  if (best_.separation > query.margin) return best_;
+  return hinted && first.separation >= best_.separation - query.hysteresis ? first : best_;
 }
 
-Axis AxisSearch::find_exhaustively(const HullPair& pair) {
-  query_.hint = Feature{};
-  hinted_ = Axis{};
-  best_ = best_face_;
-  const auto all = [](const CollisionHull& hull, std::vector<int>& edges) {
-    edges.resize(hull.edges.size());
-    std::iota(edges.begin(), edges.end(), 0);
+bool AxisSearch::nearest_edges(const HullPair& pair, const Axis& axis, double margin, Nearest& nearest) {
+  // Only points in the slab between the shapes, widened to the margin, can be that near.
+  const Vector3d n_b = pair.X_AB.linear().transpose() * axis.normal;
+  const double over = axis.normal.dot(pair.X_AB.translation());
+  const auto high = [&](int v) {
+    return axis.normal.dot(pair.a.vertices[v]) >= axis.reach + axis.separation - margin - round_off;
   };
-  all(pair.a, edges_a_);
-  all(pair.b, edges_b_);
-  return finish(pair);
-}
-
-// The edge pairs on top of the faces, and the choice between the best axis and the hint.
-Axis AxisSearch::finish(const HullPair& pair) {
-  sweep_edges(pair);
-  if (best_.separation > query_.margin) return best_;
-  const bool keep_hint =
-      hinted_.feature.kind != FeatureKind::none && hinted_.separation >= best_.separation - query_.hysteresis;
-  Axis& chosen = keep_hint ? hinted_ : best_;
-  complete(pair, chosen);
-  return chosen;
-}
-
-bool AxisSearch::nearest_edges(const HullPair& pair, double margin, Nearest& nearest) const {
-  nearest.distance = std::numeric_limits<double>::infinity();
-  for (int ea : edges_a_)
-    for (int eb : edges_b_) {
-      const HullEdge &a = pair.a.edges[ea], &b = pair.b.edges[eb];
-      const auto [p, q] = nearest_points({pair.a.vertices[a.start], pair.a.vertices[a.end]},
-                                         {vertex_b(b.start), vertex_b(b.end)});
+  const auto low = [&](int v) {
+    return n_b.dot(pair.b.vertices[v]) + over <= axis.reach + margin + round_off;
+  };
+  edges_b_.clear();
+  for (std::size_t e = 0; e < pair.b.edges.size(); ++e) {
+    const HullEdge& edge = pair.b.edges[e];
+    if (low(edge.start) || low(edge.end))
+      edges_b_.push_back({static_cast<int>(e), pair.X_AB.linear() * edge.along, pair.vertex_b(edge.start)});
+  }
+  nearest.distance = infinity;
+  for (std::size_t e = 0; e < pair.a.edges.size(); ++e) {
+    const HullEdge& a = pair.a.edges[e];
+    if (!high(a.start) && !high(a.end)) continue;
+    for (const EdgeOfB& b : edges_b_) {
+      const auto [p, q] =
+          nearest_points({pair.a.vertices[a.start], pair.a.vertices[a.end]}, {b.start, b.start + b.along});
       const double distance = (q - p).norm();
-      if (distance < nearest.distance) nearest = {p, q, ea, eb, distance};
+      if (distance < nearest.distance) nearest = {p, q, static_cast<int>(e), b.edge, distance};
     }
+  }
   return nearest.distance <= margin;
 }
 

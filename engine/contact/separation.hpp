@@ -12,12 +12,13 @@
 /// s(n) = min over B of n·x − max over A of n·x; the axis maximises s over the face normals of A and B and
 /// the directions of edge pairs that form a face of the Minkowski difference (Gauss map test, Gregorius
 /// 2013). Overlapping shapes: −s is the exact penetration depth. Separated: s > 0 is a lower bound on the
-/// distance. Edges are pruned without loss: the axis of an edge pair can win only when the edges come within
-/// the bound b = max(margin, −best face s) of each other, so an edge that stays outside one of the other's
-/// planes moved out by b is skipped. When the shapes are apart by more than b along an edge pair, find() may
-/// so report an overlap that is none; it is certain only once a point of each surface has been seen within b
-/// of each other (the contact itself). Where there is none, ask find_exhaustively(). All in A's frame,
-/// metres. Cost: faces x vertices products each way plus a handful of edge pairs.
+/// distance.
+///
+/// Pruned without loss. For a normal n that a face or an edge of A allows, with p on that face or edge, and
+/// any point q of B: s(n) <= n·(q − p). So with a good first guess s₀ and q next to the contact a face is
+/// looked at only when q lies higher than s₀ over it, and an edge only when that holds between its two faces:
+/// of a pair that rests on a face one plane and no edge is left. The first guess is last time's axis, or the
+/// line of centres. All in A's frame, metres. Cost: 0.1 to 0.3 µs for rocks of a dozen vertices.
 namespace drawpoint::engine::contact::detail {
 
 enum class FeatureKind : std::uint8_t { none, face_a, face_b, edges };
@@ -30,9 +31,10 @@ struct Feature {
 };
 
 struct Axis {
-  Feature feature;
+  Feature feature;  ///< none: the line of centres separates by more than the margin
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< from A to B, in A's frame
   double separation = 0;
+  double reach = 0;  ///< of A along the normal
   int support = -1;  ///< face axes: the vertex of the other shape nearest to the face
 };
 
@@ -41,6 +43,8 @@ struct HullPair {
   const CollisionHull& a;
   const CollisionHull& b;
   Eigen::Isometry3d X_AB;
+
+  Eigen::Vector3d vertex_b(int v) const { return X_AB * b.vertices[v]; }  ///< in A's frame
 };
 
 struct AxisQuery {
@@ -49,50 +53,53 @@ struct AxisQuery {
   Feature hint;           ///< last time's axis
 };
 
-/// Buffers of the search, grown to the largest shapes seen and then reused.
+/// Least n·x over B, with n and the result in A's frame.
+double lowest_of_b(const HullPair& pair, const Eigen::Vector3d& n);
+
+/// Buffers of the search, grown to the largest shapes seen and then reused; nothing in them outlives a call.
 class AxisSearch {
  public:
   /// The axis; the search stops early at any axis with more separation than the margin.
   Axis find(const HullPair& pair, const AxisQuery& query);
 
-  /// After find(): the same over all edge pairs, with no hint. Rarely needed; edges x edges.
-  Axis find_exhaustively(const HullPair& pair);
-
-  /// The nearest points of two separated shapes when an edge or a vertex of both is nearest. Looks at the
-  /// edges that the last find() kept; false when none of their pairs is within the margin.
+  /// The nearest points of two shapes that an axis separates by less than the margin, when an edge or a
+  /// vertex of both is nearest. False when no edges are within the margin.
   struct Nearest {
     Eigen::Vector3d on_a, on_b;  ///< in A's frame
     int edge_a, edge_b;
     double distance;
   };
-  bool nearest_edges(const HullPair& pair, double margin, Nearest& nearest) const;
-
-  /// Vertex v of B in A's frame, as the last find() computed it.
-  Eigen::Vector3d vertex_b(int v) const { return {bx_[v], by_[v], bz_[v]}; }
+  bool nearest_edges(const HullPair& pair, const Axis& axis, double margin, Nearest& nearest);
 
  private:
-  struct Vertices {
-    const double *x, *y, *z;
-    Eigen::Index count;
+  struct Witness {
+    Eigen::Vector3d on_a, on_b;  ///< a point of each shape, in A's frame, near where they touch
   };
-  void place(const HullPair& pair);
-  bool sweep_faces(const CollisionHull& faces, const Vertices& vertices, double margin, FeatureKind kind);
-  void note_face(FeatureKind kind, int face, double separation);
-  void near_edges(const CollisionHull& edges, const CollisionHull& faces,
-                  const std::vector<double>& distances, std::vector<int>& result);
-  void sweep_edges(const HullPair& pair);
-  Axis finish(const HullPair& pair);
-  bool edge_axis(const HullPair& pair, int edge_a, int edge_b, Axis& axis) const;
-  void complete(const HullPair& pair, Axis& axis) const;
+  struct EdgeOfA {
+    int edge;
+    Eigen::Vector3d along_in_b;
+  };
+  struct EdgeOfB {
+    int edge;
+    Eigen::Vector3d along, start;  ///< in A's frame
+  };
 
-  Eigen::ArrayXd bx_, by_, bz_;      // vertices of B in A's frame, padded
-  Eigen::ArrayXd ax_, ay_, az_;      // vertices of A in B's frame, padded
-  std::vector<double> to_a_, to_b_;  // [face][vertex]: distances to the planes of A, of B
-  std::vector<std::uint64_t> outside_;
-  std::vector<int> edges_a_, edges_b_;
-  Axis best_face_, best_, hinted_;
+  Axis guess(const HullPair& pair, Witness& witness);
+  Axis axis_of(const HullPair& pair, const Feature& feature) const;
+  Axis face_of_a(const HullPair& pair, int face) const;
+  Axis face_of_b(const HullPair& pair, int face) const;
+  bool edge_axis(const HullPair& pair, const EdgeOfA& first, const EdgeOfB& second, Axis& axis) const;
+  Witness witness_of(const HullPair& pair, const Axis& axis) const;
+  void measure(const HullPair& pair, const Witness& witness);
+  bool sweep_faces(const HullPair& pair);
+  void sweep_edges(const HullPair& pair, const Witness& witness, Axis& best_edges);
+
+  std::vector<double> over_a_, over_b_;  // heights of the witness points over the planes of A, of B
+  std::vector<EdgeOfA> edges_a_;
+  std::vector<EdgeOfB> edges_b_;
+  Axis best_;
   AxisQuery query_;
-  double bound_ = 0;
+  double floor_ = 0;  // some axis has at least this separation
 };
 
 }  // namespace drawpoint::engine::contact::detail

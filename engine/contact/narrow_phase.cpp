@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/contact/hull_sweeps.hpp>
+#include <drawpoint/engine/contact/narrow_phase.hpp>
+#include <numbers>
+
+namespace drawpoint::engine::contact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Pairs a block: some 20 µs of work, large against the hand-over of a block and small against a step.
+constexpr std::size_t block_size = 128;
+
+std::size_t blocks_of(std::size_t pairs) { return (pairs + block_size - 1) / block_size; }
+
+Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
+  Eigen::Isometry3d X_AB;
+  X_AB.linear() = a.R.transpose() * b.R;
+  X_AB.translation() = a.R.transpose() * (b.p - a.p);
+  X_AB.makeAffine();
+  return X_AB;
+}
+
+// How the smaller shape stands in the frame of the larger.
+struct Stand {
+  Stand(const Placement& a, const Placement& b) {
+    const bool a_smaller = a.hull->radius < b.hull->radius;
+    const Placement &small = a_smaller ? a : b, &large = a_smaller ? b : a;
+    centre = large.R.transpose() * (small.centre - large.p);
+    orientation = large.R.transpose() * small.R;
+    radius = small.hull->radius;
+  }
+  Vector3d centre;
+  Matrix3d orientation;
+  double radius;
+};
+
+void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& normal, Manifold& manifold) {
+  const Traits &a = items.traits[entry.a], &b = items.traits[entry.b];
+  manifold.collider_a = entry.a, manifold.collider_b = entry.b;
+  manifold.body_a = a.body, manifold.body_b = b.body;
+  manifold.normal = normal;
+  manifold.radius = 1 / (a.inverse_radius + b.inverse_radius);
+  manifold.count = 0;
+}
+
+}  // namespace
+
+// One thread's part: buffers only, nothing that one pair leaves behind for another.
+struct NarrowPhase::Worker {
+  explicit Worker(const ContactFinderOptions& o) : options(o), search_margin(o.margin + o.reuse_distance) {}
+
+  // Brings a pair up to date and appends its manifold, if there is one.
+  void process(const Items& items, PairEntry& entry, PairState& state, std::vector<Manifold>& manifolds) {
+    const double travelled = items.travelled[entry.a] + items.travelled[entry.b];
+    const bool with_plane = !items.placed[entry.a].hull || !items.placed[entry.b].hull;
+    if (with_plane) {
+      touch_plane(items, entry, travelled, manifolds);
+      return;
+    }
+    if (travelled > entry.limit)
+      refresh(items.placed[entry.a], items.placed[entry.b], travelled, entry, state);
+    if (entry.count > 0) carry_along(items, entry, state.contact, manifolds);
+  }
+
+  void refresh(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
+    const bool known = entry.limit != PairEntry::at_once;
+    if (known && entry.count > 0 && still_stands(a, b, travelled, entry, state)) return;
+    if (known && entry.count == 0 && still_apart(a, b, travelled, entry, state.contact)) return;
+    compute(a, b, travelled, entry, state);
+  }
+
+  // The plane on A that separated the shapes last time.
+  bool still_apart(const Placement& a, const Placement& b, double travelled, PairEntry& entry,
+                   const ConvexContact& contact) const {
+    const Vector3d normal = a.R * contact.normal;
+    const double least = lowest(*b.hull, b.R.transpose() * normal).height + normal.dot(b.p - a.p);
+    const double separation = least - contact.reach;
+    if (!(separation > search_margin)) return false;
+    entry.limit = travelled + (separation - options.margin);
+    return true;
+  }
+
+  bool still_stands(const Placement& a, const Placement& b, double travelled, PairEntry& entry,
+                    const PairState& state) const {
+    const Stand now(a, b);
+    const double distance = (now.centre - state.centre).norm();
+    if (distance > options.reuse_distance) return false;
+    // ‖ΔR‖_F/√2 is the largest displacement of a unit vector, 2 sin(θ/2).
+    const double turn = (now.orientation - state.orientation).norm() / std::numbers::sqrt2;
+    if (turn > options.reuse_angle) return false;
+    entry.limit =
+        travelled + std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius);
+    return true;
+  }
+
+  void compute(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
+    ++computed;
+    convex.find({*a.hull, *b.hull, pose_against(a, b)},
+                {search_margin, options.hysteresis, state.contact.feature}, state.contact);
+    entry.count = state.contact.count;
+    if (entry.count == 0) {
+      entry.limit = travelled + (state.contact.separation - options.margin);
+      return;
+    }
+    const Stand now(a, b);
+    state.centre = now.centre, state.orientation = now.orientation;
+    entry.limit = travelled + std::min(options.reuse_distance, options.reuse_angle * now.radius);
+  }
+
+  // The remembered contact at the present poses.
+  void carry_along(const Items& items, const PairEntry& entry, const ConvexContact& contact,
+                   std::vector<Manifold>& manifolds) {
+    const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
+    Manifold& manifold = manifolds.emplace_back();
+    start_manifold(items, entry, (contact.normal_of_b ? b : a).R * contact.normal, manifold);
+    for (int k = 0; k < contact.count; ++k) {
+      const Anchors& anchors = contact.points[static_cast<std::size_t>(k)];
+      const Vector3d on_a = a.at(anchors.on_a), on_b = b.at(anchors.on_b);
+      const double gap = manifold.normal.dot(on_b - on_a);
+      if (gap <= options.margin)
+        manifold.points[static_cast<std::size_t>(manifold.count++)] = {0.5 * (on_a + on_b), gap,
+                                                                       anchors.feature};
+    }
+    if (manifold.count == 0) manifolds.pop_back();
+  }
+
+  // Half-spaces have closed forms; only how long nothing can happen is remembered.
+  void touch_plane(const Items& items, PairEntry& entry, double travelled, std::vector<Manifold>& manifolds) {
+    const bool first = !items.placed[entry.a].hull;
+    const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
+    const Placement& shape = items.placed[shape_id];
+    // The odometer of a half-space stands still: a moved one makes the pair new.
+    if (travelled <= entry.limit) return;
+    const Plane plane = items.plane(plane_id);
+    const double height = plane.normal.dot(shape.centre) - plane.offset - shape.hull->radius;
+    entry.limit = height > options.margin ? travelled + (height - options.margin) : PairEntry::at_once;
+    if (height > options.margin) return;
+    Eigen::Isometry3d X_WC;
+    X_WC.linear() = shape.R, X_WC.translation() = shape.p, X_WC.makeAffine();
+    if (const Cylinder* cylinder = items.item[shape_id].cylinder)
+      plane_contact(plane, *cylinder, X_WC, options.margin, clip);
+    else
+      plane_contact(plane, *shape.hull, X_WC, options.margin, clip);
+    if (clip.empty()) return;
+    Manifold& manifold = manifolds.emplace_back();
+    start_manifold(items, entry, first ? plane.normal : Vector3d(-plane.normal), manifold);
+    for (const ClipPoint& p : clip)
+      manifold.points[static_cast<std::size_t>(manifold.count++)] = {p.position - 0.5 * p.gap * plane.normal,
+                                                                     p.gap, p.feature};
+  }
+
+  ContactFinderOptions options;
+  double search_margin;
+  ConvexContactSearch convex;
+  std::vector<ClipPoint> clip;
+  int computed = 0;
+};
+
+struct NarrowPhase::Threads {
+  explicit Threads(int count) : arena(count) {}
+  tbb::task_arena arena;
+  std::vector<std::vector<Manifold>> found;  // by block
+};
+
+NarrowPhase::NarrowPhase(const ContactFinderOptions& options) : options_(options) {
+  for (int k = 0; k < options.threads; ++k) workers_.push_back(std::make_unique<Worker>(options));
+  if (options.threads > 1) threads_ = std::make_unique<Threads>(options.threads);
+}
+
+NarrowPhase::~NarrowPhase() = default;
+
+int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {
+  for (auto& worker : workers_) worker->computed = 0;
+  if (threads_ && pairs.entries().size() > block_size)
+    run_in_blocks(items, pairs, manifolds);
+  else
+    run_alone(items, pairs, manifolds);
+  int computed = 0;
+  for (const auto& worker : workers_) computed += worker->computed;
+  return computed;
+}
+
+void NarrowPhase::run_alone(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {
+  manifolds.clear();
+  for (PairEntry& entry : pairs.entries()) workers_[0]->process(items, entry, pairs.state(entry), manifolds);
+}
+
+void NarrowPhase::run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {
+  auto& entries = pairs.entries();
+  auto& found = threads_->found;
+  const std::size_t blocks = blocks_of(entries.size());
+  if (found.size() < blocks) found.resize(blocks);
+  const auto for_blocks = [&](const auto& work) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, blocks, 1),
+        [&](const auto& range) {
+          for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
+        },
+        tbb::simple_partitioner());
+  };
+  threads_->arena.execute([&] {
+    for_blocks([&](std::size_t block) {
+      Worker& worker = *workers_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+      found[block].clear();
+      const std::size_t end = std::min(entries.size(), (block + 1) * block_size);
+      for (std::size_t k = block * block_size; k < end; ++k)
+        worker.process(items, entries[k], pairs.state(entries[k]), found[block]);
+    });
+    std::size_t total = 0;
+    starts_.clear();
+    for (std::size_t block = 0; block < blocks; ++block)
+      starts_.push_back(total), total += found[block].size();
+    manifolds.resize(total);
+    for_blocks([&](std::size_t block) {
+      std::copy(found[block].begin(), found[block].end(),
+                manifolds.begin() + static_cast<std::ptrdiff_t>(starts_[block]));
+    });
+  });
+}
+
+}  // namespace drawpoint::engine::contact::detail

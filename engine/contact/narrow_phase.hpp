@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/contact_finder.hpp>
+#include <drawpoint/engine/contact/finder_items.hpp>
+#include <drawpoint/engine/contact/pair_cache.hpp>
+#include <memory>
+#include <vector>
+
+/// From pairs to manifolds: decides for each pair whether what is remembered still holds, computes what does
+/// not, and carries contacts along to the present poses.
+///
+/// A pair is asked at three levels, each only when the one before does not settle it: have both shapes
+/// travelled too little to matter (two numbers); for shapes apart, does last time's separating plane still
+/// separate (one support point), and for shapes in contact, do they stand against each other as before (two
+/// poses); the full search. Pairs are worked on in blocks of fixed size by as many threads as asked for; each
+/// pair is on its own, so the result depends neither on blocks nor on threads. Cost: 2 ns a pair apart at
+/// rest, 30 ns a contact reused, 20 ns a pair apart that moves, 0.3 to 0.6 µs a contact computed.
+namespace drawpoint::engine::contact::detail {
+
+class NarrowPhase {
+ public:
+  explicit NarrowPhase(const ContactFinderOptions& options);
+  ~NarrowPhase();
+
+  /// Updates the pairs and replaces `manifolds` by their contacts, in the order of the pairs. Returns how
+  /// many pairs were computed.
+  int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
+
+ private:
+  struct Worker;
+  struct Threads;
+  void run_alone(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
+  void run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
+
+  ContactFinderOptions options_;
+  std::vector<std::unique_ptr<Worker>> workers_;  // one a thread
+  std::unique_ptr<Threads> threads_;              // none when there is one thread
+  std::vector<std::size_t> starts_;               // first manifold of each block
+};
+
+}  // namespace drawpoint::engine::contact::detail
