@@ -49,7 +49,13 @@ nlohmann::json PhaseTimes::parts() const {
 
 engine::contact::StepReport add_step(PhaseTimes& times, engine::contact::World& world) {
   const auto start = std::chrono::steady_clock::now();
-  const engine::contact::StepReport report = world.step();
+  engine::contact::StepReport report;
+  try {
+    report = world.step();
+  } catch (const std::invalid_argument& error) {  // a pose that is not finite, told by the contact finder
+    throw std::runtime_error("the contact solution broke down at t = " + std::to_string(world.time()) +
+                             " s; use a smaller step or more sweeps (" + error.what() + ")");
+  }
   times.wall.push_back(
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   times.broad += 1e3 * report.broad_s;

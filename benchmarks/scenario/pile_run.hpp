@@ -21,7 +21,7 @@ struct PhaseTimes {
   nlohmann::json parts() const;  ///< means over the steps [ms]
 };
 
-/// Makes a step and adds its times. Returns its report.
+/// Makes a step and adds its times. Returns its report. Throws std::runtime_error when the engine refuses it.
 engine::contact::StepReport add_step(PhaseTimes& times, engine::contact::World& world);
 
 /// Called after a step with its report.

@@ -14,7 +14,7 @@
 /// axis theorem over all face normals and all edge pairs of the true hulls, divided by the longest dimension
 /// of the smaller rock. Pairs of positive depth touch; mean and percentiles are over these. Drift: distance
 /// between a rock's centres at two times over the time between. Kinetic energy: translation and rotation, a
-/// rock. SI units, world frame. Cost: about 0.3 ms a touching pair, 3 us a pair of near rocks that are apart.
+/// rock. SI units, world frame. Cost: about 0.1 ms a touching pair, 0.5 s for 3000 settled rocks.
 namespace drawpoint::support {
 
 /// A rock's motion as an engine reports it: centre of mass, principal axes; velocities in world axes.
