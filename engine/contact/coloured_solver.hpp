@@ -2,15 +2,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/contact/machine_pairs.hpp>
+#include <drawpoint/engine/contact/pair_batches.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/contact/stage_team.hpp>
+#include <optional>
 
 /// The fast method: colours of pairs that share no body, eight pairs at a time, single precision.
 ///
 /// Pairs that touch the machine are swept one after another in double precision before the colours, on the
-/// same velocities. Velocities and impulses have 24 bits: a residual below about 1e-6 of the load is
-/// round-off. Positions stay in double precision outside. Cost and figures: docs/contact-solving.md.
-namespace drawpoint::engine::contact {
+/// same velocities. Bodies that touch nothing keep double precision. Velocities and impulses of the others
+/// have 24 bits: a residual below about 1e-6 of the load is round-off, and momentum is kept to 6e-8 of a
+/// body's own a sweep. Positions stay in double precision outside. Cost and figures: docs/contact-solving.md.
+namespace drawpoint::engine::contact::detail {
 
-SolverReport solve_coloured(ContactProblem& problem, const SolverOptions& options);
+class ColouredSolver {
+ public:
+  explicit ColouredSolver(const SolverOptions& options) : options_(options), parallel_(options.threads) {}
 
-}  // namespace drawpoint::engine::contact
+  SolverReport solve(ContactProblem& problem);
+
+ private:
+  template <class Kernel>
+  void over(BatchRange range, const Kernel& kernel);
+  template <class Kernel>
+  void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
+  void begin_substep(bool first);
+  void start();
+  void extrapolate();
+  void sweep(bool forward);
+  void travel();
+  void store_bodies();
+  double change() const { return batches_.change() + machine_change_; }
+  double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
+
+  SolverOptions options_;
+  Parallel parallel_;
+  PairBatches batches_;
+  std::vector<BodyRow> travel_;  // ∫ v dt, ∫ ω dt
+  std::vector<char> touched_;    // by body: in a pair
+
+  // During a solve.
+  ContactProblem* problem_ = nullptr;
+  float h_ = 0;
+  std::optional<MachinePairs> machine_;
+  std::optional<StageTeam> team_;
+  double machine_change_ = 0;  // of the machine's pairs in the last sweep
+};
+
+}  // namespace drawpoint::engine::contact::detail

@@ -44,7 +44,6 @@ struct alignas(32) PairBatch {
   Lanes moment[3], moment_total[3];  // in the frame
   Lanes change;                      // Σ|Δλ| of the last sweep
   std::int32_t first, points;        // point batches
-  std::int32_t pairs;                // lanes in use
   bool resists;                      // any rolling or spinning
 };
 

@@ -11,81 +11,114 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr int bodies_a_block = 256, batches_a_block = 8;
+
 void put(const Vector3d& v, Lanes (&lanes)[3], int lane) {
   for (int k = 0; k < 3; ++k) lanes[k][lane] = static_cast<float>(v[k]);
 }
 Vector3d get(const Lanes (&lanes)[3], int lane) { return {lanes[0][lane], lanes[1][lane], lanes[2][lane]}; }
 
+template <class T>
+void grow(std::vector<T>& buffer, std::size_t size) {
+  if (buffer.size() < size) buffer.resize(size);
+}
+
 }  // namespace
 
-PairBatches::PairBatches(const ContactProblem& problem, const Colouring& colouring, int substeps) {
-  const std::size_t batches = colouring.pairs.size() / batch_lanes + colouring.starts.size();
-  pairs_.reserve(batches);
-  points_.reserve(4 * batches);
-  members_.reserve(batches * batch_lanes);
-  bodies.reserve(problem.bodies.size() + batches * batch_lanes);
-  responses_.reserve(bodies.capacity());
-  for (const SolverBody& body : problem.bodies) add_row(body);
-  for (std::size_t c = 0; c + 1 < colouring.starts.size(); ++c) {
-    const int first = count();
-    for (int k = colouring.starts[c]; k < colouring.starts[c + 1]; k += batch_lanes)
-      add_batch(problem, colouring.pairs.data() + k, std::min(batch_lanes, colouring.starts[c + 1] - k),
-                substeps);
-    if (count() > first) colours_.push_back({first, count()});
-  }
+void PairBatches::fill(const ContactProblem& problem, const Colouring& colouring, int substeps,
+                       const Parallel& parallel) {
+  plan(problem, colouring);
+  fill_bodies(problem, parallel);
+  parallel.blocks(count(), batches_a_block, [&](int first, int last) {
+    for (int batch = first; batch < last; ++batch) fill_batch(problem, batch, substeps);
+  });
   end = begin = bodies;
 }
 
-void PairBatches::add_row(const SolverBody& body) {
-  BodyRow row;
-  BodyResponse response;
+int PairBatches::own_rows(const ContactProblem& problem, const int* members, int pairs) const {
+  int rows = 2 * (batch_lanes - pairs);
+  for (int k = 0; k < pairs; ++k) {
+    const ContactPair& pair = problem.pairs[members[k]];
+    rows += is_fixed(problem.bodies[pair.a]) + is_fixed(problem.bodies[pair.b]);
+  }
+  return rows;
+}
+
+void PairBatches::plan(const ContactProblem& problem, const Colouring& colouring) {
+  colouring_ = colouring;
+  plans_.clear();
+  colours_.clear();
+  rows_ = static_cast<int>(problem.bodies.size());
+  point_batches_ = 0;
+  for (std::size_t c = 0; c + 1 < colouring_.starts.size(); ++c) {
+    const int first = count();
+    for (int k = colouring_.starts[c]; k < colouring_.starts[c + 1]; k += batch_lanes) {
+      const int* members = colouring_.pairs.data() + k;
+      const int pairs = std::min(batch_lanes, colouring_.starts[c + 1] - k);
+      const int points = problem.pairs[members[0]].count;  // the most: sorted so
+      plans_.push_back({members, pairs, points, point_batches_, rows_});
+      point_batches_ += points;
+      rows_ += own_rows(problem, members, pairs);
+    }
+    if (count() > first) colours_.push_back({first, count()});
+  }
+  grow(pairs_, plans_.size());
+  grow(points_, static_cast<std::size_t>(point_batches_));
+}
+
+void PairBatches::fill_bodies(const ContactProblem& problem, const Parallel& parallel) {
+  bodies.assign(static_cast<std::size_t>(rows_), BodyRow());
+  responses_.assign(static_cast<std::size_t>(rows_), BodyResponse());
+  parallel.blocks(static_cast<int>(problem.bodies.size()), bodies_a_block, [&](int first, int last) {
+    for (int row = first; row < last; ++row) fill_row(row, problem.bodies[row]);
+  });
+}
+
+void PairBatches::fill_row(int row, const SolverBody& body) {
   for (int k = 0; k < 3; ++k) {
-    row.velocity[k] = static_cast<float>(body.velocity[k]);
-    row.angular_velocity[k] = static_cast<float>(body.angular_velocity[k]);
+    bodies[row].velocity[k] = static_cast<float>(body.velocity[k]);
+    bodies[row].angular_velocity[k] = static_cast<float>(body.angular_velocity[k]);
   }
   const Matrix3d& I = body.inverse_inertia;
-  const double inertia[4] = {I(0, 0), I(0, 1), I(0, 2), I(1, 1)},
-               rest[3] = {I(1, 2), I(2, 2), body.inverse_mass};
-  std::copy_n(inertia, 4, response.inertia);
-  std::copy_n(rest, 3, response.rest);
-  bodies.push_back(row);
-  responses_.push_back(response);
+  const double inertia[4] = {I(0, 0), I(0, 1), I(0, 2), I(1, 1)};
+  const double rest[3] = {I(1, 2), I(2, 2), body.inverse_mass};
+  std::copy_n(inertia, 4, responses_[row].inertia);
+  std::copy_n(rest, 3, responses_[row].rest);
 }
 
-// Fixed bodies get a row a lane.
-int PairBatches::row_of(const ContactProblem& problem, int body) {
-  if (!is_fixed(problem.bodies[body])) return body;
-  add_row(problem.bodies[body]);
-  return static_cast<int>(bodies.size()) - 1;
-}
-
-void PairBatches::add_batch(const ContactProblem& problem, const int* members, int count, int substeps) {
-  PairBatch batch{};
-  batch.first = static_cast<int>(points_.size());
-  batch.points = problem.pairs[members[0]].count;  // the most: sorted so
-  batch.pairs = count;
-  PointBatch empty{};
-  std::fill(std::begin(empty.gap), std::end(empty.gap), no_gap);
-  points_.resize(points_.size() + batch.points, empty);
-  for (int lane = 0; lane < count; ++lane) add_pair(problem, batch, lane, members[lane], substeps);
-  for (int lane = count; lane < batch_lanes; ++lane) {
-    bodies.resize(bodies.size() + 2);
-    responses_.resize(bodies.size());
-    batch.a[lane] = static_cast<int>(bodies.size()) - 2;
-    batch.b[lane] = static_cast<int>(bodies.size()) - 1;
-    members_.push_back(-1);
+void PairBatches::fill_batch(const ContactProblem& problem, int index, int substeps) {
+  const Plan& plan = plans_[index];
+  PairBatch& batch = pairs_[index];
+  batch = PairBatch{};
+  batch.first = plan.first_point;
+  batch.points = plan.points;
+  for (int k = 0; k < plan.points; ++k) {
+    PointBatch& p = points_[plan.first_point + k];
+    p = PointBatch{};
+    std::fill(std::begin(p.gap), std::end(p.gap), no_gap);
   }
-  pairs_.push_back(batch);
+  int own_row = plan.first_row;
+  const auto place = [&](int body) {
+    if (!is_fixed(problem.bodies[body])) return body;
+    fill_row(own_row, problem.bodies[body]);
+    return own_row++;
+  };
+  for (int lane = 0; lane < plan.pairs; ++lane) {
+    const ContactPair& pair = problem.pairs[plan.members[lane]];
+    batch.a[lane] = place(pair.a);
+    batch.b[lane] = place(pair.b);
+    fill_lane(problem, batch, lane, pair, substeps);
+  }
+  for (int lane = plan.pairs; lane < batch_lanes; ++lane) {
+    batch.a[lane] = own_row++;
+    batch.b[lane] = own_row++;
+  }
 }
 
-void PairBatches::add_pair(const ContactProblem& problem, PairBatch& batch, int lane, int index,
-                           int substeps) {
-  const ContactPair& pair = problem.pairs[index];
+void PairBatches::fill_lane(const ContactProblem& problem, PairBatch& batch, int lane,
+                            const ContactPair& pair, int substeps) {
   const ContactPoint& first = problem.points[pair.first];
   const Matrix3d frame = contact_frame(first.normal);
-  members_.push_back(index);
-  batch.a[lane] = row_of(problem, pair.a);
-  batch.b[lane] = row_of(problem, pair.b);
   put(first.normal, batch.normal, lane);
   put(frame.row(1), batch.tangent, lane);
   put(first.arm_b - first.arm_a, batch.offset, lane);
@@ -109,34 +142,38 @@ void PairBatches::add_pair(const ContactProblem& problem, PairBatch& batch, int 
 
 double PairBatches::change() const {
   double sum = 0;
-  for (const PairBatch& batch : pairs_)
-    for (const float change : batch.change) sum += change;
+  for (int batch = 0; batch < count(); ++batch)
+    for (const float change : pairs_[batch].change) sum += change;
   return sum;
 }
 
 double PairBatches::normal_load() const {
   double sum = 0;
-  for (const PointBatch& p : points_)
-    for (const float impulse : p.impulse[0]) sum += impulse;
+  for (int k = 0; k < point_batches_; ++k)
+    for (const float impulse : points_[k].impulse[0]) sum += impulse;
   return sum;
 }
 
-void PairBatches::store(ContactProblem& problem, int substeps) const {
-  for (std::size_t k = 0; k < members_.size(); ++k) {
-    if (members_[k] < 0) continue;
-    ContactPair& pair = problem.pairs[members_[k]];
-    const PairBatch& batch = pairs_[k / batch_lanes];
-    const int lane = static_cast<int>(k % batch_lanes);
-    const Matrix3d to_world = contact_frame(problem.points[pair.first].normal).transpose();
-    const Vector3d moment = get(batch.moment, lane);
-    pair.start = substeps * (to_world * moment);
-    pair.impulse = to_world * (get(batch.moment_total, lane) + moment);
-    for (int i = 0; i < pair.count; ++i) {
-      const PointBatch& p = points_[batch.first + i];
-      const Vector3d impulse = get(p.impulse, lane);
-      problem.points[pair.first + i].start = substeps * (to_world * impulse);
-      problem.points[pair.first + i].impulse = to_world * (get(p.total, lane) + impulse);
-    }
+void PairBatches::store(ContactProblem& problem, int substeps, const Parallel& parallel) const {
+  parallel.blocks(count(), batches_a_block, [&](int first, int last) {
+    for (int batch = first; batch < last; ++batch)
+      for (int lane = 0; lane < plans_[batch].pairs; ++lane)
+        store_lane(problem, pairs_[batch], lane, problem.pairs[plans_[batch].members[lane]], substeps);
+  });
+}
+
+void PairBatches::store_lane(ContactProblem& problem, const PairBatch& batch, int lane, ContactPair& pair,
+                             int substeps) const {
+  const Matrix3d to_world = contact_frame(problem.points[pair.first].normal).transpose();
+  const Vector3d moment = get(batch.moment, lane);
+  pair.start = substeps * (to_world * moment);
+  pair.impulse = to_world * (get(batch.moment_total, lane) + moment);
+  for (int i = 0; i < pair.count; ++i) {
+    const PointBatch& p = points_[batch.first + i];
+    ContactPoint& point = problem.points[pair.first + i];
+    const Vector3d impulse = get(p.impulse, lane);
+    point.start = substeps * (to_world * impulse);
+    point.impulse = to_world * (get(p.total, lane) + impulse);
   }
 }
 

@@ -4,41 +4,57 @@
 
 #include <drawpoint/engine/contact/colouring.hpp>
 #include <drawpoint/engine/contact/pair_batch.hpp>
+#include <drawpoint/engine/contact/parallel.hpp>
 
-/// A ContactProblem laid out in batches, and back.
+/// A ContactProblem laid out in batches, and back. Buffers are kept from solve to solve.
 namespace drawpoint::engine::contact::detail {
 
 class PairBatches {
  public:
-  PairBatches(const ContactProblem& problem, const Colouring& colouring, int substeps);
+  /// Lays out the coloured pairs of the problem.
+  void fill(const ContactProblem& problem, const Colouring& colouring, int substeps,
+            const Parallel& parallel);
 
   BatchArrays arrays() {
     return {pairs_.data(), points_.data(), bodies.data(), end.data(), responses_.data()};
   }
-  int count() const { return static_cast<int>(pairs_.size()); }
+  int count() const { return static_cast<int>(plans_.size()); }
   const std::vector<BatchRange>& colours() const { return colours_; }
 
   double change() const;       ///< Σ|Δλ| of the last sweep [N s]
   double normal_load() const;  ///< Σ λ_n of the substep [N s]
 
   /// Writes the impulses of the step and the last substep into the problem.
-  void store(ContactProblem& problem, int substeps) const;
+  void store(ContactProblem& problem, int substeps, const Parallel& parallel) const;
 
   /// Velocities now, at the end of the last substep, and at its beginning. Row k is body k; rows beyond the
   /// bodies stand for fixed ones.
   std::vector<BodyRow> bodies, end, begin;
 
  private:
-  void add_batch(const ContactProblem& problem, const int* members, int count, int substeps);
-  void add_pair(const ContactProblem& problem, PairBatch& batch, int lane, int index, int substeps);
-  int row_of(const ContactProblem& problem, int body);
-  void add_row(const SolverBody& body);
+  /// Where a batch's pairs, points and own rows are. Fixed bodies and lanes without a pair have own rows.
+  struct Plan {
+    const int* members;
+    int pairs, points, first_point, first_row;
+  };
 
+  void plan(const ContactProblem& problem, const Colouring& colouring);
+  int own_rows(const ContactProblem& problem, const int* members, int pairs) const;
+  void fill_bodies(const ContactProblem& problem, const Parallel& parallel);
+  void fill_row(int row, const SolverBody& body);
+  void fill_batch(const ContactProblem& problem, int batch, int substeps);
+  void fill_lane(const ContactProblem& problem, PairBatch& batch, int lane, const ContactPair& pair,
+                 int substeps);
+  void store_lane(ContactProblem& problem, const PairBatch& batch, int lane, ContactPair& pair,
+                  int substeps) const;
+
+  Colouring colouring_;
+  std::vector<Plan> plans_;
   std::vector<PairBatch> pairs_;
   std::vector<PointBatch> points_;
   std::vector<BodyResponse> responses_;
   std::vector<BatchRange> colours_;
-  std::vector<int> members_;  // pair of each lane, in the order of batches and lanes
+  int rows_ = 0, point_batches_ = 0;
 };
 
 }  // namespace drawpoint::engine::contact::detail

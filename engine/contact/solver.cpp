@@ -17,9 +17,19 @@ Method method_named(std::string_view name) {
                               "\"; known: sequential, coloured");
 }
 
+ContactSolver::ContactSolver(const SolverOptions& options)
+    : options_(options), coloured_(std::make_unique<detail::ColouredSolver>(options)) {}
+ContactSolver::~ContactSolver() = default;
+ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
+ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
+
+SolverReport ContactSolver::solve(ContactProblem& problem) {
+  return options_.method == Method::coloured ? coloured_->solve(problem)
+                                             : solve_sequentially(problem, options_);
+}
+
 SolverReport solve(ContactProblem& problem, const SolverOptions& options) {
-  return options.method == Method::coloured ? solve_coloured(problem, options)
-                                            : solve_sequentially(problem, options);
+  return ContactSolver(options).solve(problem);
 }
 
 }  // namespace drawpoint::engine::contact

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <drawpoint/engine/contact/contact_problem.hpp>
+#include <memory>
 #include <string_view>
 
 /// Solves a ContactProblem: substeps of projected Gauss-Seidel sweeps, by one of the methods below.
@@ -21,6 +22,10 @@
 /// `coloured` visits sets of pairs that share no body, eight pairs at a time, in single precision on
 /// velocities and impulses: the fast method. Both give the same bits for any number of threads.
 namespace drawpoint::engine::contact {
+
+namespace detail {
+class ColouredSolver;
+}
 
 enum class Method { sequential, coloured };
 
@@ -50,6 +55,22 @@ struct SolverReport {
   SuperBodySolution machine;
 };
 
+/// Keeps its buffers from solve to solve; not for concurrent use.
+class ContactSolver {
+ public:
+  explicit ContactSolver(const SolverOptions& options = {});
+  ~ContactSolver();
+  ContactSolver(ContactSolver&&) noexcept;
+  ContactSolver& operator=(ContactSolver&&) noexcept;
+
+  SolverReport solve(ContactProblem& problem);
+
+ private:
+  SolverOptions options_;
+  std::unique_ptr<detail::ColouredSolver> coloured_;
+};
+
+/// One solve, on its own.
 SolverReport solve(ContactProblem& problem, const SolverOptions& options = {});
 
 }  // namespace drawpoint::engine::contact

@@ -31,7 +31,7 @@ Matrix3d turned(const Matrix3d& R, const Vector3d& principal) {
 }  // namespace
 
 World::World(const WorldOptions& options, const MaterialTable& materials)
-    : options_(options), materials_(materials), finder_(options.contacts) {
+    : options_(options), materials_(materials), finder_(options.contacts), solver_(options.solver) {
   if (!(options.step > 0) || options.step > 0.1)
     throw std::invalid_argument("contact::World: step is " + std::to_string(options.step) +
                                 " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
@@ -214,7 +214,7 @@ StepReport World::step() {
   warm_start_.begin_step();
   fill_contacts();
   const auto solver_start = std::chrono::steady_clock::now();
-  const SolverReport solved = solve(problem_, options_.solver);
+  const SolverReport solved = solver_.solve(problem_);
   report.solver_s = seconds_since(solver_start);
   for (const ContactPair& pair : problem_.pairs) {
     warm_start_.store_pair(pair.collider_a, pair.collider_b, pair.start);

@@ -101,6 +101,7 @@ class World {
   WorldOptions options_;
   MaterialTable materials_;
   ContactFinder finder_;
+  ContactSolver solver_;
   std::vector<Surface> surfaces_;  // by collider
   std::vector<Rock> rocks_;
   ArticulatedBody* machine_ = nullptr;

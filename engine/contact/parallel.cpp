@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <drawpoint/engine/contact/parallel.hpp>
+
+namespace drawpoint::engine::contact::detail {
+
+struct Parallel::Arena {
+  explicit Arena(int threads) : arena(threads) {}
+  tbb::task_arena arena;
+};
+
+Parallel::Parallel(int threads) : threads_(threads) {
+  if (threads > 1) arena_ = std::make_unique<Arena>(threads);
+}
+Parallel::~Parallel() = default;
+Parallel::Parallel(Parallel&&) noexcept = default;
+Parallel& Parallel::operator=(Parallel&&) noexcept = default;
+
+void Parallel::blocks(int count, int block, const std::function<void(int, int)>& work) const {
+  if (!arena_ || count <= block) {
+    if (count > 0) work(0, count);
+    return;
+  }
+  arena_->arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, (count + block - 1) / block, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int k = range.begin(); k < range.end(); ++k) work(k * block, std::min(count, (k + 1) * block));
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+}  // namespace drawpoint::engine::contact::detail
