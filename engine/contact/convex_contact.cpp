@@ -24,10 +24,6 @@ int facing(const CollisionHull& hull, int vertex, const Vector3d& n) {
   return best;
 }
 
-Vector3d in_b(const HullPair& pair, const Vector3d& p) {
-  return pair.X_AB.linear().transpose() * (p - pair.X_AB.translation());
-}
-
 void add_anchors(const Vector3d& on_a, const Vector3d& on_b, std::uint32_t feature, ConvexContact& contact) {
   contact.points[static_cast<std::size_t>(contact.count++)] = {on_a, on_b, feature};
 }
@@ -53,11 +49,11 @@ void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, d
     for (const HullCorner& c : pair.b.corners(other))
       clipper_.add_incident(pair.vertex_b(c.vertex), c.vertex, group);
     for (const ClipPoint& p : clipper_.clip(pair.a, face, margin, group))
-      add_anchors(p.position - p.gap * axis.normal, in_b(pair, p.position), p.feature, contact);
+      add_anchors(p.position - p.gap * axis.normal, pair.in_b(p.position), p.feature, contact);
   } else {
     const int other = facing(pair.a, axis.support, -axis.normal);
     for (const HullCorner& c : pair.a.corners(other))
-      clipper_.add_incident(in_b(pair, pair.a.vertices[c.vertex]), c.vertex, group);
+      clipper_.add_incident(pair.in_b(pair.a.vertices[c.vertex]), c.vertex, group);
     for (const ClipPoint& p : clipper_.clip(pair.b, face, margin, group))
       add_anchors(pair.X_AB * p.position, p.position - p.gap * pair.b.normals[face], p.feature, contact);
   }
@@ -69,7 +65,7 @@ void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, C
                                      {pair.vertex_b(b.start), pair.vertex_b(b.end)});
   // Nearest points at an end of an edge: another direction separates the shapes more.
   if ((q - p).norm() > std::abs(axis.separation) + coincident) return;
-  add_anchors(p, in_b(pair, q),
+  add_anchors(p, pair.in_b(q),
               feature_number(edge_group, axis.feature.a, static_cast<std::uint32_t>(axis.feature.b)),
               contact);
 }
@@ -83,7 +79,7 @@ void ConvexContactSearch::nearest_contact(const HullPair& pair, const Axis& axis
     contact.normal_of_b = false;
     contact.separation = nearest.distance;
   }
-  add_anchors(nearest.on_a, in_b(pair, nearest.on_b),
+  add_anchors(nearest.on_a, pair.in_b(nearest.on_b),
               feature_number(nearest_group, nearest.edge_a, static_cast<std::uint32_t>(nearest.edge_b)),
               contact);
 }

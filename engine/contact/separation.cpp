@@ -36,32 +36,24 @@ Vector3d within(const CollisionHull& hull, int face, const Vector3d& p) {
   return middle + share * out;
 }
 
-// Whether a direction between the two faces of an edge may separate by more than `least`, as seen by a point
-// at the given heights over the faces. Between the faces the height over the edge is a cosine: it is largest
-// at an end, or inside when the point lies beyond both faces.
-bool may_win(const HullEdge& edge, const Vector3d& start, const Vector3d& p, double left, double right,
-             double least) {
-  if (std::max(left, right) > least) return true;
+// The most that a point lies over an edge, along directions between the normals of its two faces; `left` and
+// `right`: its heights over these. The height over the edge is a cosine of the direction: it is largest at an
+// end, or inside when it is positive and the point lies beyond both faces.
+double most_over(const HullEdge& edge, const Vector3d& start, const Vector3d& p, double left, double right) {
+  const double end = std::max(left, right);
+  if (end <= 0) return end;
   const Vector3d from = p - start;
-  if (edge.beyond_left.dot(from) <= -round_off || edge.beyond_right.dot(from) <= -round_off) return false;
+  if (edge.beyond_left.dot(from) <= -round_off || edge.beyond_right.dot(from) <= -round_off) return end;
   const double along = edge.along.dot(from);
-  return from.squaredNorm() - along * along / edge.along.squaredNorm() > least * least;
+  return std::sqrt(std::max(0.0, from.squaredNorm() - along * along / edge.along.squaredNorm()));
 }
 
-// Calls `see(e)` once for each edge of the hull that may win.
-template <class See>
-void for_edges(const CollisionHull& hull, const std::vector<double>& over, const Vector3d& p, double least,
-               const See& see) {
-  const double live = std::min(least, 0.0);  // a point under both faces of an edge is nearest to a face
-  for (int f = 0; f < hull.face_count(); ++f) {
-    if (over[f] <= live) continue;
-    for (int e : hull.edges_of(f)) {
-      const HullEdge& edge = hull.edges[e];
-      const int other = edge.left == f ? edge.right : edge.left;
-      if (other < f && over[other] > live) continue;  // seen from there
-      if (may_win(edge, hull.vertices[edge.start], p, over[edge.left], over[edge.right], least)) see(e);
-    }
-  }
+// Descending by `most`; short lists.
+template <class Edge>
+void sort_by_most(std::vector<Edge>& edges) {
+  for (std::size_t k = 1; k < edges.size(); ++k)
+    for (std::size_t j = k; j > 0 && edges[j].most > edges[j - 1].most; --j)
+      std::swap(edges[j], edges[j - 1]);
 }
 
 }  // namespace
@@ -123,8 +115,8 @@ Axis AxisSearch::axis_of(const HullPair& pair, const Feature& feature) const {
   if (feature.kind == FeatureKind::edges) {
     const Eigen::Matrix3d R = pair.X_AB.linear();
     const HullEdge& eb = pair.b.edges[feature.b];
-    edge_axis(pair, {feature.a, R.transpose() * pair.a.edges[feature.a].along},
-              {feature.b, R * eb.along, pair.vertex_b(eb.start)}, axis);
+    edge_axis(pair, {feature.a, 0, R.transpose() * pair.a.edges[feature.a].along},
+              {feature.b, 0, R * eb.along, pair.vertex_b(eb.start)}, axis);
   }
   return axis;
 }
@@ -167,13 +159,8 @@ Axis AxisSearch::guess(const HullPair& pair, Witness& witness) {
   return axis;
 }
 
-void AxisSearch::measure(const HullPair& pair, const Witness& witness) {
-  heights(pair.a, witness.on_b, over_a_.data());
-  heights(pair.b, pair.X_AB.linear().transpose() * (witness.on_a - pair.X_AB.translation()), over_b_.data());
-}
-
 // False as soon as a face separates the shapes by more than the margin.
-bool AxisSearch::sweep_faces(const HullPair& pair) {
+bool AxisSearch::sweep_faces(const HullPair& pair, const Witness& witness) {
   const auto note = [this](const Axis& axis) {
     if (axis.separation > best_.separation) {
       best_ = axis;
@@ -181,36 +168,98 @@ bool AxisSearch::sweep_faces(const HullPair& pair) {
     }
     return axis.separation <= query_.margin;
   };
+  // The first guess is not looked at twice.
+  const auto see_a = [&](int f) {
+    const bool known = best_.feature.kind == FeatureKind::face_a && best_.feature.a == f;
+    const Axis axis = known ? best_ : face_of_a(pair, f);
+    side_a_.see(f, axis.separation, pair.vertex_b(axis.support));
+    return note(axis);
+  };
+  const auto see_b = [&](int f) {
+    const bool known = best_.feature.kind == FeatureKind::face_b && best_.feature.b == f;
+    const Axis axis = known ? best_ : face_of_b(pair, f);
+    side_b_.see(f, axis.separation, pair.in_b(pair.a.vertices[axis.support]));
+    return note(axis);
+  };
+  side_a_.measure(pair.a, witness.on_b);
+  side_b_.measure(pair.b, pair.in_b(witness.on_a));
   for (int f = 0; f < pair.a.face_count(); ++f)
-    if (over_a_[f] > floor_ - round_off && !note(face_of_a(pair, f))) return false;
+    if (side_a_.over[f] > floor_ - round_off && !see_a(f)) return false;
   for (int f = 0; f < pair.b.face_count(); ++f)
-    if (over_b_[f] > floor_ - round_off && !note(face_of_b(pair, f))) return false;
+    if (side_b_.over[f] > floor_ - round_off && !see_b(f)) return false;
   return true;
 }
 
+void AxisSearch::Side::measure(const CollisionHull& hull, const Vector3d& p) {
+  over.resize(std::max<std::size_t>(over.size(), hull.nx.size()));
+  heights(hull, p, over.data());
+  point = p;
+  seen.clear();
+  seen_at.assign(static_cast<std::size_t>(hull.face_count()), -1);
+}
+
+void AxisSearch::Side::see(int face, double separation, const Vector3d& lowest) {
+  seen_at[face] = static_cast<int>(seen.size());
+  seen.push_back({separation, lowest});
+}
+
+// Calls `keep(e, most)` once for each edge of the hull that may separate by more than `least`, and by no more
+// than `most`. Three points of the other shape can rule an edge out: the witness, and the lowest ones over
+// its two faces where those were looked at.
+template <class Keep>
+void AxisSearch::Side::for_edges(const CollisionHull& hull, double least, const Keep& keep) const {
+  const auto most = [&](const HullEdge& edge) {
+    const Vector3d& start = hull.vertices[edge.start];
+    double bound = most_over(edge, start, point, over[edge.left], over[edge.right]);
+    for (const bool left : {true, false}) {
+      const int at = seen_at[left ? edge.left : edge.right];
+      if (at < 0 || bound <= least) continue;
+      const SeenFace& face = seen[at];
+      const int other = left ? edge.right : edge.left;
+      const double across = hull.normals[other].dot(face.lowest) - hull.offsets[other];
+      bound = std::min(bound, most_over(edge, start, face.lowest, left ? face.separation : across,
+                                        left ? across : face.separation));
+    }
+    return bound;
+  };
+  // Over no other face is the witness high enough.
+  const double high = std::min(least, 0.0);
+  for (int f = 0; f < hull.face_count(); ++f) {
+    if (over[f] <= high) continue;
+    for (int e : hull.edges_of(f)) {
+      const HullEdge& edge = hull.edges[e];
+      const int other = edge.left == f ? edge.right : edge.left;
+      if (other < f && over[other] > high) continue;  // seen from there
+      if (const double bound = most(edge); bound > least) keep(e, bound);
+    }
+  }
+}
+
 // The best pair of edges, if one separates by more than `best_edges` already does.
-void AxisSearch::sweep_edges(const HullPair& pair, const Witness& witness, Axis& best_edges) {
+void AxisSearch::sweep_edges(const HullPair& pair, Axis& best_edges) {
   const Eigen::Matrix3d R = pair.X_AB.linear();
   const double least = best_edges.separation;
   edges_a_.clear();
   edges_b_.clear();
-  for_edges(pair.a, over_a_, witness.on_b, least, [&](int e) {
-    edges_a_.push_back({e, R.transpose() * pair.a.edges[e].along});
+  side_a_.for_edges(pair.a, least, [&](int e, double most) {
+    edges_a_.push_back({e, most, R.transpose() * pair.a.edges[e].along});
   });
   if (edges_a_.empty()) return;
-  for_edges(pair.b, over_b_, R.transpose() * (witness.on_a - pair.X_AB.translation()), least, [&](int e) {
-    edges_b_.push_back({e, R * pair.b.edges[e].along, pair.vertex_b(pair.b.edges[e].start)});
+  side_b_.for_edges(pair.b, least, [&](int e, double most) {
+    edges_b_.push_back({e, most, R * pair.b.edges[e].along, pair.vertex_b(pair.b.edges[e].start)});
   });
+  sort_by_most(edges_a_);
+  sort_by_most(edges_b_);
   Axis axis;
   for (const EdgeOfA& ea : edges_a_)
-    for (const EdgeOfB& eb : edges_b_)
+    for (const EdgeOfB& eb : edges_b_) {
+      if (std::min(ea.most, eb.most) <= best_edges.separation) break;
       if (edge_axis(pair, ea, eb, axis) && axis.separation > best_edges.separation) best_edges = axis;
+    }
 }
 
 Axis AxisSearch::find(const HullPair& pair, const AxisQuery& query) {
   query_ = query;
-  over_a_.resize(std::max<std::size_t>(over_a_.size(), pair.a.nx.size()));
-  over_b_.resize(std::max<std::size_t>(over_b_.size(), pair.b.nx.size()));
   Witness witness;
   const Axis first = guess(pair, witness);
   if (first.separation > query.margin) return first;
@@ -219,16 +268,11 @@ Axis AxisSearch::find(const HullPair& pair, const AxisQuery& query) {
   best_ = hinted && !by_edges ? first : Axis{};
   if (hinted == by_edges) best_.separation = -infinity;  // no face yet
   if (by_edges) floor_ -= face_preference;               // a face may win that is worse by less
-  measure(pair, witness);
-  if (!sweep_faces(pair)) return best_;
+  if (!sweep_faces(pair, witness)) return best_;
   const bool edges_lead = by_edges && first.separation > best_.separation + face_preference;
-  if (!edges_lead && best_.feature != first.feature) {
-    witness = witness_of(pair, best_);
-    measure(pair, witness);
-  }
   Axis best_edges = edges_lead ? first : Axis{};
   if (!edges_lead) best_edges.separation = best_.separation + face_preference;
-  sweep_edges(pair, witness, best_edges);
+  sweep_edges(pair, best_edges);
   if (best_edges.feature.kind == FeatureKind::edges) best_ = best_edges;
   if (best_.separation > query.margin) return best_;
   return hinted && first.separation >= best_.separation - query.hysteresis ? first : best_;
@@ -248,7 +292,8 @@ bool AxisSearch::nearest_edges(const HullPair& pair, const Axis& axis, double ma
   for (std::size_t e = 0; e < pair.b.edges.size(); ++e) {
     const HullEdge& edge = pair.b.edges[e];
     if (low(edge.start) || low(edge.end))
-      edges_b_.push_back({static_cast<int>(e), pair.X_AB.linear() * edge.along, pair.vertex_b(edge.start)});
+      edges_b_.push_back(
+          {static_cast<int>(e), 0, pair.X_AB.linear() * edge.along, pair.vertex_b(edge.start)});
   }
   nearest.distance = infinity;
   for (std::size_t e = 0; e < pair.a.edges.size(); ++e) {

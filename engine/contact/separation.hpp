@@ -45,6 +45,9 @@ struct HullPair {
   Eigen::Isometry3d X_AB;
 
   Eigen::Vector3d vertex_b(int v) const { return X_AB * b.vertices[v]; }  ///< in A's frame
+  Eigen::Vector3d in_b(const Eigen::Vector3d& p) const {
+    return X_AB.linear().transpose() * (p - X_AB.translation());
+  }
 };
 
 struct AxisQuery {
@@ -75,12 +78,30 @@ class AxisSearch {
   struct Witness {
     Eigen::Vector3d on_a, on_b;  ///< a point of each shape, in A's frame, near where they touch
   };
+  // What is known of the faces of one shape; points in its frame.
+  struct SeenFace {
+    double separation;
+    Eigen::Vector3d lowest;  // point of the other shape over it
+  };
+  struct Side {
+    void measure(const CollisionHull& hull, const Eigen::Vector3d& p);
+    void see(int face, double separation, const Eigen::Vector3d& lowest);
+    template <class Keep>
+    void for_edges(const CollisionHull& hull, double least, const Keep& keep) const;
+
+    Eigen::Vector3d point;     // witness on the other shape
+    std::vector<double> over;  // its heights over the planes
+    std::vector<SeenFace> seen;
+    std::vector<int> seen_at;  // by face: its place in `seen`, or -1
+  };
   struct EdgeOfA {
     int edge;
+    double most;  // no axis of this edge separates by more
     Eigen::Vector3d along_in_b;
   };
   struct EdgeOfB {
     int edge;
+    double most;
     Eigen::Vector3d along, start;  ///< in A's frame
   };
 
@@ -90,11 +111,10 @@ class AxisSearch {
   Axis face_of_b(const HullPair& pair, int face) const;
   bool edge_axis(const HullPair& pair, const EdgeOfA& first, const EdgeOfB& second, Axis& axis) const;
   Witness witness_of(const HullPair& pair, const Axis& axis) const;
-  void measure(const HullPair& pair, const Witness& witness);
-  bool sweep_faces(const HullPair& pair);
-  void sweep_edges(const HullPair& pair, const Witness& witness, Axis& best_edges);
+  bool sweep_faces(const HullPair& pair, const Witness& witness);
+  void sweep_edges(const HullPair& pair, Axis& best_edges);
 
-  std::vector<double> over_a_, over_b_;  // heights of the witness points over the planes of A, of B
+  Side side_a_, side_b_;
   std::vector<EdgeOfA> edges_a_;
   std::vector<EdgeOfB> edges_b_;
   Axis best_;
