@@ -143,7 +143,7 @@ inline OverlapStatistics blade_overlaps(const RockPile& pile, const std::vector<
 
 /// Speeds between two times [m/s].
 struct Drift {
-  double mean = 0, worst = 0;  ///< over rocks
+  double mean = 0, median = 0, worst = 0;  ///< over rocks
 };
 
 /// seconds: between the two states, > 0.
@@ -154,11 +154,16 @@ inline Drift drift(const std::vector<RockState>& before, const std::vector<RockS
                                 ") as before (" + std::to_string(before.size()) +
                                 "), at least one, and a time between them above 0 s");
   Drift d;
+  std::vector<double> speeds;
   for (std::size_t k = 0; k < before.size(); ++k) {
     const double speed = (after[k].pose.translation() - before[k].pose.translation()).norm() / seconds;
     d.mean += speed / static_cast<double>(before.size());
     d.worst = std::max(d.worst, speed);
+    speeds.push_back(speed);
   }
+  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
+  std::nth_element(speeds.begin(), middle, speeds.end());
+  d.median = *middle;
   return d;
 }
 

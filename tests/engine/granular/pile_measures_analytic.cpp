@@ -98,6 +98,7 @@ TEST(PileMeasures, DriftEnergyAndHash) {
   auto after = before;
   after[1].pose.translation().y() += 0.004;
   EXPECT_NEAR(drift(before, after, 2).mean, 0.001, round_off);
+  EXPECT_EQ(drift({before[0], before[0], before[1]}, {after[0], after[0], after[1]}, 2).median, 0);
   EXPECT_NEAR(drift(before, after, 2).worst, 0.002, round_off);
   EXPECT_EQ(kinetic_energy_per_rock(pile, after), 0);
   after[0].velocity = {0, 2, 0};
