@@ -38,7 +38,7 @@ constexpr const char* about =
     "  drift_mm_s   distance between a rock's centres before and after the rest phase over its time\n"
     "               (drift_window_s), mean over rocks; drift_median_mm_s, drift_worst_mm_s: of\n"
     "               the median and of the fastest rock (a median far below the mean: few rocks move)\n"
-    "  kinetic_energy_per_rock_j   at the end of the rest phase\n"
+    "  kinetic_energy_per_rock_j, mean_height_m (of the rocks' centres)   at the end of the rest phase\n"
     "  blade_drag_n mean over the last 0.6 s of digging\n"
     "  hash         of the bits of all poses and velocities at the end: equal for equal runs, whatever the\n"
     "               number of threads";
@@ -61,6 +61,7 @@ void measure_rest(nlohmann::json& out, const support::PileWorld& world,
   out["drift_worst_mm_s"] = 1e3 * drift.worst;
   out["drift_window_s"] = seconds;
   out["kinetic_energy_per_rock_j"] = support::kinetic_energy_per_rock(world.pile(), states);
+  out["mean_height_m"] = support::mean_height(states);
 }
 
 void measure_dig(nlohmann::json& out, support::PileWorld& world, int steps, Progress& progress) {

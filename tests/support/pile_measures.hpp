@@ -178,6 +178,14 @@ inline double kinetic_energy_per_rock(const RockPile& pile, const std::vector<Ro
   return sum / static_cast<double>(std::max<std::size_t>(1, states.size()));
 }
 
+/// Of the rocks' centres [m]: a pile that has lost rocks, or in which rocks have sunk into each other, is
+/// low.
+inline double mean_height(const std::vector<RockState>& states) {
+  double sum = 0;
+  for (const RockState& s : states) sum += s.pose.translation().z();
+  return sum / static_cast<double>(std::max<std::size_t>(1, states.size()));
+}
+
 /// FNV-1a over the bits of all poses and velocities.
 inline std::uint64_t state_hash(const std::vector<RockState>& states) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
