@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <drawpoint/engine/contact/contact_law.hpp>
+#include <drawpoint/engine/contact/free_turn.hpp>
 #include <drawpoint/engine/contact/world.hpp>
 #include <stdexcept>
 #include <string>
@@ -182,18 +183,13 @@ void World::move_rocks() {
     Rock& rock = rocks_[k];
     if (!rock.present) continue;
     rock.velocity = problem_.bodies[k + 1].velocity;
-    const Vector3d w = problem_.bodies[k + 1].angular_velocity, turn = problem_.bodies[k + 1].turn;
+    rock.angular_velocity = problem_.bodies[k + 1].angular_velocity;
     rock.pose.translation() += problem_.bodies[k + 1].travel;
-    const double angle = turn.norm();
-    if (angle == 0) {
-      rock.angular_velocity = w;
-      continue;
-    }
-    const Vector3d momentum = turned(rock.pose.linear(), rock.body.inertia) * w;
+    const Vector3d& turn = problem_.bodies[k + 1].turn;
+    if (turn.squaredNorm() == 0) continue;
     Eigen::Quaterniond q(rock.pose.linear());
-    q = (Eigen::AngleAxisd(angle, turn / angle) * q).normalized();
+    turn_freely(q, rock.body.inertia, rock.angular_velocity, turn, options_.step);
     rock.pose.linear() = q.toRotationMatrix();
-    rock.angular_velocity = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse()) * momentum;
   }
 }
 

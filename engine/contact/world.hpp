@@ -13,8 +13,9 @@
 ///
 /// A step: find contacts at q; v* = v + h f/m; solve all impulses (rocks and machine in one problem); q⁺ = q
 /// + h v⁺. Rocks turn by the exponential map and keep their angular momentum through the turn, so free
-/// rotation conserves it to round-off. First order in h. Rock frames: origin at the centre of mass, principal
-/// axes. World frame: x toward the back wall, z up.
+/// rotation conserves it to round-off, and its energy but for a swing of O(h²) (free_turn.hpp). First order
+/// in h. Rock frames: origin at the centre of mass, principal axes. World frame: x toward the back wall, z
+/// up.
 ///
 /// Deterministic: the same calls give the same bits. Not thread-safe. Cost: linear in contacts.
 namespace drawpoint::engine::contact {
