@@ -9,9 +9,10 @@ namespace drawpoint::support {
 
 inline engine::contact::SuperBodySolution free_solution(const engine::contact::SuperBody& super) {
   engine::contact::SuperBodySolution solution;
-  solution.velocity = super.velocity;
+  solution.velocity = solution.mean_velocity = super.velocity;
   solution.part_impulses.assign(super.part_maps.size(), engine::contact::SpatialVector::Zero());
   solution.row_impulses.assign(super.rows.size(), 0.0);
+  solution.row_starts = solution.row_impulses;
   return solution;
 }
 
@@ -26,7 +27,7 @@ inline void set_turning(engine::machine::Machine& machine, int part, const Eigen
   const auto& super = machine.linearise(1e-12, Eigen::Vector3d::Zero());
   auto solution = free_solution(super);
   const Eigen::RowVectorXd row = axis.transpose() * super.part_maps[part].topRows<3>();
-  solution.velocity = row.transpose() * (rate / row.squaredNorm());
+  solution.velocity = solution.mean_velocity = row.transpose() * (rate / row.squaredNorm());
   machine.advance(solution);
 }
 
