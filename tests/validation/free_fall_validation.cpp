@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/support/rocks.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 
 using namespace drawpoint;
 using Eigen::Vector3d;
@@ -20,7 +21,7 @@ constexpr int steps = 400;
 const Vector3d start(0, 0, 100), velocity(3, -1, 4);
 
 const engine::contact::Rock& thrown() {
-  static engine::contact::World world({}, support::one_material({}));
+  static engine::contact::World world(validation::reference_settings(h), support::one_material({}));
   if (world.rocks().empty()) {
     world.add_rock(support::rock_body(0, 0.5), support::at(start.x(), start.y(), start.z()), velocity);
     for (int k = 0; k < steps; ++k) world.step();

@@ -5,6 +5,7 @@
 #include <drawpoint/tests/support/rocks.hpp>
 #include <drawpoint/tests/validation/extrapolation.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 
 using namespace drawpoint;
 using Eigen::Vector3d;
@@ -29,8 +30,7 @@ struct Spin {
 };
 
 Spin spin(double step) {
-  engine::contact::WorldOptions options;
-  options.step = step;
+  engine::contact::WorldOptions options = validation::reference_settings(step);
   options.gravity = Vector3d::Zero();
   engine::contact::World world(options, support::one_material({}));
   world.add_rock(block(), Eigen::Isometry3d::Identity(), Vector3d::Zero(), start);

@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 #include <numbers>
 
 using namespace drawpoint;
@@ -17,14 +18,12 @@ const validation::Problem overlap{
     "Cubes of 0.2 m and 0.4 m (20 kg, 160 kg) are put down on a level floor at "
     "first touch and come to rest within 4 s, "
     "with a linear contact of 1e6 N/m and (damping time 0.1 s) with Hertz's law for E* = 1 MPa; "
-    "default step, substeps and sweeps, full warm "
-    "start."};
+    "steps of 5 ms, reference settings."};
 
 constexpr double g = 9.81;
 
 double resting_overlap(double side, const engine::contact::Material& material) {
-  engine::contact::WorldOptions options;
-  options.warm_start = 1;
+  const engine::contact::WorldOptions options = validation::reference_settings();
   engine::contact::World world(options, support::one_material(material));
   support::add_floor(world);
   world.add_rock(support::box_body(Eigen::Vector3d::Constant(side / 2)), support::at(0, 0, side / 2));

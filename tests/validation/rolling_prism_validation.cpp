@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 #include <numbers>
 
 using namespace drawpoint;
@@ -18,7 +19,7 @@ const validation::Problem rolling_prism{"rolling_prism", validation::Group::sing
                                         "A prism (radius 0.5 m, width 0.6 m) starts on a face and rolls over "
                                         "its edges, losing energy with each face that "
                                         "strikes the floor and to a rolling resistance. Rigid contact (1e12 "
-                                        "N/m), steps of 0.1 ms, full warm start."};
+                                        "N/m), steps of 0.1 ms; reference settings."};
 
 constexpr double g = 9.81, R = 0.5, half_width = 0.3, density = 2000, h = 1e-4, omega = 3;
 constexpr int n = 12;
@@ -87,9 +88,7 @@ Rates expected(const Prism& p, double r) {
 }
 
 std::vector<double> measured(const Prism& p, double mu_r, double* sides) {
-  engine::contact::WorldOptions options;
-  options.step = h;
-  options.warm_start = 1;
+  const engine::contact::WorldOptions options = validation::reference_settings(h);
   World world(options, support::one_material({0.8, mu_r, 1e12, 0}));
   support::add_floor(world);
   const Vector3d edge(R * s, 0, -R * std::cos(beta / 2)), spin(0, omega, 0);

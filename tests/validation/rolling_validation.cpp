@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 #include <numbers>
 
 using namespace drawpoint;
@@ -13,13 +14,13 @@ using validation::record;
 
 namespace {
 
-const validation::Problem rolling{
-    "rolling", validation::Group::single_body, "Rolling to rest, and from slip to rolling",
-    "A cylinder (radius 0.5 m, width 0.6 m, 1 t) and a twelve-sided prism of "
-    "the same size on a level floor; default step, "
-    "substeps and sweeps, full warm start. The rolling resistance is a moment μ_r R* N with R* "
-    "the radius of the sphere of the body's "
-    "volume."};
+const validation::Problem rolling{"rolling", validation::Group::single_body,
+                                  "Rolling to rest, and from slip to rolling",
+                                  "A cylinder (radius 0.5 m, width 0.6 m, 1 t) and a twelve-sided prism of "
+                                  "the same size on a level floor; steps of 5 ms, "
+                                  "reference settings. The rolling resistance is a moment μ_r R* N with R* "
+                                  "the radius of the sphere of the body's "
+                                  "volume."};
 
 constexpr double g = 9.81, R = 0.5, half_width = 0.3, mass = 1000, stiffness = 1e8;
 
@@ -32,8 +33,7 @@ engine::contact::RockBody cylinder() {
 double radius_of_volume(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }
 
 World floor_with(const engine::contact::Material& material) {
-  engine::contact::WorldOptions options;
-  options.warm_start = 1;
+  const engine::contact::WorldOptions options = validation::reference_settings();
   World world(options, support::one_material(material));
   support::add_floor(world);
   return world;

@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 #include <numbers>
 
 using namespace drawpoint;
@@ -19,7 +20,7 @@ const validation::Problem sliding_rod{"sliding_rod", validation::Group::single_b
                                       "at 2 m/s with that end ahead, friction 2: where no "
                                       "sliding motion solves the equations (above friction 4/3 there are "
                                       "such tilts), the end jams at once and the rod "
-                                      "vaults over it. Steps of 0.5 ms, full warm start."};
+                                      "vaults over it. Steps of 0.5 ms; reference settings."};
 
 constexpr double g = 9.81, mu = 2, speed = 2, tilt = 58.3 * std::numbers::pi / 180, h = 5e-4;
 const Vector3d half(1, 0.02, 0.02);
@@ -34,9 +35,7 @@ struct Rod {
 };
 
 World thrown() {
-  engine::contact::WorldOptions options;
-  options.step = h;
-  options.warm_start = 1;
+  const engine::contact::WorldOptions options = validation::reference_settings(h);
   World world(options, support::one_material({mu, 0, 1e9, 0}));
   support::add_floor(world);
   Eigen::Isometry3d pose = support::at(0, 0, over.y());

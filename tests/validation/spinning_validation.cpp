@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 #include <drawpoint/tests/validation/record.hpp>
+#include <drawpoint/tests/validation/settings.hpp>
 #include <numbers>
 
 using namespace drawpoint;
@@ -17,8 +18,7 @@ const validation::Problem spinning{
     "spinning", validation::Group::single_body, "Spinning to rest on the spot",
     "A disc (radius 0.5 m, 0.2 m high, 300 kg) and a square block (0.8 m, 0.2 m high) lie flat and spin "
     "about the vertical at 5 rad/s "
-    "until friction or spinning resistance has stopped them; default step, substeps and sweeps, full warm "
-    "start. A flat "
+    "until friction or spinning resistance has stopped them; steps of 5 ms, reference settings. A flat "
     "contact is four points: on the disc's rim, so that its friction has the moment μ m g R, not the 2/3 μ m "
     "g R of "
     "an evenly pressed disc, and at the block's corners (the evenly pressed square has 0.54 of its moment)."};
@@ -54,8 +54,7 @@ struct Stop {
 };
 
 Stop spin(const Case& c, const engine::contact::Material& material) {
-  engine::contact::WorldOptions options;
-  options.warm_start = 1;
+  const engine::contact::WorldOptions options = validation::reference_settings();
   World world(options, support::one_material(material));
   support::add_floor(world);
   Eigen::Isometry3d pose = support::at(0, 0, c.height - c.body.mass * g / stiffness);
