@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <drawpoint/engine/contact/contact_problem.hpp>
+#include <drawpoint/engine/contact/residual.hpp>
 #include <memory>
 #include <string_view>
 

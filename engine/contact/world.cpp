@@ -209,6 +209,7 @@ StepReport World::step() {
   fill_bodies();
   warm_start_.begin_step();
   fill_contacts();
+  if (before_solve_) before_solve_(problem_);
   const auto solver_start = std::chrono::steady_clock::now();
   const SolverReport solved = solver_.solve(problem_);
   report.solver_s = seconds_since(solver_start);

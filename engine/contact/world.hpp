@@ -6,6 +6,7 @@
 #include <drawpoint/engine/contact/material.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
 #include <drawpoint/engine/contact/warm_start.hpp>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -78,6 +79,10 @@ class World {
   const WorldOptions& options() const { return options_; }
   const ContactProblem& problem() const { return problem_; }  ///< of the last step, with its impulses
 
+  /// Called in each step with the problem as it is about to be solved, for recording it.
+  using Observer = std::function<void(const ContactProblem&)>;
+  void before_solve(Observer observer) { before_solve_ = std::move(observer); }
+
   double kinetic_energy() const;  ///< of the rocks [J]
   double fastest_rock() const;    ///< [m/s], over the rocks' centres
 
@@ -110,6 +115,7 @@ class World {
   const std::vector<Manifold>* manifolds_ = nullptr;
   ContactProblem problem_;
   WarmStart warm_start_;
+  Observer before_solve_;
   double time_ = 0;
 };
 

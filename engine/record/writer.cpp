@@ -24,20 +24,20 @@ void require_good(bool good, const std::string& what) {
   if (!good) throw std::runtime_error("record::Writer: HDF5 cannot " + what + "; check the free memory");
 }
 
+// Equal contents shall be equal files, so no times are stored.
+Handle creation(hid_t kind) {
+  Handle list(H5Pcreate(kind), H5Pclose);
+  H5Pset_obj_track_times(list.get(), false);
+  return list;
+}
+
 Handle memory_file(const std::string& name) {
   constexpr std::size_t growth = 4u << 20;
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access.get(), growth, false);
   // From 1.8 on the format checks its own metadata; from 1.10 on it also marks files that are being written.
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
-}
-
-// Equal contents shall be equal files, so no times are stored.
-Handle creation(hid_t kind) {
-  Handle list(H5Pcreate(kind), H5Pclose);
-  H5Pset_obj_track_times(list.get(), false);
-  return list;
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation(H5P_FILE_CREATE).get(), access.get()), H5Fclose};
 }
 
 // Whole trailing dimensions first, up to about 32 768 numbers a chunk.

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/contact_problem.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+/// A contact problem in a file: everything that a method needs to solve it again, bit for bit.
+///
+/// Format "drawpoint contact problem", version 1, in the form of record/file.hpp (HDF5, checksummed, written
+/// whole or not at all). The root has the step [s] and a note; /bodies, /pairs, /points and, with a machine,
+/// /machine hold one array a field of contact_problem.hpp, one row a body, pair or point, each with its units
+/// in the group's attribute "units". What solving puts out is not in the file. docs/contact-solving.md lists
+/// the fields.
+///
+/// A problem is checked when written and when read: counts agree, indices are in range, numbers are finite,
+/// the step is positive, normals are unit, limits are ordered. Size: about 150 bytes a point.
+namespace drawpoint::engine::record {
+
+/// The machine lives on the heap, so copies and moves of this keep problem.machine valid.
+struct RecordedProblem {
+  contact::ContactProblem problem;
+  std::shared_ptr<const contact::SuperBody> machine;  ///< none: nullptr
+  std::string note;                                   ///< where the problem comes from
+};
+
+/// Before it is solved: World::before_solve gives it. Throws std::invalid_argument if it contradicts itself,
+/// std::runtime_error if it cannot be written.
+void write_contact_problem(const std::filesystem::path& path, const contact::ContactProblem& problem,
+                           const std::string& note = {});
+
+/// Throws std::runtime_error, with the file, the field, the row and the value, if the file cannot be read,
+/// is damaged or holds no sound problem.
+RecordedProblem read_contact_problem(const std::filesystem::path& path);
+
+}  // namespace drawpoint::engine::record

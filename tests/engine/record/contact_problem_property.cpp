@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// A contact problem that went through a file is solved to the same bits; damaged and unsound ones are
+// refused.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/record/contact_problem_file.hpp>
+#include <drawpoint/engine/record/file.hpp>
+#include <drawpoint/tests/support/scenes.hpp>
+#include <fstream>
+#include <functional>
+
+using namespace drawpoint;
+using namespace drawpoint::engine::contact;
+using engine::record::read_contact_problem;
+using engine::record::RecordedProblem;
+using engine::record::write_contact_problem;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ContactProblemFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path file(const std::string& name = "problem.h5") const { return folder_ / name; }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("drawpoint_problem_" + std::to_string(::getpid()));
+};
+
+// Six boxes on a floor, in motion, and a sled with a motor and a stop that pushes the last of them.
+struct Scene {
+  ContactProblem problem;
+  SuperBody sled;
+
+  Scene() {
+    World world({}, support::one_material({0.6, 0.2, 1e8, 0, 0.05}));
+    support::add_floor(world);
+    for (int k = 0; k < 6; ++k)
+      world.add_rock(support::box_body({0.15, 0.12, 0.16}), support::at(0.05 * k, 0, 0.17 + 0.34 * k));
+    world.before_solve([&](const ContactProblem& p) { problem = p; });
+    for (int step = 0; step < 20; ++step) world.step();
+    add_sled();
+  }
+
+  void add_sled() {
+    sled.velocity_before = Eigen::Vector2d(200, 10);
+    sled.velocity = Eigen::Vector2d(201, 9);
+    SpatialMap map(6, 2);
+    map << 0, 0, 0, 1e-3, 0, 0, 4e-3, 0, 0, 0, 0, 2e-3;
+    sled.part_maps = {map, 2 * map};
+    sled.origins = {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 0, 1)};
+    SuperBodyRow motor;
+    motor.jacobian = Eigen::Vector2d(4e-3, 0);
+    motor.target = 1;
+    motor.lower = -300;
+    motor.upper = 500;
+    SuperBodyRow stop = motor;
+    stop.kind = SuperBodyRow::Kind::stop;
+    stop.gap = -1e-3;
+    stop.recovery = 0.1;
+    stop.lower = 0;
+    stop.start = 1.5;
+    sled.rows = {motor, stop};
+    problem.machine = &sled;
+    ContactPair pair;
+    pair.a = machine_part(1);
+    pair.b = static_cast<int>(problem.bodies.size()) - 1;
+    pair.first = static_cast<int>(problem.points.size());
+    pair.count = 1;
+    problem.pairs.push_back(pair);
+    ContactPoint point = problem.points.back();
+    point.feature = 0xfedcba98u;
+    point.normal = Eigen::Vector3d::UnitX();
+    problem.points.push_back(point);
+  }
+};
+
+template <class M>
+bool same(const M& a, const M& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(*a.data())) == 0;
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string complaint(const fs::path& path) {
+  try {
+    read_contact_problem(path);
+    return "";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_F(ContactProblemFile, IsSolvedToTheSameBits) {
+  Scene scene;
+  ASSERT_GT(scene.problem.points.size(), 10u);
+  write_contact_problem(file(), scene.problem, "six boxes and a sled");
+  const RecordedProblem stored = read_contact_problem(file());
+  RecordedProblem read = stored;  // a copy stays whole
+  EXPECT_EQ(read.note, "six boxes and a sled");
+  const SolverOptions options{.substeps = 3, .sweeps = 7};
+  const SolverReport a = solve(scene.problem, options), b = solve(read.problem, options);
+  EXPECT_TRUE(same(a.machine.velocity, b.machine.velocity));
+  EXPECT_TRUE(same(a.machine.row_impulses, b.machine.row_impulses));
+  for (std::size_t k = 0; k < scene.problem.bodies.size(); ++k) {
+    EXPECT_TRUE(same(scene.problem.bodies[k].velocity, read.problem.bodies[k].velocity));
+    EXPECT_TRUE(same(scene.problem.bodies[k].turn, read.problem.bodies[k].turn));
+  }
+  for (std::size_t k = 0; k < scene.problem.points.size(); ++k)
+    EXPECT_TRUE(same(scene.problem.points[k].impulse, read.problem.points[k].impulse));
+}
+
+// What the solve does not read comes back, too: written again, the file is the same, byte for byte.
+TEST_F(ContactProblemFile, IsTheSameFileWhenWrittenAgain) {
+  const Scene scene;
+  write_contact_problem(file(), scene.problem, "again");
+  const RecordedProblem read = read_contact_problem(file());
+  EXPECT_EQ(read.problem.points.back().feature, 0xfedcba98u);
+  EXPECT_EQ(read.problem.pairs[1].collider_b, scene.problem.pairs[1].collider_b);
+  write_contact_problem(file("again.h5"), read.problem, read.note);
+  EXPECT_TRUE(bytes_of(file()) == bytes_of(file("again.h5")));
+}
+
+TEST_F(ContactProblemFile, MayBeEmpty) {
+  ContactProblem nothing;
+  nothing.step = 0.01;
+  write_contact_problem(file(), nothing);
+  const RecordedProblem read = read_contact_problem(file());
+  EXPECT_EQ(read.problem.step, 0.01);
+  EXPECT_TRUE(read.problem.points.empty() && read.problem.bodies.empty() && !read.problem.machine);
+}
+
+TEST_F(ContactProblemFile, DamageIsRefused) {
+  const Scene scene;
+  write_contact_problem(file(), scene.problem);
+  const std::string whole = bytes_of(file());
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 61) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 0x10);
+    std::ofstream(file("flipped.h5"), std::ios::binary) << flipped;
+    EXPECT_NE(complaint(file("flipped.h5")), "") << "byte " << at;
+    std::ofstream(file("short.h5"), std::ios::binary) << whole.substr(0, at);
+    EXPECT_NE(complaint(file("short.h5")), "") << "length " << at;
+  }
+  EXPECT_NE(complaint(file("absent.h5")), "");
+}
+
+// Each unsound problem is named by its field and refused before anything is written.
+TEST_F(ContactProblemFile, UnsoundProblemsAreRefused) {
+  struct Case {
+    std::string words;
+    std::function<void(Scene&)> spoil;
+  };
+  const double nan = std::nan("");
+  const std::vector<Case> cases{
+      {"root/step of row 0 is -0.005", [](Scene& s) { s.problem.step = -0.005; }},
+      {"bodies/velocity of row 2 is not finite", [&](Scene& s) { s.problem.bodies[2].velocity.x() = nan; }},
+      {"bodies/inverse_mass of row 1 is -1", [](Scene& s) { s.problem.bodies[1].inverse_mass = -1; }},
+      {"pairs/b of row 0 is 99", [](Scene& s) { s.problem.pairs[0].b = 99; }},
+      {"pairs/a of row 0 is -3", [](Scene& s) { s.problem.pairs[0].a = -3; }},
+      {"pairs/first of row 1", [](Scene& s) { s.problem.pairs[1].first = 0; }},
+      {"pairs/count of row 0 is 0", [](Scene& s) { s.problem.pairs[0].count = 0; }},
+      {"all points belong to a pair", [](Scene& s) { s.problem.pairs.pop_back(); }},
+      {"points/normal of row 3 is of length 2", [](Scene& s) { s.problem.points[3].normal *= 2; }},
+      {"points/stiffness of row 0 is 0", [](Scene& s) { s.problem.points[0].stiffness = 0; }},
+      {"points/restitution of row 1 is 1.5", [](Scene& s) { s.problem.points[1].restitution = 1.5; }},
+      {"machine/rows/lower of row 1 is 900", [](Scene& s) { s.sled.rows[1].lower = 900; }},
+      {"machine/part_maps of row 1", [](Scene& s) { s.sled.part_maps[1] = SpatialMap::Zero(6, 3); }},
+      {"machine/rows/jacobian of row 0",
+       [](Scene& s) { s.sled.rows[0].jacobian = Eigen::Vector3d::Zero(); }}};
+  for (const Case& c : cases) {
+    Scene scene;
+    c.spoil(scene);
+    try {
+      write_contact_problem(file(), scene.problem);
+      ADD_FAILURE() << "accepted; expected: " << c.words;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(c.words), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(fs::exists(file()));
+  }
+}
+
+// A sound file of the right kind with an unsound problem: the reader checks what it read.
+TEST_F(ContactProblemFile, UnsoundFilesAreRefused) {
+  engine::record::Writer writer(file(), {"drawpoint contact problem", 1});
+  writer.text("/", "note", "");
+  writer.number("/", "step", 0);
+  const std::vector<double> none;
+  for (const char* name : {"velocity", "angular_velocity", "push"})
+    writer.array(std::string("bodies/") + name, std::span<const double>(none), {0, 3});
+  writer.array("bodies/inverse_mass", std::span<const double>(none));
+  writer.commit();
+  EXPECT_NE(complaint(file()).find("problem.h5"), std::string::npos) << complaint(file());
+}
