@@ -375,6 +375,33 @@ HWY_INLINE void sweep_half(const BatchArrays& arrays, int batch, int at) {
   pairs.scatter();
 }
 
+HWY_INLINE V length(V x, V y) { return hn::Sqrt(add_product(hn::Mul(x, x), y, y)); }
+
+// The natural map of the points' law at the velocities reached: how far each impulse is from its step.
+HWY_INLINE void judge_half(const BatchArrays& arrays, int batch, int at) {
+  PairBatch& pair = arrays.pairs[batch];
+  Pairs pairs(arrays, batch, at);
+  pairs.gather();
+  const V zero = hn::Zero(d), friction = load(pair.friction, at);
+  V normal = zero, tangent = zero, force = zero;
+  for (int k = pair.first; k < pair.first + pair.points; ++k) {
+    const PointBatch& p = arrays.points[k];
+    const V3 u = pairs.velocity(load(p.arm, at)), l = load(p.impulse, at);
+    const V rest = hn::Sub(add_product(u.x, load(p.sigma, at), l.x), load(p.target, at));
+    const V next = hn::Max(zero, hn::Sub(l.x, hn::Mul(load(p.inverse_nn, at), rest)));
+    normal = hn::Add(normal, hn::Abs(hn::Sub(l.x, next)));
+    force = hn::Add(force, hn::Max(l.x, next));
+    const V rho = load(p.inverse_rho, at), limit = hn::Mul(friction, l.x);
+    const V p1 = hn::Sub(l.y, hn::Mul(rho, u.y)), p2 = hn::Sub(l.z, hn::Mul(rho, u.z)),
+            reach = length(p1, p2);
+    const V scale = hn::IfThenElse(hn::Gt(reach, limit), hn::Div(limit, reach), hn::Set(d, 1.0f));
+    tangent = hn::Add(tangent, length(hn::Sub(l.y, hn::Mul(p1, scale)), hn::Sub(l.z, hn::Mul(p2, scale))));
+  }
+  store(normal, pair.change, at);
+  store(tangent, pair.miss, at);
+  store(force, pair.load, at);
+}
+
 void prepare(const BatchArrays& arrays, BatchRange range) {
   for (int batch = range.begin; batch < range.end; ++batch)
     for (int at = 0; at < batch_lanes; at += width) prepare_half(arrays, batch, at);
@@ -386,6 +413,10 @@ void refresh(const BatchArrays& arrays, BatchRange range, const Substep& substep
 void start(const BatchArrays& arrays, BatchRange range) {
   for (int batch = range.begin; batch < range.end; ++batch)
     for (int at = 0; at < batch_lanes; at += width) start_half(arrays, batch, at);
+}
+void judge(const BatchArrays& arrays, BatchRange range) {
+  for (int batch = range.begin; batch < range.end; ++batch)
+    for (int at = 0; at < batch_lanes; at += width) judge_half(arrays, batch, at);
 }
 void sweep(const BatchArrays& arrays, BatchRange range) {
   for (int batch = range.begin; batch < range.end; ++batch)
@@ -402,6 +433,7 @@ HWY_EXPORT(prepare);
 HWY_EXPORT(refresh);
 HWY_EXPORT(start);
 HWY_EXPORT(sweep);
+HWY_EXPORT(judge);
 
 void prepare_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(prepare)(arrays, range);
@@ -414,6 +446,10 @@ void start_batches(const BatchArrays& arrays, BatchRange range) {
 }
 void sweep_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(sweep)(arrays, range);
+}
+
+void judge_batches(const BatchArrays& arrays, BatchRange range) {
+  HWY_DYNAMIC_DISPATCH(judge)(arrays, range);
 }
 
 }  // namespace drawpoint::engine::contact::detail

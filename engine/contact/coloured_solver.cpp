@@ -36,14 +36,26 @@ SolverReport ColouredSolver::solve(ContactProblem& problem) {
     machine_->finish();
     travel();
   }
+  SolverReport solved = report();
   team_.reset();
   store_bodies();
   batches_.store(problem, options_.substeps, parallel_);
-  SolverReport report;
-  report.machine = machine_->store(problem);
+  solved.machine = machine_->store(problem);
+  return solved;
+}
+
+SolverReport ColouredSolver::report() {
+  SolverReport solved;
   const double load = normal_load();
-  report.last_change = load > 0 ? change() / load : 0;
-  return report;
+  if (load > 0) solved.last_change = change() / load;
+  everywhere([this](BatchRange range) { judge_batches(batches_.arrays(), range); });
+  Misfit sum = batches_.misfit();
+  const Misfit machine = machine_->misfit(batches_.bodies);
+  sum.normal += machine.normal;
+  sum.tangent += machine.tangent;
+  sum.load += machine.load;
+  report_misfit(sum, solved);
+  return solved;
 }
 
 template <class Kernel>

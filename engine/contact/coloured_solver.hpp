@@ -33,6 +33,7 @@ class ColouredSolver {
   void sweep(bool forward);
   void travel();
   void store_bodies();
+  SolverReport report();
   double change() const { return batches_.change() + machine_change_; }
   double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
 

@@ -71,6 +71,11 @@ double MachinePairs::sweep(std::vector<BodyRow>& bodies, bool forward) {
   return change;
 }
 
+Misfit MachinePairs::misfit(const std::vector<BodyRow>& bodies) {
+  fetch(bodies);
+  return sweeper_.misfit();
+}
+
 SuperBodySolution MachinePairs::store(ContactProblem& problem) {
   const SuperBodySolution solution = sweeper_.store();
   for (std::size_t k = 0; k < members_.size(); ++k) {

@@ -19,6 +19,7 @@ class MachinePairs {
   double sweep(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
   void finish() { sweeper_.finish(); }
   double normal_load() const { return sweeper_.normal_load(); }
+  Misfit misfit(const std::vector<BodyRow>& bodies);
   SuperBodySolution store(ContactProblem& problem);
 
  private:

@@ -42,7 +42,9 @@ struct alignas(32) PairBatch {
   Lanes rolling_arm, spinning_arm;
   Lanes moment_inverse_nn, moment_inverse_tt[3], moment_inverse_rho, moment_w10, moment_w20;
   Lanes moment[3], moment_total[3];  // in the frame
-  Lanes change;                      // Σ|Δλ| of the last sweep
+  Lanes change;                      // Σ|Δλ| of the last sweep; after judge: the normals' residual
+  Lanes miss;                        // after judge: the tangents' residual
+  Lanes load;                        // after judge: of normals, as residual.hpp takes it
   std::int32_t first, points;        // point batches
   bool resists;                      // any rolling or spinning
 };
@@ -74,5 +76,7 @@ void refresh_batches(const BatchArrays& arrays, BatchRange range, const Substep&
 /// Start impulses on the bodies.
 void start_batches(const BatchArrays& arrays, BatchRange range);
 void sweep_batches(const BatchArrays& arrays, BatchRange range);
+/// The natural map of the law in the substep that has just ended (residual.hpp), summed over a pair's points.
+void judge_batches(const BatchArrays& arrays, BatchRange range);
 
 }  // namespace drawpoint::engine::contact::detail

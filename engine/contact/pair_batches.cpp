@@ -147,6 +147,17 @@ double PairBatches::change() const {
   return sum;
 }
 
+Misfit PairBatches::misfit() const {
+  Misfit sum;
+  for (int batch = 0; batch < count(); ++batch)
+    for (int lane = 0; lane < batch_lanes; ++lane) {
+      sum.normal += pairs_[batch].change[lane];
+      sum.tangent += pairs_[batch].miss[lane];
+      sum.load += pairs_[batch].load[lane];
+    }
+  return sum;
+}
+
 double PairBatches::normal_load() const {
   double sum = 0;
   for (int k = 0; k < point_batches_; ++k)

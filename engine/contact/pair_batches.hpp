@@ -5,6 +5,7 @@
 #include <drawpoint/engine/contact/colouring.hpp>
 #include <drawpoint/engine/contact/pair_batch.hpp>
 #include <drawpoint/engine/contact/parallel.hpp>
+#include <drawpoint/engine/contact/sequential_sweeper.hpp>
 
 /// A ContactProblem laid out in batches, and back. Buffers are kept from solve to solve.
 namespace drawpoint::engine::contact::detail {
@@ -23,6 +24,7 @@ class PairBatches {
 
   double change() const;       ///< Σ|Δλ| of the last sweep [N s]
   double normal_load() const;  ///< Σ λ_n of the substep [N s]
+  Misfit misfit() const;       ///< after judge_batches()
 
   /// Writes the impulses of the step and the last substep into the problem.
   void store(ContactProblem& problem, int substeps, const Parallel& parallel) const;

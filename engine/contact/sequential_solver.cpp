@@ -54,7 +54,8 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
   }
   const double load = sweeper.normal_load();
   SolverReport report;
-  report.last_change = load > 0 ? change / load : 0;
+  if (load > 0) report.last_change = change / load;
+  detail::report_misfit(sweeper.misfit(), report);
   report.machine = sweeper.store();
   return report;
 }

@@ -299,6 +299,22 @@ double SequentialSweeper::normal_load() const {
   return sum;
 }
 
+Misfit SequentialSweeper::misfit() const {
+  Misfit sum;
+  for (const PointBlock& p : points_) {
+    const Vector3d u = velocity(p);
+    const double normal = p.impulse[0], rest = u[0] + p.law.sigma * normal - p.target;
+    const double next = std::max(0.0, normal - p.inverse_nn * rest);
+    sum.normal += std::abs(normal - next);
+    sum.load += std::max(normal, next);
+    Eigen::Vector2d stepped = p.impulse.tail<2>() - p.inverse_rho * u.tail<2>();
+    const double length = stepped.norm(), limit = p.friction * normal;
+    if (length > limit) stepped *= limit / length;
+    sum.tangent += (p.impulse.tail<2>() - stepped).norm();
+  }
+  return sum;
+}
+
 SuperBodySolution SequentialSweeper::store() {
   SuperBodySolution solution;
   if (problem_.machine) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/contact/contact_law.hpp>
-#include <drawpoint/engine/contact/contact_problem.hpp>
+#include <drawpoint/engine/contact/solver.hpp>
 #include <vector>
 
 /// Gauss-Seidel sweeps over the points, pairs and machine rows of a ContactProblem, in double precision.
@@ -39,6 +39,18 @@ struct PairBlock : ContactBlock {
   double rolling_arm, spinning_arm;
 };
 
+/// Sums over points of the natural map of their law (residual.hpp) [N s].
+struct Misfit {
+  double normal = 0, tangent = 0;
+  double load = 0;  ///< what they are relative to
+};
+
+inline void report_misfit(const Misfit& misfit, SolverReport& report) {
+  if (misfit.load <= 0) return;
+  report.complementarity = misfit.normal / misfit.load;
+  report.cone = misfit.tangent / misfit.load;
+}
+
 class SequentialSweeper {
  public:
   SequentialSweeper(ContactProblem& problem, int substeps);
@@ -55,6 +67,7 @@ class SequentialSweeper {
   void finish();
 
   double normal_load() const;  ///< Σ λ_n of the substep [N s]
+  Misfit misfit() const;       ///< of the points, at the velocities reached
 
   /// Writes the impulses into the problem and returns the machine's part.
   SuperBodySolution store();

@@ -53,6 +53,8 @@ inline int most_sweeps(const SolverOptions& options, std::size_t points) {
 
 struct SolverReport {
   double last_change = 0;  ///< Σ|Δλ| of the last sweep over Σ λ_n (0 when there is no load)
+  /// Of the points in the last substep, relative to Σ λ_n (0 when there is no load): see residual.hpp.
+  double complementarity = 0, cone = 0;
   SuperBodySolution machine;
 };
 

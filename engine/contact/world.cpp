@@ -230,6 +230,8 @@ StepReport World::step() {
   report.manifolds = static_cast<int>(problem_.pairs.size());
   report.points = static_cast<int>(problem_.points.size());
   report.last_change = solved.last_change;
+  report.complementarity = solved.complementarity;
+  report.cone = solved.cone;
   for (const Manifold& m : *manifolds_) {
     if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock)
       continue;

@@ -50,8 +50,9 @@ struct Rock {
 /// What a step did and where its time went.
 struct StepReport {
   int manifolds = 0, points = 0;
-  double last_change = 0;  ///< of the solver's last sweep, relative to the normal load
-  double max_overlap = 0;  ///< [m]
+  double last_change = 0;                ///< of the solver's last sweep, relative to the normal load
+  double complementarity = 0, cone = 0;  ///< residual of the contact law, relative to the normal load
+  double max_overlap = 0;                ///< [m]
   double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;
 };
 
