@@ -1,26 +1,46 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <drawpoint/engine/contact/warm_start.hpp>
 #include <utility>
 
 namespace drawpoint::engine::contact {
 
-void WarmStart::begin_step() {
-  pairs_.swap(old_pairs_);
-  points_.swap(old_points_);
-  pairs_.clear();
-  points_.clear();
+void WarmStart::rewind() {
+  for (Point& point : points_) point.used = false;
   cursor_ = 0;
   match_ = nullptr;
 }
 
+void WarmStart::insert(const std::vector<Entry>& entries) {
+  const auto before = [](const Pair& x, const Pair& y) {
+    return std::make_pair(x.a, x.b) < std::make_pair(y.a, y.b);
+  };
+  const auto known = static_cast<std::ptrdiff_t>(pairs_.size());
+  for (const Entry& entry : entries) {
+    const Pair pair{entry.a, entry.b, entry.rolling, points_.size(), entry.points.size()};
+    if (std::binary_search(pairs_.begin(), pairs_.begin() + known, pair, before)) continue;
+    pairs_.push_back(pair);
+    points_.insert(points_.end(), entry.points.begin(), entry.points.end());
+  }
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + known, pairs_.end(), before);
+}
+
+void WarmStart::begin_store() {
+  new_pairs_.clear();
+  new_points_.clear();
+}
+
+void WarmStart::end_store() {
+  pairs_.swap(new_pairs_);
+  points_.swap(new_points_);
+}
+
 void WarmStart::begin_pair(int a, int b) {
   const auto key = std::make_pair(a, b);
-  while (cursor_ < old_pairs_.size() && std::make_pair(old_pairs_[cursor_].a, old_pairs_[cursor_].b) < key)
-    ++cursor_;
-  const bool found =
-      cursor_ < old_pairs_.size() && std::make_pair(old_pairs_[cursor_].a, old_pairs_[cursor_].b) == key;
-  match_ = found ? &old_pairs_[cursor_] : nullptr;
+  while (cursor_ < pairs_.size() && std::make_pair(pairs_[cursor_].a, pairs_[cursor_].b) < key) ++cursor_;
+  const bool found = cursor_ < pairs_.size() && std::make_pair(pairs_[cursor_].a, pairs_[cursor_].b) == key;
+  match_ = found ? &pairs_[cursor_] : nullptr;
 }
 
 Eigen::Vector3d WarmStart::point(std::uint32_t feature, const Eigen::Vector3d& position) {
@@ -28,7 +48,7 @@ Eigen::Vector3d WarmStart::point(std::uint32_t feature, const Eigen::Vector3d& p
   Point* best = nullptr;
   double best_distance = reach * reach;
   for (std::size_t k = match_->first; k < match_->first + match_->count; ++k) {
-    Point& old = old_points_[k];
+    Point& old = points_[k];
     if (old.used) continue;
     const double distance = old.feature == feature ? -1.0 : (old.position - position).squaredNorm();
     if (distance < best_distance) {
@@ -42,13 +62,13 @@ Eigen::Vector3d WarmStart::point(std::uint32_t feature, const Eigen::Vector3d& p
 }
 
 void WarmStart::store_pair(int a, int b, const Eigen::Vector3d& rolling) {
-  pairs_.push_back({a, b, rolling, points_.size(), 0});
+  new_pairs_.push_back({a, b, rolling, new_points_.size(), 0});
 }
 
 void WarmStart::store_point(std::uint32_t feature, const Eigen::Vector3d& position,
                             const Eigen::Vector3d& impulse) {
-  points_.push_back({feature, position, impulse, false});
-  ++pairs_.back().count;
+  new_points_.push_back({feature, position, impulse, false});
+  ++new_pairs_.back().count;
 }
 
 }  // namespace drawpoint::engine::contact

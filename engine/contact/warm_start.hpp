@@ -10,6 +10,7 @@
 ///
 /// Pairs are stored in ascending order, so looking them up in ascending order is a merge: linear in the
 /// pairs. A point that matches no feature takes the nearest unmatched point of its pair within `reach`.
+/// A step may look its pairs up several times before it stores: rewind() starts over.
 namespace drawpoint::engine::contact {
 
 class WarmStart {
@@ -20,10 +21,16 @@ class WarmStart {
     Eigen::Vector3d impulse;
     bool used;
   };
+  /// A pair with its points, on its own.
+  struct Entry {
+    int a, b;
+    Eigen::Vector3d rolling;
+    std::vector<Point> points;
+  };
   static constexpr double reach = 0.03;  ///< [m], a tenth of the smallest rock
 
-  /// Starts reading what the last step stored and storing anew.
-  void begin_step();
+  /// Starts reading what the last step stored, from its first pair.
+  void rewind();
 
   /// Impulses of the pair's points, in their order; zero where nothing matches. Pairs must come in ascending
   /// order.
@@ -31,7 +38,13 @@ class WarmStart {
   Eigen::Vector3d point(std::uint32_t feature, const Eigen::Vector3d& position);
   Eigen::Vector3d rolling() const { return match_ ? match_->rolling : Eigen::Vector3d::Zero().eval(); }
 
-  /// Stores the solved impulses of a pair; same order of pairs.
+  /// Adds pairs, in order; one that is stored already stays as it is.
+  void insert(const std::vector<Entry>& entries);
+
+  /// Replaces what is stored by the solved impulses: begin_store(), then every pair in order with its points,
+  /// then end_store().
+  void begin_store();
+  void end_store();
   void store_pair(int a, int b, const Eigen::Vector3d& rolling);
   void store_point(std::uint32_t feature, const Eigen::Vector3d& position, const Eigen::Vector3d& impulse);
 
@@ -41,8 +54,8 @@ class WarmStart {
     Eigen::Vector3d rolling;
     std::size_t first, count;
   };
-  std::vector<Pair> pairs_, old_pairs_;
-  std::vector<Point> points_, old_points_;
+  std::vector<Pair> pairs_, new_pairs_;
+  std::vector<Point> points_, new_points_;
   std::size_t cursor_ = 0;
   const Pair* match_ = nullptr;
 };

@@ -32,7 +32,11 @@ Matrix3d turned(const Matrix3d& R, const Vector3d& principal) {
 }  // namespace
 
 World::World(const WorldOptions& options, const MaterialTable& materials)
-    : options_(options), materials_(materials), finder_(options.contacts), solver_(options.solver) {
+    : options_(options),
+      materials_(materials),
+      finder_(options.contacts),
+      solver_(options.solver),
+      freezing_(options.freezing, options.step, options.gravity) {
   if (!(options.step > 0) || options.step > 0.1)
     throw std::invalid_argument("contact::World: step is " + std::to_string(options.step) +
                                 " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
@@ -55,18 +59,22 @@ int World::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const V
   rocks_.push_back({body, pose, velocity, angular_velocity, true, -1});
   rocks_.back().collider = add_surface({Owner::rock, index, body.material}, collider);
   finder_.set_pose(rocks_.back().collider, pose);
+  freezing_.add(index, rocks_.back());
   return index;
 }
 
 void World::remove_rock(int rock) {
   Rock& r = rocks_.at(rock);
   if (!r.present) return;
+  const std::vector<int> neighbours = freezing_.remove(rock);
   finder_.remove(r.collider);
   r.present = false;
+  thaw(neighbours);
 }
 
 void World::set_rock_velocity(int rock, const Vector3d& velocity, const Vector3d& angular_velocity) {
   rocks_.at(rock).velocity = velocity;
+  if (frozen(rock)) thaw({rock});
   rocks_.at(rock).angular_velocity = angular_velocity;
 }
 
@@ -86,19 +94,21 @@ void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const E
 }
 
 void World::place_colliders() {
-  for (const Rock& rock : rocks_)
-    if (rock.present) finder_.set_pose(rock.collider, rock.pose);
+  for (const int k : freezing_.awake()) finder_.set_pose(rocks_[k].collider, rocks_[k].pose);
   for (std::size_t id = 0; id < surfaces_.size(); ++id)
     if (surfaces_[id].owner == Owner::part)
       finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
 }
 
 void World::fill_bodies() {
-  problem_.bodies.resize(rocks_.size() + 1);
+  const std::vector<int>& awake = freezing_.awake();
+  problem_.bodies.resize(awake.size() + 1);
   problem_.bodies[world_body] = SolverBody();
-  for (std::size_t k = 0; k < rocks_.size(); ++k) {
-    const Rock& rock = rocks_[k];
+  body_of_rock_.assign(rocks_.size(), world_body);
+  for (std::size_t k = 0; k < awake.size(); ++k) {
+    const Rock& rock = rocks_[awake[k]];
     SolverBody& body = problem_.bodies[k + 1];
+    body_of_rock_[awake[k]] = static_cast<int>(k) + 1;
     body.inverse_mass = 1 / rock.body.mass;
     body.inverse_inertia = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse());
     body.velocity = rock.velocity;
@@ -109,7 +119,7 @@ void World::fill_bodies() {
 
 int World::solver_index(const Surface& surface) const {
   if (surface.owner == Owner::part) return machine_part(surface.index);
-  return surface.owner == Owner::rock ? surface.index + 1 : world_body;
+  return surface.owner == Owner::rock ? body_of_rock_[surface.index] : world_body;
 }
 
 Vector3d World::origin(const Surface& surface) const {
@@ -179,9 +189,9 @@ void World::fill_points(const Manifold& m, const Surface& a, const Surface& b, c
 }
 
 void World::move_rocks() {
-  for (std::size_t k = 0; k < rocks_.size(); ++k) {
-    Rock& rock = rocks_[k];
-    if (!rock.present) continue;
+  const std::vector<int>& awake = freezing_.awake();
+  for (std::size_t k = 0; k < awake.size(); ++k) {
+    Rock& rock = rocks_[awake[k]];
     rock.velocity = problem_.bodies[k + 1].velocity;
     rock.angular_velocity = problem_.bodies[k + 1].angular_velocity;
     rock.pose.translation() += problem_.bodies[k + 1].travel;
@@ -193,26 +203,27 @@ void World::move_rocks() {
   }
 }
 
-StepReport World::step() {
-  const auto start = std::chrono::steady_clock::now();
-  StepReport report;
+void World::find_contacts(StepReport& report) {
   place_colliders();
   manifolds_ = &finder_.find();
-  report.broad_s = finder_.times().broad;
-  report.narrow_s = finder_.times().narrow;
+  report.broad_s += finder_.times().broad;
+  report.narrow_s += finder_.times().narrow;
+}
 
-  const auto machine_start = std::chrono::steady_clock::now();
-  super_ = machine_ ? &machine_->linearise(options_.step, options_.gravity) : nullptr;
-  problem_.machine = super_;
-  report.machine_s = machine_ ? seconds_since(machine_start) : 0;
-
+SolverReport World::solve_contacts(StepReport& report) {
   fill_bodies();
-  warm_start_.begin_step();
+  warm_start_.rewind();
   fill_contacts();
   if (before_solve_) before_solve_(problem_);
-  const auto solver_start = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const SolverReport solved = solver_.solve(problem_);
-  report.solver_s = seconds_since(solver_start);
+  report.solver_s += seconds_since(start);
+  ++report.solves;
+  return solved;
+}
+
+void World::keep_impulses() {
+  warm_start_.begin_store();
   for (const ContactPair& pair : problem_.pairs) {
     warm_start_.store_pair(pair.collider_a, pair.collider_b, pair.start);
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
@@ -220,6 +231,61 @@ StepReport World::step() {
       warm_start_.store_point(p.feature, p.position, p.start);
     }
   }
+  warm_start_.end_store();
+}
+
+void World::thaw(const std::vector<int>& rocks) {
+  for (const int rock : rocks) finder_.set_moves(rocks_[rock].collider, true);
+  warm_start_.insert(freezing_.thaw(rocks));
+}
+
+void World::thaw_all() {
+  std::vector<int> rocks;
+  for (std::size_t k = 0; k < rocks_.size(); ++k)
+    if (rocks_[k].present && frozen(static_cast<int>(k))) rocks.push_back(static_cast<int>(k));
+  thaw(rocks);
+}
+
+void World::thaw_near_machine(StepReport& report) {
+  if (!machine_ || !options_.freezing.on) return;
+  const std::vector<int> near = freezing_.near_machine(*manifolds_);
+  if (near.empty()) return;
+  thaw(near);
+  find_contacts(report);
+}
+
+// Whether the step must be solved again: frozen rocks took up more than they may, and are awake now.
+bool World::thaw_overloaded(int round) {
+  if (!options_.freezing.on) return false;
+  freezing_.weigh(problem_);
+  const std::vector<int> rocks = freezing_.overloaded(2, options_.freezing.spread << std::min(round - 1, 8));
+  thaw(rocks);
+  return !rocks.empty();
+}
+
+void World::settle_frozen() {
+  if (!options_.freezing.on) return;
+  thaw(freezing_.overloaded(1, options_.freezing.spread));
+  for (const int rock : freezing_.freeze(rocks_, problem_)) {
+    finder_.set_moves(rocks_[rock].collider, false);
+    rocks_[rock].velocity.setZero();
+    rocks_[rock].angular_velocity.setZero();
+  }
+}
+
+StepReport World::step() {
+  const auto start = std::chrono::steady_clock::now();
+  StepReport report;
+  super_ = machine_ ? &machine_->linearise(options_.step, options_.gravity) : nullptr;
+  problem_.machine = super_;
+  report.machine_s = machine_ ? seconds_since(start) : 0;
+  SolverReport solved;
+  do {
+    find_contacts(report);
+    thaw_near_machine(report);
+    solved = solve_contacts(report);
+  } while (thaw_overloaded(report.solves));
+  keep_impulses();
   move_rocks();
   if (machine_) {
     const auto advance_start = std::chrono::steady_clock::now();
@@ -227,6 +293,8 @@ StepReport World::step() {
     report.machine_s += seconds_since(advance_start);
   }
   time_ += options_.step;
+  report.awake = static_cast<int>(freezing_.awake().size());
+  settle_frozen();
   report.manifolds = static_cast<int>(problem_.pairs.size());
   report.points = static_cast<int>(problem_.points.size());
   report.last_change = solved.last_change;

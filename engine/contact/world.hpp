@@ -3,6 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/contact/contact_finder.hpp>
+#include <drawpoint/engine/contact/freezing.hpp>
 #include <drawpoint/engine/contact/material.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
 #include <drawpoint/engine/contact/warm_start.hpp>
@@ -29,6 +30,7 @@ struct WorldOptions {
   /// find again each step: a pile creeps.
   double warm_start = 1;
   ContactFinderOptions contacts;
+  FreezingOptions freezing;
 };
 
 /// A rock's fixed properties, shared by equal rocks.
@@ -53,6 +55,8 @@ struct StepReport {
   double last_change = 0;                ///< of the solver's last sweep, relative to the normal load
   double complementarity = 0, cone = 0;  ///< residual of the contact law, relative to the normal load
   double max_overlap = 0;                ///< [m]
+  int awake = 0;                         ///< rocks that were solved
+  int solves = 0;  ///< 1, and one more for each time that the load on frozen rocks changed too much
   double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;
 };
 
@@ -75,10 +79,17 @@ class World {
 
   StepReport step();
 
+  /// Whether a rock stands still and is not solved (freezing.hpp).
+  bool frozen(int rock) const { return freezing_.frozen(rock); }
+  void thaw_all();
+  const Freezing& freezing() const { return freezing_; }
+
   const std::vector<Rock>& rocks() const { return rocks_; }
   double time() const { return time_; }
   const WorldOptions& options() const { return options_; }
-  const ContactProblem& problem() const { return problem_; }  ///< of the last step, with its impulses
+  /// Of the last step, with its impulses. Bodies are the world, then the rocks that are awake; sides that
+  /// stand still are the world.
+  const ContactProblem& problem() const { return problem_; }
 
   /// Called in each step with the problem as it is about to be solved, for recording it.
   using Observer = std::function<void(const ContactProblem&)>;
@@ -97,6 +108,13 @@ class World {
 
   int add_surface(const Surface& surface, const Collider& collider);
   void place_colliders();
+  void find_contacts(StepReport& report);
+  SolverReport solve_contacts(StepReport& report);
+  void keep_impulses();
+  void thaw(const std::vector<int>& rocks);
+  void thaw_near_machine(StepReport& report);
+  bool thaw_overloaded(int round);
+  void settle_frozen();
   void fill_bodies();
   void fill_contacts();
   void fill_points(const Manifold& m, const Surface& a, const Surface& b, const Material& material);
@@ -114,9 +132,11 @@ class World {
   ArticulatedBody* machine_ = nullptr;
   const SuperBody* super_ = nullptr;
   const std::vector<Manifold>* manifolds_ = nullptr;
+  std::vector<int> body_of_rock_;  // in the problem
   ContactProblem problem_;
   WarmStart warm_start_;
   Observer before_solve_;
+  Freezing freezing_;
   double time_ = 0;
 };
 
