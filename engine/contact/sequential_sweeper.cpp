@@ -220,6 +220,10 @@ void SequentialSweeper::refresh() {
     row_targets_[k] = row_target(problem_.machine->rows[k]);
 }
 
+void SequentialSweeper::aim(const std::vector<double>& targets) {
+  for (std::size_t k = 0; k < points_.size(); ++k) points_[k].target = targets[k];
+}
+
 void SequentialSweeper::start() {
   if (problem_.machine) w_ += w_push_;
   for (std::size_t k = 0; k < row_impulses_.size(); ++k)

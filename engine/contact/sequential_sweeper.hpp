@@ -57,6 +57,8 @@ class SequentialSweeper {
 
   /// Gaps and targets from the bodies' velocities, which are those at the end of the last substep.
   void refresh();
+  /// In place of refresh(): the velocities that the points' normals must reach [m/s].
+  void aim(const std::vector<double>& targets);
   /// First substep: the machine's outer forces, and the start impulses on bodies and machine.
   void start();
   /// Other substeps: the machine's w; the bodies are the caller's.

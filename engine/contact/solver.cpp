@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/contact/coloured_solver.hpp>
+#include <drawpoint/engine/contact/impact_stage.hpp>
 #include <drawpoint/engine/contact/sequential_solver.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
 #include <stdexcept>
@@ -18,14 +19,19 @@ Method method_named(std::string_view name) {
 }
 
 ContactSolver::ContactSolver(const SolverOptions& options)
-    : options_(options), coloured_(std::make_unique<detail::ColouredSolver>(options)) {}
+    : options_(options),
+      coloured_(std::make_unique<detail::ColouredSolver>(options)),
+      impacts_(std::make_unique<detail::ImpactStage>()) {}
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 
 SolverReport ContactSolver::solve(ContactProblem& problem) {
-  return options_.method == Method::coloured ? coloured_->solve(problem)
-                                             : solve_sequentially(problem, options_);
+  impacts_->run(problem);
+  SolverReport report =
+      options_.method == Method::coloured ? coloured_->solve(problem) : solve_sequentially(problem, options_);
+  impacts_->finish(problem, report.machine);
+  return report;
 }
 
 SolverReport solve(ContactProblem& problem, const SolverOptions& options) {

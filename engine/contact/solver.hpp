@@ -26,7 +26,8 @@ namespace drawpoint::engine::contact {
 
 namespace detail {
 class ColouredSolver;
-}
+class ImpactStage;
+}  // namespace detail
 
 enum class Method { sequential, coloured };
 
@@ -71,6 +72,7 @@ class ContactSolver {
  private:
   SolverOptions options_;
   std::unique_ptr<detail::ColouredSolver> coloured_;
+  std::unique_ptr<detail::ImpactStage> impacts_;
 };
 
 /// One solve, on its own.
