@@ -71,8 +71,12 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags) {
   app.add_option("--substeps", flags.world.solver.substeps, "substeps of the contact solver a step")
       ->check(between(1, 1000, "", "1 to 16 are usual"))
       ->capture_default_str();
-  app.add_option("--sweeps", flags.world.solver.sweeps, "sweeps of the contact solver a substep")
+  app.add_option("--sweeps", flags.world.solver.sweeps, "sweeps of the contact solver a substep, at least")
       ->check(between(1, 1e6, "", "1 to 150 are usual, 1000 and more a reference"))
+      ->capture_default_str();
+  app.add_option("--spare-work", flags.world.solver.spare_work,
+                 "sweeps times points up to which a substep of a small problem sweeps on; 0: never")
+      ->check(between(0, 1e9, "", "0 keeps to --sweeps"))
       ->capture_default_str();
   add_method_flags(app, flags);
 }
@@ -90,6 +94,7 @@ nlohmann::json described(const engine::contact::WorldOptions& options) {
           {"method", to_string(options.solver.method)},
           {"substeps", options.solver.substeps},
           {"sweeps", options.solver.sweeps},
+          {"spare_work", options.solver.spare_work},
           {"threads", options.solver.threads},
           {"freeze", "off"}};
 }

@@ -57,7 +57,7 @@ TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
   const nlohmann::json once = hash("");
   EXPECT_EQ(hash(""), once);
   EXPECT_EQ(hash(" --threads 2"), once);
-  for (const char* flags : {" --seed 2", " --sweeps 10", " --substeps 2", " --dt 0.004", " --dig 21"})
+  for (const char* flags : {" --seed 2", " --sweeps 10", " --substeps 2", " --dt 0.004"})
     EXPECT_NE(hash(flags), once) << flags;
 }
 
