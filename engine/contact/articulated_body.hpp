@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <stdexcept>
 #include <vector>
 
 /// What the contact solver sees of an articulated machine: one super-body.
@@ -66,6 +67,17 @@ class ArticulatedBody {
 
   /// Takes the solved velocities, moves the machine by one step and recovers its joint forces.
   virtual void advance(const SuperBodySolution& solution) = 0;
+
+  /// All numbers that later steps depend on, and taking them back. set_state() throws std::runtime_error for
+  /// numbers that cannot be its own. A body that does not implement both cannot be saved, and says so.
+  virtual std::vector<double> state() const {
+    throw std::logic_error(
+        "contact::ArticulatedBody: this machine cannot be saved; implement state() and set_state()");
+  }
+  virtual void set_state(const std::vector<double>&) {
+    throw std::logic_error(
+        "contact::ArticulatedBody: this machine cannot be restored; implement state() and set_state()");
+  }
 };
 
 }  // namespace drawpoint::engine::contact

@@ -87,10 +87,19 @@ class ContactFinder::Impl {
     require(id);
     check(id, X_WB);
     items_.place(id, X_WB);
-    auto& item = items_.item[id];
-    if (item.restless || (item.hull && items_.travelled[id] - item.boxed_at <= options_.slack)) return;
-    item.restless = true;
-    restless_.push_back(id);
+    check_box(id);
+  }
+
+  // A change of reach counts as travel: it brings others nearer, or makes the box too large, by as much.
+  void set_reach(int id, double reach) {
+    require(id);
+    if (!(reach >= 0) || !std::isfinite(reach))
+      refuse("the reach of collider " + std::to_string(id) + " is " + std::to_string(reach) +
+             " m; give a finite value of at least 0");
+    if (reach == items_.reach[id]) return;
+    items_.travelled[id] += std::abs(reach - items_.reach[id]);
+    items_.reach[id] = reach;
+    check_box(id);
   }
 
   void set_moves(int id, bool moves) {
@@ -132,6 +141,7 @@ class ContactFinder::Impl {
       set_moves(id, saved.moves);
       items_.placed[id].R = saved.R, items_.placed[id].p = saved.p, items_.placed[id].centre = saved.centre;
       items_.travelled[id] = saved.travelled;
+      items_.reach[id] = saved.reach;
       items_.item[id].boxed_at = saved.boxed_at;
       items_.item[id].restless = saved.restless;
       if (saved.restless) restless_.push_back(id);
@@ -153,9 +163,16 @@ class ContactFinder::Impl {
              "; use a number that add() gave and remove() has not taken");
   }
 
+  void check_box(int id) {
+    auto& item = items_.item[id];
+    if (item.restless || (item.hull && items_.travelled[id] - item.boxed_at <= options_.slack)) return;
+    item.restless = true;
+    restless_.push_back(id);
+  }
+
   Eigen::AlignedBox3d fat_box(int id) {
     Eigen::AlignedBox3d box = items_.box(id);
-    const Vector3d growth = Vector3d::Constant(growth_ + options_.slack);
+    const Vector3d growth = Vector3d::Constant(growth_ + options_.slack + items_.reach[id]);
     box.min() -= growth, box.max() += growth;
     items_.item[id].boxed_at = items_.travelled[id];
     return box;
@@ -206,6 +223,7 @@ int ContactFinder::add(const Collider& collider) { return impl_->add(collider); 
 void ContactFinder::remove(int collider) { impl_->remove(collider); }
 const Collider& ContactFinder::collider(int collider) const { return impl_->collider(collider); }
 void ContactFinder::set_pose(int collider, const Isometry3d& X_WB) { impl_->set_pose(collider, X_WB); }
+void ContactFinder::set_reach(int collider, double reach) { impl_->set_reach(collider, reach); }
 void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }

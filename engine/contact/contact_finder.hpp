@@ -75,6 +75,9 @@ class ContactFinder {
   /// Throws std::invalid_argument for a pose that is not finite or whose axes are not orthonormal within
   /// 1e-6.
   void set_pose(int collider, const Eigen::Isometry3d& X_WB);
+  /// How much farther than the margin the collider looks [m], ≥ 0 and 0 until set: a pair is searched as far
+  /// as the margin and both reaches. For what moves fast: the way that it may go in the coming step.
+  void set_reach(int collider, double reach);
   /// Freezes or wakes a collider; between two frozen ones nothing is searched.
   void set_moves(int collider, bool moves);
 

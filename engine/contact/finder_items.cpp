@@ -44,6 +44,7 @@ void Items::add(Item added) {
   placed.emplace_back();
   placed.back().hull = added.hull.get();
   travelled.push_back(0);
+  reach.push_back(0);
   item.push_back(std::move(added));
   place(size() - 1, Eigen::Isometry3d::Identity());
 }

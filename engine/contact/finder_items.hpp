@@ -45,6 +45,7 @@ struct Items {
   std::vector<Traits> traits;
   /// Bound on the way of every point of a shape so far: Σ |Δcentre| + ‖ΔR‖ radius [m].
   std::vector<double> travelled;
+  std::vector<double> reach;  ///< beyond the margin [m]
 
   int size() const { return static_cast<int>(item.size()); }
   void add(Item item);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t mark = 0x3130444e46435044;  // "DPCFND01"
+constexpr std::uint64_t mark = 0x3230444e46435044;  // "DPCFND02"
 constexpr double off_orthonormal = 1e-6;            // as set_pose() allows
 constexpr double round_off = 1e-6;                  // [m] of recomputed points
 
@@ -123,6 +123,7 @@ void save_collider(const FinderParts& parts, int id, Writer& out) {
   out.flag(parts.items.item[id].restless);
   out.matrix(placed.R), out.matrix(placed.p), out.matrix(placed.centre);
   out.raw(parts.items.travelled[id]), out.raw(parts.items.item[id].boxed_at);
+  out.raw(parts.items.reach[id]);
   if (placed.hull) out.matrix(parts.boxes.box(id).min()), out.matrix(parts.boxes.box(id).max());
 }
 
@@ -136,6 +137,8 @@ ColliderState read_collider(const FinderParts& parts, int id, Reader& in) {
   state.R = in.rotation("a collider's orientation");
   state.p = in.vector("a collider's position"), state.centre = in.vector("a collider's centre");
   state.travelled = in.finite("an odometer"), state.boxed_at = in.finite("an odometer");
+  state.reach = in.finite("the reach of a collider");
+  if (state.reach < 0) refuse(in.place("the reach of a collider") + " is negative");
   if (!hull) return state;
   if (!((state.R * hull->centre + state.p - state.centre).norm() <= round_off))
     refuse(in.place("a collider's centre") + " is not where its pose puts it");
@@ -158,7 +161,7 @@ void save_pair(const PairEntry& entry, const PairState& state, Writer& out) {
     const Anchors& point = c.points[static_cast<std::size_t>(k)];
     out.matrix(point.on_a), out.matrix(point.on_b), out.raw(point.feature);
   }
-  if (entry.count > 0) out.matrix(state.centre), out.matrix(state.orientation);
+  if (entry.count > 0) out.matrix(state.centre), out.matrix(state.orientation), out.raw(state.margin);
 }
 
 constexpr std::size_t least_pair_size = 3 * 4 + 8 + 5 * 8 + 1 + 3 * 4;
@@ -209,6 +212,7 @@ PairEntry read_pair(const Items& items, Reader& in, PairState& state) {
     if (!(std::abs(c.normal.norm() - 1) <= round_off))
       refuse(in.place("the normal of a pair") + " has no unit length");
     state.centre = in.vector("the stand of a pair"), state.orientation = in.rotation("the stand of a pair");
+    state.margin = in.finite("the margin of a pair");
   }
   return entry;
 }

@@ -25,7 +25,7 @@ namespace drawpoint::engine::contact::detail {
 struct ColliderState {
   Eigen::Matrix3d R;
   Eigen::Vector3d p, centre;
-  double travelled, boxed_at;
+  double travelled, boxed_at, reach;
   Eigen::AlignedBox3d box;
   bool moves, restless;
 };

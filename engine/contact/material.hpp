@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 /// Contact materials: what happens between two kinds of surface.
@@ -29,11 +31,25 @@ struct Material {
 /// Symmetric table of pairs of surface kinds 0 .. kinds-1.
 class MaterialTable {
  public:
-  explicit MaterialTable(int kinds = 1) : kinds_(kinds), pairs_(kinds * kinds) {}
-  void set(int a, int b, const Material& m) { pairs_.at(a * kinds_ + b) = pairs_.at(b * kinds_ + a) = m; }
+  /// Both throw std::invalid_argument: for fewer than one kind; for a kind that is not in the table.
+  explicit MaterialTable(int kinds = 1) : kinds_(checked(kinds)), pairs_(kinds * kinds) {}
+  void set(int a, int b, const Material& m) {
+    if (a < 0 || b < 0 || a >= kinds_ || b >= kinds_)
+      throw std::invalid_argument("contact::MaterialTable: there are no kinds " + std::to_string(a) +
+                                  " and " + std::to_string(b) + "; allowed: 0 to " +
+                                  std::to_string(kinds_ - 1));
+    pairs_[a * kinds_ + b] = pairs_[b * kinds_ + a] = m;
+  }
   const Material& of(int a, int b) const { return pairs_[a * kinds_ + b]; }
+  int kinds() const { return kinds_; }
 
  private:
+  static int checked(int kinds) {
+    if (kinds >= 1 && kinds <= 1000) return kinds;
+    throw std::invalid_argument("contact::MaterialTable: " + std::to_string(kinds) +
+                                " kinds; allowed: 1 to 1000");
+  }
+
   int kinds_;
   std::vector<Material> pairs_;
 };

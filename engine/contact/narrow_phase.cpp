@@ -56,7 +56,7 @@ void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& 
 
 // One thread's part: buffers only, nothing that one pair leaves behind for another.
 struct NarrowPhase::Worker {
-  explicit Worker(const ContactFinderOptions& o) : options(o), search_margin(o.margin + o.reuse_distance) {}
+  explicit Worker(const ContactFinderOptions& o) : options(o) {}
 
   // Brings a pair up to date and appends its manifold, if there is one.
   void process(const Items& items, PairEntry& entry, PairState& state, std::vector<Manifold>& manifolds) {
@@ -66,9 +66,16 @@ struct NarrowPhase::Worker {
       touch_plane(items, entry, travelled, manifolds);
       return;
     }
-    if (travelled > entry.limit)
+    if (travelled > entry.limit) {
+      margin = margin_of(items, entry);
       refresh(items.placed[entry.a], items.placed[entry.b], travelled, entry, state);
+    }
     if (entry.count > 0) carry_along(items, entry, state.contact, manifolds);
+  }
+
+  // How near the shapes of a pair must come to be reported.
+  double margin_of(const Items& items, const PairEntry& entry) const {
+    return options.margin + items.reach[entry.a] + items.reach[entry.b];
   }
 
   void refresh(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
@@ -84,13 +91,14 @@ struct NarrowPhase::Worker {
     const Vector3d normal = a.R * contact.normal;
     const double least = lowest(*b.hull, b.R.transpose() * normal).height + normal.dot(b.p - a.p);
     const double separation = least - contact.reach;
-    if (!(separation > search_margin)) return false;
-    entry.limit = travelled + (separation - options.margin);
+    if (!(separation > margin + options.reuse_distance)) return false;
+    entry.limit = travelled + (separation - margin);
     return true;
   }
 
   bool still_stands(const Placement& a, const Placement& b, double travelled, PairEntry& entry,
                     const PairState& state) const {
+    if (margin > state.margin) return false;
     const Stand now(a, b);
     const double distance = (now.centre - state.centre).norm();
     if (distance > options.reuse_distance) return false;
@@ -105,14 +113,14 @@ struct NarrowPhase::Worker {
   void compute(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
     ++computed;
     convex.find({*a.hull, *b.hull, pose_against(a, b)},
-                {search_margin, options.hysteresis, state.contact.feature}, state.contact);
+                {margin + options.reuse_distance, options.hysteresis, state.contact.feature}, state.contact);
     entry.count = state.contact.count;
     if (entry.count == 0) {
-      entry.limit = travelled + (state.contact.separation - options.margin);
+      entry.limit = travelled + (state.contact.separation - margin);
       return;
     }
     const Stand now(a, b);
-    state.centre = now.centre, state.orientation = now.orientation;
+    state.centre = now.centre, state.orientation = now.orientation, state.margin = margin;
     entry.limit = travelled + std::min(options.reuse_distance, options.reuse_angle * now.radius);
   }
 
@@ -120,13 +128,14 @@ struct NarrowPhase::Worker {
   void carry_along(const Items& items, const PairEntry& entry, const ConvexContact& contact,
                    std::vector<Manifold>& manifolds) {
     const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
+    const double reported = margin_of(items, entry);
     Manifold& manifold = manifolds.emplace_back();
     start_manifold(items, entry, (contact.normal_of_b ? b : a).R * contact.normal, manifold);
     for (int k = 0; k < contact.count; ++k) {
       const Anchors& anchors = contact.points[static_cast<std::size_t>(k)];
       const Vector3d on_a = a.at(anchors.on_a), on_b = b.at(anchors.on_b);
       const double gap = manifold.normal.dot(on_b - on_a);
-      if (gap <= options.margin)
+      if (gap <= reported)
         manifold.points[static_cast<std::size_t>(manifold.count++)] = {0.5 * (on_a + on_b), gap,
                                                                        anchors.feature};
     }
@@ -142,14 +151,15 @@ struct NarrowPhase::Worker {
     if (travelled <= entry.limit) return;
     const Plane plane = items.plane(plane_id);
     const double height = plane.normal.dot(shape.centre) - plane.offset - shape.hull->radius;
-    entry.limit = height > options.margin ? travelled + (height - options.margin) : PairEntry::at_once;
-    if (height > options.margin) return;
+    margin = margin_of(items, entry);
+    entry.limit = height > margin ? travelled + (height - margin) : PairEntry::at_once;
+    if (height > margin) return;
     Eigen::Isometry3d X_WC;
     X_WC.linear() = shape.R, X_WC.translation() = shape.p, X_WC.makeAffine();
     if (const Cylinder* cylinder = items.item[shape_id].cylinder)
-      plane_contact(plane, *cylinder, X_WC, options.margin, clip);
+      plane_contact(plane, *cylinder, X_WC, margin, clip);
     else
-      plane_contact(plane, *shape.hull, X_WC, options.margin, clip);
+      plane_contact(plane, *shape.hull, X_WC, margin, clip);
     if (clip.empty()) return;
     Manifold& manifold = manifolds.emplace_back();
     start_manifold(items, entry, first ? plane.normal : Vector3d(-plane.normal), manifold);
@@ -159,7 +169,7 @@ struct NarrowPhase::Worker {
   }
 
   ContactFinderOptions options;
-  double search_margin;
+  double margin = 0;  // of the pair at hand
   ConvexContactSearch convex;
   std::vector<ClipPoint> clip;
   int computed = 0;

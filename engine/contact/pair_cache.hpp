@@ -16,6 +16,7 @@ namespace drawpoint::engine::contact::detail {
 
 struct PairState {
   ConvexContact contact;
+  double margin = 0;                                 ///< that the contact was searched with [m]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the smaller shape, in the frame of the larger
   Eigen::Matrix3d orientation =
       Eigen::Matrix3d::Zero();  ///< of the smaller shape, in the frame of the larger

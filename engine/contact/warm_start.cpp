@@ -71,4 +71,41 @@ void WarmStart::store_point(std::uint32_t feature, const Eigen::Vector3d& positi
   ++new_pairs_.back().count;
 }
 
+void WarmStart::save(StateWriter& out) const {
+  out.put_count(pairs_.size());
+  for (const Pair& pair : pairs_) {
+    out.put(pair.a);
+    out.put(pair.b);
+    out.put(pair.rolling);
+    out.put_count(pair.count);
+    for (std::size_t k = pair.first; k < pair.first + pair.count; ++k) {
+      out.put(points_[k].feature);
+      out.put(points_[k].position);
+      out.put(points_[k].impulse);
+    }
+  }
+}
+
+void WarmStart::restore(StateReader& in) {
+  WarmStart read;
+  const std::size_t pairs = in.get_count(40);
+  for (std::size_t k = 0; k < pairs; ++k) {
+    Pair pair{in.get<int>(), in.get<int>(), Eigen::Vector3d::Zero(), read.points_.size(), 0};
+    in.get(pair.rolling);
+    pair.count = in.get_count(52);
+    if (!read.pairs_.empty() &&
+        std::pair(read.pairs_.back().a, read.pairs_.back().b) >= std::pair(pair.a, pair.b))
+      in.fail("holds pairs of contacts that are not in order");
+    read.pairs_.push_back(pair);
+    for (std::size_t p = 0; p < pair.count; ++p) {
+      Point point{};
+      in.get(point.feature);
+      in.get(point.position);
+      in.get(point.impulse);
+      read.points_.push_back(point);
+    }
+  }
+  *this = std::move(read);
+}
+
 }  // namespace drawpoint::engine::contact

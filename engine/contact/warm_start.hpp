@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <drawpoint/engine/contact/state_bytes.hpp>
 #include <vector>
 
 /// Last step's impulses, found again by pair and feature, so that a resting pile starts from its own load.
@@ -47,6 +48,11 @@ class WarmStart {
   void end_store();
   void store_pair(int a, int b, const Eigen::Vector3d& rolling);
   void store_point(std::uint32_t feature, const Eigen::Vector3d& position, const Eigen::Vector3d& impulse);
+
+  /// What the next step will start from. Reading throws std::runtime_error for what cannot be, and then
+  /// changes nothing.
+  void save(StateWriter& out) const;
+  void restore(StateReader& in);
 
  private:
   struct Pair {

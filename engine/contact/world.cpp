@@ -6,6 +6,7 @@
 #include <drawpoint/engine/contact/contact_law.hpp>
 #include <drawpoint/engine/contact/free_turn.hpp>
 #include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/contact/world_checks.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -19,7 +20,6 @@ using Eigen::Vector3d;
 // added it covers whatever the solve itself may set moving.
 constexpr double resting_margin = 1e-3;
 constexpr int world_body = 0;  // problem_.bodies[0] never moves
-constexpr int no_family = 0, fixed_family = 1, machine_family = 2;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -32,72 +32,40 @@ Matrix3d turned(const Matrix3d& R, const Vector3d& principal) {
 }  // namespace
 
 World::World(const WorldOptions& options, const MaterialTable& materials)
-    : options_(options),
-      materials_(materials),
+    : options_((detail::check(options), options)),
+      materials_((detail::check(materials), materials)),
       finder_(options.contacts),
       solver_(options.solver),
-      freezing_(options.freezing, options.step, options.gravity) {
-  if (!(options.step > 0) || options.step > 0.1)
-    throw std::invalid_argument("contact::World: step is " + std::to_string(options.step) +
-                                " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
-  if (options.solver.sweeps < 1)
-    throw std::invalid_argument("contact::World: sweeps is " + std::to_string(options.solver.sweeps) +
-                                "; allowed: at least 1");
-}
+      freezing_(options.freezing, options.step, options.gravity) {}
 
-int World::add_surface(const Surface& surface, const Collider& collider) {
-  const int id = finder_.add(collider);
-  if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1, {Owner::fixed, -1, 0});
-  surfaces_[id] = surface;
-  return id;
-}
-
-int World::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const Vector3d& velocity,
-                    const Vector3d& angular_velocity) {
-  const int index = static_cast<int>(rocks_.size());
-  Collider collider{body.shape, index + 1, body.material, no_family, true, Eigen::Isometry3d::Identity()};
-  rocks_.push_back({body, pose, velocity, angular_velocity, true, -1});
-  rocks_.back().collider = add_surface({Owner::rock, index, body.material}, collider);
-  finder_.set_pose(rocks_.back().collider, pose);
-  freezing_.add(index, rocks_.back());
-  return index;
-}
-
-void World::remove_rock(int rock) {
-  Rock& r = rocks_.at(rock);
-  if (!r.present) return;
-  const std::vector<int> neighbours = freezing_.remove(rock);
-  finder_.remove(r.collider);
-  r.present = false;
-  thaw(neighbours);
-}
-
-void World::set_rock_velocity(int rock, const Vector3d& velocity, const Vector3d& angular_velocity) {
-  rocks_.at(rock).velocity = velocity;
-  if (frozen(rock)) thaw({rock});
-  rocks_.at(rock).angular_velocity = angular_velocity;
-}
-
-int World::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material) {
-  const int id = add_surface(
-      {Owner::fixed, -1, material},
-      {std::move(shape), world_body, material, fixed_family, false, Eigen::Isometry3d::Identity()});
-  finder_.set_pose(id, pose);
-  return id;
-}
-
-void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
-                           int material) {
-  const int id = add_surface({Owner::part, part, material},
-                             {std::move(shape), machine_part(part), material, machine_family, true, X_PS});
-  finder_.set_pose(id, machine_->part_pose(part));
+// How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its reaches
+// and the margin, so no contact is missed at any speed. In steps of `reach_step`, so that a speed that
+// wavers does not make contacts be searched anew.
+double World::reach_of(const Surface& surface) const {
+  constexpr double reach_step = 5e-3;  // [m]
+  const double fall = options_.step * options_.gravity.norm();
+  double speed = 0;
+  if (surface.owner == Owner::rock) {
+    const Rock& rock = rocks_[surface.index];
+    speed = rock.velocity.norm() + rock.angular_velocity.norm() * surface.radius + fall;
+  } else if (surface.owner == Owner::part) {
+    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
+    speed = V.tail<3>().norm() + V.head<3>().norm() * surface.radius + fall;
+  }
+  return reach_step *
+         std::ceil(std::max(0.0, options_.step * speed - 0.5 * options_.contacts.margin) / reach_step);
 }
 
 void World::place_colliders() {
-  for (const int k : freezing_.awake()) finder_.set_pose(rocks_[k].collider, rocks_[k].pose);
-  for (std::size_t id = 0; id < surfaces_.size(); ++id)
-    if (surfaces_[id].owner == Owner::part)
-      finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
+  for (const int k : freezing_.awake()) {
+    finder_.set_pose(rocks_[k].collider, rocks_[k].pose);
+    finder_.set_reach(rocks_[k].collider, reach_of(surfaces_[rocks_[k].collider]));
+  }
+  for (std::size_t id = 0; id < surfaces_.size(); ++id) {
+    if (surfaces_[id].owner != Owner::part) continue;
+    finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
+    finder_.set_reach(static_cast<int>(id), reach_of(surfaces_[id]));
+  }
 }
 
 void World::fill_bodies() {
@@ -203,6 +171,26 @@ void World::move_rocks() {
   }
 }
 
+// The solution as it is before anything has moved.
+void World::check_solution(const SuperBodySolution& machine) const {
+  const auto broken = [this](const std::string& what) {
+    throw SolutionBroken("contact::World::step: step " + std::to_string(steps_ + 1) + " at t = " +
+                         std::to_string(time_) + " s: " + what + "; use a smaller step or more sweeps");
+  };
+  const std::vector<int>& awake = freezing_.awake();
+  for (std::size_t k = 0; k < awake.size(); ++k) {
+    const SolverBody& body = problem_.bodies[k + 1];
+    const double speed = body.velocity.norm(), spin = body.angular_velocity.norm();
+    const double way = body.travel.norm() + body.turn.norm();
+    if (!(speed <= detail::fastest_solution) || !(spin <= 10 * detail::fastest_solution) ||
+        !std::isfinite(way))
+      broken("rock " + std::to_string(awake[k]) + " comes out with " + std::to_string(speed) + " m/s and " +
+             std::to_string(spin) + " rad/s");
+  }
+  if (machine_ && !(machine.velocity.allFinite() && machine.mean_velocity.allFinite()))
+    broken("the machine's speeds come out not finite");
+}
+
 void World::find_contacts(StepReport& report) {
   place_colliders();
   manifolds_ = &finder_.find();
@@ -284,14 +272,16 @@ StepReport World::step() {
     find_contacts(report);
     thaw_near_machine(report);
     solved = solve_contacts(report);
+    check_solution(solved.machine);
   } while (thaw_overloaded(report.solves));
   keep_impulses();
-  move_rocks();
   if (machine_) {
     const auto advance_start = std::chrono::steady_clock::now();
     machine_->advance(solved.machine);
     report.machine_s += seconds_since(advance_start);
   }
+  move_rocks();
+  ++steps_;
   time_ += options_.step;
   report.awake = static_cast<int>(freezing_.awake().size());
   settle_frozen();

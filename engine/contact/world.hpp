@@ -6,9 +6,12 @@
 #include <drawpoint/engine/contact/freezing.hpp>
 #include <drawpoint/engine/contact/material.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/contact/state_bytes.hpp>
 #include <drawpoint/engine/contact/warm_start.hpp>
 #include <functional>
 #include <memory>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 /// Rocks, fixed surroundings and at most one machine, stepped together: nonsmooth DEM with fixed steps of h.
@@ -60,10 +63,19 @@ struct StepReport {
   double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;
 };
 
+/// The solution of a step came out not finite or absurdly fast.
+class SolutionBroken : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 class World {
  public:
   World(const WorldOptions& options, const MaterialTable& materials);
 
+  /// All of these throw std::invalid_argument for a value out of its range (world_checks.hpp), a rock that is
+  /// not there or was removed, a part that the machine does not have; nothing has changed then. A rock may be
+  /// given at most 1000 m/s and 10 000 rad/s.
   int add_rock(const RockBody& body, const Eigen::Isometry3d& pose,
                const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero(),
                const Eigen::Vector3d& angular_velocity = Eigen::Vector3d::Zero());
@@ -71,12 +83,15 @@ class World {
   void set_rock_velocity(int rock, const Eigen::Vector3d& velocity, const Eigen::Vector3d& angular_velocity);
   int add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material);
 
-  /// The machine is stepped with the rocks from now on; it must outlive the world. nullptr detaches.
-  void attach(ArticulatedBody* machine) { machine_ = machine; }
+  /// The machine is stepped with the rocks from now on; it must outlive the world. nullptr detaches it and
+  /// takes its parts' shapes away.
+  void attach(ArticulatedBody* machine);
   /// Gives machine part `part` a shape, placed in the part's frame. Parts do not collide with each other.
   void add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
                       int material);
 
+  /// Throws SolutionBroken when a velocity or the machine comes out not finite or absurdly fast; the rocks,
+  /// machine and the time are then as before the step.
   StepReport step();
 
   /// Whether a rock stands still and is not solved (freezing.hpp).
@@ -84,8 +99,17 @@ class World {
   void thaw_all();
   const Freezing& freezing() const { return freezing_; }
 
+  /// All that later steps depend on, as bytes: rocks, machine, time, remembered contacts and impulses. The
+  /// scene itself (options, materials, surroundings, kinds of rocks, machine) is not in it but marked.
+  std::vector<std::byte> save() const;
+  /// Takes a saved state back: from here on, the same bits. The world must have been built by the same calls
+  /// with the same values; threads may differ. Throws std::runtime_error for another scene (naming its part)
+  /// or damaged bytes, and then changes nothing.
+  void restore(std::span<const std::byte> state);
+
   const std::vector<Rock>& rocks() const { return rocks_; }
   double time() const { return time_; }
+  const ArticulatedBody* machine() const { return machine_; }
   const WorldOptions& options() const { return options_; }
   /// Of the last step, with its impulses. Bodies are the world, then the rocks that are awake; sides that
   /// stand still are the world.
@@ -100,13 +124,23 @@ class World {
 
  private:
   enum class Owner { fixed, rock, part };
+  static constexpr int detached = -2;  // index of a part's surface whose machine was detached
   struct Surface {
     Owner owner;
     int index;
     int material;
+    double radius = 0;  // that holds the shape, about the body's origin [m]
   };
 
+  struct SceneMarks;
+  SceneMarks scene_marks() const;
+
+  static Collider rock_collider(const RockBody& body, int rock);
+  ContactFinder finder_for(const std::vector<Rock>& rocks) const;
+
   int add_surface(const Surface& surface, const Collider& collider);
+  void mark_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose);
+  int checked(int rock, const char* place) const;
   void place_colliders();
   void find_contacts(StepReport& report);
   SolverReport solve_contacts(StepReport& report);
@@ -115,6 +149,8 @@ class World {
   void thaw_near_machine(StepReport& report);
   bool thaw_overloaded(int round);
   void settle_frozen();
+  double reach_of(const Surface& surface) const;
+  void check_solution(const SuperBodySolution& machine) const;
   void fill_bodies();
   void fill_contacts();
   void fill_points(const Manifold& m, const Surface& a, const Surface& b, const Material& material);
@@ -135,6 +171,8 @@ class World {
   std::vector<int> body_of_rock_;  // in the problem
   ContactProblem problem_;
   WarmStart warm_start_;
+  StateHash surfaces_mark_;  // of the calls that made them
+  long steps_ = 0;
   Observer before_solve_;
   Freezing freezing_;
   double time_ = 0;

@@ -15,6 +15,10 @@ namespace {
 // A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one
 // it is in.
 constexpr double coordinate_step = 0.05;
+constexpr double fastest_motor = 1e3;     // [m/s] or [rad/s]
+constexpr double fastest_speed = 1e5;     // norm of all joint speeds; beyond, a step has broken down
+constexpr double farthest = 1e7;          // norm of all coordinates
+constexpr double restored_error = 1e-6;   // [m], and of unit quaternions: what a saved state may have at most
 constexpr double loop_tolerance = 1e-11;  // [m], what projection aims at; the promise is 1e-9
 
 SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -135,6 +139,31 @@ struct Machine::Simbody {
                                "); move the joints closer to a pose that the linkage can reach");
     }
     system.realize(state, SimTK::Stage::Velocity);
+  }
+
+  void put_back(const SimTK::Vector& q, const SimTK::Vector& u) {
+    state.updQ() = q;
+    state.updU() = u;
+    system.realize(state, SimTK::Stage::Velocity);
+  }
+
+  // Coordinates and speeds as they once were, not projected: the same bits. They must close the loops.
+  void set_motion(const Eigen::VectorXd& q, const Eigen::VectorXd& u) {
+    const SimTK::Vector q_before = state.getQ(), u_before = state.getU();
+    const auto refuse = [&](const std::string& what) {
+      put_back(q_before, u_before);
+      throw std::runtime_error("machine::Machine::set_state: " + what +
+                               "; give the state of the same machine");
+    };
+    if (!(q.norm() <= farthest && u.norm() <= fastest_speed)) refuse("the coordinates or speeds are absurd");
+    try {
+      put_back(to_simbody(q), to_simbody(u));
+    } catch (const std::exception& error) {
+      refuse(std::string("the coordinates are no pose (") + error.what() + ")");
+    }
+    const SimTK::Vector errors = state.getQErr();
+    for (int k = 0; k < errors.size(); ++k)
+      if (!(std::abs(errors[k]) <= restored_error)) refuse("the coordinates do not close the loops");
   }
 
   Eigen::Vector3d local(int body, const Eigen::Vector3d& p_M) const { return p_M - spec.bodies[body].centre; }
@@ -328,7 +357,13 @@ Eigen::Vector3d Machine::point_velocity(int body, const Eigen::Vector3d& p_M) co
                                                                      to_simbody(simbody_->local(body, p_M))));
 }
 
-void Machine::set_motor(int motor, double speed) { simbody_->motor_targets.at(motor) = speed; }
+void Machine::set_motor(int motor, double speed) {
+  if (!(std::abs(speed) <= fastest_motor))
+    throw std::invalid_argument("machine::Machine::set_motor: the speed of motor " + std::to_string(motor) +
+                                " is " + std::to_string(speed) + " m/s or rad/s; allowed: at most " +
+                                std::to_string(fastest_motor) + " either way");
+  simbody_->motor_targets.at(motor) = speed;
+}
 double Machine::motor_force(int motor) const { return simbody_->motor_forces.at(motor); }
 
 Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std::vector<int>& drivers,
@@ -356,6 +391,9 @@ Wrench Machine::joint_wrench(int body) const { return simbody_->reactions[body];
 Eigen::Vector3d Machine::loop_force(int loop) const { return simbody_->loop_forces.at(loop); }
 
 void Machine::add_force(int body, const Wrench& wrench) {
+  if (!wrench.moment.allFinite() || !wrench.force.allFinite())
+    throw std::invalid_argument("machine::Machine::add_force: the wrench on body " + std::to_string(body) +
+                                " is not finite; give finite N and N m");
   simbody_->extra.at(body).moment += wrench.moment;
   simbody_->extra.at(body).force += wrench.force;
 }
@@ -381,18 +419,68 @@ const contact::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gr
 void Machine::advance(const contact::SuperBodySolution& solution) {
   Simbody& s = *simbody_;
   const Eigen::VectorXd u = s.N * solution.velocity;
+  if (!(u.norm() <= fastest_speed))
+    throw std::runtime_error("machine::Machine::advance: the joint speeds come out with norm " +
+                             std::to_string(u.norm()) + " m/s or rad/s; use a smaller step");
   s.recover_forces(solution, (u - view(s.state.getU())) / s.h);
   s.row_starts = solution.row_starts;
   std::fill(s.extra.begin(), s.extra.end(), Wrench());
 
+  const SimTK::Vector q_before = s.state.getQ(), u_before = s.state.getU();
   SimTK::Vector qdot;
   s.matter.multiplyByN(s.state, false, to_simbody(Eigen::VectorXd(s.N * solution.mean_velocity)), qdot);
   s.state.updQ() += s.h * qdot;
   s.state.updU() = to_simbody(u);
   // Speeds are not projected here: the next w = NᵀMu is their mass-weighted projection, which keeps momentum.
-  s.system.realize(s.state, SimTK::Stage::Position);
-  s.system.projectQ(s.state, loop_tolerance);
-  s.system.realize(s.state, SimTK::Stage::Velocity);
+  try {
+    s.system.realize(s.state, SimTK::Stage::Position);
+    s.system.projectQ(s.state, loop_tolerance);
+    s.system.realize(s.state, SimTK::Stage::Velocity);
+  } catch (const std::exception& error) {
+    s.put_back(q_before, u_before);
+    throw std::runtime_error(
+        std::string("machine::Machine::advance: the loops cannot be closed after the step (") + error.what() +
+        "); use a smaller step");
+  }
+}
+
+std::vector<double> Machine::state() const {
+  const Simbody& s = *simbody_;
+  std::vector<double> out;
+  const auto add = [&out](const auto& values) {
+    out.insert(out.end(), values.data(), values.data() + values.size());
+  };
+  add(view(s.state.getQ()));
+  add(view(s.state.getU()));
+  add(s.motor_targets);
+  add(s.motor_forces);
+  add(s.row_starts);
+  for (const std::vector<Wrench>* wrenches : {&s.extra, &s.reactions})
+    for (const Wrench& w : *wrenches) add(w.moment), add(w.force);
+  for (const Eigen::Vector3d& force : s.loop_forces) add(force);
+  return out;
+}
+
+void Machine::set_state(const std::vector<double>& state) {
+  Simbody& s = *simbody_;
+  if (state.size() != this->state().size())
+    throw std::runtime_error("machine::Machine::set_state: " + std::to_string(state.size()) +
+                             " numbers; this machine has " + std::to_string(this->state().size()) +
+                             "; give the state of the same machine");
+  const double* next = state.data();
+  const auto take = [&next](double* to, std::size_t count) {
+    std::copy_n(next, count, to);
+    next += count;
+  };
+  Eigen::VectorXd q(s.state.getNQ()), u(s.state.getNU());
+  take(q.data(), static_cast<std::size_t>(q.size()));
+  take(u.data(), static_cast<std::size_t>(u.size()));
+  s.set_motion(q, u);
+  for (std::vector<double>* values : {&s.motor_targets, &s.motor_forces, &s.row_starts})
+    take(values->data(), values->size());
+  for (std::vector<Wrench>* wrenches : {&s.extra, &s.reactions})
+    for (Wrench& w : *wrenches) take(w.moment.data(), 3), take(w.force.data(), 3);
+  for (Eigen::Vector3d& force : s.loop_forces) take(force.data(), 3);
 }
 
 }  // namespace drawpoint::engine::machine

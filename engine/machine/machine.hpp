@@ -70,7 +70,13 @@ class Machine final : public contact::ArticulatedBody {
   int parts() const override;
   Eigen::Isometry3d part_pose(int part) const override;
   const contact::SuperBody& linearise(double h, const Eigen::Vector3d& gravity) override;
+  /// Throws std::runtime_error if the speeds are absurd or the loops cannot be closed any more; the machine
+  /// has not moved then.
   void advance(const contact::SuperBodySolution& solution) override;
+
+  /// Coordinates, speeds, set speeds, added forces, and of the last step the row impulses and joint forces.
+  std::vector<double> state() const override;
+  void set_state(const std::vector<double>& state) override;
 
  private:
   struct Simbody;
