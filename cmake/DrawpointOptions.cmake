@@ -4,6 +4,7 @@ option(DRAWPOINT_BUILD_ENGINE "Build the simulation engine (needs Simbody, FCL, 
 option(DRAWPOINT_BUILD_STUDIES "Build the study runner and the studies (needs the engine, SQLite, CLI11)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_TESTS "Build the tests (needs GoogleTest, RapidCheck)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_BENCHMARKS "Build the benchmarks (needs Google Benchmark)" ${PROJECT_IS_TOP_LEVEL})
+option(DRAWPOINT_BUILD_FUZZERS "Build the fuzz targets of tests/fuzz (needs Clang)" OFF)
 option(DRAWPOINT_INSTALL "Create the install rules" ${PROJECT_IS_TOP_LEVEL})
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

@@ -206,7 +206,12 @@ bool LoadingRun::run_cycle(int cycle) {
 
 LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks) {
   check(scenario);
-  LoadingLog log = LoadingRun(scenario, hooks).run();
+  LoadingLog log;
+  try {
+    log = LoadingRun(scenario, hooks).run();
+  } catch (const contact::SolutionBroken& error) {  // before the first cycle: the pile was being poured
+    log.message = std::string("the pile broke down while it was poured: ") + error.what();
+  }
   if (!scenario.log_file.empty()) write_log(scenario.log_file, log);
   return log;
 }
