@@ -6,6 +6,7 @@
 #include <cmath>
 #include <drawpoint/engine/contact/hull_sweeps.hpp>
 #include <drawpoint/engine/contact/segments.hpp>
+#include <limits>
 
 namespace drawpoint::engine::contact::detail {
 namespace {
@@ -26,6 +27,16 @@ int facing(const CollisionHull& hull, int vertex, const Vector3d& n) {
 
 void add_anchors(const Vector3d& on_a, const Vector3d& on_b, std::uint32_t feature, ConvexContact& contact) {
   contact.points[static_cast<std::size_t>(contact.count++)] = {on_a, on_b, feature};
+}
+
+// Of the points, before the normal goes to its owner.
+double least_gap(const HullPair& pair, const ConvexContact& contact) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < contact.count; ++k) {
+    const Anchors& point = contact.points[static_cast<std::size_t>(k)];
+    least = std::min(least, contact.normal.dot(pair.X_AB * point.on_b - point.on_a));
+  }
+  return least;
 }
 
 // Overlapping, but by round-off no polygon is left to clip or the edges pass each other: the deepest vertex
@@ -73,7 +84,10 @@ void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, C
 void ConvexContactSearch::nearest_contact(const HullPair& pair, const Axis& axis, double margin,
                                           ConvexContact& contact) {
   AxisSearch::Nearest nearest;
-  if (!axes_.nearest_edges(pair, axis, margin, nearest)) return;
+  if (!axes_.nearest_edges(pair, axis, margin, nearest)) {
+    contact.separation = std::max(contact.separation, margin);
+    return;
+  }
   if (nearest.distance > coincident) {
     contact.normal = (nearest.on_b - nearest.on_a) / nearest.distance;
     contact.normal_of_b = false;
@@ -107,7 +121,10 @@ void ConvexContactSearch::find(const HullPair& pair, const AxisQuery& query, Con
     axis = axes_.find(pair, {query.margin, 0, {}});
     touch(pair, axis, query.margin, contact);
   }
-  if (contact.count == 0 && axis.separation <= query.margin) {
+  if (contact.count > 0 && least_gap(pair, contact) > query.report) {
+    contact.count = 0;  // edges beside the facing polygons may be nearer
+    nearest_contact(pair, axis, query.margin, contact);
+  } else if (contact.count == 0 && axis.separation <= query.margin) {
     if (axis.separation > -coincident)  // apart, or in one plane side by side
       nearest_contact(pair, axis, query.margin, contact);
     else

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -113,7 +114,8 @@ struct NarrowPhase::Worker {
   void compute(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
     ++computed;
     convex.find({*a.hull, *b.hull, pose_against(a, b)},
-                {margin + options.reuse_distance, options.hysteresis, state.contact.feature}, state.contact);
+                {margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin},
+                state.contact);
     entry.count = state.contact.count;
     if (entry.count == 0) {
       entry.limit = travelled + (state.contact.separation - margin);
@@ -176,7 +178,10 @@ struct NarrowPhase::Worker {
 };
 
 struct NarrowPhase::Threads {
-  explicit Threads(int count) : arena(count) {}
+  explicit Threads(int count)
+      : allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
+        arena(count) {}
+  tbb::global_control allowed;  // as many as were asked for, on machines with fewer cores as well
   tbb::task_arena arena;
   std::vector<std::vector<Manifold>> found;  // by block
 };

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cstdint>
 #include <drawpoint/engine/contact/collision_hull.hpp>
+#include <limits>
 #include <vector>
 
 /// The axis of greatest separation (least overlap) of two polyhedra, by the separating-axis theorem.
@@ -54,6 +55,8 @@ struct AxisQuery {
   double margin = 0;      ///< [m] beyond this separation nothing more is asked
   double hysteresis = 0;  ///< [m] by how much another axis must beat the hint
   Feature hint;           ///< last time's axis
+  /// [m] points beyond this are not reported: a contact with no other is looked at again for nearer edges.
+  double report = std::numeric_limits<double>::infinity();
 };
 
 /// Least n·x over B, with n and the result in A's frame.

@@ -97,19 +97,69 @@ inline double segment_distance(const std::pair<Vector3d, Vector3d>& e,
   };
   double best = std::min(
       {to_segment(e.first, f), to_segment(e.second, f), to_segment(f.first, e), to_segment(f.second, e)});
-  Eigen::Matrix<double, 3, 2> A;
-  A << e.second - e.first, f.first - f.second;
-  const Eigen::Vector2d t = A.colPivHouseholderQr().solve(f.first - e.first);
-  if (t.minCoeff() >= 0 && t.maxCoeff() <= 1) best = std::min(best, (A * t - (f.first - e.first)).norm());
+  // The interior solution: |x + s u - t v| least, by Cramer's rule; parallel segments have none of their own.
+  const Vector3d u = e.second - e.first, v = f.second - f.first, x = e.first - f.first;
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), determinant = uu * vv - uv * uv;
+  if (determinant <= 1e-14 * uu * vv) return best;
+  const double s = (uv * v.dot(x) - vv * u.dot(x)) / determinant,
+               t = (uu * v.dot(x) - uv * u.dot(x)) / determinant;
+  if (s >= 0 && s <= 1 && t >= 0 && t <= 1) best = std::min(best, (x + s * u - t * v).norm());
   return best;
 }
 
 /// Distance of two polyhedra that do not overlap.
 inline double distance(const ConvexPolyhedron& a, const ConvexPolyhedron& b) {
   double best = std::min(vertex_face_distance(a, b), vertex_face_distance(b, a));
-  for (const auto& e : edges_of(a))
-    for (const auto& f : edges_of(b)) best = std::min(best, segment_distance(e, f));
+  const auto edges_a = edges_of(a), edges_b = edges_of(b);
+  for (const auto& e : edges_a)
+    for (const auto& f : edges_b) best = std::min(best, segment_distance(e, f));
   return best;
+}
+
+/// One candidate of the separating-axis theorem.
+struct ScoredAxis {
+  Vector3d normal;  ///< unit, from A to B
+  double separation;
+};
+
+/// All candidates, nothing pruned: face normals and all edge pairs both ways. The same answer as
+/// best_separation(), fast enough for a million pairs: extents are taken over plain arrays.
+inline void all_axes(const ConvexPolyhedron& a, const ConvexPolyhedron& b, std::vector<ScoredAxis>& axes) {
+  const auto flat = [](const ConvexPolyhedron& shape) {
+    Eigen::Matrix<double, Eigen::Dynamic, 3> points(shape.vertices().size(), 3);
+    for (std::size_t k = 0; k < shape.vertices().size(); ++k)
+      points.row(static_cast<Eigen::Index>(k)) = shape.vertices()[k].transpose();
+    return points;
+  };
+  const auto points_a = flat(a), points_b = flat(b);
+  Eigen::ArrayXd along_a(points_a.rows()), along_b(points_b.rows());
+  const auto project = [&](const Vector3d& n) {
+    along_a =
+        points_a.col(0).array() * n.x() + points_a.col(1).array() * n.y() + points_a.col(2).array() * n.z();
+    along_b =
+        points_b.col(0).array() * n.x() + points_b.col(1).array() * n.y() + points_b.col(2).array() * n.z();
+  };
+  axes.clear();
+  for (const Vector3d& n : a.face_normals()) {
+    project(n);
+    axes.push_back({n, along_b.minCoeff() - along_a.maxCoeff()});
+  }
+  for (const Vector3d& n : b.face_normals()) {
+    project(n);
+    axes.push_back({-n, along_a.minCoeff() - along_b.maxCoeff()});
+  }
+  const auto edges_a = edges_of(a), edges_b = edges_of(b);
+  for (const auto& [p, q] : edges_a)
+    for (const auto& [r, s] : edges_b) {
+      const Vector3d across = (q - p).cross(s - r);
+      const double square = across.squaredNorm();
+      if (square <= 1e-14 * (q - p).squaredNorm() * (s - r).squaredNorm()) continue;
+      const Vector3d n = across / std::sqrt(square);
+      project(n);
+      const double there = along_b.minCoeff() - along_a.maxCoeff(),
+                   back = along_a.minCoeff() - along_b.maxCoeff();
+      axes.push_back(there >= back ? ScoredAxis{n, there} : ScoredAxis{-n, back});
+    }
 }
 
 inline Eigen::Quaterniond random_rotation(std::mt19937& rng) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/tests/support/contact_pairs.hpp>
+#include <drawpoint/tests/support/rock_heap.hpp>
 #include <drawpoint/tests/support/rock_pairs.hpp>
 #include <functional>
 #include <set>
@@ -19,69 +20,15 @@ using engine::contact::Cylinder;
 using engine::contact::HalfSpace;
 using engine::contact::Manifold;
 using support::collider_of;
+using support::moved;
+using support::same_bits;
+using Heap = support::RockHeap;
 using support::pose_at;
 using support::share;
 
 namespace {
 
 constexpr double margin = 0.01;  // the finder's default
-
-Isometry3d moved(const Isometry3d& X, std::mt19937& rng, double distance, double angle) {
-  std::normal_distribution<double> normal;
-  Isometry3d result = X;
-  result.translation() += distance * Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
-  const Vector3d axis = Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
-  result.linear() = (Eigen::AngleAxisd(angle, axis) * X.linear()).eval();
-  return result;
-}
-
-// A loose heap of rocks over the ground, most of them touching others.
-class Heap {
- public:
-  Heap(int count, unsigned seed, const ContactFinderOptions& options = {}) : rng_(seed), finder_(options) {
-    finder_.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
-    for (int k = 0; k < count; ++k) {
-      shapes_.push_back(share(support::rock(k).scaled(k % 2 == 0 ? 0.4 : 0.5)));
-      poses_.push_back(pose_at(Vector3d(0.36 * (k % 4), 0.36 * (k / 4 % 4), 0.2 + 0.36 * (k / 16)),
-                               support::random_rotation(rng_)));
-      add(k);
-    }
-  }
-  void add(int k) {
-    const int id = finder_.add(collider_of(shapes_[k], k));
-    finder_.set_pose(id, poses_[k]);
-    ids_.push_back(id);
-  }
-  void shake(double distance, double angle) {
-    for (std::size_t k = 0; k < poses_.size(); ++k) {
-      poses_[k] = moved(poses_[k], rng_, distance, angle);
-      finder_.set_pose(ids_[k], poses_[k]);
-    }
-  }
-  ContactFinder& finder() { return finder_; }
-  const std::vector<support::SharedShape>& shapes() const { return shapes_; }
-  const std::vector<Isometry3d>& poses() const { return poses_; }
-
- private:
-  std::mt19937 rng_;
-  ContactFinder finder_;
-  std::vector<support::SharedShape> shapes_;
-  std::vector<Isometry3d> poses_;
-  std::vector<int> ids_;
-};
-
-bool same_bits(const std::vector<Manifold>& x, const std::vector<Manifold>& y) {
-  if (x.size() != y.size()) return false;
-  for (std::size_t m = 0; m < x.size(); ++m) {
-    bool same = x[m].collider_a == y[m].collider_a && x[m].collider_b == y[m].collider_b &&
-                x[m].count == y[m].count && x[m].normal == y[m].normal;
-    for (int k = 0; same && k < x[m].count; ++k)
-      same = x[m].points[k].position == y[m].points[k].position && x[m].points[k].gap == y[m].points[k].gap &&
-             x[m].points[k].feature == y[m].points[k].feature;
-    if (!same) return false;
-  }
-  return true;
-}
 
 std::string message_of(const std::function<void()>& call) {
   try {
@@ -272,6 +219,13 @@ TEST(ContactFinder, RefusesBadInput) {
   const int id = finder.add(collider_of(share(box({1, 1, 1})), 0));
   EXPECT_NE(message_of([&] {
               finder.set_pose(id, pose_at({std::nan(""), 0, 0}));
-            }).find("not finite"),
+            }).find("translation (nan, 0, 0) m, which is not finite"),
             std::string::npos);
+  Isometry3d skew = Isometry3d::Identity();
+  skew.linear()(0, 1) = 1e-3;
+  EXPECT_NE(
+      message_of([&] { finder.set_pose(id, skew); }).find("collider 0 has axes that are off orthonormal"),
+      std::string::npos);
+  skew.linear()(0, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_NE(message_of([&] { finder.set_pose(id, skew); }).find("collider 0 has axes"), std::string::npos);
 }
