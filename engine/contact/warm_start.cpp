@@ -8,8 +8,6 @@ namespace drawpoint::engine::contact {
 
 void WarmStart::rewind() {
   for (Point& point : points_) point.used = false;
-  cursor_ = 0;
-  match_ = nullptr;
 }
 
 void WarmStart::insert(const std::vector<Entry>& entries) {
@@ -36,19 +34,27 @@ void WarmStart::end_store() {
   points_.swap(new_points_);
 }
 
-void WarmStart::begin_pair(int a, int b) {
+void WarmStart::Reader::begin_pair(int a, int b) {
+  const std::vector<Pair>& pairs = store_.pairs_;
   const auto key = std::make_pair(a, b);
-  while (cursor_ < pairs_.size() && std::make_pair(pairs_[cursor_].a, pairs_[cursor_].b) < key) ++cursor_;
-  const bool found = cursor_ < pairs_.size() && std::make_pair(pairs_[cursor_].a, pairs_[cursor_].b) == key;
-  match_ = found ? &pairs_[cursor_] : nullptr;
+  const auto before = [](const Pair& pair, const std::pair<int, int>& k) {
+    return std::make_pair(pair.a, pair.b) < k;
+  };
+  if (!placed_)
+    cursor_ =
+        static_cast<std::size_t>(std::lower_bound(pairs.begin(), pairs.end(), key, before) - pairs.begin());
+  placed_ = true;
+  while (cursor_ < pairs.size() && before(pairs[cursor_], key)) ++cursor_;
+  found_ = cursor_ < pairs.size() && std::make_pair(pairs[cursor_].a, pairs[cursor_].b) == key;
 }
 
-Eigen::Vector3d WarmStart::point(std::uint32_t feature, const Eigen::Vector3d& position) {
-  if (!match_) return Eigen::Vector3d::Zero();
+Eigen::Vector3d WarmStart::Reader::point(std::uint32_t feature, const Eigen::Vector3d& position) {
+  if (!found_) return Eigen::Vector3d::Zero();
+  const Pair& pair = store_.pairs_[cursor_];
   Point* best = nullptr;
   double best_distance = reach * reach;
-  for (std::size_t k = match_->first; k < match_->first + match_->count; ++k) {
-    Point& old = points_[k];
+  for (std::size_t k = pair.first; k < pair.first + pair.count; ++k) {
+    Point& old = store_.points_[k];
     if (old.used) continue;
     const double distance = old.feature == feature ? -1.0 : (old.position - position).squaredNorm();
     if (distance < best_distance) {
@@ -59,6 +65,10 @@ Eigen::Vector3d WarmStart::point(std::uint32_t feature, const Eigen::Vector3d& p
   if (!best) return Eigen::Vector3d::Zero();
   best->used = true;
   return best->impulse;
+}
+
+Eigen::Vector3d WarmStart::Reader::rolling() const {
+  return found_ ? store_.pairs_[cursor_].rolling : Eigen::Vector3d::Zero().eval();
 }
 
 void WarmStart::store_pair(int a, int b, const Eigen::Vector3d& rolling) {

@@ -30,14 +30,24 @@ class WarmStart {
   };
   static constexpr double reach = 0.03;  ///< [m], a tenth of the smallest rock
 
-  /// Starts reading what the last step stored, from its first pair.
+  /// Makes every point free to be found again.
   void rewind();
 
-  /// Impulses of the pair's points, in their order; zero where nothing matches. Pairs must come in ascending
-  /// order.
-  void begin_pair(int a, int b);
-  Eigen::Vector3d point(std::uint32_t feature, const Eigen::Vector3d& position);
-  Eigen::Vector3d rolling() const { return match_ ? match_->rolling : Eigen::Vector3d::Zero().eval(); }
+  /// Looks pairs up, in ascending order. Several readers may work at a time on different pairs.
+  class Reader {
+   public:
+    explicit Reader(WarmStart& store) : store_(store) {}
+    /// The next pair; the first call finds its place anywhere.
+    void begin_pair(int a, int b);
+    /// Impulse of the pair's next point; zero where nothing matches.
+    Eigen::Vector3d point(std::uint32_t feature, const Eigen::Vector3d& position);
+    Eigen::Vector3d rolling() const;
+
+   private:
+    WarmStart& store_;
+    std::size_t cursor_ = 0;
+    bool placed_ = false, found_ = false;
+  };
 
   /// Adds pairs, in order; one that is stored already stays as it is.
   void insert(const std::vector<Entry>& entries);
@@ -62,8 +72,6 @@ class WarmStart {
   };
   std::vector<Pair> pairs_, new_pairs_;
   std::vector<Point> points_, new_points_;
-  std::size_t cursor_ = 0;
-  const Pair* match_ = nullptr;
 };
 
 }  // namespace drawpoint::engine::contact

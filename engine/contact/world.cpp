@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <drawpoint/engine/contact/contact_law.hpp>
@@ -19,7 +20,8 @@ using Eigen::Vector3d;
 // A point this far apart [m] joins the solve even when it does not close in; with the travel of two steps
 // added it covers whatever the solve itself may set moving.
 constexpr double resting_margin = 1e-3;
-constexpr int world_body = 0;  // problem_.bodies[0] never moves
+constexpr int bodies_a_block = 128, manifolds_a_block = 64;  // that a thread takes at a time
+constexpr int world_body = 0;                                // problem_.bodies[0] never moves
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -36,6 +38,7 @@ World::World(const WorldOptions& options, const MaterialTable& materials)
       materials_((detail::check(materials), materials)),
       finder_(options.contacts),
       solver_(options.solver),
+      parallel_(options.solver.threads),
       freezing_(options.freezing, options.step, options.gravity) {}
 
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its reaches
@@ -73,16 +76,18 @@ void World::fill_bodies() {
   problem_.bodies.resize(awake.size() + 1);
   problem_.bodies[world_body] = SolverBody();
   body_of_rock_.assign(rocks_.size(), world_body);
-  for (std::size_t k = 0; k < awake.size(); ++k) {
-    const Rock& rock = rocks_[awake[k]];
-    SolverBody& body = problem_.bodies[k + 1];
-    body_of_rock_[awake[k]] = static_cast<int>(k) + 1;
-    body.inverse_mass = 1 / rock.body.mass;
-    body.inverse_inertia = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse());
-    body.velocity = rock.velocity;
-    body.push = options_.step * options_.gravity;
-    body.angular_velocity = rock.angular_velocity;
-  }
+  parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) {
+      const Rock& rock = rocks_[awake[k]];
+      SolverBody& body = problem_.bodies[k + 1];
+      body_of_rock_[awake[k]] = k + 1;
+      body.inverse_mass = 1 / rock.body.mass;
+      body.inverse_inertia = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse());
+      body.velocity = rock.velocity;
+      body.push = options_.step * options_.gravity;
+      body.angular_velocity = rock.angular_velocity;
+    }
+  });
 }
 
 int World::solver_index(const Surface& surface) const {
@@ -90,60 +95,82 @@ int World::solver_index(const Surface& surface) const {
   return surface.owner == Owner::rock ? body_of_rock_[surface.index] : world_body;
 }
 
-Vector3d World::origin(const Surface& surface) const {
-  if (surface.owner == Owner::part) return super_->origins[surface.index];
-  return surface.owner == Owner::rock ? Vector3d(rocks_[surface.index].pose.translation())
-                                      : Vector3d::Zero().eval();
-}
-
-Vector3d World::velocity_at(const Surface& surface, const Vector3d& arm) const {
+World::Side World::side_of(const Surface& surface) const {
   if (surface.owner == Owner::part) {
     const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
-    return V.tail<3>() + V.head<3>().cross(arm);
+    return {super_->origins[surface.index], V.tail<3>(), V.head<3>()};
   }
-  if (surface.owner == Owner::fixed) return Vector3d::Zero();
+  if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   const Rock& rock = rocks_[surface.index];
-  return rock.velocity + rock.angular_velocity.cross(arm);
+  return {rock.pose.translation(), rock.velocity, rock.angular_velocity};
 }
 
+// Points that may come to bear within the step join the solve: each manifold is looked at twice, first to see
+// which do, then to write them where they belong, so that threads may share the work.
 void World::fill_contacts() {
-  problem_.points.clear();
-  problem_.pairs.clear();
+  const int manifolds = static_cast<int>(manifolds_->size());
+  joins_.resize(manifolds_->size());
+  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) joins_[k] = joining((*manifolds_)[k]);
+  });
   problem_.step = options_.step;
-  for (const Manifold& m : *manifolds_) {
-    const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
-    const Material& material = materials_.of(a.material, b.material);
-    warm_start_.begin_pair(m.collider_a, m.collider_b);
-    const int first = static_cast<int>(problem_.points.size());
-    fill_points(m, a, b, material);
-    const int count = static_cast<int>(problem_.points.size()) - first;
+  problem_.pairs.clear();
+  int points = 0;
+  pair_manifolds_.clear();
+  for (int k = 0; k < manifolds; ++k) {
+    const int count = std::popcount(joins_[k]);
     if (count == 0) continue;
-    problem_.pairs.push_back({.a = solver_index(a),
-                              .b = solver_index(b),
-                              .collider_a = m.collider_a,
-                              .collider_b = m.collider_b,
-                              .first = first,
-                              .count = count,
-                              .rolling_arm = material.rolling * m.radius,
-                              .spinning_arm = material.spinning * m.radius,
-                              .start = options_.warm_start * warm_start_.rolling()});
+    pair_manifolds_.push_back(k);
+    ContactPair& pair = problem_.pairs.emplace_back();
+    pair.first = points;
+    pair.count = count;
+    points += count;
   }
+  problem_.points.resize(static_cast<std::size_t>(points));
+  parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
+    WarmStart::Reader reader(warm_start_);
+    for (int k = first; k < last; ++k) fill_pair(k, reader);
+  });
 }
 
-void World::fill_points(const Manifold& m, const Surface& a, const Surface& b, const Material& material) {
-  const Vector3d origin_a = origin(a), origin_b = origin(b);
+unsigned World::joining(const Manifold& m) const {
+  const Side a = side_of(surfaces_[m.collider_a]), b = side_of(surfaces_[m.collider_b]);
+  unsigned joins = 0;
+  for (int k = 0; k < m.count; ++k) {
+    const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
+    if (m.points[k].gap <= resting_margin + 2 * options_.step * u.norm()) joins |= 1u << k;
+  }
+  return joins;
+}
+
+void World::fill_pair(int index, WarmStart::Reader& reader) {
+  const int manifold = pair_manifolds_[index];
+  const Manifold& m = (*manifolds_)[manifold];
+  const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
+  const Material& material = materials_.of(a.material, b.material);
+  const Vector3d origin_a = side_of(a).origin, origin_b = side_of(b).origin;
+  reader.begin_pair(m.collider_a, m.collider_b);
+  ContactPair& pair = problem_.pairs[index];
+  pair.a = solver_index(a);
+  pair.b = solver_index(b);
+  pair.collider_a = m.collider_a;
+  pair.collider_b = m.collider_b;
+  pair.rolling_arm = material.rolling * m.radius;
+  pair.spinning_arm = material.spinning * m.radius;
+  pair.start = options_.warm_start * reader.rolling();
   const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
                                                       [](const ManifoldPoint& p) { return p.gap <= 0; }));
+  int place = pair.first;
   for (int k = 0; k < m.count; ++k) {
+    if (!(joins_[manifold] >> k & 1u)) continue;
     const ManifoldPoint& p = m.points[k];
-    ContactPoint c{.feature = p.feature,
-                   .position = p.position,
-                   .arm_a = p.position - origin_a,
-                   .arm_b = p.position - origin_b,
-                   .normal = m.normal,
-                   .gap = p.gap};
-    const Vector3d u = velocity_at(b, c.arm_b) - velocity_at(a, c.arm_a);
-    if (p.gap > resting_margin + 2 * options_.step * u.norm()) continue;
+    ContactPoint& c = problem_.points[place++];
+    c.feature = p.feature;
+    c.position = p.position;
+    c.arm_a = p.position - origin_a;
+    c.arm_b = p.position - origin_b;
+    c.normal = m.normal;
+    c.gap = p.gap;
     const double stiffness = material.law == NormalLaw::linear
                                  ? material.stiffness
                                  : hertz_stiffness(material.stiffness, m.radius, -p.gap);
@@ -151,24 +178,25 @@ void World::fill_points(const Manifold& m, const Surface& a, const Surface& b, c
     c.damping_time = material.damping_time;
     c.friction = material.friction;
     c.restitution = material.restitution;
-    c.start = options_.warm_start * warm_start_.point(p.feature, p.position);
-    problem_.points.push_back(c);
+    c.start = options_.warm_start * reader.point(p.feature, p.position);
   }
 }
 
 void World::move_rocks() {
   const std::vector<int>& awake = freezing_.awake();
-  for (std::size_t k = 0; k < awake.size(); ++k) {
-    Rock& rock = rocks_[awake[k]];
-    rock.velocity = problem_.bodies[k + 1].velocity;
-    rock.angular_velocity = problem_.bodies[k + 1].angular_velocity;
-    rock.pose.translation() += problem_.bodies[k + 1].travel;
-    const Vector3d& turn = problem_.bodies[k + 1].turn;
-    if (turn.squaredNorm() == 0) continue;
-    Eigen::Quaterniond q(rock.pose.linear());
-    turn_freely(q, rock.body.inertia, rock.angular_velocity, turn, options_.step);
-    rock.pose.linear() = q.toRotationMatrix();
-  }
+  parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) move(rocks_[awake[k]], problem_.bodies[k + 1]);
+  });
+}
+
+void World::move(Rock& rock, const SolverBody& body) const {
+  rock.velocity = body.velocity;
+  rock.angular_velocity = body.angular_velocity;
+  rock.pose.translation() += body.travel;
+  if (body.turn.squaredNorm() == 0) return;
+  Eigen::Quaterniond q(rock.pose.linear());
+  turn_freely(q, rock.body.inertia, rock.angular_velocity, body.turn, options_.step);
+  rock.pose.linear() = q.toRotationMatrix();
 }
 
 // The solution as it is before anything has moved.

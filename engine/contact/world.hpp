@@ -5,6 +5,7 @@
 #include <drawpoint/engine/contact/contact_finder.hpp>
 #include <drawpoint/engine/contact/freezing.hpp>
 #include <drawpoint/engine/contact/material.hpp>
+#include <drawpoint/engine/contact/parallel.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
 #include <drawpoint/engine/contact/state_bytes.hpp>
 #include <drawpoint/engine/contact/warm_start.hpp>
@@ -132,6 +133,13 @@ class World {
     double radius = 0;  // that holds the shape, about the body's origin [m]
   };
 
+  struct Side {
+    Eigen::Vector3d origin, velocity, spin;
+    Eigen::Vector3d at(const Eigen::Vector3d& position) const {
+      return velocity + spin.cross(position - origin);
+    }
+  };
+
   struct SceneMarks;
   SceneMarks scene_marks() const;
 
@@ -153,22 +161,26 @@ class World {
   void check_solution(const SuperBodySolution& machine) const;
   void fill_bodies();
   void fill_contacts();
-  void fill_points(const Manifold& m, const Surface& a, const Surface& b, const Material& material);
+  unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
+  void fill_pair(int index, WarmStart::Reader& reader);
   int solver_index(const Surface& surface) const;
-  Eigen::Vector3d origin(const Surface& surface) const;
-  Eigen::Vector3d velocity_at(const Surface& surface, const Eigen::Vector3d& arm) const;
+  Side side_of(const Surface& surface) const;
   void move_rocks();
+  void move(Rock& rock, const SolverBody& body) const;
 
   WorldOptions options_;
   MaterialTable materials_;
   ContactFinder finder_;
   ContactSolver solver_;
+  detail::Parallel parallel_;
   std::vector<Surface> surfaces_;  // by collider
   std::vector<Rock> rocks_;
   ArticulatedBody* machine_ = nullptr;
   const SuperBody* super_ = nullptr;
   const std::vector<Manifold>* manifolds_ = nullptr;
-  std::vector<int> body_of_rock_;  // in the problem
+  std::vector<int> body_of_rock_;    // in the problem
+  std::vector<unsigned> joins_;      // by manifold
+  std::vector<int> pair_manifolds_;  // by pair of the problem
   ContactProblem problem_;
   WarmStart warm_start_;
   StateHash surfaces_mark_;  // of the calls that made them
