@@ -53,13 +53,15 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 
 void add_method_flags(CLI::App& app, EngineFlags& flags) {
   flags.method = to_string(flags.world.solver.method);
+  flags.freeze = flags.world.freezing.on ? "on" : "off";
   app.add_option("--method", flags.method, "contact solver: sequential (the reference) or coloured")
       ->check(known_method())
       ->capture_default_str();
   app.add_option("--threads", flags.world.solver.threads, "threads; they change the time only")
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
-  app.add_option("--freeze", flags.freeze, "let rocks at rest freeze; this engine has no freezing yet")
+  app.add_option("--freeze", flags.freeze,
+                 "let rocks that stand still freeze, so that they cost next to nothing")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
 }
@@ -84,8 +86,8 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags) {
 engine::contact::WorldOptions world_options(const EngineFlags& flags) {
   engine::contact::WorldOptions options = flags.world;
   options.solver.method = engine::contact::method_named(flags.method);
-  if (flags.freeze == "on")
-    throw std::invalid_argument("--freeze: \"on\" is not possible: this engine has no freezing; use off");
+  options.contacts.threads = options.solver.threads;
+  options.freezing.on = flags.freeze == "on";
   return options;
 }
 
@@ -96,7 +98,7 @@ nlohmann::json described(const engine::contact::WorldOptions& options) {
           {"sweeps", options.solver.sweeps},
           {"spare_work", options.solver.spare_work},
           {"threads", options.solver.threads},
-          {"freeze", "off"}};
+          {"freeze", options.freezing.on ? "on" : "off"}};
 }
 
 std::string in_words(const nlohmann::json& j) {

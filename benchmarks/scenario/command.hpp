@@ -22,13 +22,13 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 /// The flags; the defaults are those of WorldOptions{}.
 struct EngineFlags {
   engine::contact::WorldOptions world;
-  std::string method, freeze = "off";
+  std::string method, freeze;
 };
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags);
 /// Of these only --method, --threads and --freeze.
 void add_method_flags(CLI::App& app, EngineFlags& flags);
-/// The world's options as the flags choose them. Throws std::invalid_argument for what this engine cannot do.
+/// The world's options as the flags choose them; --threads holds for contact finding and solving.
 engine::contact::WorldOptions world_options(const EngineFlags& flags);
 /// The options as they go into the results.
 nlohmann::json described(const engine::contact::WorldOptions& options);

@@ -65,6 +65,9 @@ engine::contact::StepReport add_step(PhaseTimes& times, engine::contact::World& 
   times.rest += 1e3 * report.rest_s;
   times.points = report.points;
   times.manifolds = report.manifolds;
+  times.awake = report.awake;
+  times.complementarity = std::max(times.complementarity, report.complementarity);
+  times.cone = std::max(times.cone, report.cone);
   return report;
 }
 

@@ -30,7 +30,9 @@ constexpr const char* about =
     "script\n\n"
     "Fields of --json:\n"
     "  ms_rest      median wall time of a step at rest; ms_dig: mean while the blade moves. Parts: means.\n"
-    "  contacts     contact points in the last step at rest; manifolds: pairs with such points\n"
+    "  contacts     contact points in the last step at rest; manifolds: pairs with such points;\n"
+    "               awake: rocks that were solved in it; dig_*: in the last step of digging\n"
+    "  complementarity, cone   the solver's largest residual at rest, relative to the normal load\n"
     "  overlap_*    of rock pairs that touch, after the rest phase: penetration depth by the "
     "separating-axis\n"
     "               theorem on the true hulls, over the longest dimension of the smaller rock;\n"
@@ -77,6 +79,7 @@ void measure_dig(nlohmann::json& out, support::PileWorld& world, int steps, Prog
   out["ms_dig"] = times.mean();
   out["ms_dig_parts"] = times.parts();
   out["dig_contacts"] = times.points;
+  out["dig_awake"] = times.awake;
   out["blade_drag_n"] = drag;
   out.update(overlaps("dig_", support::rock_overlaps(world.pile(), states)));
   out["dig_blade_overlap_max"] = support::blade_overlaps(world.pile(), states, blade).max;
@@ -100,6 +103,9 @@ nlohmann::json run(const Settings& s) {
   out["ms_rest_parts"] = rest.parts();
   out["contacts"] = rest.points;
   out["manifolds"] = rest.manifolds;
+  out["awake"] = rest.awake;
+  out["complementarity"] = rest.complementarity;
+  out["cone"] = rest.cone;
   measure_rest(out, world, before, steps * options.step);
   measure_dig(out, world, dig, progress);
   char hash[17];
@@ -122,8 +128,9 @@ void print_table(const nlohmann::json& j) {
               in_words(j).c_str());
   print_times("rest", number(j, "ms_rest"), j.at("ms_rest_parts"));
   print_times("dig", number(j, "ms_dig"), j.at("ms_dig_parts"));
-  std::printf("contact points %d in %d manifolds at rest, %d while digging\n", j.at("contacts").get<int>(),
-              j.at("manifolds").get<int>(), j.at("dig_contacts").get<int>());
+  std::printf("contact points %d in %d manifolds, %d rocks awake at rest; %d and %d while digging\n",
+              j.at("contacts").get<int>(), j.at("manifolds").get<int>(), j.at("awake").get<int>(),
+              j.at("dig_contacts").get<int>(), j.at("dig_awake").get<int>());
   for (const std::string prefix : {"", "dig_"})
     std::printf("%-6s overlap max %.3f %%, p99 %.3f %%, mean %.4f %% of the smaller rock, %d pairs\n",
                 prefix.empty() ? "rest" : "dig", 100 * number(j, (prefix + "overlap_max").c_str()),

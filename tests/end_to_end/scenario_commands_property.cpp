@@ -50,6 +50,7 @@ TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
   EXPECT_EQ(j.at("substeps"), options.solver.substeps);
   EXPECT_EQ(j.at("sweeps"), options.solver.sweeps);
   EXPECT_EQ(j.at("threads"), options.solver.threads);
+  EXPECT_EQ(j.at("freeze"), options.freezing.on ? "on" : "off");
 }
 
 TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
@@ -59,6 +60,13 @@ TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
   EXPECT_EQ(hash(" --threads 2"), once);
   for (const char* flags : {" --seed 2", " --sweeps 10", " --substeps 2", " --dt 0.004"})
     EXPECT_NE(hash(flags), once) << flags;
+}
+
+// After 1.5 s a thin layer of rocks has stood still for longer than the 0.25 s that freezing asks for.
+TEST_F(ScenarioCommands, PileFreezesWhenTold) {
+  const std::string settled = pile + " --rocks 40 --settle 150 --steps 20 --dig 5 --json";
+  EXPECT_LT(run(settled + " --freeze on").json().at("awake").get<int>(), 40);
+  EXPECT_EQ(run(settled + " --freeze off").json().at("awake"), 40);
 }
 
 TEST_F(ScenarioCommands, PileWithoutJsonPrintsATable) {
