@@ -1,12 +1,16 @@
 # The packages that each part needs. A part that is switched off asks for nothing.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt) # Ipopt ships only a pkg-config file
+if(DRAWPOINT_BUILD_TOOLKIT)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt) # Ipopt ships only a pkg-config file
+endif()
 find_package(Threads REQUIRED)
 
 if(DRAWPOINT_BUILD_ENGINE)
-  find_package(Simbody 3.7 REQUIRED)
+  if("machine" IN_LIST DRAWPOINT_ENGINE_FOLDERS)
+    find_package(Simbody 3.7 REQUIRED)
+  endif()
   find_package(fcl 0.7 REQUIRED)
   find_package(TBB 2021 REQUIRED COMPONENTS tbb)
   find_package(hwy 1.0 REQUIRED)
@@ -27,4 +31,6 @@ if(DRAWPOINT_BUILD_TESTS)
 endif()
 if(DRAWPOINT_BUILD_BENCHMARKS)
   find_package(benchmark 1.7 REQUIRED)
+  find_package(CLI11 2.1 REQUIRED)
+  find_package(nlohmann_json 3.11 REQUIRED)
 endif()

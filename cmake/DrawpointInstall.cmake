@@ -1,7 +1,7 @@
 # Install, export and packages. A component is one module: its headers, its library if it has one, its export file.
 # The component `common` is what all need: the package config and the licence.
 
-if(NOT DRAWPOINT_INSTALL)
+if(NOT DRAWPOINT_INSTALL OR NOT DRAWPOINT_BUILD_TOOLKIT)
   return()
 endif()
 include(CMakePackageConfigHelpers)

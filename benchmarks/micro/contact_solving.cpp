@@ -2,18 +2,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
-#include <drawpoint/engine/contact/solver.hpp>
+#include <algorithm>
+#include <drawpoint/benchmarks/micro/contact_methods.hpp>
+#include <drawpoint/engine/contact/colouring.hpp>
+#include <drawpoint/engine/contact/pair_batch.hpp>
+#include <drawpoint/engine/contact/sequential_sweeper.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
+#include <map>
 
-/// Nanoseconds a contact point a sweep, on the contacts of a heap of rocks that has come to rest in a box.
+/// Nanoseconds a contact point a sweep, and the share of the memory's speed that the sweeps use.
+///
+/// The contacts are those of a heap of rocks in a box, at rest or while a wall pushes through it; a solve is
+/// one substep of many sweeps, so that making it ready hardly counts. `bytes_per_point` is what a sweep
+/// streams through: the constraint data of all points and pairs, bodies not counted, because they are read
+/// again from the cache. `triad` is a[i] = b[i] + s c[i], 24 bytes an element, over arrays that together are
+/// as large; `share_of_triad` is bytes streamed a second over the triad's at the nearest size.
 using namespace drawpoint;
 using engine::contact::ContactProblem;
 using engine::contact::World;
+namespace detail = engine::contact::detail;
 
 namespace {
 
-// Rocks on a lattice in a 3 m x 3 m box, fallen together for three seconds.
-World settled_heap(int rocks) {
+// Rocks on a lattice in a 3 m x 3 m box, fallen together for three seconds; digging, a block of 1 m then
+// goes through them at 1 m/s for half a second.
+ContactProblem heap_problem(int rocks, bool digging) {
   World world({}, support::one_material({0.9, 0.5, 1e9, 0}));
   support::add_floor(world);
   for (const Eigen::Vector3d& n : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
@@ -23,36 +36,91 @@ World settled_heap(int rocks) {
     world.add_rock(support::rock_body(k % 6, 0.4),
                    support::at(-1.1 + 0.55 * (k % 5), -1.1 + 0.55 * (k / 5 % 5), 0.3 + 0.5 * (k / 25)));
   for (int step = 0; step < 600; ++step) world.step();
-  return world;
+  if (digging) {
+    const int block =
+        world.add_rock(support::box_body({0.1, 0.5, 0.5}, 5e4), support::at(-1.3, 0, 0.6), {1, 0, 0});
+    for (int step = 0; step < 100; ++step) {
+      world.set_rock_velocity(block, {1, 0, 0}, {0, 0, 0});
+      world.step();
+    }
+  }
+  ContactProblem problem;
+  world.before_solve([&](const ContactProblem& p) { problem = p; });
+  world.step();
+  return problem;
 }
 
-const ContactProblem& resting_problem(int rocks) {
-  static std::map<int, ContactProblem> made;
-  const auto found = made.find(rocks);
-  return found != made.end() ? found->second
-                             : made.emplace(rocks, settled_heap(rocks).problem()).first->second;
+const ContactProblem& problem_of(int rocks, bool digging) {
+  static std::map<std::pair<int, bool>, ContactProblem> made;
+  const auto key = std::make_pair(rocks, digging);
+  if (!made.contains(key)) made.emplace(key, heap_problem(rocks, digging));
+  return made.at(key);
 }
 
-void contact_sweeps(benchmark::State& state) {
-  const ContactProblem& recorded = resting_problem(static_cast<int>(state.range(0)));
-  const int sweeps = static_cast<int>(state.range(1));
+double bytes_of_a_sequential_sweep(const ContactProblem& problem) {
+  return static_cast<double>(problem.points.size() * sizeof(detail::PointBlock) +
+                             problem.pairs.size() * sizeof(detail::PairBlock));
+}
+
+// Eight pairs of a colour a batch; a batch has as many point batches as its largest pair has points.
+double bytes_of_a_coloured_sweep(const ContactProblem& problem) {
+  const detail::Colouring colouring = detail::colour(problem);
+  double bytes = 0;
+  for (std::size_t c = 0; c + 1 < colouring.starts.size(); ++c)
+    for (int k = colouring.starts[c]; k < colouring.starts[c + 1]; k += detail::batch_lanes)
+      bytes +=
+          sizeof(detail::PairBatch) + sizeof(detail::PointBatch) * problem.pairs[colouring.pairs[k]].count;
+  return bytes;
+}
+
+// Bytes a second of the triad over arrays of so many bytes together; once a size, best of many passes.
+double triad_speed(double bytes) {
+  const auto length = static_cast<std::size_t>(bytes / 24);
+  const int passes = std::max(20, static_cast<int>(2e8 / bytes));
+  std::vector<double> a(length, 0), b(length, 1), c(length, 2);
+  double least = 1e300;
+  for (int k = 0; k < passes; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < length; ++i) a[i] = b[i] + 3 * c[i];
+    benchmark::DoNotOptimize(a.data());
+    benchmark::ClobberMemory();
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return 24.0 * static_cast<double>(length) / least;
+}
+
+void sweeps(benchmark::State& state, const std::string& method, bool digging) {
+  constexpr int count = 200;
+  const ContactProblem& recorded = problem_of(static_cast<int>(state.range(0)), digging);
+  const auto solve = benchmarks::contact_method(method).solve;
   for (auto _ : state) {
     state.PauseTiming();
     ContactProblem problem = recorded;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(engine::contact::solve(problem, {.sweeps = sweeps}));
+    benchmark::DoNotOptimize(solve(problem, benchmarks::fixed_work(1, count)));
   }
-  const double work = static_cast<double>(recorded.points.size()) * sweeps;
-  state.counters["points"] = static_cast<double>(recorded.points.size());
+  const double points = static_cast<double>(recorded.points.size()), work = points * count;
+  const double bytes =
+      method == "sequential" ? bytes_of_a_sequential_sweep(recorded) : bytes_of_a_coloured_sweep(recorded);
+  using benchmark::Counter;
+  state.counters["points"] = points;
   state.counters["time_per_point_sweep"] =
-      benchmark::Counter(work, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      Counter(work, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["bytes_per_point"] = bytes / points;
+  state.counters["share_of_triad"] =
+      Counter(bytes * count / triad_speed(bytes), Counter::kIsIterationInvariantRate);
+}
+
+void triad(benchmark::State& state) {
+  double speed = 0;
+  for (auto _ : state) speed = std::max(speed, triad_speed(static_cast<double>(state.range(0))));
+  state.counters["bytes_per_second"] = speed;
 }
 
 }  // namespace
 
-BENCHMARK(contact_sweeps)
-    ->Args({200, 20})
-    ->Args({200, 150})
-    ->Args({800, 20})
-    ->Args({800, 150})
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sweeps, sequential_rest, "sequential", false)->Arg(200)->Arg(800);
+BENCHMARK_CAPTURE(sweeps, sequential_dig, "sequential", true)->Arg(800);
+BENCHMARK_CAPTURE(sweeps, coloured_rest, "coloured", false)->Arg(200)->Arg(800)->Arg(3000);
+BENCHMARK_CAPTURE(sweeps, coloured_dig, "coloured", true)->Arg(800)->Arg(3000);
+BENCHMARK(triad)->Arg(1 << 18)->Arg(1 << 21)->Arg(1 << 28)->Iterations(1);

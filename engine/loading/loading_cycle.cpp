@@ -21,6 +21,7 @@ class LoadingRun {
         site_(scenario, prepared_pile(scenario)),
         signals_(site_.lhd()),
         scene_(site_, scenario.drift) {
+    site_.world().before_solve(hooks.before_solve);
     describe();
   }
 

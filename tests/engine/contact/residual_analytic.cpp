@@ -6,7 +6,7 @@
 #include <drawpoint/engine/contact/residual.hpp>
 #include <drawpoint/engine/contact/solution_distance.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
-#include <drawpoint/tests/support/scenes.hpp>
+#include <drawpoint/tests/support/contact_problems.hpp>
 
 using namespace drawpoint;
 using namespace drawpoint::engine::contact;
@@ -52,24 +52,13 @@ void change_impulse(ContactProblem& problem, const Vector3d& delta) {
   problem.bodies[1].travel += problem.step * delta / mass;
 }
 
-// A step of a little heap of boxes, before it is solved: 4 x 3 boxes fallen on each other askew, in motion.
-ContactProblem heap() {
-  WorldOptions options;
-  World world(options, support::one_material({0.6, 0.2, 1e8, 0, 0.05}));
-  support::add_floor(world);
-  for (int k = 0; k < 12; ++k) {
-    Eigen::Isometry3d pose = support::at(0.35 * (k % 4), 0.02 * (k / 4), 0.17 + 0.34 * (k / 4));
-    pose.linear() = Eigen::AngleAxisd(0.1 * k, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-    world.add_rock(support::box_body({0.15, 0.12, 0.16}), pose);
-  }
-  ContactProblem kept;
-  world.before_solve([&](const ContactProblem& problem) { kept = problem; });
-  for (int step = 0; step < 160; ++step) world.step();
-  return kept;
+SolverReport reference(ContactProblem& problem, int substeps, int sweeps) {
+  return solve(problem,
+               {.method = Method::sequential, .substeps = substeps, .sweeps = sweeps, .spare_work = 0});
 }
 
 double contacts_after(ContactProblem problem, int substeps, int sweeps) {
-  const SolverReport report = solve(problem, {.substeps = substeps, .sweeps = sweeps});
+  const SolverReport report = reference(problem, substeps, sweeps);
   return residual(problem, report.machine, substeps).contacts();
 }
 
@@ -78,7 +67,7 @@ double contacts_after(ContactProblem problem, int substeps, int sweeps) {
 TEST(Residual, IsZeroWhereASweepSolvesExactly) {
   for (const int substeps : {1, 2, 5}) {
     ContactProblem problem = landing();
-    const SolverReport report = solve(problem, {.substeps = substeps, .sweeps = 2});
+    const SolverReport report = reference(problem, substeps, 2);
     ASSERT_GT(problem.points[0].start.z(), 0);
     const Residual r = residual(problem, report.machine, substeps);
     EXPECT_LT(r.complementarity, round_off);
@@ -105,7 +94,7 @@ TEST(Residual, MeasuresAnErrorOfTheNormal) {
   constexpr double error = 0.01;
   ContactProblem problem = landing();
   problem.points[0].friction = problem.pairs[0].spinning_arm = 0;
-  solve(problem, {.sweeps = 2});
+  reference(problem, 1, 2);
   const double normal = problem.points[0].impulse.z();
   change_impulse(problem, {0, 0, error * normal});
   // The stepper's damping and compliance move the map's target by what they moved at first, and back.
@@ -119,7 +108,7 @@ TEST(Residual, MeasuresAnErrorOfTheNormal) {
 TEST(Residual, MeasuresATurnOfFriction) {
   for (const double turn : {0.05, 1.0, 3.0}) {
     ContactProblem problem = landing();
-    solve(problem, {.sweeps = 2});
+    reference(problem, 1, 2);
     const Vector3d impulse = problem.points[0].impulse;
     ASSERT_NEAR(impulse.head<2>().norm(), friction * impulse.z(), 1e-9);
     const Vector3d turned = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * impulse;
@@ -134,7 +123,7 @@ TEST(Residual, MeasuresATurnOfFriction) {
 TEST(Residual, MeasuresAnErrorOfTheMoment) {
   constexpr double error = 0.03;
   ContactProblem problem = landing();
-  solve(problem, {.sweeps = 2});
+  reference(problem, 1, 2);
   const Vector3d delta = -error * problem.pairs[0].impulse;
   problem.pairs[0].impulse += delta;
   problem.pairs[0].start += delta;
@@ -146,7 +135,7 @@ TEST(Residual, MeasuresAnErrorOfTheMoment) {
 // several corners. Between rungs of four times the sweeps the residual falls; at the end it has fallen by six
 // powers of ten.
 TEST(Residual, FallsWithSweeps) {
-  const ContactProblem unsolved = heap();
+  const ContactProblem unsolved = support::heap_of_boxes();
   ASSERT_GT(unsolved.points.size(), 20u);
   for (const int substeps : {1, 4}) {
     double last = contacts_after(unsolved, substeps, 1);
@@ -162,14 +151,14 @@ TEST(Residual, FallsWithSweeps) {
 }
 
 TEST(Distance, FallsWithSweepsAndIsZeroToItself) {
-  const ContactProblem unsolved = heap();
+  const ContactProblem unsolved = support::heap_of_boxes();
   ContactProblem converged = unsolved;
-  const SolverReport best = solve(converged, {.sweeps = 10000});
+  const SolverReport best = reference(converged, 1, 10000);
   EXPECT_EQ(distance(converged, best.machine, converged, best.machine).impulses, 0);
   double last = 10;
   for (const int sweeps : {1, 10, 100, 1000}) {
     ContactProblem problem = unsolved;
-    const SolverReport report = solve(problem, {.sweeps = sweeps});
+    const SolverReport report = reference(problem, 1, sweeps);
     const Distance d = distance(problem, report.machine, converged, best.machine);
     EXPECT_LT(d.velocities, last);
     EXPECT_GE(d.velocities, 0);
@@ -180,9 +169,9 @@ TEST(Distance, FallsWithSweepsAndIsZeroToItself) {
 
 // Double precision adds up a few hundred impulses a body.
 TEST(MomentumDefect, IsRoundOffForTheReferenceAndSeesALostImpulse) {
-  const ContactProblem unsolved = heap();
+  const ContactProblem unsolved = support::heap_of_boxes();
   ContactProblem problem = unsolved;
-  const SolverReport report = solve(problem, {.substeps = 4, .sweeps = 20});
+  const SolverReport report = reference(problem, 4, 20);
   EXPECT_LT(momentum_defect(unsolved, problem, report.machine), 1e-12);
   for (ContactPoint& point : problem.points) point.impulse *= 0.5;
   EXPECT_GT(momentum_defect(unsolved, problem, report.machine), 0.5);

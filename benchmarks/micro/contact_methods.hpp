@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/solver.hpp>
+#include <string>
+#include <vector>
+
+/// The contact methods that the benchmarks know, by name.
+///
+/// A method is a function that solves a problem in place: it fills every "out" field of bodies, pairs and
+/// points, and returns the machine's part. The engine's own are in the table; any other is one file in
+/// methods/ that holds the function and a `const RegisteredMethod` at namespace scope. The build takes every
+/// file there.
+namespace drawpoint::benchmarks {
+
+using Solve = engine::contact::SolverReport (*)(engine::contact::ContactProblem&,
+                                                const engine::contact::SolverOptions&);
+
+struct ContactMethod {
+  std::string name;
+  Solve solve;
+  bool takes_substeps = false;  ///< else it is only asked for S = 1
+};
+
+/// By name.
+std::vector<ContactMethod> contact_methods();
+/// Throws std::invalid_argument with the known names.
+ContactMethod contact_method(const std::string& name);
+
+/// Just so many substeps and sweeps, whatever they reach.
+engine::contact::SolverOptions fixed_work(int substeps, int sweeps, int threads = 1);
+
+struct RegisteredMethod {
+  explicit RegisteredMethod(const ContactMethod& method);
+};
+
+}  // namespace drawpoint::benchmarks

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <time.h>
+
+#include <algorithm>
+#include <drawpoint/benchmarks/micro/judged_solve.hpp>
+#include <limits>
+#include <stdexcept>
+
+namespace drawpoint::benchmarks {
+namespace {
+
+using namespace engine::contact;
+
+// One thread is timed by its processor time, which other programs lengthen least; several by the clock.
+double now(int threads) {
+  timespec t{};
+  clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Least time of the repeats [s]; `solved` gets the solution, the same in all.
+double least_time(const ContactProblem& problem, const ContactMethod& method, const SolverOptions& options,
+                  int repeats, Solved& solved) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < repeats; ++k) {
+    solved.problem = problem;
+    const double start = now(options.threads);
+    solved.report = method.solve(solved.problem, options);
+    least = std::min(least, now(options.threads) - start);
+  }
+  return least;
+}
+
+void check(const ContactMethod& method, const SolverOptions& options, int repeats) {
+  if (options.sweeps < 1 || options.substeps < 1 || options.threads < 1 || repeats < 1)
+    throw std::invalid_argument("sweeps, substeps, threads and repeats must be at least 1");
+  if (options.substeps > 1 && !method.takes_substeps)
+    throw std::invalid_argument("method \"" + method.name + "\" solves whole steps; give --substeps 1");
+}
+
+}  // namespace
+
+Solved converged_solution(const ContactProblem& problem) {
+  constexpr int most = 10000, first = 625;
+  constexpr double settled = 1e-14;
+  Solved solved;
+  for (int sweeps = first; sweeps <= most; sweeps *= 2) {
+    solved.problem = problem;
+    solved.report = contact_method("sequential").solve(solved.problem, fixed_work(1, sweeps));
+    if (solved.report.last_change < settled) break;
+  }
+  return solved;
+}
+
+Judgement judge(const ContactProblem& problem, const ContactMethod& method, const SolverOptions& options,
+                int repeats, const Solved& converged) {
+  check(method, options, repeats);
+  Solved solved;
+  Judgement j;
+  j.milliseconds = 1e3 * least_time(problem, method, options, repeats, solved);
+  j.residual = residual(solved.problem, solved.report.machine, options.substeps);
+  j.distance = distance(solved.problem, solved.report.machine, converged.problem, converged.report.machine);
+  j.momentum_defect = momentum_defect(problem, solved.problem, solved.report.machine);
+  return j;
+}
+
+double nanoseconds_a_point_a_sweep(const ContactProblem& problem, const ContactMethod& method,
+                                   const SolverOptions& options, int repeats) {
+  check(method, options, repeats);
+  if (problem.points.empty()) return 0;
+  SolverOptions more = options;
+  more.sweeps += std::max(50, options.sweeps);
+  Solved solved;
+  const double extra = least_time(problem, method, more, repeats, solved) -
+                       least_time(problem, method, options, repeats, solved);
+  const double work =
+      static_cast<double>(problem.points.size()) * options.substeps * (more.sweeps - options.sweeps);
+  return 1e9 * std::max(0.0, extra) / work;
+}
+
+}  // namespace drawpoint::benchmarks

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/benchmarks/micro/contact_methods.hpp>
+#include <drawpoint/engine/contact/residual.hpp>
+#include <drawpoint/engine/contact/solution_distance.hpp>
+
+/// One method on one problem: how true, how far from the converged solution, how long.
+///
+/// The converged solution is the sequential method's after up to 10 000 sweeps of the whole step (S = 1), or
+/// when a sweep changes less than 1e-14 of the load. Times are the least of some repeats: of
+/// the processor for one thread, of the clock for several. The time a contact
+/// point a sweep is the difference between a long and a short solve, so that making the problem ready, which
+/// `milliseconds` contains, is not in it.
+namespace drawpoint::benchmarks {
+
+struct Solved {
+  engine::contact::ContactProblem problem;
+  engine::contact::SolverReport report;
+};
+
+Solved converged_solution(const engine::contact::ContactProblem& problem);
+
+struct Judgement {
+  engine::contact::Residual residual;
+  engine::contact::Distance distance;
+  double momentum_defect = 0;
+  double milliseconds = 0;  ///< of the whole solve
+};
+
+/// Throws std::invalid_argument for options that the method does not take.
+Judgement judge(const engine::contact::ContactProblem& problem, const ContactMethod& method,
+                const engine::contact::SolverOptions& options, int repeats, const Solved& converged);
+
+/// [ns]; points x substeps x sweeps are the work.
+double nanoseconds_a_point_a_sweep(const engine::contact::ContactProblem& problem,
+                                   const ContactMethod& method, const engine::contact::SolverOptions& options,
+                                   int repeats);
+
+}  // namespace drawpoint::benchmarks
