@@ -39,12 +39,16 @@ Freezing::Freezing(const FreezingOptions& options, double step, const Vector3d& 
     : options_(options),
       hold_steps_(static_cast<int>(std::ceil(std::min(options.hold / step, 1e9)))),
       weight_(step * gravity),
-      slow_(options.distance / options.hold) {
+      slow_(options.distance / options.hold),
+      share_(std::min(1.0, step / options.average)) {
   require(options.hold > 0 && options.hold < 1e6, "hold [s]", options.hold, "above 0 s");
   require(options.distance > 0 && options.distance < 1, "distance [m]", options.distance,
           "above 0, below 1 m; rocks of 0.3 m stand within 0.0005 m");
   require(options.tolerance > 0 && options.tolerance <= 1, "tolerance", options.tolerance,
           "above 0, at most 1 of the load that a rock carries");
+  require(options.average > 0 && options.average < 1e6, "average [s]", options.average, "above 0 s");
+  require(options.impact >= options.tolerance && options.impact < 1e9, "impact", options.impact,
+          "at least the tolerance");
   require(options.spread >= 0 && options.spread <= 100, "spread", options.spread, "0 to 100 contacts");
 }
 
@@ -148,24 +152,37 @@ void Freezing::weigh(const ContactProblem& problem) {
   for (const ContactPair& pair : problem.pairs) add_pair(problem, pair);
 }
 
-double Freezing::unbalance(int rock, const Load& load) const {
+double Freezing::relative(int rock, const Vector3d& P, const Vector3d& L) const {
   const Body& body = bodies_[static_cast<std::size_t>(rock)];
-  const Vector3d weight = body.mass * weight_;
-  const double off = std::max((load.impulse + weight).norm(), load.moment.norm() / body.arm);
-  const double carried = std::max(load.carried, weight.norm());
-  return carried > 0 ? off / carried : 0;
+  const double carried =
+      std::max(loads_[static_cast<std::size_t>(rock)].carried, body.mass * weight_.norm());
+  return carried > 0 ? std::max(P.norm(), L.norm() / body.arm) / carried : 0;
 }
 
 double Freezing::unbalance(int rock) const {
-  const Load& load = loads_[static_cast<std::size_t>(rock)];
-  return load.solved || !frozen(rock) ? unbalance(rock, load) : 0;
+  const auto k = static_cast<std::size_t>(rock);
+  if (frozen(rock) && !loads_[k].solved) return 0;
+  return relative(rock, loads_[k].impulse + bodies_[k].mass * weight_, loads_[k].moment);
 }
 
-std::vector<int> Freezing::overloaded(double limit, int reach) const {
+std::vector<int> Freezing::struck(int reach) const {
   std::vector<int> found;
   for (const int rock : weighed_)
-    if (frozen(rock) && unbalance(rock) > limit * options_.tolerance) found.push_back(rock);
+    if (frozen(rock) && unbalance(rock) > options_.impact) found.push_back(rock);
   return spread_from(std::move(found), reach);
+}
+
+std::vector<int> Freezing::unbalanced() {
+  std::vector<int> found;
+  for (const int rock : weighed_) {
+    const auto k = static_cast<std::size_t>(rock);
+    FreezingState::Stand& stand = state_.rocks[k];
+    if (!stand.frozen) continue;
+    stand.impulse += share_ * (loads_[k].impulse + bodies_[k].mass * weight_ - stand.impulse);
+    stand.moment += share_ * (loads_[k].moment - stand.moment);
+    if (relative(rock, stand.impulse, stand.moment) > options_.tolerance) found.push_back(rock);
+  }
+  return spread_from(std::move(found), options_.spread);
 }
 
 // The rocks and the frozen ones that they bear or that bear them, over `reach` contacts; ascending.
@@ -217,8 +234,8 @@ std::vector<WarmStart::Entry> Freezing::thaw(const std::vector<int>& rocks) {
   std::vector<int> changed;
   for (const int rock : rocks) {
     if (!frozen(rock)) continue;
-    state_.rocks[static_cast<std::size_t>(rock)].frozen = false;
-    state_.rocks[static_cast<std::size_t>(rock)].calm = 0;
+    FreezingState::Stand& stand = state_.rocks[static_cast<std::size_t>(rock)];
+    stand = {.frozen = false, .calm = 0, .anchor = stand.anchor};
     Body& body = bodies_[static_cast<std::size_t>(rock)];
     for (const int partner : std::vector<int>(body.partners)) {
       const auto pair = ordered(body.collider, partner);
@@ -258,11 +275,29 @@ std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactP
     if (load.carried > 0 && !load.machine && unbalance(rock) <= 0.5 * options_.tolerance)
       frozen_now.push_back(rock);
   }
+  veto(frozen_now, problem);
   if (frozen_now.empty()) return frozen_now;
   for (const int rock : frozen_now) state_.rocks[static_cast<std::size_t>(rock)].frozen = true;
   hold(problem);
   list_awake();
   return frozen_now;
+}
+
+// Leaves out rocks that touch a frozen one in the middle of a tick, which would be held with it.
+void Freezing::veto(std::vector<int>& candidates, const ContactProblem& problem) const {
+  if (candidates.empty()) return;
+  std::vector<int> ticking;
+  const auto restless = [&](int rock) {
+    return rock != no_rock && frozen(rock) && unbalance(rock) > 0.5 * options_.tolerance;
+  };
+  for (const ContactPair& pair : problem.pairs) {
+    const int a = rock_of(pair.collider_a), b = rock_of(pair.collider_b);
+    if (restless(a)) ticking.push_back(b);
+    if (restless(b)) ticking.push_back(a);
+  }
+  std::sort(ticking.begin(), ticking.end());
+  std::erase_if(candidates,
+                [&](int rock) { return std::binary_search(ticking.begin(), ticking.end(), rock); });
 }
 
 // Holds the contacts of the step whose sides both stand now.

@@ -16,17 +16,19 @@
 /// are solved and contacts that are held alike), its carried load c = max(m h |g|, ½ Σ |f|) and its radius of
 /// gyration k, the unbalance is u = max(|P|, |L| / k) / c.
 ///   A rock freezes when it has stayed within `distance` for `hold`, carries load, touches no machine part,
-///     is slower than distance / hold, and u ≤ tolerance / 2.
+///     is slower than distance / hold, and u ≤ tolerance / 2 for it and for the frozen rocks that it touches.
 ///   While frozen it is part of the fixed world. Contacts between two bodies that stand still are not looked
 ///     for and not solved; their last impulses are held.
-///   After a step with u > tolerance it thaws. A step that leaves a frozen rock with u > 2 tolerance is
-///     solved again with that rock and its neighbours up to `spread` contacts away thawed, twice as far in
-///     every further round. So what frozen rocks took up is always a static solution of the pile, inside its
-///     friction cones, with every rock in balance within 2 `tolerance` of the load that it carries.
+///   It thaws when P and L, as exponential means over `average`, leave the balance: u > tolerance. Resting
+///     contacts tick as they change features, and a tick is no load. All that a frozen rock may take from a
+///     neighbour unnoticed is a momentum of c (tolerance average / h): for a free rock 0.05 m/s by default.
+///   A step that leaves a frozen rock with u > impact is solved again with that rock and its neighbours up to
+///     `spread` contacts away thawed, twice as far in every further round.
 ///   Rocks within reach of a machine part thaw before they are touched, with their neighbours. A rock that
 ///     is taken away thaws those it bore.
-/// A thawed rock starts at rest from the impulses that were held. Freezing takes its kinetic energy away: at
-/// most ½ m (distance / hold)².
+/// So the held impulses are a static solution of the pile, inside its friction cones, with every rock in
+/// balance within `tolerance` of the load that it carries. A thawed rock starts at rest from the impulses that
+/// were held. Freezing takes a rock's kinetic energy away: at most ½ m (distance / hold)².
 ///
 /// Pure function of the calls: same bits for any number of threads. Cost: 50 ns an awake rock and 10 ns a
 /// solved point a step; some µs a change; nothing for a frozen rock.
@@ -39,7 +41,9 @@ struct FreezingOptions {
   double hold = 0.25;      ///< stood still for this long [s] > 0; a throw's top lasts 0.02 s
   double distance = 5e-4;  ///< [m] > 0; moved less in that time, turns counted at the radius of gyration
   double tolerance = 0.1;  ///< of the balance, relative to the load carried; above 0, at most 1
-  int spread = 2;          ///< contacts from an overloaded rock over which others thaw with it, 0 to 100
+  double average = 0.05;   ///< time over which loads are averaged [s], above 0
+  double impact = 1;       ///< unbalance in a single step that is solved again, at least tolerance [1]
+  int spread = 1;          ///< contacts from an overloaded rock over which others thaw with it, 0 to 100
 };
 
 /// A contact between two bodies that stand still, with the impulses of the last step that solved it.
@@ -54,6 +58,8 @@ struct FreezingState {
   struct Stand {
     bool frozen = false;
     int calm = 0;  ///< steps since the rock was at `anchor`
+    /// Of a frozen rock: means of P [N s] and L [N m s].
+    Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
     Eigen::Isometry3d anchor = Eigen::Isometry3d::Identity();
   };
   std::vector<Stand> rocks;
@@ -75,10 +81,14 @@ class Freezing {
   /// Frozen rocks that a machine part is near enough to touch, and their neighbours.
   std::vector<int> near_machine(const std::vector<Manifold>& manifolds) const;
 
-  /// Takes the impulses of a solved step. `limit` u that frozen rocks must not exceed, in units of
-  /// `tolerance`; returns those that do and their neighbours over `reach` contacts.
+  /// Takes the impulses of a solved step, which may be solved again.
   void weigh(const ContactProblem& problem);
-  std::vector<int> overloaded(double limit, int reach) const;
+  /// Frozen rocks beyond `impact` in the step that was weighed last, and their neighbours over `reach`
+  /// contacts.
+  std::vector<int> struck(int reach) const;
+  /// Takes the step that was weighed last into the means. Returns the frozen rocks that have left their
+  /// balance, and their neighbours over `spread` contacts.
+  std::vector<int> unbalanced();
   /// u of a rock in the step that was weighed last [1]; 0 for a frozen rock without solved contacts.
   double unbalance(int rock) const;
 
@@ -115,13 +125,15 @@ class Freezing {
   void sum_held(int rock);
   std::vector<int> spread_from(std::vector<int> rocks, int reach) const;
   bool calm(int rock, const Rock& body);
-  double unbalance(int rock, const Load& load) const;
+  double relative(int rock, const Eigen::Vector3d& P, const Eigen::Vector3d& L) const;
+  void veto(std::vector<int>& candidates, const ContactProblem& problem) const;
   void list_awake();
 
   FreezingOptions options_;
   int hold_steps_;
   Eigen::Vector3d weight_;  // h g
   double slow_;             // [m/s]
+  double share_;            // of a step in the means
   FreezingState state_;
   std::vector<Body> bodies_;
   std::vector<int> rock_of_collider_;

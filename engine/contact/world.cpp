@@ -271,17 +271,17 @@ void World::thaw_near_machine(StepReport& report) {
 }
 
 // Whether the step must be solved again: frozen rocks took up more than they may, and are awake now.
-bool World::thaw_overloaded(int round) {
+bool World::thaw_struck(int round) {
   if (!options_.freezing.on) return false;
   freezing_.weigh(problem_);
-  const std::vector<int> rocks = freezing_.overloaded(2, options_.freezing.spread << std::min(round - 1, 8));
+  const std::vector<int> rocks = freezing_.struck(options_.freezing.spread << std::min(round - 1, 8));
   thaw(rocks);
   return !rocks.empty();
 }
 
 void World::settle_frozen() {
   if (!options_.freezing.on) return;
-  thaw(freezing_.overloaded(1, options_.freezing.spread));
+  thaw(freezing_.unbalanced());
   for (const int rock : freezing_.freeze(rocks_, problem_)) {
     finder_.set_moves(rocks_[rock].collider, false);
     rocks_[rock].velocity.setZero();
@@ -301,7 +301,7 @@ StepReport World::step() {
     thaw_near_machine(report);
     solved = solve_contacts(report);
     check_solution(solved.machine);
-  } while (thaw_overloaded(report.solves));
+  } while (thaw_struck(report.solves));
   keep_impulses();
   if (machine_) {
     const auto advance_start = std::chrono::steady_clock::now();

@@ -155,7 +155,7 @@ class World {
   void keep_impulses();
   void thaw(const std::vector<int>& rocks);
   void thaw_near_machine(StepReport& report);
-  bool thaw_overloaded(int round);
+  bool thaw_struck(int round);
   void settle_frozen();
   double reach_of(const Surface& surface) const;
   void check_solution(const SuperBodySolution& machine) const;
