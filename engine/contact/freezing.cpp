@@ -154,8 +154,7 @@ void Freezing::weigh(const ContactProblem& problem) {
 
 double Freezing::relative(int rock, const Vector3d& P, const Vector3d& L) const {
   const Body& body = bodies_[static_cast<std::size_t>(rock)];
-  const double carried =
-      std::max(loads_[static_cast<std::size_t>(rock)].carried, body.mass * weight_.norm());
+  const double carried = std::max(loads_[static_cast<std::size_t>(rock)].carried, body.mass * weight_.norm());
   return carried > 0 ? std::max(P.norm(), L.norm() / body.arm) / carried : 0;
 }
 

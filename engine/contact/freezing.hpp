@@ -27,8 +27,8 @@
 ///   Rocks within reach of a machine part thaw before they are touched, with their neighbours. A rock that
 ///     is taken away thaws those it bore.
 /// So the held impulses are a static solution of the pile, inside its friction cones, with every rock in
-/// balance within `tolerance` of the load that it carries. A thawed rock starts at rest from the impulses that
-/// were held. Freezing takes a rock's kinetic energy away: at most ½ m (distance / hold)².
+/// balance within `tolerance` of the load that it carries. A thawed rock starts at rest from the impulses
+/// that were held. Freezing takes a rock's kinetic energy away: at most ½ m (distance / hold)².
 ///
 /// Pure function of the calls: same bits for any number of threads. Cost: 50 ns an awake rock and 10 ns a
 /// solved point a step; some µs a change; nothing for a frozen rock.
@@ -42,7 +42,7 @@ struct FreezingOptions {
   double distance = 5e-4;  ///< [m] > 0; moved less in that time, turns counted at the radius of gyration
   double tolerance = 0.1;  ///< of the balance, relative to the load carried; above 0, at most 1
   double average = 0.05;   ///< time over which loads are averaged [s], above 0
-  double impact = 1;       ///< unbalance in a single step that is solved again, at least tolerance [1]
+  double impact = 0.5;     ///< unbalance in a single step that is solved again, at least tolerance [1]
   int spread = 1;          ///< contacts from an overloaded rock over which others thaw with it, 0 to 100
 };
 

@@ -77,6 +77,8 @@ void LoadingRun::describe() {
                   {"step", s.world.step},
                   {"sweeps", s.world.solver.sweeps},
                   {"warm_start", s.world.warm_start},
+                  {"freezing", s.world.freezing.on ? 1.0 : 0.0},
+                  {"freezing_tolerance", s.world.freezing.tolerance},
                   {"set_drive_in", s.executor.speeds.drive_in},
                   {"set_lift", s.executor.speeds.lift},
                   {"set_curl", s.executor.speeds.curl},

@@ -49,6 +49,14 @@ std::string pile_recipe(const Scenario& s) {
   add_number(recipe, "reuse_distance", s.world.contacts.reuse_distance);
   add_number(recipe, "rest_speed", s.pile.rest.fastest);
   add_number(recipe, "rest_energy", s.pile.rest.mean_energy);
+  if (const contact::FreezingOptions& f = s.world.freezing; f.on) {
+    add_number(recipe, "freeze_hold", f.hold);
+    add_number(recipe, "freeze_distance", f.distance);
+    add_number(recipe, "freeze_tolerance", f.tolerance);
+    add_number(recipe, "freeze_average", f.average);
+    add_number(recipe, "freeze_impact", f.impact);
+    add_number(recipe, "freeze_spread", f.spread);
+  }
   return recipe;
 }
 
