@@ -278,29 +278,67 @@ HWY_INLINE void prepare_half(const BatchArrays& arrays, int batch, int at) {
   store(inverse.rho, pair.moment_inverse_rho, at);
 }
 
+// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp). The correction
+// takes back what the extrapolation of the bodies repeats of it.
+HWY_INLINE V carry_over(PointBatch& p, int at) {
+  const V3 end = load(p.impulse, at);
+  store(load(p.total, at) + end, p.total, at);
+  const V most = add_product(hn::Mul(hn::Set(d, 2.0f), load(p.begun, at)),
+                             hn::Set(d, static_cast<float>(impact_speed)), load(p.inverse_nn, at));
+  const V kept = hn::Min(end.x, most), zero = hn::Zero(d);
+  const V share = hn::IfThenElse(hn::Gt(end.x, most), hn::Div(kept, end.x), hn::Set(d, 1.0f));
+  const V3 carried = {kept, hn::Mul(share, end.y), hn::Mul(share, end.z)};
+  store(carried, p.impulse, at);
+  store(kept, p.begun, at);
+  const V3 correction = carried - end;
+  store(correction, p.correction, at);
+  return hn::IfThenElseZero(hn::Lt(correction.x, zero), correction.x);
+}
+
 HWY_INLINE void refresh_half(const BatchArrays& arrays, int batch, int at, const Substep& substep) {
   PairBatch& pair = arrays.pairs[batch];
   const V3 n = load(pair.normal, at), offset = load(pair.offset, at);
   const Motion a = gather_motion(arrays.end, pair.a + at), b = gather_motion(arrays.end, pair.b + at);
   const V h = hn::Set(d, substep.h), rate = hn::Set(d, -1.0f / substep.h), four = hn::Set(d, 4.0f);
   const V impact = hn::Set(d, static_cast<float>(-impact_speed)), zero = hn::Zero(d);
+  V force = zero, dropped = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 arm = load(p.arm, at);
     const V approach = dot(n, (b.v + cross(b.w, arm + offset)) - (a.v + cross(a.w, arm)));
     V gap = load(p.gap, at);
-    if (!substep.first) {
+    if (substep.first) {
+      store(load(p.impulse[0], at), p.begun, at);
+    } else {
       gap = add_product(gap, h, approach);
       store(gap, p.gap, at);
-      store(load(p.total, at) + load(p.impulse, at), p.total, at);
+      force = hn::Add(force, load(p.impulse[0], at));
+      dropped = hn::Add(dropped, carry_over(p, at));
     }
     const V open = hn::Mul(gap, rate);
     const V damping = hn::IfThenElse(hn::Lt(approach, impact), zero, approach);
     const V closed = hn::Mul(load(p.upsilon, at), add_product(damping, four, open));
     store(hn::IfThenElse(hn::Gt(gap, zero), open, closed), p.target, at);
   }
-  if (pair.resists && !substep.first)
-    store(load(pair.moment_total, at) + load(pair.moment, at), pair.moment_total, at);
+  if (substep.first) return;
+  const V3 moment = load(pair.moment, at);
+  store(load(pair.moment_total, at) + moment, pair.moment_total, at);
+  const V share = hn::IfThenElseZero(hn::Lt(dropped, zero), hn::Div(dropped, force));
+  store(share * moment, pair.moment_correction, at);
+  store(moment + share * moment, pair.moment, at);
+  store(dropped, pair.change, at);
+}
+
+// What refresh() took off the start impulses, off the bodies too.
+HWY_INLINE void correct_half(const BatchArrays& arrays, int batch, int at) {
+  const PairBatch& pair = arrays.pairs[batch];
+  if (hn::AllTrue(d, hn::Eq(load(pair.change, at), hn::Zero(d)))) return;
+  Pairs pairs(arrays, batch, at);
+  pairs.gather();
+  for (int k = pair.first; k < pair.first + pair.points; ++k)
+    pairs.push(load(arrays.points[k].arm, at), load(arrays.points[k].correction, at));
+  if (pair.resists) pairs.twist(load(pair.moment_correction, at));
+  pairs.scatter();
 }
 
 HWY_INLINE void start_half(const BatchArrays& arrays, int batch, int at) {
@@ -414,6 +452,10 @@ void start(const BatchArrays& arrays, BatchRange range) {
   for (int batch = range.begin; batch < range.end; ++batch)
     for (int at = 0; at < batch_lanes; at += width) start_half(arrays, batch, at);
 }
+void correct(const BatchArrays& arrays, BatchRange range) {
+  for (int batch = range.begin; batch < range.end; ++batch)
+    for (int at = 0; at < batch_lanes; at += width) correct_half(arrays, batch, at);
+}
 void judge(const BatchArrays& arrays, BatchRange range) {
   for (int batch = range.begin; batch < range.end; ++batch)
     for (int at = 0; at < batch_lanes; at += width) judge_half(arrays, batch, at);
@@ -434,6 +476,7 @@ HWY_EXPORT(refresh);
 HWY_EXPORT(start);
 HWY_EXPORT(sweep);
 HWY_EXPORT(judge);
+HWY_EXPORT(correct);
 
 void prepare_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(prepare)(arrays, range);
@@ -448,6 +491,9 @@ void sweep_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(sweep)(arrays, range);
 }
 
+void correct_batches(const BatchArrays& arrays, BatchRange range) {
+  HWY_DYNAMIC_DISPATCH(correct)(arrays, range);
+}
 void judge_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(judge)(arrays, range);
 }

@@ -94,7 +94,7 @@ void ColouredSolver::start() {
     over(colour, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
 }
 
-// What changed a body in the last substep acts again: outer forces and contact impulses.
+// What changed a body in the last substep acts again: outer forces and contact impulses, but for blows.
 void ColouredSolver::extrapolate() {
   machine_->extrapolate();
   for (std::size_t k = 0; k < problem_->bodies.size(); ++k) {
@@ -105,6 +105,9 @@ void ColouredSolver::extrapolate() {
       now.angular_velocity[i] = 2 * now.angular_velocity[i] - begin.angular_velocity[i];
     }
   }
+  machine_->correct(batches_.bodies);
+  for (const BatchRange& colour : batches_.colours())
+    over(colour, [this](BatchRange range) { correct_batches(batches_.arrays(), range); });
 }
 
 void ColouredSolver::sweep(bool forward) {

@@ -40,6 +40,15 @@ inline double spook_target(double gap, double approach, double upsilon, double h
   return upsilon * (damping - 4.0 * gap / h);
 }
 
+/// What a substep's normal impulse λ leaves for the next one to start from, as a share of it. Load that is
+/// there to stay at most doubles in a substep, or grows by what stops an approach of `impact_speed`; more
+/// than that is a blow, which is over. To start from it would strike again, and the sweeps that take it back
+/// shake the pile. `begun` is what the substep itself started from, `inverse_nn` = 1/(W_nn + Σ).
+inline double carried_share(double impulse, double begun, double inverse_nn) {
+  const double most = 2 * begun + impact_speed * inverse_nn;
+  return impulse > most ? most / impulse : 1.0;
+}
+
 /// The secant stiffness k_n √δ of Hertz's law f = k_n δ^(3/2) at the overlap δ, k_n = (4/3) E* √R*. Overlaps
 /// below 1e-5 m count as that, so that a first touch meets resistance.
 inline double hertz_stiffness(double modulus, double radius, double overlap) {

@@ -64,6 +64,12 @@ void MachinePairs::start(std::vector<BodyRow>& bodies) {
   put_back(bodies);
 }
 
+void MachinePairs::correct(std::vector<BodyRow>& bodies) {
+  fetch(bodies);
+  sweeper_.correct();
+  put_back(bodies);
+}
+
 double MachinePairs::sweep(std::vector<BodyRow>& bodies, bool forward) {
   fetch(bodies);
   const double change = sweeper_.sweep(forward);

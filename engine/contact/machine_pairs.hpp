@@ -16,6 +16,7 @@ class MachinePairs {
   void refresh(const std::vector<BodyRow>& end);
   void start(std::vector<BodyRow>& bodies);
   void extrapolate() { sweeper_.extrapolate(); }
+  void correct(std::vector<BodyRow>& bodies);
   double sweep(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
   void finish() { sweeper_.finish(); }
   double normal_load() const { return sweeper_.normal_load(); }

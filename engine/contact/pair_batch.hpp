@@ -31,6 +31,7 @@ struct alignas(32) PointBatch {
   Lanes gap, upsilon, sigma, target;
   Lanes inverse_nn, inverse_tt[3], inverse_rho, w10, w20;
   Lanes impulse[3], total[3];  // in the frame; of the substep, of the step
+  Lanes begun, correction[3];  // the normal impulse that the substep began with; see refresh_batches
 };
 
 struct alignas(32) PairBatch {
@@ -41,12 +42,12 @@ struct alignas(32) PairBatch {
   Lanes friction;
   Lanes rolling_arm, spinning_arm;
   Lanes moment_inverse_nn, moment_inverse_tt[3], moment_inverse_rho, moment_w10, moment_w20;
-  Lanes moment[3], moment_total[3];  // in the frame
-  Lanes change;                      // Σ|Δλ| of the last sweep; after judge: the normals' residual
-  Lanes miss;                        // after judge: the tangents' residual
-  Lanes load;                        // after judge: of normals, as residual.hpp takes it
-  std::int32_t first, points;        // point batches
-  bool resists;                      // any rolling or spinning
+  Lanes moment[3], moment_total[3], moment_correction[3];  // in the frame
+  Lanes change;                // Σ|Δλ| of the last sweep; after judge: the normals' residual
+  Lanes miss;                  // after judge: the tangents' residual
+  Lanes load;                  // after judge: of normals, as residual.hpp takes it
+  std::int32_t first, points;  // point batches
+  bool resists;                // any rolling or spinning
 };
 
 /// The arrays that a kernel works on.
@@ -71,8 +72,11 @@ struct BatchRange {
 /// range must share no body.
 /// Responses and their inverses, from arms, normals and bodies.
 void prepare_batches(const BatchArrays& arrays, BatchRange range);
-/// Gaps and targets of a substep, from the velocities at the end of the last one.
+/// Gaps and targets of a substep, from the velocities at the end of the last one; start impulses without
+/// blows.
 void refresh_batches(const BatchArrays& arrays, BatchRange range, const Substep& substep);
+/// Takes the blows off the bodies, which extrapolation has repeated.
+void correct_batches(const BatchArrays& arrays, BatchRange range);
 /// Start impulses on the bodies.
 void start_batches(const BatchArrays& arrays, BatchRange range);
 void sweep_batches(const BatchArrays& arrays, BatchRange range);

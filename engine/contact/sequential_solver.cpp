@@ -40,6 +40,7 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
     } else {
       extrapolate(problem.bodies, begin);
       sweeper.extrapolate();
+      sweeper.correct();
     }
     begin.swap(now);
     for (int k = 0; k < most_sweeps(options, problem.points.size()); ++k) {

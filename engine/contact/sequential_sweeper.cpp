@@ -143,6 +143,7 @@ void SequentialSweeper::add_point(const ContactPair& pair, const ContactPoint& p
   add_part_response(p);
   invert(p, p.law.sigma);
   p.impulse = start_impulse(point, p.frame, substeps_);
+  p.begun = p.impulse[0];
   points_.push_back(p);
 }
 
@@ -209,7 +210,26 @@ double SequentialSweeper::row_target(const SuperBodyRow& row) const {
   return gap >= 0 ? -gap / h_ : -gap / row.recovery;
 }
 
+// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).
+void SequentialSweeper::carry_over() {
+  for (PairBlock& r : pairs_) {
+    double force = 0, kept = 0;
+    for (int k = r.first; k < r.first + r.count; ++k) {
+      PointBlock& p = points_[k];
+      const double share = carried_share(p.impulse[0], p.begun, p.inverse_nn);
+      p.correction = (share - 1) * p.impulse;
+      force += p.impulse[0];
+      p.impulse += p.correction;
+      p.begun = p.impulse[0];
+      kept += p.impulse[0];
+    }
+    r.correction = force > kept ? Vector3d((kept / force - 1) * r.impulse) : Vector3d::Zero().eval();
+    r.impulse += r.correction;
+  }
+}
+
 void SequentialSweeper::refresh() {
+  if (!fresh_) carry_over();
   for (PointBlock& p : points_) {
     const double approach = velocity(p)[0];
     if (!fresh_) p.gap += h_ * approach;
@@ -218,6 +238,11 @@ void SequentialSweeper::refresh() {
   fresh_ = false;
   for (std::size_t k = 0; k < row_targets_.size(); ++k)
     row_targets_[k] = row_target(problem_.machine->rows[k]);
+}
+
+void SequentialSweeper::correct() {
+  for (const PointBlock& p : points_) apply(p, p.correction);
+  for (const PairBlock& r : pairs_) apply(r, r.correction);
 }
 
 void SequentialSweeper::aim(const std::vector<double>& targets) {
@@ -337,7 +362,8 @@ SuperBodySolution SequentialSweeper::store() {
     const PointBlock& p = points_[k];
     const Vector3d impulse = p.frame.transpose() * p.total;
     problem_.points[k].impulse = impulse;
-    problem_.points[k].start = substeps_ * (p.frame.transpose() * p.impulse);
+    problem_.points[k].start =
+        substeps_ * carried_share(p.impulse[0], p.begun, p.inverse_nn) * (p.frame.transpose() * p.impulse);
     if (p.a < 0) add(part_of(p.a), -1, p.arm_a, impulse, Vector3d::Zero());
     if (p.b < 0) add(part_of(p.b), +1, p.arm_b, impulse, Vector3d::Zero());
   }

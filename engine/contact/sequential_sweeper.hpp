@@ -23,13 +23,15 @@ struct ContactBlock {
   double inverse_tt[3] = {};  ///< of the tangents' 2 x 2 block: xx, xy, yy
   double inverse_rho = 0;     ///< 1 / λ_max of that block
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), total = Eigen::Vector3d::Zero();  ///< in the frame
-  int rows_a = -1, rows_b = -1;  ///< index of a side's rows, if it is a machine part
+  Eigen::Vector3d correction = Eigen::Vector3d::Zero();  ///< of the start impulse, for a blow
+  int rows_a = -1, rows_b = -1;                          ///< index of a side's rows, if it is a machine part
 };
 
 struct PointBlock : ContactBlock {
   int a, b;
   Eigen::Vector3d arm_a, arm_b;
   double friction, gap, target;
+  double begun;  ///< the normal impulse that the substep began with
   SpookTerms law;
 };
 
@@ -63,6 +65,8 @@ class SequentialSweeper {
   void start();
   /// Other substeps: the machine's w; the bodies are the caller's.
   void extrapolate();
+  /// After extrapolating: takes back the blows that it repeated.
+  void correct();
   /// Returns Σ|Δλ| over the points.
   double sweep(bool forward);
   /// Adds the substep's impulses and the machine's travel to the step's.
@@ -83,6 +87,7 @@ class SequentialSweeper {
   void add_point(const ContactPair& pair, const ContactPoint& point);
   void add_part_response(ContactBlock& block) const;
   double row_target(const SuperBodyRow& row) const;
+  void carry_over();
   void solve_machine_rows();
   void solve_point(PointBlock& p);
   void solve_pair(PairBlock& r);

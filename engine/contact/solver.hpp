@@ -40,9 +40,10 @@ struct SolverOptions {
   Method method = Method::coloured;
   int substeps = 16;  ///< S ≥ 1
   int sweeps = 1;     ///< a substep, at least, ≥ 1
-  /// Small problems are cheap to solve well: a substep adds sweeps until a sweep changes less than
-  /// `tolerance` of the normal load, or until sweeps times points exceed `spare_work`. 0: never.
-  int spare_work = 4000;
+  /// Beyond that a substep adds sweeps until one changes less than `tolerance` of the normal load, as long as
+  /// sweeps times points stay below `spare_work`: a pile at rest needs none, rocks in motion some, and small
+  /// problems, which are cheap, as many as it takes. 0: never.
+  int spare_work = 20000;
   double tolerance = 1e-5;
   int threads = 1;  ///< ≥ 1; never changes a bit
 };
