@@ -14,7 +14,7 @@
 /// Only what changed is looked up again; when much has, the trees are swept as a whole, with the same result.
 /// A pair has at least one member that moves. Which pairs there are is a function of the present boxes alone,
 /// and they are sorted: the shape of the trees, which depends on history, never shows. Cost: nothing where
-/// nothing changes, about 1 µs a changed box.
+/// nothing changes, some µs a changed box.
 namespace drawpoint::engine::contact::detail {
 
 class BroadPhase {

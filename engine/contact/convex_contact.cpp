@@ -49,24 +49,42 @@ void support_contact(const HullPair& pair, const Axis& axis, ConvexContact& cont
 
 }  // namespace
 
-void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, double margin,
+// With the polygon of face `other` of the shape whose face is not the axis.
+void ConvexContactSearch::clip_against(const HullPair& pair, const Axis& axis, int other, double margin,
                                        ConvexContact& contact) {
   const bool on_a = axis.feature.kind == FeatureKind::face_a;
   const int face = on_a ? axis.feature.a : axis.feature.b;
   const std::uint32_t group = (on_a ? 0u : 0x80u) | (static_cast<std::uint32_t>(face) % 0x7f);
+  contact.count = 0;
   clipper_.clear();
   if (on_a) {
-    const int other = facing(pair.b, axis.support, pair.X_AB.linear().transpose() * axis.normal);
     for (const HullCorner& c : pair.b.corners(other))
       clipper_.add_incident(pair.vertex_b(c.vertex), c.vertex, group);
     for (const ClipPoint& p : clipper_.clip(pair.a, face, margin, group))
       add_anchors(p.position - p.gap * axis.normal, pair.in_b(p.position), p.feature, contact);
   } else {
-    const int other = facing(pair.a, axis.support, -axis.normal);
     for (const HullCorner& c : pair.a.corners(other))
       clipper_.add_incident(pair.in_b(pair.a.vertices[c.vertex]), c.vertex, group);
     for (const ClipPoint& p : clipper_.clip(pair.b, face, margin, group))
       add_anchors(pair.X_AB * p.position, p.position - p.gap * pair.b.normals[face], p.feature, contact);
+  }
+}
+
+void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, double margin,
+                                       ConvexContact& contact) {
+  const bool on_a = axis.feature.kind == FeatureKind::face_a;
+  const CollisionHull& incident = on_a ? pair.b : pair.a;
+  const Vector3d n = on_a ? Vector3d(pair.X_AB.linear().transpose() * axis.normal) : Vector3d(-axis.normal);
+  const int other = facing(incident, axis.support, n);
+  clip_against(pair, axis, other, margin, contact);
+  if (axis.separation > 0 || least_gap(pair, contact) <= axis.separation + coincident) return;
+  // An edge or a face parallel to the reference face is lowest, and the lowest vertex lies beside the
+  // reference face: the polygon that goes down deepest is that of another face around the vertex.
+  for (int f : incident.faces_around(axis.support)) {
+    if (f == other) continue;
+    spare_ = contact;
+    clip_against(pair, axis, f, margin, spare_);
+    if (least_gap(pair, spare_) < least_gap(pair, contact)) contact = spare_;
   }
 }
 

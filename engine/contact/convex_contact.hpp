@@ -39,12 +39,14 @@ class ConvexContactSearch {
 
  private:
   void touch(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
+  void clip_against(const HullPair& pair, const Axis& axis, int other, double margin, ConvexContact& contact);
   void face_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void edge_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) const;
   void nearest_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
 
   AxisSearch axes_;
   Clipper clipper_;
+  ConvexContact spare_;
 };
 
 }  // namespace drawpoint::engine::contact::detail

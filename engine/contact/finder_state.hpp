@@ -19,7 +19,8 @@
 /// drops them).
 ///
 /// A checksum over all bytes finds flipped ones; counts, indices and numbers are checked one by one all the
-/// same. Cost: about 300 bytes a pair.
+/// same. Cost: 73
+/// bytes a pair apart, 220 to 377 a contact.
 namespace drawpoint::engine::contact::detail {
 
 struct ColliderState {

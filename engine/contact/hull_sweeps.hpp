@@ -8,7 +8,7 @@
 /// that the machine has.
 ///
 /// Products and sums are taken in one order, x first and z last, and none is fused; the least is exact. So
-/// all machines give the same bits. Cost: about 2 ns and 1 ns for four vertices or faces with AVX2.
+/// all machines give the same bits. Cost: linear in vertices or faces.
 namespace drawpoint::engine::contact::detail {
 
 struct Support {

@@ -63,5 +63,5 @@ TEST(ContactFinder, AsksForNoMemoryOnceItRuns) {
   allocations = 0;
   round();
   EXPECT_EQ(allocations, 0);
-  EXPECT_GT(computed, 500);
+  EXPECT_GT(computed, 100);  // pairs apart are settled without a search
 }
