@@ -15,7 +15,7 @@ void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.solver.tolerance);
   hash.add(o.warm_start);
   for (double x : {o.freezing.on ? 1.0 : 0.0, o.freezing.hold, o.freezing.distance, o.freezing.tolerance,
-                   static_cast<double>(o.freezing.spread)})
+                   o.freezing.average, o.freezing.impact, static_cast<double>(o.freezing.spread)})
     hash.add(x);
   for (double x : {o.contacts.margin, o.contacts.slack, o.contacts.reuse_distance, o.contacts.reuse_angle,
                    o.contacts.hysteresis})
@@ -39,6 +39,8 @@ void save_freezing(const FreezingState& state, StateWriter& out) {
     out.put(stand.frozen);
     out.put(stand.calm);
     out.put(stand.anchor);
+    out.put(stand.impulse);
+    out.put(stand.moment);
   }
   out.put_count(state.held.size());
   for (const auto& [pair, held] : state.held) {
@@ -72,13 +74,15 @@ HeldPair restored_pair(StateReader& in, int a, int b) {
 
 FreezingState restored_freezing(StateReader& in, std::size_t rocks) {
   FreezingState state;
-  if (in.get_count(101) != rocks) in.fail("holds another number of standing rocks");
+  if (in.get_count(149) != rocks) in.fail("holds another number of standing rocks");
   state.rocks.resize(rocks);
   for (FreezingState::Stand& stand : state.rocks) {
     in.get(stand.frozen);
     in.get(stand.calm);
     if (stand.calm < 0) in.fail("holds a negative number of steps");
     in.get(stand.anchor);
+    in.get(stand.impulse);
+    in.get(stand.moment);
   }
   for (std::size_t left = in.get_count(112); left > 0; --left) {
     const int a = in.get<int>(), b = in.get<int>();
