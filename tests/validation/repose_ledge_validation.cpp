@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/tests/support/scenes.hpp>
+#include <drawpoint/tests/validation/driven_plate.hpp>
+#include <drawpoint/tests/validation/energy_ledger.hpp>
+#include <drawpoint/tests/validation/heaps.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::engine::contact;
+using validation::Area;
+using validation::Estimate;
+using validation::record;
+
+namespace {
+
+const validation::Problem repose_ledge{
+    "repose_ledge", validation::Group::granular, "Angle of repose, ledge",
+    "410 rocks of 0.3 m, the six shapes in turn (μ_r = 0.5), in a bin 2.4 m long and 0.9 m wide with smooth "
+    "sides; its end is "
+    "taken away and what slides off the ledge is gone. μ = 0.3 and 0.9, six seeds each, default steps and "
+    "sweeps; the angle "
+    "of what is left, from half a rock above the ledge to one rock below the crest. Four rocks of height "
+    "over the edge "
+    "and three across: the bank is a small one, steeper than a high one would stand."};
+
+constexpr double size = 0.3, length = 2.4, width = 0.9;
+
+// The bin: a ledge that ends at x = 0, its back wall and its smooth sides.
+World bin(double friction) {
+  MaterialTable table(2);  // rocks and ledge; the smooth surfaces
+  table.set(0, 0, {.friction = friction, .rolling = 0.5});
+  World world({}, table);
+  world.add_static(support::shared(box({length / 2, width, 0.5})), support::at(-length / 2, 0, -0.5), 0);
+  const auto add_wall = [&](const Eigen::Vector3d& inward, double distance) {
+    world.add_static(support::shared(HalfSpace{inward, -distance}), Eigen::Isometry3d::Identity(), 1);
+  };
+  add_wall({1, 0, 0}, length);
+  add_wall({0, 1, 0}, width / 2);
+  add_wall({0, -1, 0}, width / 2);
+  return world;
+}
+
+struct Bank {
+  double angle, largest_rise, recoverable;  // [deg], [J], [J]
+};
+
+Bank drained(double friction, std::uint64_t seed) {
+  World world = bin(friction);
+  validation::DrivenPlate gate(Eigen::Vector3d(0.25, 0, 3));
+  world.attach(&gate);
+  world.add_part_shape(0, support::shared(box({0.25, width / 2 - 0.005, 4})), Eigen::Isometry3d::Identity(),
+                       1);
+  validation::EnergyLedger ledger(world);
+  const auto note = [&] {
+    ledger.note(gate.work());
+    for (int k = 0; k < static_cast<int>(world.rocks().size()); ++k)
+      if (world.rocks()[k].pose.translation().z() < -1) world.remove_rock(k);
+  };
+  validation::pour(world,
+                   {.rocks = 410,
+                    .size = size,
+                    .centre = {-length / 2, 0},
+                    .nx = 8,
+                    .ny = 3,
+                    .interval = 0.25,
+                    .seed = seed},
+                   note);
+  validation::settle(world, 1.0, note);
+  gate.drive({4, 0, 0});
+  validation::settle(world, 4.0, note);
+  const double crest = validation::mean_height(world, Area{-length, -2 * length / 3, -width / 2, width / 2});
+  return {validation::angle_of_bank(world, Area{-length, size, -width / 2, width / 2}, size, crest),
+          ledger.largest_rise(), ledger.recoverable()};
+}
+
+Estimate drained_angle(double friction) {
+  std::vector<double> angles;
+  for (std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const Bank bank = drained(friction, seed);
+    angles.push_back(bank.angle);
+    EXPECT_LE(bank.largest_rise, bank.recoverable) << "friction " << friction << ", seed " << seed;
+    if (seed == 1)
+      validation::record_energy(repose_ledge, "μ = " + std::to_string(friction).substr(0, 3),
+                                bank.largest_rise, bank.recoverable);
+  }
+  return validation::estimate(angles);
+}
+
+}  // namespace
+
+// A drained bank stands steeper than a poured heap of the same rocks (41 deg against 26 deg was measured for
+// iron-ore pellets: Lommen 2019), as its rocks are not shaken by others that arrive. So the lower end of the
+// poured heaps' published band, 32 deg, is a lower bound here; no upper one is published for banks four rocks
+// high. Banks scatter by some 5 deg from seed to seed; with six a rise of 2.76 standard errors is what chance
+// gives in one case of a hundred.
+TEST(ReposeLedge, RisesWithFrictionAndStandsAsSteepAsPoured) {
+  const Estimate smooth = drained_angle(0.3), rough = drained_angle(0.9);
+  const double rise = rough.mean - smooth.mean;
+  const double chance = 2.76 * std::hypot(smooth.standard_error, rough.standard_error);
+  record(repose_ledge,
+         {.quantity = "angle of the bank, μ = 0.9",
+          .unit = "deg",
+          .expected = 32,
+          .source = "at least the lower end of the band of poured heaps",
+          .measured = rough.mean,
+          .error = std::max(0.0, 32 - rough.mean),
+          .budget = 0,
+          .budget_reason = "A drained bank is steeper than a poured heap; the error is what it lacks."});
+  record(
+      repose_ledge,
+      {.quantity = "rise of the angle from μ = 0.3 to 0.9",
+       .unit = "deg",
+       .expected = chance,
+       .source = "at least what chance gives in 1 %",
+       .measured = rise,
+       .error = std::max(0.0, chance - rise),
+       .budget = 0,
+       .budget_reason = "A rise must exceed 2.76 standard errors of the difference (Student, 10 degrees of "
+                        "freedom, 1 % one-sided); the error is what it lacks."});
+}
