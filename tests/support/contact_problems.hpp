@@ -9,7 +9,10 @@ namespace drawpoint::support {
 
 /// A step of a little heap of boxes, before it is solved: 4 x 3 boxes fallen on each other askew, in motion.
 inline engine::contact::ContactProblem heap_of_boxes() {
-  engine::contact::World world({}, one_material({0.6, 0.2, 1e8, 0, 0.05}));
+  engine::contact::WorldOptions options;
+  options.solver = {
+      .method = engine::contact::Method::sequential, .substeps = 1, .sweeps = 25, .spare_work = 0};
+  engine::contact::World world(options, one_material({0.6, 0.2, 1e8, 0, 0.05}));
   add_floor(world);
   for (int k = 0; k < 12; ++k) {
     Eigen::Isometry3d pose = at(0.35 * (k % 4), 0.02 * (k / 4), 0.17 + 0.34 * (k / 4));
