@@ -10,6 +10,7 @@ namespace drawpoint::support {
 /// A step of a little heap of boxes, before it is solved: 4 x 3 boxes fallen on each other askew, in motion.
 inline engine::contact::ContactProblem heap_of_boxes() {
   engine::contact::WorldOptions options;
+  options.step = 0.005;
   options.solver = {
       .method = engine::contact::Method::sequential, .substeps = 1, .sweeps = 25, .spare_work = 0};
   engine::contact::World world(options, one_material({0.6, 0.2, 1e8, 0, 0.05}));

@@ -133,7 +133,7 @@ TEST(Residual, MeasuresAnErrorOfTheMoment) {
 
 // Gauss-Seidel converges linearly once sticking and sliding are settled, and slowly where boxes rest on
 // several corners. Between rungs of four times the sweeps the residual falls; at the end it has fallen by six
-// powers of ten.
+// powers of ten. Below 1e-8 only the slowest modes are left, which need not show over one rung.
 TEST(Residual, FallsWithSweeps) {
   const ContactProblem unsolved = support::heap_of_boxes();
   ASSERT_GT(unsolved.points.size(), 20u);
@@ -143,7 +143,7 @@ TEST(Residual, FallsWithSweeps) {
     EXPECT_GT(first, 1e-6);
     for (int sweeps = 4; sweeps <= 4096; sweeps *= 4) {
       const double now = contacts_after(unsolved, substeps, sweeps);
-      EXPECT_LT(now, std::max(last, 1e-12)) << substeps << " substeps, " << sweeps << " sweeps";
+      EXPECT_LT(now, std::max(last, 1e-8)) << substeps << " substeps, " << sweeps << " sweeps";
       last = now;
     }
     EXPECT_LT(last, 1e-6 * first);
