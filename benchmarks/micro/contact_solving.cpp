@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
 #include <drawpoint/engine/contact/colouring.hpp>
 #include <drawpoint/engine/contact/pair_batch.hpp>
