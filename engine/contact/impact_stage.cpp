@@ -10,6 +10,7 @@ namespace {
 constexpr int most_sweeps = 10000;
 constexpr double small_change = 1e-12;  // of a sweep, relative to the load
 constexpr double rigid = 1e300;         // [N/m]
+constexpr double touching = 1e-6;       // [m] a gap of round-off must not keep a contact out of the blow
 
 }  // namespace
 
@@ -44,7 +45,7 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
     const int first = static_cast<int>(stage_.points.size());
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const double speed = normal_speed(problem, pair, problem.points[k]);
-      if (problem.points[k].gap + problem.step * std::min(speed, 0.0) > 0) continue;
+      if (problem.points[k].gap + problem.step * std::min(speed, 0.0) > touching) continue;
       ContactPoint point = problem.points[k];
       point.stiffness = rigid;
       point.start.setZero();

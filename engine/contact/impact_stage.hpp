@@ -7,12 +7,12 @@
 /// The impulse stage of a step: restitution, before anything else acts.
 ///
 /// Runs when some point with restitution e > 0 closes within the step faster than `impact_speed`. All points
-/// that touch or close within the step then take impulses with 0 ≤ λ_n ⊥ u_n⁺ + e' u_n⁻ ≥ 0 and friction,
-/// e' = e for impacts and 0 for the rest: Newton's law, all impacts at once, neither compliance nor outer
-/// forces. Three balls in a row so share the blow at once, (−1/3, 2/3, 2/3) v for e = 1, where real cradles
-/// pass it on. An impact comes early by up to a step, first order in h. With friction and e near 1 Newton's
-/// law may add energy to an oblique blow (T. Kane); normal impulses alone cannot. Solved by sequential sweeps
-/// to a relative change of 1e-12, at most 10 000; costs nothing where every e is 0.
+/// that touch (within 1e-6 m) or close within the step then take impulses with 0 ≤ λ_n ⊥ u_n⁺ + e' u_n⁻ ≥ 0
+/// and friction, e' = e for impacts and 0 for the rest: Newton's law, all impacts at once, neither compliance
+/// nor outer forces. Three balls in a row so share the blow at once, (−1/3, 2/3, 2/3) v for e = 1, where real
+/// cradles pass it on. An impact comes early by up to a step, first order in h. With friction and e near 1
+/// Newton's law may add energy to an oblique blow (T. Kane); normal impulses alone cannot. Solved by
+/// sequential sweeps to a relative change of 1e-12, at most 10 000; costs nothing where every e is 0.
 namespace drawpoint::engine::contact::detail {
 
 class ImpactStage {

@@ -42,7 +42,11 @@ std::string pile_recipe(const Scenario& s) {
   add_number(recipe, "max_height", s.pile.max_height);
   recipe += "seed=" + std::to_string(s.pile.seed) + " ";
   add_number(recipe, "step", s.world.step);
+  recipe += "method=" + std::string(contact::to_string(s.world.solver.method)) + " ";
+  add_number(recipe, "substeps", s.world.solver.substeps);
   add_number(recipe, "sweeps", s.world.solver.sweeps);
+  add_number(recipe, "spare_work", s.world.solver.spare_work);
+  add_number(recipe, "tolerance", s.world.solver.tolerance);
   add_number(recipe, "warm_start", s.world.warm_start);
   add_number(recipe, "gravity", s.world.gravity.norm());
   add_number(recipe, "margin", s.world.contacts.margin);
