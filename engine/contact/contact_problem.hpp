@@ -47,6 +47,7 @@ struct ContactPoint {
   /// On B, world axes, of the substep that starts (in) or ended (out) the step, times S [N s].
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< out: on B, world axes, over the step [N s]
+  double carried = 1;  ///< out: share of `start` that the next step may start from (carried_share)
 };
 
 /// Two bodies that touch, with their points [first, first + count) and the moment between them.

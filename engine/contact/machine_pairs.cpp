@@ -91,6 +91,7 @@ SuperBodySolution MachinePairs::store(ContactProblem& problem) {
     for (int i = 0; i < pair.count; ++i) {
       problem.points[pair.first + i].start = part_.points[part_.pairs[k].first + i].start;
       problem.points[pair.first + i].impulse = part_.points[part_.pairs[k].first + i].impulse;
+      problem.points[pair.first + i].carried = part_.points[part_.pairs[k].first + i].carried;
     }
   }
   return solution;

@@ -183,8 +183,8 @@ void PairBatches::store_lane(ContactProblem& problem, const PairBatch& batch, in
     const PointBatch& p = points_[batch.first + i];
     ContactPoint& point = problem.points[pair.first + i];
     const Vector3d impulse = get(p.impulse, lane);
-    const double share = carried_share(impulse[0], p.begun[lane], p.inverse_nn[lane]);
-    point.start = substeps * share * (to_world * impulse);
+    point.start = substeps * (to_world * impulse);
+    point.carried = carried_share(impulse[0], p.begun[lane], p.inverse_nn[lane]);
     point.impulse = to_world * (get(p.total, lane) + impulse);
   }
 }

@@ -362,8 +362,8 @@ SuperBodySolution SequentialSweeper::store() {
     const PointBlock& p = points_[k];
     const Vector3d impulse = p.frame.transpose() * p.total;
     problem_.points[k].impulse = impulse;
-    problem_.points[k].start =
-        substeps_ * carried_share(p.impulse[0], p.begun, p.inverse_nn) * (p.frame.transpose() * p.impulse);
+    problem_.points[k].start = substeps_ * (p.frame.transpose() * p.impulse);
+    problem_.points[k].carried = carried_share(p.impulse[0], p.begun, p.inverse_nn);
     if (p.a < 0) add(part_of(p.a), -1, p.arm_a, impulse, Vector3d::Zero());
     if (p.b < 0) add(part_of(p.b), +1, p.arm_b, impulse, Vector3d::Zero());
   }

@@ -244,7 +244,7 @@ void World::keep_impulses() {
     warm_start_.store_pair(pair.collider_a, pair.collider_b, pair.start);
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const ContactPoint& p = problem_.points[k];
-      warm_start_.store_point(p.feature, p.position, p.start);
+      warm_start_.store_point(p.feature, p.position, p.carried * p.start);
     }
   }
   warm_start_.end_store();

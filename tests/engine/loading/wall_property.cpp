@@ -59,7 +59,8 @@ TEST(Wall, StopsTheLoaderAtFullForce) {
   }
   EXPECT_GT(touched, 50e3) << "the bucket must press on the wall";
   EXPECT_LT(deepest, 0.01);
-  EXPECT_LT(fastest, 3.0);
+  // All kinetic energy of the 57 t machine at 1.4 m/s in the bucket's 4.8 t.
+  EXPECT_LT(fastest, 1.4 * std::sqrt(57.0 / 4.8));
   EXPECT_NEAR(driver.read().front_axle.y(), 0, 0.05);
 }
 

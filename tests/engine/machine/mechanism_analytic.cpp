@@ -18,9 +18,10 @@ const Eigen::Vector3d gravity(0, 0, -9.81);
 void step_alone(Machine& machine, double h) {
   const auto& super = machine.linearise(h, gravity);
   engine::contact::SuperBodySolution solution;
-  solution.velocity = super.velocity;
+  solution.velocity = solution.mean_velocity = super.velocity;
   solution.part_impulses.assign(super.part_maps.size(), engine::contact::SpatialVector::Zero());
   solution.row_impulses.assign(super.rows.size(), 0.0);
+  solution.row_starts = solution.row_impulses;
   machine.advance(solution);
 }
 
@@ -105,7 +106,7 @@ TEST(FourBar, LoopPinAndGroundHingesCarryTheStaticLoad) {
   const auto& super = machine.linearise(h, gravity);
   ASSERT_EQ(super.velocity.size(), 1);
   engine::contact::SuperBodySolution solution;
-  solution.velocity = Eigen::VectorXd::Zero(1);  // at rest, held by the moment below
+  solution.velocity = solution.mean_velocity = Eigen::VectorXd::Zero(1);  // at rest, held by the moment below
   solution.part_impulses.assign(3, engine::contact::SpatialVector::Zero());
   solution.part_impulses[0].head<3>() = Eigen::Vector3d(0, -2 * g * std::sin(M_PI / 6) * h, 0);
   machine.advance(solution);

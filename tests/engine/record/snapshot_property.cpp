@@ -20,8 +20,8 @@ std::vector<std::byte> some_state() {
 std::string told(std::span<const std::byte> file) {
   try {
     const auto state = detail::unwrapped_snapshot(file, "run.snapshot");
-    return std::equal(state.begin(), state.end(), some_state().begin(), some_state().end()) ? "right"
-                                                                                            : "wrong";
+    const auto expected = some_state();
+    return std::equal(state.begin(), state.end(), expected.begin(), expected.end()) ? "right" : "wrong";
   } catch (const std::runtime_error& error) {
     return error.what();
   }
