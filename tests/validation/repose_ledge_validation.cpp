@@ -57,7 +57,7 @@ Bank drained(double friction, std::uint64_t seed) {
   const auto note = [&] {
     ledger.note(gate.work());
     for (int k = 0; k < static_cast<int>(world.rocks().size()); ++k)
-      if (world.rocks()[k].pose.translation().z() < -1) world.remove_rock(k);
+      if (world.rocks()[k].present && world.rocks()[k].pose.translation().z() < -1) world.remove_rock(k);
   };
   validation::pour(world,
                    {.rocks = 410,
