@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/tests/support/machine_steps.hpp>
 #include <drawpoint/tests/support/machines.hpp>
 #include <functional>
 
@@ -15,15 +16,7 @@ const Eigen::Vector3d gravity(0, 0, -9.81);
 
 // Steps a machine on its own: no contacts, no limits reached, so the free velocity is the solution and motor
 // rows idle.
-void step_alone(Machine& machine, double h) {
-  const auto& super = machine.linearise(h, gravity);
-  engine::contact::SuperBodySolution solution;
-  solution.velocity = solution.mean_velocity = super.velocity;
-  solution.part_impulses.assign(super.part_maps.size(), engine::contact::SpatialVector::Zero());
-  solution.row_impulses.assign(super.rows.size(), 0.0);
-  solution.row_starts = solution.row_impulses;
-  machine.advance(solution);
-}
+void step_alone(Machine& machine, double h) { support::step_alone(machine, h, gravity); }
 
 // Time until the coordinate has crossed zero downwards `crossings` times, interpolated within the step.
 double time_of_crossing(Machine& machine, double h, const std::function<double()>& signal, int crossings) {
