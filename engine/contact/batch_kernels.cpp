@@ -440,29 +440,29 @@ HWY_INLINE void judge_half(const BatchArrays& arrays, int batch, int at) {
   store(force, pair.load, at);
 }
 
-void prepare(const BatchArrays& arrays, BatchRange range) {
+template <class Half>
+HWY_INLINE void over(BatchRange range, const Half& half) {
   for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) prepare_half(arrays, batch, at);
+    for (int at = 0; at < batch_lanes; at += width) half(batch, at);
+}
+
+void prepare(const BatchArrays& arrays, BatchRange range) {
+  over(range, [&](int batch, int at) { prepare_half(arrays, batch, at); });
 }
 void refresh(const BatchArrays& arrays, BatchRange range, const Substep& substep) {
-  for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) refresh_half(arrays, batch, at, substep);
+  over(range, [&](int batch, int at) { refresh_half(arrays, batch, at, substep); });
 }
 void start(const BatchArrays& arrays, BatchRange range) {
-  for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) start_half(arrays, batch, at);
+  over(range, [&](int batch, int at) { start_half(arrays, batch, at); });
 }
 void correct(const BatchArrays& arrays, BatchRange range) {
-  for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) correct_half(arrays, batch, at);
+  over(range, [&](int batch, int at) { correct_half(arrays, batch, at); });
 }
 void judge(const BatchArrays& arrays, BatchRange range) {
-  for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) judge_half(arrays, batch, at);
+  over(range, [&](int batch, int at) { judge_half(arrays, batch, at); });
 }
 void sweep(const BatchArrays& arrays, BatchRange range) {
-  for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) sweep_half(arrays, batch, at);
+  over(range, [&](int batch, int at) { sweep_half(arrays, batch, at); });
 }
 
 }  // namespace drawpoint::engine::contact::detail::HWY_NAMESPACE

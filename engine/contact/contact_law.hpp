@@ -12,10 +12,11 @@
 ///     0 ≤ λ ⊥ G v⁺ + Σ λ − b ≥ 0,   Σ = 4 / (h² k (1 + 4τ/h)),   b = Υ (G v⁻ − 4 g / h),   Υ = 1 / (1 +
 ///     4τ/h).
 /// Two departures: an approach faster than `impact_speed` is an impact, which takes the whole approach speed
-/// (b without the G v⁻ term, so that nothing bounces by the discretisation; restitution has its own stage);
-/// and an open gap g > 0 only limits the approach to what closes it within the step, b = −g/h, so that near
-/// contacts do nothing before they touch. h is the substep. Hertz's law is the same with the secant stiffness
-/// at the overlap of the step's start, exact at rest and first order in h.
+/// (b without the G v⁻ term, so that nothing bounces by the discretisation as long as h is not far below
+/// √(m/k); restitution has its own stage); and an open gap g > 0 only limits the approach to what closes it
+/// within the step, b = −g/h, so that near contacts do nothing before they touch. h is the substep. Hertz's
+/// law is the same with the secant stiffness at the overlap of the step's start, exact at rest and first
+/// order in h.
 namespace drawpoint::engine::contact {
 
 constexpr double impact_speed =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/contact/contact_frame.hpp>
 #include <drawpoint/engine/contact/contact_law.hpp>
 #include <drawpoint/engine/contact/received_impulses.hpp>
 #include <drawpoint/engine/contact/residual.hpp>
@@ -15,12 +16,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 double inverse_or_zero(double x) { return x > 0 ? 1.0 / x : 0.0; }
-
-Matrix3d cross_matrix(const Vector3d& r) {
-  Matrix3d X;
-  X << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return X;
-}
 
 // A rigid motion or its rate: of a body about its centre of mass, of a part about its origin.
 struct Twist {

@@ -11,12 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Matrix3d cross_matrix(const Vector3d& r) {
-  Matrix3d X;
-  X << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return X;
-}
-
 // Largest eigenvalue of a symmetric 2 x 2 matrix.
 double largest_eigenvalue(double a, double b, double d) {
   return 0.5 * (a + d) + std::hypot(0.5 * (a - d), b);
