@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 // FCL takes boxes that differ by round-off for equal and keeps the older one. Its boxes are larger by this
 // [m], and what it finds is checked against the true ones.
 constexpr double round_off = 1e-6;
-// Above this share of changed boxes one sweep of the trees is cheaper than single look-ups.
+// Above this share of changed boxes a thread one sweep of the trees is cheaper than single look-ups.
 constexpr int sweep_share = 3;
+constexpr int look_ups_a_block = 64;  // that a thread takes at a time
 // Fewer pairs than this are sorted by comparing.
 constexpr std::size_t few = 512;
 
@@ -155,7 +156,7 @@ class BroadPhase::Impl {
     mark(id);
   }
 
-  Changes update() {
+  Changes update(const Parallel& parallel) {
     for (int id : before_) at(id).changed_before = false;
     before_.swap(changed_);
     changed_.clear();
@@ -171,7 +172,7 @@ class BroadPhase::Impl {
     }
     refresh(moving_, moved_);
     refresh(fixed_, fixed_moved_);
-    return look_up();
+    return look_up(parallel);
   }
 
   bool changed(int id) const { return entries_[static_cast<std::size_t>(id)].changed_before; }
@@ -180,7 +181,7 @@ class BroadPhase::Impl {
 
   void set_pending(const std::vector<int>& ids) {
     // The trees must take the boxes over all the same.
-    update();
+    update(Parallel(1));
     for (int id : ids) mark(id);
   }
 
@@ -193,44 +194,54 @@ class BroadPhase::Impl {
       tree.setup();
   }
 
-  void meet_plane(int plane, int box) {
-    const Entry& entry = at(box);
-    if (entry.object && (entry.moves || at(plane).moves) && reaches(boxes_[box], planes_[plane]))
-      pairs_.emplace_back(std::min(plane, box), std::max(plane, box));
+  void meet_plane(int plane, int box, std::vector<Pair>& pairs) const {
+    const Entry& entry = entries_[static_cast<std::size_t>(box)];
+    if (entry.object && (entry.moves || entries_[static_cast<std::size_t>(plane)].moves) &&
+        reaches(boxes_[box], planes_[plane]))
+      pairs.emplace_back(std::min(plane, box), std::max(plane, box));
   }
 
-  void meet_all(int plane) {
-    for (std::size_t id = 0; id < entries_.size(); ++id) meet_plane(plane, static_cast<int>(id));
+  void meet_all(int plane, std::vector<Pair>& pairs) const {
+    for (std::size_t id = 0; id < entries_.size(); ++id) meet_plane(plane, static_cast<int>(id), pairs);
   }
 
   int sweep() {
     Collector collector{boxes_, pairs_};
     moving_.collide(&collector, collect);
     if (moving_.size() > 0 && fixed_.size() > 0) moving_.collide(&fixed_, &collector, collect);
-    for (int plane : plane_ids_) meet_all(plane);
+    for (int plane : plane_ids_) meet_all(plane, pairs_);
     return 2;
   }
 
-  int look_up_changed() {
-    Collector collector{boxes_, pairs_};
-    int look_ups = 0;
-    for (int id : before_) {
-      Entry& entry = at(id);
-      if (entry.plane) meet_all(id);
-      if (!entry.object) continue;
-      ++look_ups;
-      moving_.collide(entry.object.get(), &collector, collect);
-      if (entry.moves) fixed_.collide(entry.object.get(), &collector, collect);
-      for (int plane : plane_ids_) meet_plane(plane, id);
-    }
-    return look_ups;
+  // FCL's trees do not change while they are asked.
+  void look_up_one(int id, std::vector<Pair>& pairs) const {
+    const Entry& entry = entries_[static_cast<std::size_t>(id)];
+    if (entry.plane) meet_all(id, pairs);
+    if (!entry.object) return;
+    Collector collector{boxes_, pairs};
+    moving_.collide(entry.object.get(), &collector, collect);
+    if (entry.moves) fixed_.collide(entry.object.get(), &collector, collect);
+    for (int plane : plane_ids_) meet_plane(plane, id, pairs);
   }
 
-  Changes look_up() {
+  int look_up_changed(const Parallel& parallel) {
+    const std::size_t blocks = (before_.size() + look_ups_a_block - 1) / look_ups_a_block;
+    if (found_.size() < blocks) found_.resize(blocks);
+    for (std::vector<Pair>& found : found_) found.clear();
+    parallel.blocks(static_cast<int>(before_.size()), look_ups_a_block, [&](int begin, int end) {
+      std::vector<Pair>& found = found_[static_cast<std::size_t>(begin / look_ups_a_block)];
+      for (int k = begin; k < end; ++k) look_up_one(before_[static_cast<std::size_t>(k)], found);
+    });
+    for (const std::vector<Pair>& found : found_) pairs_.insert(pairs_.end(), found.begin(), found.end());
+    return static_cast<int>(before_.size());
+  }
+
+  Changes look_up(const Parallel& parallel) {
     pairs_.clear();
     if (before_.empty()) return {false, false, pairs_, 0};
-    const bool everything = before_.size() * sweep_share > moving_.size() + fixed_.size();
-    const int look_ups = everything ? sweep() : look_up_changed();
+    const std::size_t share = before_.size() * sweep_share / static_cast<std::size_t>(parallel.threads());
+    const bool everything = share > moving_.size() + fixed_.size();
+    const int look_ups = everything ? sweep() : look_up_changed(parallel);
     sorter_.sort(pairs_, entries_.size());
     return {true, everything, pairs_, look_ups};
   }
@@ -244,6 +255,7 @@ class BroadPhase::Impl {
   std::vector<int> changed_, before_;
   std::vector<fcl::CollisionObjectd*> moved_, fixed_moved_;
   std::vector<Pair> pairs_;
+  std::vector<std::vector<Pair>> found_;  // by block of look-ups
   PairSorter sorter_;
 };
 
@@ -258,7 +270,7 @@ void BroadPhase::remove(int id) { impl_->remove(id); }
 void BroadPhase::set_box(int id, const AlignedBox3d& box) { impl_->set_box(id, box); }
 void BroadPhase::set_plane(int id, const Plane& plane) { impl_->set_plane(id, plane); }
 void BroadPhase::set_moves(int id, bool moves) { impl_->set_moves(id, moves); }
-BroadPhase::Changes BroadPhase::update() { return impl_->update(); }
+BroadPhase::Changes BroadPhase::update(const Parallel& parallel) { return impl_->update(parallel); }
 bool BroadPhase::changed(int id) const { return impl_->changed(id); }
 const AlignedBox3d& BroadPhase::box(int id) const { return impl_->box(id); }
 const std::vector<int>& BroadPhase::pending() const { return impl_->pending(); }

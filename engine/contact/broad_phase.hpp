@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <drawpoint/engine/contact/parallel.hpp>
 #include <drawpoint/engine/contact/plane_contact.hpp>
 #include <memory>
 #include <utility>
@@ -11,7 +12,8 @@
 /// Pairs of boxes that overlap, and of boxes with half-spaces, kept up to date: FCL's dynamic box trees, one
 /// for what moves and one for what does not.
 ///
-/// Only what changed is looked up again; when much has, the trees are swept as a whole, with the same result.
+/// Only what changed is looked up again, by several threads; when much has, one thread sweeps the trees as a
+/// whole, with the same result.
 /// A pair has at least one member that moves. Which pairs there are is a function of the present boxes alone,
 /// and they are sorted: the shape of the trees, which depends on history, never shows. Cost: nothing where
 /// nothing changes, some µs a changed box.
@@ -40,7 +42,7 @@ class BroadPhase {
     int look_ups;
   };
   /// The pairs of all that was added or changed since the last call.
-  Changes update();
+  Changes update(const Parallel& parallel);
   /// Whether something was added, changed or removed before the last update().
   bool changed(int id) const;
 

@@ -6,7 +6,7 @@
 namespace drawpoint::engine::contact::detail {
 namespace {
 
-constexpr int batches_a_block = 6;  // that a thread claims at a time: some microseconds of work
+constexpr int batches_a_block = 3, bodies_a_block = 256;  // that a thread claims at a time: microseconds
 
 Eigen::Vector3d vector(const float (&v)[4]) { return {v[0], v[1], v[2]}; }
 
@@ -34,11 +34,11 @@ SolverReport ColouredSolver::solve(ContactProblem& problem) {
       sweep(k % 2 == 0);
     }
     machine_->finish();
-    travel();
   }
+  each_body([this](int k) { travel(k); });
   SolverReport solved = report();
-  team_.reset();
   store_bodies();
+  team_.reset();
   batches_.store(problem, options_.substeps, parallel_);
   solved.machine = machine_->store(problem);
   return solved;
@@ -73,16 +73,23 @@ void ColouredSolver::everywhere(const Kernel& kernel) {
   over({0, batches_.count()}, kernel);
 }
 
+template <class Work>
+void ColouredSolver::each_body(const Work& work) {
+  const int bodies = static_cast<int>(problem_->bodies.size());
+  team_->run((bodies + bodies_a_block - 1) / bodies_a_block, [&](int block) {
+    const int last = std::min(bodies, (block + 1) * bodies_a_block);
+    for (int k = block * bodies_a_block; k < last; ++k) work(k);
+  });
+}
+
 void ColouredSolver::begin_substep(bool first) {
-  std::copy_n(batches_.bodies.begin(), problem_->bodies.size(), batches_.end.begin());
   const Substep substep{h_, first};
   everywhere([&](BatchRange range) { refresh_batches(batches_.arrays(), range, substep); });
-  machine_->refresh(batches_.end);
+  machine_->refresh(batches_.bodies);
   if (first)
     start();
   else
     extrapolate();
-  batches_.begin.swap(batches_.end);
 }
 
 void ColouredSolver::start() {
@@ -97,14 +104,16 @@ void ColouredSolver::start() {
 // What changed a body in the last substep acts again: outer forces and contact impulses, but for blows.
 void ColouredSolver::extrapolate() {
   machine_->extrapolate();
-  for (std::size_t k = 0; k < problem_->bodies.size(); ++k) {
-    BodyRow& now = batches_.bodies[k];
-    const BodyRow& begin = batches_.begin[k];
+  each_body([this](int k) {
+    travel(k);
+    BodyRow &now = batches_.bodies[k], &begin = batches_.begin[k];
+    const BodyRow end = now;
     for (int i = 0; i < 4; ++i) {
-      now.velocity[i] = 2 * now.velocity[i] - begin.velocity[i];
-      now.angular_velocity[i] = 2 * now.angular_velocity[i] - begin.angular_velocity[i];
+      now.velocity[i] = 2 * end.velocity[i] - begin.velocity[i];
+      now.angular_velocity[i] = 2 * end.angular_velocity[i] - begin.angular_velocity[i];
     }
-  }
+    begin = end;
+  });
   machine_->correct(batches_.bodies);
   for (const BatchRange& colour : batches_.colours())
     over(colour, [this](BatchRange range) { correct_batches(batches_.arrays(), range); });
@@ -118,12 +127,12 @@ void ColouredSolver::sweep(bool forward) {
          [this](BatchRange range) { sweep_batches(batches_.arrays(), range); });
 }
 
-void ColouredSolver::travel() {
-  for (std::size_t k = 0; k < travel_.size(); ++k)
-    for (int i = 0; i < 4; ++i) {
-      travel_[k].velocity[i] += h_ * batches_.bodies[k].velocity[i];
-      travel_[k].angular_velocity[i] += h_ * batches_.bodies[k].angular_velocity[i];
-    }
+// The way of the substep that has ended.
+void ColouredSolver::travel(int body) {
+  for (int i = 0; i < 4; ++i) {
+    travel_[body].velocity[i] += h_ * batches_.bodies[body].velocity[i];
+    travel_[body].angular_velocity[i] += h_ * batches_.bodies[body].angular_velocity[i];
+  }
 }
 
 void ColouredSolver::store_bodies() {
@@ -131,17 +140,14 @@ void ColouredSolver::store_bodies() {
   for (const ContactPair& pair : problem_->pairs)
     for (const int body : {pair.a, pair.b})
       if (body >= 0) touched_[body] = 1;
-  for (std::size_t k = 0; k < touched_.size(); ++k) {
+  each_body([this](int k) {
     SolverBody& body = problem_->bodies[k];
-    if (!touched_[k]) {
-      fly(body, problem_->step, options_.substeps);
-      continue;
-    }
+    if (!touched_[k]) return fly(body, problem_->step, options_.substeps);
     body.velocity = vector(batches_.bodies[k].velocity);
     body.angular_velocity = vector(batches_.bodies[k].angular_velocity);
     body.travel = vector(travel_[k].velocity);
     body.turn = vector(travel_[k].angular_velocity);
-  }
+  });
 }
 
 }  // namespace drawpoint::engine::contact::detail

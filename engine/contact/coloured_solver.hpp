@@ -27,11 +27,13 @@ class ColouredSolver {
   void over(BatchRange range, const Kernel& kernel);
   template <class Kernel>
   void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
+  template <class Work>
+  void each_body(const Work& work);
   void begin_substep(bool first);
   void start();
   void extrapolate();
   void sweep(bool forward);
-  void travel();
+  void travel(int body);
   void store_bodies();
   SolverReport report();
   double change() const { return batches_.change() + machine_change_; }

@@ -17,6 +17,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+constexpr int moves_a_block = 128, boxes_a_block = 64;  // that a thread takes at a time
+
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("contact::ContactFinder: " + what);
 }
@@ -49,6 +51,12 @@ void check(int collider, const Isometry3d& pose) {
   refuse(text.str() + "give a rigid motion");
 }
 
+void check_reach(int collider, double reach) {
+  if (!(reach >= 0) || !std::isfinite(reach))
+    refuse("the reach of collider " + std::to_string(collider) + " is " + std::to_string(reach) +
+           " m; give a finite value of at least 0");
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -60,7 +68,8 @@ class ContactFinder::Impl {
   explicit Impl(const ContactFinderOptions& options)
       : options_(options),
         growth_(0.5 * (options.margin + options.reuse_distance)),
-        narrow_((check(options), options)) {}
+        parallel_((check(options), options.threads)),
+        narrow_(options) {}
 
   int add(const Collider& collider) {
     const int id = items_.size();
@@ -90,16 +99,29 @@ class ContactFinder::Impl {
     check_box(id);
   }
 
-  // A change of reach counts as travel: it brings others nearer, or makes the box too large, by as much.
   void set_reach(int id, double reach) {
     require(id);
-    if (!(reach >= 0) || !std::isfinite(reach))
-      refuse("the reach of collider " + std::to_string(id) + " is " + std::to_string(reach) +
-             " m; give a finite value of at least 0");
-    if (reach == items_.reach[id]) return;
-    items_.travelled[id] += std::abs(reach - items_.reach[id]);
-    items_.reach[id] = reach;
+    check_reach(id, reach);
+    items_.extend(id, reach);
     check_box(id);
+  }
+
+  void move(std::span<const ColliderMove> moves) {
+    const int count = static_cast<int>(moves.size());
+    parallel_.blocks(count, moves_a_block, [&](int begin, int end) {
+      for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
+        require(move.collider);
+        check(move.collider, move.X_WB);
+        check_reach(move.collider, move.reach);
+      }
+    });
+    parallel_.blocks(count, moves_a_block, [&](int begin, int end) {
+      for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
+        items_.place(move.collider, move.X_WB);
+        items_.extend(move.collider, move.reach);
+      }
+    });
+    for (const ColliderMove& move : moves) check_box(move.collider);
   }
 
   void set_moves(int id, bool moves) {
@@ -115,7 +137,7 @@ class ContactFinder::Impl {
     broad_phase();
     times_.broad = seconds_since(start);
     const auto middle = std::chrono::steady_clock::now();
-    times_.computed = narrow_.run(items_, pairs_, manifolds_);
+    times_.computed = narrow_.run(items_, pairs_, manifolds_, parallel_);
     times_.narrow = seconds_since(middle);
     return manifolds_;
   }
@@ -185,18 +207,24 @@ class ContactFinder::Impl {
   }
 
   void broad_phase() {
-    for (int id : restless_) {
+    new_boxes_.resize(restless_.size());
+    parallel_.blocks(static_cast<int>(restless_.size()), boxes_a_block, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k)
+        if (items_.item[restless_[k]].hull) new_boxes_[k] = fat_box(restless_[k]);
+    });
+    for (std::size_t k = 0; k < restless_.size(); ++k) {
+      const int id = restless_[k];
       if (!items_.traits[id].alive) continue;
       items_.item[id].restless = false;
       if (items_.item[id].hull) {
-        boxes_.set_box(id, fat_box(id));
+        boxes_.set_box(id, new_boxes_[k]);
       } else {
         boxes_.set_plane(id, fat_plane(id));
         pairs_.forget(id);
       }
     }
     restless_.clear();
-    const auto changes = boxes_.update();
+    const auto changes = boxes_.update(parallel_);
     times_.fcl_calls = changes.look_ups;
     if (changes.any) pairs_.update(boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); });
     times_.pairs = static_cast<int>(pairs_.entries().size());
@@ -208,8 +236,10 @@ class ContactFinder::Impl {
   detail::HullLibrary hulls_;
   detail::BroadPhase boxes_;
   detail::PairCache pairs_;
+  detail::Parallel parallel_;
   detail::NarrowPhase narrow_;
-  std::vector<int> restless_;  // have left their boxes, or are half-spaces that were moved
+  std::vector<int> restless_;                   // have left their boxes, or are half-spaces that were moved
+  std::vector<Eigen::AlignedBox3d> new_boxes_;  // theirs
   std::vector<Manifold> manifolds_;
   FinderTimes times_;
 };
@@ -224,6 +254,7 @@ void ContactFinder::remove(int collider) { impl_->remove(collider); }
 const Collider& ContactFinder::collider(int collider) const { return impl_->collider(collider); }
 void ContactFinder::set_pose(int collider, const Isometry3d& X_WB) { impl_->set_pose(collider, X_WB); }
 void ContactFinder::set_reach(int collider, double reach) { impl_->set_reach(collider, reach); }
+void ContactFinder::move(std::span<const ColliderMove> moves) { impl_->move(moves); }
 void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }

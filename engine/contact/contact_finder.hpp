@@ -50,12 +50,18 @@ struct ContactFinderOptions {
   int threads = 1;           ///< 1 to 256; the results do not depend on it
 };
 
+struct ColliderMove {
+  int collider;
+  Eigen::Isometry3d X_WB;
+  double reach;  ///< [m]
+};
+
 /// Of the last find().
 struct FinderTimes {
   double broad = 0, narrow = 0;  ///< [s]
   int pairs = 0;                 ///< pairs with overlapping boxes
   int computed = 0;              ///< of these, not answered from the cache
-  int fcl_calls = 0;             ///< look-ups in the trees
+  int fcl_calls = 0;             ///< look-ups in the trees, or 2 for a sweep of both
 };
 
 class ContactFinder {
@@ -78,6 +84,9 @@ class ContactFinder {
   /// How much farther than the margin the collider looks [m], ≥ 0 and 0 until set: a pair is searched as far
   /// as the margin and both reaches. For what moves fast: the way that it may go in the coming step.
   void set_reach(int collider, double reach);
+  /// Both for many colliders, with the threads of the options; each collider at most once. Throws as those
+  /// do, and then has moved nothing.
+  void move(std::span<const ColliderMove> moves);
   /// Freezes or wakes a collider; between two frozen ones nothing is searched.
   void set_moves(int collider, bool moves);
 

@@ -68,6 +68,11 @@ void Items::place(int id, const Eigen::Isometry3d& X_WB) {
   here.centre = moved;
 }
 
+void Items::extend(int id, double to) {
+  travelled[id] += std::abs(to - reach[id]);
+  reach[id] = to;
+}
+
 Eigen::AlignedBox3d Items::box(int id) const {
   // A cylinder's box is the true one, which holds the inscribed prism.
   const Placement& here = placed[id];

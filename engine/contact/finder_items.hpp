@@ -51,6 +51,9 @@ struct Items {
   void add(Item item);
   void remove(int id);
   void place(int id, const Eigen::Isometry3d& X_WB);
+  /// Sets the reach. Its change counts as travel: it brings others nearer, or makes the box too large, by as
+  /// much.
+  void extend(int id, double reach);
   Eigen::AlignedBox3d box(int id) const;  ///< tight, in the world
   Plane plane(int id) const;              ///< in the world
   bool may_touch(int a, int b) const {

@@ -1,10 +1,5 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/contact/hull_sweeps.hpp>
@@ -18,9 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Pairs a block: some 20 µs of work, large against the hand-over of a block and small against a step.
-constexpr std::size_t block_size = 128;
-
-std::size_t blocks_of(std::size_t pairs) { return (pairs + block_size - 1) / block_size; }
+constexpr int block_size = 128;
 
 Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
   Eigen::Isometry3d X_AB;
@@ -177,26 +170,17 @@ struct NarrowPhase::Worker {
   int computed = 0;
 };
 
-struct NarrowPhase::Threads {
-  explicit Threads(int count)
-      : allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
-        arena(count) {}
-  tbb::global_control allowed;  // as many as were asked for, on machines with fewer cores as well
-  tbb::task_arena arena;
-  std::vector<std::vector<Manifold>> found;  // by block
-};
-
-NarrowPhase::NarrowPhase(const ContactFinderOptions& options) : options_(options) {
+NarrowPhase::NarrowPhase(const ContactFinderOptions& options) {
   for (int k = 0; k < options.threads; ++k) workers_.push_back(std::make_unique<Worker>(options));
-  if (options.threads > 1) threads_ = std::make_unique<Threads>(options.threads);
 }
 
 NarrowPhase::~NarrowPhase() = default;
 
-int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {
+int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
+                     const Parallel& parallel) {
   for (auto& worker : workers_) worker->computed = 0;
-  if (threads_ && pairs.entries().size() > block_size)
-    run_in_blocks(items, pairs, manifolds);
+  if (parallel.threads() > 1)
+    run_in_blocks(items, pairs, manifolds, parallel);
   else
     run_alone(items, pairs, manifolds);
   int computed = 0;
@@ -209,36 +193,30 @@ void NarrowPhase::run_alone(const Items& items, PairCache& pairs, std::vector<Ma
   for (PairEntry& entry : pairs.entries()) workers_[0]->process(items, entry, pairs.state(entry), manifolds);
 }
 
-void NarrowPhase::run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {
+void NarrowPhase::run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
+                                const Parallel& parallel) {
   auto& entries = pairs.entries();
-  auto& found = threads_->found;
-  const std::size_t blocks = blocks_of(entries.size());
-  if (found.size() < blocks) found.resize(blocks);
-  const auto for_blocks = [&](const auto& work) {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, blocks, 1),
-        [&](const auto& range) {
-          for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
-        },
-        tbb::simple_partitioner());
-  };
-  threads_->arena.execute([&] {
-    for_blocks([&](std::size_t block) {
-      Worker& worker = *workers_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-      found[block].clear();
-      const std::size_t end = std::min(entries.size(), (block + 1) * block_size);
-      for (std::size_t k = block * block_size; k < end; ++k)
-        worker.process(items, entries[k], pairs.state(entries[k]), found[block]);
-    });
-    std::size_t total = 0;
-    starts_.clear();
-    for (std::size_t block = 0; block < blocks; ++block)
-      starts_.push_back(total), total += found[block].size();
-    manifolds.resize(total);
-    for_blocks([&](std::size_t block) {
-      std::copy(found[block].begin(), found[block].end(),
+  const int count = static_cast<int>(entries.size());
+  const std::size_t blocks = (entries.size() + block_size - 1) / block_size;
+  if (found_.size() < blocks) found_.resize(blocks);
+  parallel.blocks_by_thread(count, block_size, [&](int begin, int end, int thread) {
+    for (int first = begin; first < end; first += block_size) {
+      std::vector<Manifold>& found = found_[static_cast<std::size_t>(first / block_size)];
+      found.clear();
+      for (int k = first; k < std::min(end, first + block_size); ++k)
+        workers_[static_cast<std::size_t>(thread)]->process(items, entries[k], pairs.state(entries[k]),
+                                                            found);
+    }
+  });
+  std::size_t total = 0;
+  starts_.clear();
+  for (std::size_t block = 0; block < blocks; ++block)
+    starts_.push_back(total), total += found_[block].size();
+  manifolds.resize(total);
+  parallel.blocks(static_cast<int>(blocks), 1, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block)
+      std::copy(found_[block].begin(), found_[block].end(),
                 manifolds.begin() + static_cast<std::ptrdiff_t>(starts_[block]));
-    });
   });
 }
 

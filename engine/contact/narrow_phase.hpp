@@ -5,6 +5,7 @@
 #include <drawpoint/engine/contact/contact_finder.hpp>
 #include <drawpoint/engine/contact/finder_items.hpp>
 #include <drawpoint/engine/contact/pair_cache.hpp>
+#include <drawpoint/engine/contact/parallel.hpp>
 #include <memory>
 #include <vector>
 
@@ -26,17 +27,16 @@ class NarrowPhase {
 
   /// Updates the pairs and replaces `manifolds` by their contacts, in the order of the pairs. Returns how
   /// many pairs were computed.
-  int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
+  int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds, const Parallel& parallel);
 
  private:
   struct Worker;
-  struct Threads;
   void run_alone(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
-  void run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
+  void run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
+                     const Parallel& parallel);
 
-  ContactFinderOptions options_;
   std::vector<std::unique_ptr<Worker>> workers_;  // one a thread
-  std::unique_ptr<Threads> threads_;              // none when there is one thread
+  std::vector<std::vector<Manifold>> found_;      // by block
   std::vector<std::size_t> starts_;               // first manifold of each block
 };
 

@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <vector>
 
-/// Eight pairs that share no moving body, side by side: what a SIMD lane works on.
+/// Sixteen pairs that share no moving body, side by side: what a SIMD lane works on.
 ///
-/// Single precision; an array of eight holds one number of eight pairs. Row k of a body array holds a body's
-/// velocity and angular velocity, padded to 32 bytes. Fixed bodies have rows of their own, one a lane, which
-/// stay zero, so that no two lanes ever write the same row. Lanes without a pair answer nothing; lanes
+/// Single precision; an array of sixteen holds one number of sixteen pairs. Row k of a body array holds a
+/// body's velocity and angular velocity, padded to 32 bytes. Fixed bodies have rows of their own, one a lane,
+/// which stay zero, so that no two lanes ever write the same row. Lanes without a pair answer nothing; lanes
 /// without a point have a gap of `no_gap`: either changes nothing.
 namespace drawpoint::engine::contact::detail {
 
-constexpr int batch_lanes = 8;
+constexpr int batch_lanes = 16;
 constexpr float no_gap = 1e10f;  // [m]
 using Lanes = float[batch_lanes];
 
@@ -54,8 +54,7 @@ struct alignas(32) PairBatch {
 struct BatchArrays {
   PairBatch* pairs;
   PointBatch* points;
-  BodyRow* bodies;     // velocities
-  const BodyRow* end;  // velocities at the end of the last substep
+  BodyRow* bodies;  // velocities
   const BodyResponse* responses;
 };
 
@@ -72,8 +71,8 @@ struct BatchRange {
 /// range must share no body.
 /// Responses and their inverses, from arms, normals and bodies.
 void prepare_batches(const BatchArrays& arrays, BatchRange range);
-/// Gaps and targets of a substep, from the velocities at the end of the last one; start impulses without
-/// blows.
+/// Gaps and targets of a substep, from the velocities, which are still those at the end of the last one;
+/// start impulses without blows.
 void refresh_batches(const BatchArrays& arrays, BatchRange range, const Substep& substep);
 /// Takes the blows off the bodies, which extrapolation has repeated.
 void correct_batches(const BatchArrays& arrays, BatchRange range);

@@ -32,7 +32,7 @@ void PairBatches::fill(const ContactProblem& problem, const Colouring& colouring
   parallel.blocks(count(), batches_a_block, [&](int first, int last) {
     for (int batch = first; batch < last; ++batch) fill_batch(problem, batch, substeps);
   });
-  end = begin = bodies;
+  begin = bodies;
 }
 
 int PairBatches::own_rows(const ContactProblem& problem, const int* members, int pairs) const {

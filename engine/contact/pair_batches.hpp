@@ -16,9 +16,7 @@ class PairBatches {
   void fill(const ContactProblem& problem, const Colouring& colouring, int substeps,
             const Parallel& parallel);
 
-  BatchArrays arrays() {
-    return {pairs_.data(), points_.data(), bodies.data(), end.data(), responses_.data()};
-  }
+  BatchArrays arrays() { return {pairs_.data(), points_.data(), bodies.data(), responses_.data()}; }
   int count() const { return static_cast<int>(plans_.size()); }
   const std::vector<BatchRange>& colours() const { return colours_; }
 
@@ -29,9 +27,9 @@ class PairBatches {
   /// Writes the impulses of the step and the last substep into the problem.
   void store(ContactProblem& problem, int substeps, const Parallel& parallel) const;
 
-  /// Velocities now, at the end of the last substep, and at its beginning. Row k is body k; rows beyond the
-  /// bodies stand for fixed ones.
-  std::vector<BodyRow> bodies, end, begin;
+  /// Velocities now and at the beginning of the substep. Row k is body k; rows beyond the bodies stand for
+  /// fixed ones.
+  std::vector<BodyRow> bodies, begin;
 
  private:
   /// Where a batch's pairs, points and own rows are. Fixed bodies and lanes without a pair have own rows.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,7 +11,10 @@
 namespace drawpoint::engine::contact::detail {
 
 struct Parallel::Arena {
-  explicit Arena(int threads) : arena(threads) {}
+  explicit Arena(int threads)
+      : allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+        arena(threads) {}
+  tbb::global_control allowed;
   tbb::task_arena arena;
 };
 
@@ -22,15 +26,20 @@ Parallel::Parallel(Parallel&&) noexcept = default;
 Parallel& Parallel::operator=(Parallel&&) noexcept = default;
 
 void Parallel::blocks(int count, int block, const std::function<void(int, int)>& work) const {
+  blocks_by_thread(count, block, [&](int begin, int end, int) { work(begin, end); });
+}
+
+void Parallel::blocks_by_thread(int count, int block, const std::function<void(int, int, int)>& work) const {
   if (!arena_ || count <= block) {
-    if (count > 0) work(0, count);
+    if (count > 0) work(0, count, 0);
     return;
   }
   arena_->arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, (count + block - 1) / block, 1),
         [&](const tbb::blocked_range<int>& range) {
-          for (int k = range.begin(); k < range.end(); ++k) work(k * block, std::min(count, (k + 1) * block));
+          for (int k = range.begin(); k < range.end(); ++k)
+            work(k * block, std::min(count, (k + 1) * block), tbb::this_task_arena::current_thread_index());
         },
         tbb::simple_partitioner());
   });

@@ -8,7 +8,8 @@
 /// Independent blocks of work on a fixed number of threads.
 ///
 /// Which thread does a block is left to chance, so blocks must not depend on each other; then the result does
-/// not depend on the number of threads. With one thread blocks run in their order on the caller.
+/// not depend on the number of threads. With one thread, or one block, the caller does all of them in order.
+/// There are as many threads as asked for, on machines with fewer cores as well.
 namespace drawpoint::engine::contact::detail {
 
 class Parallel {
@@ -20,8 +21,11 @@ class Parallel {
 
   int threads() const { return threads_; }
 
-  /// Calls work(begin, end) for blocks of at most `block` numbers out of 0 .. count-1.
+  /// Calls work(begin, end) for blocks of at most `block` numbers out of 0 .. count-1. What a block throws
+  /// comes out here.
   void blocks(int count, int block, const std::function<void(int, int)>& work) const;
+  /// The same with the number of the thread, 0 .. threads()-1, for buffers that a thread keeps to itself.
+  void blocks_by_thread(int count, int block, const std::function<void(int, int, int)>& work) const;
 
  private:
   struct Arena;

@@ -24,9 +24,9 @@ void WarmStart::insert(const std::vector<Entry>& entries) {
   std::inplace_merge(pairs_.begin(), pairs_.begin() + known, pairs_.end(), before);
 }
 
-void WarmStart::begin_store() {
-  new_pairs_.clear();
-  new_points_.clear();
+void WarmStart::begin_store(std::size_t pairs, std::size_t points) {
+  new_pairs_.resize(pairs);
+  new_points_.resize(points);
 }
 
 void WarmStart::end_store() {
@@ -69,16 +69,6 @@ Eigen::Vector3d WarmStart::Reader::point(std::uint32_t feature, const Eigen::Vec
 
 Eigen::Vector3d WarmStart::Reader::rolling() const {
   return found_ ? store_.pairs_[cursor_].rolling : Eigen::Vector3d::Zero().eval();
-}
-
-void WarmStart::store_pair(int a, int b, const Eigen::Vector3d& rolling) {
-  new_pairs_.push_back({a, b, rolling, new_points_.size(), 0});
-}
-
-void WarmStart::store_point(std::uint32_t feature, const Eigen::Vector3d& position,
-                            const Eigen::Vector3d& impulse) {
-  new_points_.push_back({feature, position, impulse, false});
-  ++new_pairs_.back().count;
 }
 
 void WarmStart::save(StateWriter& out) const {

@@ -22,6 +22,11 @@ class WarmStart {
     Eigen::Vector3d impulse;
     bool used;
   };
+  struct Pair {
+    int a, b;
+    Eigen::Vector3d rolling;
+    std::size_t first, count;  ///< of its points
+  };
   /// A pair with its points, on its own.
   struct Entry {
     int a, b;
@@ -52,12 +57,12 @@ class WarmStart {
   /// Adds pairs, in order; one that is stored already stays as it is.
   void insert(const std::vector<Entry>& entries);
 
-  /// Replaces what is stored by the solved impulses: begin_store(), then every pair in order with its points,
-  /// then end_store().
-  void begin_store();
+  /// Replaces what is stored by the solved impulses: begin_store() with their numbers, then every pair and
+  /// point at its place, in any order and by several threads, then end_store(). Pairs ascend.
+  void begin_store(std::size_t pairs, std::size_t points);
+  void store_pair(std::size_t place, const Pair& pair) { new_pairs_[place] = pair; }
+  void store_point(std::size_t place, const Point& point) { new_points_[place] = point; }
   void end_store();
-  void store_pair(int a, int b, const Eigen::Vector3d& rolling);
-  void store_point(std::uint32_t feature, const Eigen::Vector3d& position, const Eigen::Vector3d& impulse);
 
   /// What the next step will start from. Reading throws std::runtime_error for what cannot be, and then
   /// changes nothing.
@@ -65,11 +70,6 @@ class WarmStart {
   void restore(StateReader& in);
 
  private:
-  struct Pair {
-    int a, b;
-    Eigen::Vector3d rolling;
-    std::size_t first, count;
-  };
   std::vector<Pair> pairs_, new_pairs_;
   std::vector<Point> points_, new_points_;
 };

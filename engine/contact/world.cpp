@@ -60,15 +60,19 @@ double World::reach_of(const Surface& surface) const {
 }
 
 void World::place_colliders() {
-  for (const int k : freezing_.awake()) {
-    finder_.set_pose(rocks_[k].collider, rocks_[k].pose);
-    finder_.set_reach(rocks_[k].collider, reach_of(surfaces_[rocks_[k].collider]));
-  }
-  for (std::size_t id = 0; id < surfaces_.size(); ++id) {
-    if (surfaces_[id].owner != Owner::part) continue;
-    finder_.set_pose(static_cast<int>(id), machine_->part_pose(surfaces_[id].index));
-    finder_.set_reach(static_cast<int>(id), reach_of(surfaces_[id]));
-  }
+  const std::vector<int>& awake = freezing_.awake();
+  moves_.resize(awake.size());
+  parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) {
+      const Rock& rock = rocks_[awake[k]];
+      moves_[k] = {rock.collider, rock.pose, reach_of(surfaces_[rock.collider])};
+    }
+  });
+  for (std::size_t id = 0; id < surfaces_.size(); ++id)
+    if (surfaces_[id].owner == Owner::part)
+      moves_.push_back(
+          {static_cast<int>(id), machine_->part_pose(surfaces_[id].index), reach_of(surfaces_[id])});
+  finder_.move(moves_);
 }
 
 void World::fill_bodies() {
@@ -239,14 +243,19 @@ SolverReport World::solve_contacts(StepReport& report) {
 }
 
 void World::keep_impulses() {
-  warm_start_.begin_store();
-  for (const ContactPair& pair : problem_.pairs) {
-    warm_start_.store_pair(pair.collider_a, pair.collider_b, pair.start);
-    for (int k = pair.first; k < pair.first + pair.count; ++k) {
-      const ContactPoint& p = problem_.points[k];
-      warm_start_.store_point(p.feature, p.position, p.carried * p.start);
+  warm_start_.begin_store(problem_.pairs.size(), problem_.points.size());
+  parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
+    for (int index = first; index < last; ++index) {
+      const ContactPair& pair = problem_.pairs[index];
+      warm_start_.store_pair(
+          index, {pair.collider_a, pair.collider_b, pair.start, static_cast<std::size_t>(pair.first),
+                  static_cast<std::size_t>(pair.count)});
+      for (int k = pair.first; k < pair.first + pair.count; ++k) {
+        const ContactPoint& p = problem_.points[k];
+        warm_start_.store_point(k, {p.feature, p.position, p.carried * p.start, false});
+      }
     }
-  }
+  });
   warm_start_.end_store();
 }
 
@@ -289,6 +298,22 @@ void World::settle_frozen() {
   }
 }
 
+// Of a rock in anything, at the start of the step.
+double World::deepest_overlap() {
+  const int manifolds = static_cast<int>(manifolds_->size());
+  deepest_.assign(static_cast<std::size_t>(manifolds / manifolds_a_block + 1), 0.0);
+  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) {
+    double& deepest = deepest_[static_cast<std::size_t>(first / manifolds_a_block)];
+    for (int i = first; i < last; ++i) {
+      const Manifold& m = (*manifolds_)[i];
+      if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock)
+        continue;
+      for (int k = 0; k < m.count; ++k) deepest = std::max(deepest, -m.points[k].gap);
+    }
+  });
+  return *std::max_element(deepest_.begin(), deepest_.end());
+}
+
 StepReport World::step() {
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
@@ -318,11 +343,7 @@ StepReport World::step() {
   report.last_change = solved.last_change;
   report.complementarity = solved.complementarity;
   report.cone = solved.cone;
-  for (const Manifold& m : *manifolds_) {
-    if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock)
-      continue;
-    for (int k = 0; k < m.count; ++k) report.max_overlap = std::max(report.max_overlap, -m.points[k].gap);
-  }
+  report.max_overlap = deepest_overlap();
   report.rest_s =
       seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
   return report;

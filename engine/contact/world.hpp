@@ -153,6 +153,7 @@ class World {
   void find_contacts(StepReport& report);
   SolverReport solve_contacts(StepReport& report);
   void keep_impulses();
+  double deepest_overlap();
   void thaw(const std::vector<int>& rocks);
   void thaw_near_machine(StepReport& report);
   bool thaw_struck(int round);
@@ -180,6 +181,8 @@ class World {
   const std::vector<Manifold>* manifolds_ = nullptr;
   std::vector<int> body_of_rock_;    // in the problem
   std::vector<unsigned> joins_;      // by manifold
+  std::vector<ColliderMove> moves_;  // of this step
+  std::vector<double> deepest_;      // overlap by block of manifolds [m]
   std::vector<int> pair_manifolds_;  // by pair of the problem
   ContactProblem problem_;
   WarmStart warm_start_;
