@@ -63,7 +63,7 @@ double bytes_of_a_sequential_sweep(const ContactProblem& problem) {
                              problem.pairs.size() * sizeof(detail::PairBlock));
 }
 
-// Eight pairs of a colour a batch; a batch has as many point batches as its largest pair has points.
+// So many pairs of a colour a batch; a batch has as many point batches as its largest pair has points.
 double bytes_of_a_coloured_sweep(const ContactProblem& problem) {
   const detail::Colouring colouring = detail::colour(problem);
   double bytes = 0;

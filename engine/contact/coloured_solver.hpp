@@ -8,7 +8,7 @@
 #include <drawpoint/engine/contact/stage_team.hpp>
 #include <optional>
 
-/// The fast method: colours of pairs that share no body, eight pairs at a time, single precision.
+/// The fast method: colours of pairs that share no body, sixteen pairs at a time, single precision.
 ///
 /// Pairs that touch the machine are swept one after another in double precision before the colours, on the
 /// same velocities. Bodies that touch nothing keep double precision. Velocities and impulses of the others

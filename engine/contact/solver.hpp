@@ -20,7 +20,7 @@
 /// is circular.
 ///
 /// `sequential` visits pairs in their order, alternating direction, in double precision: the reference.
-/// `coloured` visits sets of pairs that share no body, eight pairs at a time, in single precision on
+/// `coloured` visits sets of pairs that share no body, sixteen pairs at a time, in single precision on
 /// velocities and impulses: the fast method. Both give the same bits for any number of threads.
 namespace drawpoint::engine::contact {
 
