@@ -5,9 +5,11 @@
 /// Full factorial: every combination of L_j equally spaced levels, bounds included, in variable j.
 ///
 /// x_j = lower + k·(upper - lower)/(L_j - 1), k = 0..L_j-1; a single level stands at the middle of the range.
+/// An integer or categorical variable takes L_j of its values, as evenly spaced as they can be.
 /// Rows in lexicographic order, the last variable fastest. n = Π L_j, cost O(n d).
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -36,6 +38,11 @@ inline int factorial_runs(const Problem& problem, std::span<const int> levels) {
       throw std::invalid_argument(place + "variable \"" + problem.variables[j].name + "\" has " +
                                   std::to_string(levels[j]) +
                                   " levels; allowed is 1 or more; 2 gives the bounds");
+    const Variable& v = problem.variables[j];
+    if (is_discrete(v) && levels[j] > value_count(v))
+      throw std::invalid_argument(place + "variable \"" + v.name + "\" has " + std::to_string(levels[j]) +
+                                  " levels but takes only " + number_text(value_count(v)) +
+                                  " values; ask for no more levels than values");
     runs *= levels[j];
     if (runs > std::numeric_limits<int>::max())
       throw std::invalid_argument(place +
@@ -61,9 +68,17 @@ inline Eigen::MatrixXd full_factorial(const Problem& problem, std::span<const in
   return detail::to_natural(std::move(U), problem);
 }
 
-/// The same number of levels in every variable: levels^d runs.
+/// The same number of levels in every real variable; an integer variable has no more than its values, and a
+/// categorical one all of its levels.
 inline Eigen::MatrixXd full_factorial(const Problem& problem, int levels) {
-  return full_factorial(problem, std::vector<int>(problem.variables.size(), levels));
+  std::vector<int> of_each(problem.variables.size(), levels);
+  for (std::size_t j = 0; j < of_each.size(); ++j) {
+    const Variable& v = problem.variables[j];
+    if (v.kind == VariableKind::integer)
+      of_each[j] = std::min(levels, static_cast<int>(std::min(detail::value_count(v), 1e9)));
+    if (v.kind == VariableKind::categorical) of_each[j] = static_cast<int>(v.levels.size());
+  }
+  return full_factorial(problem, of_each);
 }
 
 }  // namespace drawpoint::doe

@@ -5,8 +5,10 @@
 /// The problem under study: named variables in a box and named responses with a goal each.
 ///
 /// Everything is in natural units; scaling is the business of the method that needs it. The unit is a text
-/// that messages, tables and plots repeat ("1" for a pure number). `minimize` and `maximize` make a response
-/// an objective, `at_most` and `at_least` make it a constraint against `limit`, `record` only keeps it.
+/// that messages, tables and plots repeat ("1" for a pure number). A variable is real unless its kind says
+/// otherwise: an integer one takes the whole numbers of its range, a categorical one the index 0, 1, ... of
+/// one of its named levels. `minimize` and `maximize` make a response an objective, `at_most` and `at_least`
+/// make it a constraint against `limit`, `record` only keeps it.
 
 #include <cctype>
 #include <charconv>
@@ -16,17 +18,35 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace drawpoint::doe {
 
 enum class Goal { minimize, maximize, at_most, at_least, record };
 
-/// One input: lower < upper, both finite, in `unit`.
+enum class VariableKind { real, integer, categorical };
+
+/// One input: lower < upper, both finite, in `unit`; whole numbers for an integer variable; 0 and levels - 1
+/// for a categorical one. `{"alpha", "1", 0.2, 2.0}` is a real variable.
 struct Variable {
   std::string name, unit;
   double lower, upper;
+  VariableKind kind = VariableKind::real;
+  std::vector<std::string> levels = {};  ///< names of a categorical variable's levels, at least 2
 };
+
+/// A variable that takes the whole numbers lower..upper.
+inline Variable integer_variable(std::string name, std::string unit, int lower, int upper) {
+  return {std::move(name), std::move(unit), static_cast<double>(lower), static_cast<double>(upper),
+          VariableKind::integer};
+}
+
+/// A variable without order: its value is the index of a level.
+inline Variable categorical_variable(std::string name, std::vector<std::string> levels) {
+  const double last = static_cast<double>(levels.size()) - 1.0;
+  return {std::move(name), "1", 0.0, last, VariableKind::categorical, std::move(levels)};
+}
 
 /// One output; `limit` (in `unit`) belongs to at_most and at_least only.
 struct Response {
@@ -42,6 +62,18 @@ struct Problem {
 
 inline bool is_objective(Goal goal) { return goal == Goal::minimize || goal == Goal::maximize; }
 inline bool is_constraint(Goal goal) { return goal == Goal::at_most || goal == Goal::at_least; }
+
+inline std::string_view to_string(VariableKind kind) {
+  switch (kind) {
+    case VariableKind::real:
+      return "real";
+    case VariableKind::integer:
+      return "integer";
+    case VariableKind::categorical:
+      return "categorical";
+  }
+  return "unknown";
+}
 
 inline std::string_view to_string(Goal goal) {
   switch (goal) {
@@ -89,7 +121,40 @@ inline void check_name(const char* kind, const std::string& name, std::size_t in
            "\": the name is used twice; names of variables and responses must differ");
 }
 
+inline void check_integer(const Variable& v) {
+  const std::string place = "variable \"" + v.name + "\": ";
+  for (const double bound : {v.lower, v.upper})
+    if (bound != std::floor(bound) || std::abs(bound) > 1e9)
+      reject(place + "bound " + with_unit(bound, v.unit) +
+             " of an integer variable is not a whole number of at most 1e9; round it");
+}
+
+inline void check_levels(const Variable& v) {
+  const std::string place = "variable \"" + v.name + "\": ";
+  if (v.levels.size() < 2)
+    reject(place + "categorical with " + std::to_string(v.levels.size()) +
+           " levels; name at least 2 or make it a constant");
+  std::set<std::string> seen;
+  for (const std::string& level : v.levels)
+    if (level.empty() || !seen.insert(level).second)
+      reject(place + "level \"" + level + "\" is empty or used twice; level names must differ");
+  const double last = static_cast<double>(v.levels.size()) - 1.0;
+  if (v.lower != 0.0 || v.upper != last)
+    reject(place + "bounds " + number_text(v.lower) + " and " + number_text(v.upper) + " of a categorical " +
+           "variable of " + std::to_string(v.levels.size()) + " levels; they must be 0 and " +
+           number_text(last));
+}
+
+/// What the kind asks beyond sound bounds.
+inline void check_kind(const Variable& v) {
+  if (v.kind == VariableKind::integer) check_integer(v);
+  if (v.kind != VariableKind::categorical && !v.levels.empty())
+    reject("variable \"" + v.name + "\": it has levels but is " + std::string(to_string(v.kind)) +
+           "; make it categorical or remove the levels");
+}
+
 inline void check_variable(const Variable& v) {
+  if (v.kind == VariableKind::categorical) check_levels(v);
   const std::string place = "variable \"" + v.name + "\": ";
   const std::string lower = with_unit(v.lower, v.unit), upper = with_unit(v.upper, v.unit);
   if (!std::isfinite(v.lower))
@@ -102,6 +167,7 @@ inline void check_variable(const Variable& v) {
     reject(place + "lower bound " + lower + " is not below upper bound " + upper + "; swap them");
   if (!std::isfinite(v.upper - v.lower))
     reject(place + "the range from " + lower + " to " + upper + " overflows; change the unit");
+  check_kind(v);
 }
 
 inline void check_response(const Response& r) {
@@ -117,8 +183,8 @@ inline void check_response(const Response& r) {
 }  // namespace detail
 
 /// Throws std::invalid_argument that names the first fault: no variable or response, an empty or repeated
-/// name, a bound that is not finite or not in order, a constraint without a limit, a limit without a
-/// constraint.
+/// name, a bound that is not finite or not in order, one that its kind does not allow, a constraint without a
+/// limit, a limit without a constraint.
 inline void check(const Problem& problem) {
   if (problem.variables.empty()) detail::reject("no variables; name at least one");
   if (problem.responses.empty()) detail::reject("no responses; name at least one");

@@ -18,6 +18,14 @@ doe::Goal goal_from(const std::string& name) {
   return Goal::record;
 }
 
+doe::VariableKind kind_from(const std::string& name) {
+  using doe::VariableKind;
+  for (const VariableKind kind : {VariableKind::integer, VariableKind::categorical}) {
+    if (name == doe::to_string(kind)) return kind;
+  }
+  return VariableKind::real;
+}
+
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 /// The shortest decimal text that reads back as the same number.
@@ -38,6 +46,10 @@ std::string difference(const doe::Variable& there, const doe::Variable& here) {
     return changed(subject + "lower bound", text_of(there.lower), text_of(here.lower));
   if (there.upper != here.upper)
     return changed(subject + "upper bound", text_of(there.upper), text_of(here.upper));
+  if (there.kind != here.kind)
+    return changed(subject + "kind", std::string(to_string(there.kind)), std::string(to_string(here.kind)));
+  if (there.levels != here.levels)
+    return changed(subject + "levels", json(there.levels).dump(), json(here.levels).dump());
   return "";
 }
 
@@ -74,7 +86,10 @@ std::string difference(const std::vector<Item>& there, const std::vector<Item>& 
 json to_json(const doe::Problem& problem) {
   json variables = json::array();
   for (const auto& v : problem.variables) {
-    variables.push_back({{"name", v.name}, {"unit", v.unit}, {"lower", v.lower}, {"upper", v.upper}});
+    json entry = {{"name", v.name}, {"unit", v.unit}, {"lower", v.lower}, {"upper", v.upper}};
+    if (v.kind != doe::VariableKind::real) entry["kind"] = std::string(to_string(v.kind));
+    if (!v.levels.empty()) entry["levels"] = v.levels;
+    variables.push_back(entry);
   }
   json responses = json::array();
   for (const auto& r : problem.responses) {
@@ -88,7 +103,9 @@ json to_json(const doe::Problem& problem) {
 doe::Problem problem_from_json(const json& data) {
   doe::Problem problem;
   for (const auto& v : data.at("variables")) {
-    problem.variables.push_back({v.at("name"), v.at("unit"), v.at("lower"), v.at("upper")});
+    problem.variables.push_back({v.at("name"), v.at("unit"), v.at("lower"), v.at("upper"),
+                                 kind_from(v.value("kind", "real")),
+                                 v.value("levels", std::vector<std::string>{})});
   }
   for (const auto& r : data.at("responses")) {
     problem.responses.push_back(

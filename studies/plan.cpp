@@ -108,7 +108,7 @@ Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& 
     const auto free = empty_strata(existing.col(k).tail(existing.rows() - corners), axis, strata, random);
     for (int i = 0; i < wanted; ++i) {
       const double share = (free[static_cast<std::size_t>(i)] + random.uniform()) / strata;
-      X(i, k) = std::min(axis.upper, axis.lower + share * (axis.upper - axis.lower));
+      X(i, k) = doe::detail::to_natural(share, axis);
     }
   }
   return X;

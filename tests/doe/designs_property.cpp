@@ -6,15 +6,20 @@
 #include <rapidcheck/gtest.h>
 #include <algorithm>
 #include <drawpoint/doe/full_factorial.hpp>
+#include <drawpoint/doe/halton.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
+#include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/doe/uniform.hpp>
-#include <drawpoint/tests/doe/problems.hpp>
+#include <drawpoint/tests/doe/designs.hpp>
 #include <functional>
 #include <set>
 
 namespace drawpoint::doe {
 namespace {
+
+using support::inside;
+using support::is_latin;
 
 using Design = std::function<Eigen::MatrixXd(const Problem&, int, Seed)>;
 
@@ -22,6 +27,13 @@ using Design = std::function<Eigen::MatrixXd(const Problem&, int, Seed)>;
 const std::vector<std::pair<std::string, Design>> designs{
     {"latin_hypercube",
      [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.corners = false, .seed = s}); }},
+    {"optimized_latin_hypercube",
+     [](const Problem& p, int n, Seed s) {
+       return optimized_latin_hypercube(p, n, s, {.sweeps = 1, .centred = false});
+     }},
+    {"halton", [](const Problem& p, int n, Seed s) { return halton(p, n, s); }},
+    {"random_start_halton",
+     [](const Problem& p, int n, Seed s) { return halton(p, n, s, {HaltonKind::random_start}); }},
     {"uniform_random", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, s); }},
     {"scrambled_sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, s); }}};
 
@@ -34,31 +46,6 @@ Problem arbitrary_problem() {
     v.upper = v.lower + scale * *rc::gen::inRange(1, 1000);
   }
   return problem;
-}
-
-bool inside(const Problem& problem, const Eigen::MatrixXd& X) {
-  for (Eigen::Index j = 0; j < X.cols(); ++j)
-    if (X.col(j).minCoeff() < problem.variables[j].lower || X.col(j).maxCoeff() > problem.variables[j].upper)
-      return false;
-  return true;
-}
-
-/// Whether each of n equal strata of every variable holds one run: the i-th smallest lies in [i, i+1]/n. The
-/// tolerance, in strata, covers the rounding of lower + u·(upper - lower) and back: a few ulp of the largest
-/// bound.
-bool is_latin(const Problem& problem, const Eigen::MatrixXd& X) {
-  const auto n = static_cast<double>(X.rows());
-  for (Eigen::Index j = 0; j < X.cols(); ++j) {
-    const Variable& v = problem.variables[j];
-    const double range = v.upper - v.lower;
-    const double tolerance = n * 4e-16 * (4.0 + std::max(std::abs(v.lower), std::abs(v.upper)) / range);
-    Eigen::VectorXd u = n * (X.col(j).array() - v.lower) / range;
-    std::sort(u.begin(), u.end());
-    for (Eigen::Index i = 0; i < u.size(); ++i)
-      if (u[i] < static_cast<double>(i) - tolerance || u[i] > static_cast<double>(i + 1) + tolerance)
-        return false;
-  }
-  return true;
 }
 
 RC_GTEST_PROP(Designs, StayInsideTheBoundsAndRepeat, ()) {
@@ -79,6 +66,37 @@ RC_GTEST_PROP(LatinHypercube, OneRunInEachStratumOfEachVariable, ()) {
   const int runs = *rc::gen::inRange(1, 300);
   RC_ASSERT(is_latin(
       problem, latin_hypercube(problem, runs, {.corners = false, .seed = *rc::gen::arbitrary<Seed>()})));
+}
+
+RC_GTEST_PROP(Designs, IntegersAreWholeAndLevelsAreIndices, ()) {
+  const Problem problem = support::mixed_problem();
+  const int runs = *rc::gen::inRange(1, 100);
+  const Seed seed = *rc::gen::arbitrary<Seed>();
+  for (const auto& [name, design] : designs) {
+    const Eigen::MatrixXd X = design(problem, runs, seed);
+    RC_ASSERT(inside(problem, X));
+    RC_ASSERT((X.rightCols(2).array() == X.rightCols(2).array().floor()).all());
+  }
+}
+
+RC_GTEST_PROP(LatinHypercube, HoldsEachValueOfADiscreteVariableEquallyOften, ()) {
+  const Problem problem = support::mixed_problem();
+  const int runs = *rc::gen::inRange(1, 100);
+  const Seed seed = *rc::gen::arbitrary<Seed>();
+  for (const bool centred : {false, true}) {
+    const Eigen::MatrixXd X = latin_hypercube(problem, runs, seed, {.centred = centred});
+    for (const Eigen::Index j : {2, 3}) RC_ASSERT(support::is_balanced(X.col(j), problem.variables[j]));
+  }
+}
+
+// x = lower + (s + 1/2)/n·range: in strata, a half to within the rounding of the way back (see is_latin).
+RC_GTEST_PROP(LatinHypercube, CentredRunsStandInTheMiddleOfTheirStrata, ()) {
+  const Problem problem = support::unit_problem(*rc::gen::inRange(1, 7));
+  const int runs = *rc::gen::inRange(1, 300);
+  const Eigen::MatrixXd X = latin_hypercube(problem, runs, *rc::gen::arbitrary<Seed>(), {.centred = true});
+  RC_ASSERT(is_latin(problem, X));
+  for (const double x : X.reshaped())
+    RC_ASSERT(std::abs(x * runs - std::floor(x * runs) - 0.5) < 1e-15 * (2 + runs));
 }
 
 RC_GTEST_PROP(LatinHypercube, CornersComeFirstAndTheRestIsLatin, ()) {
@@ -112,6 +130,7 @@ RC_GTEST_PROP(Designs, TheFirstRunsOfALongerSequenceAreTheShorterOne, ()) {
   const int runs = *rc::gen::inRange(1, 100), more = *rc::gen::inRange(0, 100);
   RC_ASSERT(uniform_random(problem, runs + more).topRows(runs) == uniform_random(problem, runs));
   RC_ASSERT(scrambled_sobol(problem, runs + more).topRows(runs) == scrambled_sobol(problem, runs));
+  RC_ASSERT(halton(problem, runs + more, 5).topRows(runs) == halton(problem, runs, 5));
 }
 
 RC_GTEST_PROP(FullFactorial, EveryCombinationOnceInLexicographicOrder, ()) {
@@ -158,6 +177,20 @@ TEST(FullFactorial, WrongLevelsAreRefused) {
             "doe::full_factorial: variable \"x1\" has 0 levels; allowed is 1 or more; 2 gives the bounds");
   EXPECT_EQ(text({1 << 16, 1 << 16}),
             "doe::full_factorial: more than 2^31 - 1 runs; use fewer levels or a space-filling design");
+}
+
+TEST(FullFactorial, ADiscreteVariableTakesItsValues) {
+  const Problem problem = support::mixed_problem();
+  const Eigen::MatrixXd X = full_factorial(problem, 2);
+  ASSERT_EQ(X.rows(), 2 * 2 * 2 * 3);
+  EXPECT_EQ(std::set<double>(X.col(2).begin(), X.col(2).end()), (std::set<double>{2, 6}));
+  EXPECT_EQ(std::set<double>(X.col(3).begin(), X.col(3).end()), (std::set<double>{0, 1, 2}));
+  EXPECT_EQ(full_factorial(problem, 9).rows(), 9 * 9 * 5 * 3);
+  EXPECT_EQ(support::thrown_text<std::invalid_argument>([&] {
+              full_factorial(problem, std::vector<int>{2, 2, 6, 3});
+            }),
+            "doe::full_factorial: variable \"teeth\" has 6 levels but takes only 5 values; ask for no more "
+            "levels than values");
 }
 
 TEST(FullFactorial, TheBoundsAreLevels) {

@@ -39,6 +39,45 @@ TEST(Problem, BoundsAreChecked) {
             std::string::npos);
 }
 
+TEST(Problem, KindsAreChecked) {
+  EXPECT_EQ(fault_after([](Problem& p) { p.variables[0] = integer_variable("teeth", "1", 2, 6); }), "");
+  EXPECT_EQ(fault_after([](Problem& p) { p.variables[0] = categorical_variable("tool", {"a", "b"}); }), "");
+  EXPECT_EQ(fault_after([](Problem& p) { p.variables[0].kind = VariableKind::integer; }), "");  // -25 to 5
+  EXPECT_EQ(
+      fault_after([](Problem& p) { p.variables[1].kind = VariableKind::integer; }),
+      "doe::Problem: variable \"lift, \"speed\"\": bound 0.001 m/s of an integer variable is not a whole "
+      "number of at most 1e9; round it");
+  EXPECT_EQ(
+      fault_after([](Problem& p) { p.variables[0] = categorical_variable("tool", {"a"}); }),
+      "doe::Problem: variable \"tool\": categorical with 1 levels; name at least 2 or make it a constant");
+  EXPECT_EQ(fault_after([](Problem& p) {
+              p.variables[0] = categorical_variable("tool", {"a", "a"});
+            }),
+            "doe::Problem: variable \"tool\": level \"a\" is empty or used twice; level names must differ");
+  EXPECT_EQ(
+      fault_after([](Problem& p) {
+        p.variables[0] = categorical_variable("tool", {"a", "b", "c"});
+        p.variables[0].upper = 3.0;
+      }),
+      "doe::Problem: variable \"tool\": bounds 0 and 3 of a categorical variable of 3 levels; they must be 0 "
+      "and 2");
+  EXPECT_EQ(
+      fault_after([](Problem& p) {
+        p.variables[0].levels = {"a", "b"};
+      }),
+      "doe::Problem: variable \"lip_angle\": it has levels but is real; make it categorical or remove the "
+      "levels");
+}
+
+// Four fields are enough for a real variable, as in every study that was written before the kinds.
+TEST(Problem, AVariableIsRealUnlessItSaysOtherwise) {
+  const Problem problem{
+      .variables = {{"alpha", "1", 0.2, 2.0}, {.name = "b", .unit = "m", .lower = 0, .upper = 1}},
+      .responses = {{"f", "1"}}};
+  EXPECT_NO_THROW(check(problem));
+  for (const Variable& v : problem.variables) EXPECT_EQ(v.kind, VariableKind::real);
+}
+
 TEST(Problem, NamesAreChecked) {
   EXPECT_EQ(fault_after([](Problem& p) { p.variables.clear(); }),
             "doe::Problem: no variables; name at least one");
