@@ -100,8 +100,21 @@ TEST_F(SessionTest, AMissingStudySaysSo) {
 }
 
 TEST(Problems, SurviveTheStoreAsText) {
-  const doe::Problem problem = test::two_by_two();
-  EXPECT_EQ(difference(problem_from_json(nlohmann::json::parse(to_json(problem).dump())), problem), "");
+  doe::Problem problem = test::two_by_two();
+  const doe::Problem real = problem;
+  for (const bool discrete : {false, true}) {
+    if (discrete)
+      problem.variables = {doe::integer_variable("teeth", "1", 2, 6),
+                           doe::categorical_variable("tool", {"a", "b"})};
+    EXPECT_EQ(difference(problem_from_json(nlohmann::json::parse(to_json(problem).dump())), problem), "");
+  }
+  doe::Problem other = problem;
+  other.variables[1].levels[1] = "c";
+  EXPECT_EQ(difference(problem, other), "variable \"tool\": levels [\"a\",\"b\"] there, [\"a\",\"c\"] here");
+  other = real;
+  other.variables[0].kind = doe::VariableKind::integer;
+  EXPECT_EQ(difference(real, other),
+            "variable \"" + other.variables[0].name + "\": kind real there, integer here");
 }
 
 TEST(Folders, ARegularFileInTheWayIsNamed) {
