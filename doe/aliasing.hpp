@@ -43,6 +43,13 @@ struct Word {
   friend Word operator*(Word a, Word b) { return {a.factors ^ b.factors, a.negative != b.negative}; }
   friend bool operator==(Word a, Word b) { return a.factors == b.factors && a.negative == b.negative; }
   int length() const { return std::popcount(factors); }
+
+  /// A in the highest bit: among words of one length the larger comes first in the alphabet.
+  std::uint32_t mirrored() const {
+    std::uint32_t bits = 0;
+    for (std::uint32_t j = 0; j < 32; ++j) bits |= (factors >> j & 1U) << (31 - j);
+    return bits;
+  }
 };
 
 inline std::string word_text(Word word) {
@@ -96,8 +103,7 @@ inline std::vector<Word> defining_relation(const std::vector<Word>& generated, s
   }
   group.erase(group.begin());
   std::sort(group.begin(), group.end(), [](Word a, Word b) {
-    return std::pair(a.length(), std::countr_zero(a.factors) * 0x1p32 + a.factors) <
-           std::pair(b.length(), std::countr_zero(b.factors) * 0x1p32 + b.factors);
+    return a.length() != b.length() ? a.length() < b.length() : a.mirrored() > b.mirrored();
   });
   return group;
 }

@@ -90,6 +90,12 @@ inline void spread(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
   }
 }
 
+/// As many moves as rows, fewer where they would cost more than some 2e9 operations.
+inline int spread_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
+  const double rows = static_cast<double>(U.rows()), elements = rows * static_cast<double>(U.cols());
+  return static_cast<int>(std::min(rows, 2e9 / (elements * static_cast<double>(C.rows() + U.rows()))));
+}
+
 }  // namespace detail
 
 /// The first `runs` allowed points of a sequence. Throws std::invalid_argument when runs < 1 or an option is
@@ -120,7 +126,7 @@ ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& al
   const auto chosen = detail::farthest_points(C, Eigen::MatrixXd(0, C.cols()), runs);
   Eigen::MatrixXd U = C(chosen, Eigen::all);
   const bool complete = U.rows() == runs;
-  if (complete) detail::spread(U, C, runs);
+  if (complete) detail::spread(U, C, detail::spread_budget(U, C));
   ConstrainedDesign design{detail::to_natural(std::move(U), problem), RegionStatus::complete, "", found.share,
                            0};
   return complete ? design : detail::too_small(std::move(design), runs);

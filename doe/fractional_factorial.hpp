@@ -5,14 +5,14 @@
 /// Fractional factorial: 2^k of the 2^d combinations of the bounds, chosen by generators (aliasing.hpp).
 ///
 /// Run i has the bits of i as levels of the first k variables (the last of them fastest); the others are the
-/// signed products that their generators name. `fractional_generators` finds generators of minimum
-/// aberration: by trying all sets when there are fewer than 300 000, else one generator after another, each
-/// the best so far (then the resolution is not proved to be the highest). Cost O(n d) once the generators are
-/// known.
+/// signed products that their generators name. `fractional_generators` finds generators of minimum aberration
+/// by trying all sets where that takes fewer than 2e7 words, else one generator after another, each the best
+/// so far (then a higher resolution may exist). Cost O(n d) once the generators are known.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -39,7 +39,7 @@ class AberrationSearch {
   }
 
   std::vector<std::uint32_t> best() {
-    if (choices() < 300'000.0) {
+    if (choices() * std::ldexp(1.0, generated_) < 2e7) {
       extend(0, {0}, {});
       return best_;
     }

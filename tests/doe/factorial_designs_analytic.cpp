@@ -29,6 +29,8 @@ TEST(Aliasing, OfAHalfFractionOfFourVariables) {
             (std::vector<std::string>{"AB = CD", "AC = BD", "AD = BC", "BC = AD", "BD = AC", "CD = AB"}));
   EXPECT_EQ(aliasing(3, {"C=-AB"}).aliases,
             (std::vector<std::string>{"A = -BC", "B = -AC", "C = -AB", "AB = -C", "AC = -B", "BC = -A"}));
+  EXPECT_EQ(aliasing(6, {"E=ABC", "F=BCD"}).defining_words,
+            (std::vector<std::string>{"ABCE", "ADEF", "BCDF"}));
   EXPECT_EQ(aliasing(3, {}).resolution, 0);
 }
 
