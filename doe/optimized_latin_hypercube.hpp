@@ -42,7 +42,8 @@ inline constexpr int automatic_sweeps = -1;
 struct OptimizedLatinOptions {
   LatinCriterion criterion = LatinCriterion::maximin;
   int p = 10;  ///< exponent of phi_p, even, 2 to 100; large p sees only the closest pairs
-  /// Budget, 0 or more; automatic: 2e8/(n d)², 2 to 2000: half a second or so up to n d = 10 000.
+  /// Budget, 0 or more; automatic: 2e8/(n d)² up to 2000, but 10 up to n d = 14 000, then fewer, never below
+  /// 2: below a second up to n d = 5000, a few seconds up to 20 000.
   int sweeps = automatic_sweeps;
   LatinStart start = LatinStart::best;
   bool corners = false;  ///< the 2^d corners come first and count in `runs`
@@ -64,7 +65,8 @@ inline void check_search(const std::string& place, int p, int sweeps) {
 inline int sweep_budget(int sweeps, Eigen::Index n, Eigen::Index d) {
   if (sweeps != automatic_sweeps) return sweeps;
   const double elements = static_cast<double>(n) * static_cast<double>(d);
-  return static_cast<int>(std::clamp(2e8 / (elements * elements), 2.0, 2000.0));
+  const double least = std::clamp(2e9 / (elements * elements), 2.0, 10.0);
+  return static_cast<int>(std::clamp(2e8 / (elements * elements), least, 2000.0));
 }
 
 /// A design being searched: movable rows of the unit box, and fixed rows that only count.
