@@ -85,6 +85,7 @@ class ContactFinder::Impl {
     require(id);
     boxes_.remove(id);
     items_.remove(id);
+    pairs_.remove(id);
   }
 
   const Collider& collider(int id) const {
@@ -173,7 +174,7 @@ class ContactFinder::Impl {
         boxes_.set_plane(id, fat_plane(id));
     }
     boxes_.set_pending(state.pending);
-    pairs_.assign(state.entries, state.pairs);
+    pairs_.assign(state.entries, state.parked, state.pairs);
   }
 
   const FinderTimes& times() const { return times_; }
@@ -226,7 +227,10 @@ class ContactFinder::Impl {
     restless_.clear();
     const auto changes = boxes_.update(parallel_);
     times_.fcl_calls = changes.look_ups;
-    if (changes.any) pairs_.update(boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); });
+    if (changes.any)
+      pairs_.update(
+          boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); },
+          [this](int a, int b) { return items_.both_stand(a, b); });
     times_.pairs = static_cast<int>(pairs_.entries().size());
   }
 

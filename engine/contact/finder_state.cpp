@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t mark = 0x3230444e46435044;  // "DPCFND02"
+constexpr std::uint64_t mark = 0x3330444e46435044;  // "DPCFND03"
 constexpr double off_orthonormal = 1e-6;            // as set_pose() allows
 constexpr double round_off = 1e-6;                  // [m] of recomputed points
 
@@ -217,6 +217,18 @@ PairEntry read_pair(const Items& items, Reader& in, PairState& state) {
   return entry;
 }
 
+// Appends their states.
+std::vector<PairEntry> read_pairs(const Items& items, Reader& in, std::vector<PairState>& states) {
+  std::vector<PairEntry> entries;
+  for (std::size_t left = in.count("the number of pairs", least_pair_size); left > 0; --left) {
+    const PairEntry entry = read_pair(items, in, states.emplace_back());
+    if (!entries.empty() && std::pair(entries.back().a, entries.back().b) >= std::pair(entry.a, entry.b))
+      refuse(in.place("a pair") + " is out of order");
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
 }  // namespace
 
 void save_state(const FinderParts& parts, std::vector<std::byte>& bytes) {
@@ -239,6 +251,8 @@ void save_state(const FinderParts& parts, std::vector<std::byte>& bytes) {
   out.count(pairs);
   for (const PairEntry& entry : parts.pairs.entries())
     if (alive(entry)) save_pair(entry, parts.pairs.state(entry), out);
+  out.count(parts.pairs.parked().size());
+  for (const auto& [pair, entry] : parts.pairs.parked()) save_pair(entry, parts.pairs.state(entry), out);
   out.raw(checksum(std::span(bytes).subspan(start)));
 }
 
@@ -266,14 +280,8 @@ FinderState read_state(const FinderParts& parts, std::span<const std::byte> byte
   }
   for (std::size_t k = in.count("the number of boxes to look up", 4); k > 0; --k)
     state.pending.push_back(in.number("a box to look up", 0, size - 1));
-  const std::size_t pairs = in.count("the number of pairs", least_pair_size);
-  state.pairs.resize(pairs);
-  for (std::size_t k = 0; k < pairs; ++k) {
-    state.entries.push_back(read_pair(parts.items, in, state.pairs[k]));
-    if (k > 0 && std::pair(state.entries[k - 1].a, state.entries[k - 1].b) >=
-                     std::pair(state.entries[k].a, state.entries[k].b))
-      refuse(in.place("a pair") + " is out of order");
-  }
+  for (std::vector<PairEntry>* entries : {&state.entries, &state.parked})
+    *entries = read_pairs(parts.items, in, state.pairs);
   if (!in.at_end()) refuse(in.place("the end") + " is followed by more");
   return state;
 }

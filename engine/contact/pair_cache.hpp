@@ -6,12 +6,17 @@
 #include <drawpoint/engine/contact/broad_phase.hpp>
 #include <drawpoint/engine/contact/convex_contact.hpp>
 #include <limits>
+#include <map>
 #include <vector>
 
 /// The pairs that may touch, in order, each with what is remembered of it. A short entry says until when
 /// nothing has to be asked and whether there is a contact; only pairs that touch or have moved look at their
 /// state: the contact, and where the shapes stood against each other when it was computed. Memory is reused,
 /// not returned.
+///
+/// Pairs of two colliders that have stopped moving are parked: no step touches them, and they come back as
+/// they were once one of the two moves. A contact computed anew has other points and gaps, within the
+/// tolerance of its reuse, and a pile that stands on the old ones would be kicked.
 namespace drawpoint::engine::contact::detail {
 
 struct PairState {
@@ -33,6 +38,8 @@ struct PairEntry {
 
 class PairCache {
  public:
+  using Parked = std::map<BroadPhase::Pair, PairEntry>;
+
   std::vector<PairEntry>& entries() { return entries_; }
   const std::vector<PairEntry>& entries() const { return entries_; }
   PairState& state(const PairEntry& entry) { return states_[static_cast<std::size_t>(entry.slot)]; }
@@ -40,15 +47,18 @@ class PairCache {
     return states_[static_cast<std::size_t>(entry.slot)];
   }
 
-  /// Takes over the changes; `allowed(a, b)` says which pairs count.
-  template <class Allowed>
-  void update(const BroadPhase& boxes, const BroadPhase::Changes& changes, const Allowed& allowed) {
+  const Parked& parked() const { return parked_; }
+
+  /// Takes over the changes; `allowed(a, b)` says which pairs count, `stands(a, b)` which of the others are
+  /// parked.
+  template <class Allowed, class Stands>
+  void update(const BroadPhase& boxes, const BroadPhase::Changes& changes, const Allowed& allowed,
+              const Stands& stands) {
     merged_.clear();
     auto found = changes.pairs.begin();
     const auto add_until = [&](BroadPhase::Pair end) {
       for (; found != changes.pairs.end() && *found < end; ++found)
-        if (allowed(found->first, found->second))
-          merged_.push_back({found->first, found->second, new_slot()});
+        if (allowed(found->first, found->second)) merged_.push_back(entry_of(*found));
     };
     for (const PairEntry& entry : entries_) {
       add_until({entry.a, entry.b});
@@ -56,6 +66,8 @@ class PairCache {
       if (again) ++found;
       if (again || !(changes.everything || boxes.changed(entry.a) || boxes.changed(entry.b)))
         merged_.push_back(entry);
+      else if (stands(entry.a, entry.b))
+        parked_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry);
       else
         free_.push_back(entry.slot);
     }
@@ -65,19 +77,34 @@ class PairCache {
 
   void forget() {
     for (PairEntry& entry : entries_) forget(entry);
+    for (auto& [pair, entry] : parked_) forget(entry);
   }
   /// The pairs of one collider only.
   void forget(int id) {
     for (PairEntry& entry : entries_)
       if (entry.a == id || entry.b == id) forget(entry);
   }
+  /// Drops the parked pairs of a collider that is taken away.
+  void remove(int id) {
+    for (auto place = parked_.begin(); place != parked_.end();) {
+      const bool mine = place->first.first == id || place->first.second == id;
+      if (mine) free_.push_back(place->second.slot);
+      place = mine ? parked_.erase(place) : std::next(place);
+    }
+  }
 
-  /// Replaces all pairs by these; their slots are given anew.
-  void assign(const std::vector<PairEntry>& entries, const std::vector<PairState>& states) {
+  /// Replaces all pairs by these; states are those of the entries, then of the parked ones. Slots are given
+  /// anew.
+  void assign(const std::vector<PairEntry>& entries, const std::vector<PairEntry>& parked,
+              const std::vector<PairState>& states) {
     entries_ = entries;
     states_ = states;
     free_.clear();
-    for (std::size_t k = 0; k < entries_.size(); ++k) entries_[k].slot = static_cast<int>(k);
+    parked_.clear();
+    int slot = 0;
+    for (PairEntry& entry : entries_) entry.slot = slot++;
+    for (const PairEntry& entry : parked)
+      parked_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry).first->second.slot = slot++;
   }
 
  private:
@@ -85,6 +112,14 @@ class PairCache {
     state(entry) = PairState{};
     entry.count = 0;
     entry.limit = PairEntry::at_once;
+  }
+
+  PairEntry entry_of(const BroadPhase::Pair& pair) {
+    const auto known = parked_.find(pair);
+    if (known == parked_.end()) return {pair.first, pair.second, new_slot()};
+    const PairEntry entry = known->second;
+    parked_.erase(known);
+    return entry;
   }
 
   int new_slot() {
@@ -99,6 +134,7 @@ class PairCache {
   }
 
   std::vector<PairEntry> entries_, merged_;
+  Parked parked_;
   std::vector<PairState> states_;
   std::vector<int> free_;
 };
