@@ -103,15 +103,18 @@ void Freezing::list_awake() {
     if (present_[k] && !state_.rocks[k].frozen) awake_.push_back(static_cast<int>(k));
 }
 
-std::vector<int> Freezing::near_machine(const std::vector<Manifold>& manifolds) const {
-  std::vector<int> near;
-  if (awake_.size() == bodies_.size()) return near;
+std::vector<int> Freezing::near_machine(const std::vector<Manifold>& manifolds) {
+  std::vector<int> found;
+  near_.clear();
   for (const Manifold& m : manifolds) {
     if (m.body_a >= 0 && m.body_b >= 0) continue;
     const int rock = rock_of(m.body_a < 0 ? m.collider_b : m.collider_a);
-    if (rock != no_rock && frozen(rock)) near.push_back(rock);
+    if (rock == no_rock) continue;
+    near_.push_back(rock);
+    if (frozen(rock)) found.push_back(rock);
   }
-  return spread_from(std::move(near), options_.spread);
+  std::sort(near_.begin(), near_.end());
+  return spread_from(std::move(found), options_.spread);
 }
 
 Freezing::Load& Freezing::load_of(int rock) {
@@ -251,27 +254,49 @@ std::vector<WarmStart::Entry> Freezing::thaw(const std::vector<int>& rocks) {
   return revived;
 }
 
+double Freezing::speed(int rock, const Rock& body) const {
+  return body.velocity.norm() + bodies_[static_cast<std::size_t>(rock)].arm * body.angular_velocity.norm();
+}
+
 // Counts the steps for which a rock has stayed where it was.
-bool Freezing::calm(int rock, const Rock& body) {
+void Freezing::watch(int rock, const Rock& body) {
   FreezingState::Stand& stand = state_.rocks[static_cast<std::size_t>(rock)];
   const double arm = bodies_[static_cast<std::size_t>(rock)].arm;
   const double moved = (body.pose.translation() - stand.anchor.translation()).norm() +
                        arm * (body.pose.linear() - stand.anchor.linear()).norm() / std::numbers::sqrt2;
-  if (!(moved <= options_.distance)) {
+  if (moved <= options_.distance) {
+    stand.calm = std::min(stand.calm + 1, hold_steps_);
+  } else {
     stand.anchor = body.pose;
     stand.calm = 0;
-    return false;
   }
-  stand.calm = std::min(stand.calm + 1, hold_steps_);
-  return stand.calm == hold_steps_ && body.velocity.norm() + arm * body.angular_velocity.norm() <= slow_;
+}
+
+std::vector<int> Freezing::nudged(const std::vector<Rock>& rocks, const ContactProblem& problem) const {
+  std::vector<int> found;
+  const auto moves = [&](int rock) {
+    return rock != no_rock && !frozen(rock) &&
+           speed(rock, rocks[static_cast<std::size_t>(rock)]) > options_.nudge;
+  };
+  for (const ContactPair& pair : problem.pairs) {
+    const int a = rock_of(pair.collider_a), b = rock_of(pair.collider_b);
+    if (a == no_rock || b == no_rock || frozen(a) == frozen(b)) continue;
+    if (moves(a)) found.push_back(b);
+    if (moves(b)) found.push_back(a);
+  }
+  return spread_from(std::move(found), options_.spread - 1);
 }
 
 std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactProblem& problem) {
   std::vector<int> frozen_now;
   for (const int rock : awake_) {
-    if (!calm(rock, rocks[static_cast<std::size_t>(rock)])) continue;
+    const Rock& body = rocks[static_cast<std::size_t>(rock)];
+    watch(rock, body);
+    if (state_.rocks[static_cast<std::size_t>(rock)].calm < hold_steps_ || speed(rock, body) > slow_)
+      continue;
     const Load& load = loads_[static_cast<std::size_t>(rock)];
-    if (load.carried > 0 && !load.machine && unbalance(rock) <= 0.5 * options_.tolerance)
+    if (load.carried > 0 && !std::binary_search(near_.begin(), near_.end(), rock) &&
+        unbalance(rock) <= 0.5 * options_.tolerance)
       frozen_now.push_back(rock);
   }
   veto(frozen_now, problem);
@@ -282,21 +307,23 @@ std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactP
   return frozen_now;
 }
 
-// Leaves out rocks that touch a frozen one in the middle of a tick, which would be held with it.
+// Leaves out rocks that touch one in motion, or a frozen one in the middle of a tick, which would be held
+// with it.
 void Freezing::veto(std::vector<int>& candidates, const ContactProblem& problem) const {
   if (candidates.empty()) return;
-  std::vector<int> ticking;
+  std::vector<int> kept;
   const auto restless = [&](int rock) {
-    return rock != no_rock && frozen(rock) && unbalance(rock) > 0.5 * options_.tolerance;
+    if (rock == no_rock) return false;
+    if (frozen(rock)) return unbalance(rock) > options_.tolerance;
+    return 2 * state_.rocks[static_cast<std::size_t>(rock)].calm < hold_steps_;
   };
   for (const ContactPair& pair : problem.pairs) {
     const int a = rock_of(pair.collider_a), b = rock_of(pair.collider_b);
-    if (restless(a)) ticking.push_back(b);
-    if (restless(b)) ticking.push_back(a);
+    if (restless(a)) kept.push_back(b);
+    if (restless(b)) kept.push_back(a);
   }
-  std::sort(ticking.begin(), ticking.end());
-  std::erase_if(candidates,
-                [&](int rock) { return std::binary_search(ticking.begin(), ticking.end(), rock); });
+  std::sort(kept.begin(), kept.end());
+  std::erase_if(candidates, [&](int rock) { return std::binary_search(kept.begin(), kept.end(), rock); });
 }
 
 // Holds the contacts of the step whose sides both stand now.

@@ -38,12 +38,13 @@ struct Rock;
 
 struct FreezingOptions {
   bool on = false;
-  double hold = 0.25;      ///< stood still for this long [s] > 0; a throw's top lasts 0.02 s
+  double hold = 0.5;       ///< stood still for this long [s] > 0; a throw's top lasts 0.02 s
   double distance = 5e-4;  ///< [m] > 0; moved less in that time, turns counted at the radius of gyration
   double tolerance = 0.1;  ///< of the balance, relative to the load carried; above 0, at most 1
   double average = 0.05;   ///< time over which loads are averaged [s], above 0
-  double impact = 0.5;     ///< unbalance in a single step that is solved again, at least tolerance [1]
-  int spread = 1;          ///< contacts from an overloaded rock over which others thaw with it, 0 to 100
+  double impact = 0.75;    ///< unbalance in a single step that is solved again, at least tolerance [1]
+  double nudge = 0.02;     ///< speed of a rock that thaws those it touches [m/s]
+  int spread = 2;          ///< contacts from an overloaded rock over which others thaw with it, 0 to 100
 };
 
 /// A contact between two bodies that stand still, with the impulses of the last step that solved it.
@@ -79,7 +80,7 @@ class Freezing {
   std::vector<int> remove(int rock);
 
   /// Frozen rocks that a machine part is near enough to touch, and their neighbours.
-  std::vector<int> near_machine(const std::vector<Manifold>& manifolds) const;
+  std::vector<int> near_machine(const std::vector<Manifold>& manifolds);
 
   /// Takes the impulses of a solved step, which may be solved again.
   void weigh(const ContactProblem& problem);
@@ -89,6 +90,8 @@ class Freezing {
   /// Takes the step that was weighed last into the means. Returns the frozen rocks that have left their
   /// balance, and their neighbours over `spread` contacts.
   std::vector<int> unbalanced();
+  /// Frozen rocks that touch one in motion, or are about to.
+  std::vector<int> nudged(const std::vector<Rock>& rocks, const ContactProblem& problem) const;
   /// u of a rock in the step that was weighed last [1]; 0 for a frozen rock without solved contacts.
   double unbalance(int rock) const;
 
@@ -124,7 +127,8 @@ class Freezing {
   void drop(const std::pair<int, int>& pair);
   void sum_held(int rock);
   std::vector<int> spread_from(std::vector<int> rocks, int reach) const;
-  bool calm(int rock, const Rock& body);
+  double speed(int rock, const Rock& body) const;
+  void watch(int rock, const Rock& body);
   double relative(int rock, const Eigen::Vector3d& P, const Eigen::Vector3d& L) const;
   void veto(std::vector<int>& candidates, const ContactProblem& problem) const;
   void list_awake();
@@ -140,6 +144,7 @@ class Freezing {
   std::vector<bool> present_;
   std::vector<int> awake_;
   std::vector<Load> loads_;
+  std::vector<int> near_;     // rocks within reach of a machine part in this step, ascending
   std::vector<int> weighed_;  // rocks with solved contacts, in no order that matters
 };
 

@@ -291,6 +291,7 @@ bool World::thaw_struck(int round) {
 void World::settle_frozen() {
   if (!options_.freezing.on) return;
   thaw(freezing_.unbalanced());
+  thaw(freezing_.nudged(rocks_, problem_));
   for (const int rock : freezing_.freeze(rocks_, problem_)) {
     finder_.set_moves(rocks_[rock].collider, false);
     rocks_[rock].velocity.setZero();
