@@ -49,6 +49,7 @@ Freezing::Freezing(const FreezingOptions& options, double step, const Vector3d& 
   require(options.average > 0 && options.average < 1e6, "average [s]", options.average, "above 0 s");
   require(options.impact >= options.tolerance && options.impact < 1e9, "impact", options.impact,
           "at least the tolerance");
+  require(options.nudge > 0 && options.nudge < 1e6, "nudge [m/s]", options.nudge, "above 0 m/s");
   require(options.spread >= 0 && options.spread <= 100, "spread", options.spread, "0 to 100 contacts");
 }
 

@@ -272,7 +272,7 @@ void World::thaw_all() {
 }
 
 void World::thaw_near_machine(StepReport& report) {
-  if (!machine_ || !options_.freezing.on) return;
+  if (!options_.freezing.on) return;
   const std::vector<int> near = freezing_.near_machine(*manifolds_);
   if (near.empty()) return;
   thaw(near);

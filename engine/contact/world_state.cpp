@@ -5,7 +5,7 @@
 namespace drawpoint::engine::contact {
 namespace {
 
-constexpr std::uint64_t state_mark = 0x316574617473'7044;  // "Dpstate1": the version is the last digit
+constexpr std::uint64_t state_mark = 0x326574617473'7044;  // "Dpstate2": the version is the last digit
 
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);
@@ -14,8 +14,9 @@ void add(StateHash& hash, const WorldOptions& o) {
     hash.add(static_cast<std::uint64_t>(x));
   hash.add(o.solver.tolerance);
   hash.add(o.warm_start);
-  for (double x : {o.freezing.on ? 1.0 : 0.0, o.freezing.hold, o.freezing.distance, o.freezing.tolerance,
-                   o.freezing.average, o.freezing.impact, static_cast<double>(o.freezing.spread)})
+  for (double x :
+       {o.freezing.on ? 1.0 : 0.0, o.freezing.hold, o.freezing.distance, o.freezing.tolerance,
+        o.freezing.average, o.freezing.impact, o.freezing.nudge, static_cast<double>(o.freezing.spread)})
     hash.add(x);
   for (double x : {o.contacts.margin, o.contacts.slack, o.contacts.reuse_distance, o.contacts.reuse_angle,
                    o.contacts.hysteresis})

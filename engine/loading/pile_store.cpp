@@ -59,6 +59,7 @@ std::string pile_recipe(const Scenario& s) {
     add_number(recipe, "freeze_tolerance", f.tolerance);
     add_number(recipe, "freeze_average", f.average);
     add_number(recipe, "freeze_impact", f.impact);
+    add_number(recipe, "freeze_nudge", f.nudge);
     add_number(recipe, "freeze_spread", f.spread);
   }
   return recipe;

@@ -253,6 +253,7 @@ TEST(Freezing, RefusesOptionsOutOfRange) {
   EXPECT_NE(refusal({.distance = 0}), "");
   EXPECT_NE(refusal({.average = 0}), "");
   EXPECT_NE(refusal({.impact = 0.01}), "");
+  EXPECT_EQ(refusal({.nudge = 0}), "contact::Freezing: nudge [m/s] is 0.000000; allowed: above 0 m/s");
   EXPECT_NE(refusal({.spread = -1}), "");
 }
 
