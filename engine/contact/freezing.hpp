@@ -15,23 +15,26 @@
 /// With the impulses that a step puts on a rock, P = m h g + Σ f and L = Σ M about its centre (contacts that
 /// are solved and contacts that are held alike), its carried load c = max(m h |g|, ½ Σ |f|) and its radius of
 /// gyration k, the unbalance is u = max(|P|, |L| / k) / c.
-///   A rock freezes when it has stayed within `distance` for `hold`, carries load, touches no machine part,
-///     is slower than distance / hold, and u ≤ tolerance / 2 for it and for the frozen rocks that it touches.
+///   A rock freezes when it has stayed within `distance` for `hold`, carries load, is out of reach of machine
+///     parts, is slower than distance / hold, and u ≤ tolerance / 2; and when all that it touches have stayed
+///     for hold / 2 or are frozen with u ≤ tolerance. So a layer of calm rocks lies between the frozen ones
+///     and what moves.
 ///   While frozen it is part of the fixed world. Contacts between two bodies that stand still are not looked
-///     for and not solved; their last impulses are held.
-///   It thaws when P and L, as exponential means over `average`, leave the balance: u > tolerance. Resting
-///     contacts tick as they change features, and a tick is no load. All that a frozen rock may take from a
-///     neighbour unnoticed is a momentum of c (tolerance average / h): for a free rock 0.05 m/s by default.
+///     for and not solved; their last impulses are held and their manifolds kept (pair_cache.hpp).
+///   It thaws when a rock faster than `nudge` touches it or is about to; and when P and L, as exponential
+///     means over `average`, leave the balance: u > tolerance. Resting contacts tick as they change features,
+///     and a tick is no load. All that a frozen rock may take from a neighbour unnoticed is a momentum of
+///     c (tolerance average / h): for a free rock 0.05 m/s by default.
 ///   A step that leaves a frozen rock with u > impact is solved again with that rock and its neighbours up to
 ///     `spread` contacts away thawed, twice as far in every further round.
-///   Rocks within reach of a machine part thaw before they are touched, with their neighbours. A rock that
-///     is taken away thaws those it bore.
+///   Rocks within reach of a machine part thaw before they are touched, with their neighbours, and do not
+///     freeze there. A rock that is taken away thaws those it bore.
 /// So the held impulses are a static solution of the pile, inside its friction cones, with every rock in
 /// balance within `tolerance` of the load that it carries. A thawed rock starts at rest from the impulses
 /// that were held. Freezing takes a rock's kinetic energy away: at most ½ m (distance / hold)².
 ///
 /// Pure function of the calls: same bits for any number of threads. Cost: 50 ns an awake rock and 10 ns a
-/// solved point a step; some µs a change; nothing for a frozen rock.
+/// solved point a step; some µs a change; nothing for a frozen rock. A step that is solved again costs twice.
 namespace drawpoint::engine::contact {
 
 struct Rock;
@@ -79,7 +82,8 @@ class Freezing {
   /// Forgets a rock that is taken away. Returns the frozen rocks that it bore or that bore it.
   std::vector<int> remove(int rock);
 
-  /// Frozen rocks that a machine part is near enough to touch, and their neighbours.
+  /// Frozen rocks that a machine part is near enough to touch, and their neighbours; remembers all such rocks
+  /// for this step's freeze().
   std::vector<int> near_machine(const std::vector<Manifold>& manifolds);
 
   /// Takes the impulses of a solved step, which may be solved again.
@@ -90,7 +94,7 @@ class Freezing {
   /// Takes the step that was weighed last into the means. Returns the frozen rocks that have left their
   /// balance, and their neighbours over `spread` contacts.
   std::vector<int> unbalanced();
-  /// Frozen rocks that touch one in motion, or are about to.
+  /// Frozen rocks that touch one faster than `nudge`, or are about to, and their neighbours.
   std::vector<int> nudged(const std::vector<Rock>& rocks, const ContactProblem& problem) const;
   /// u of a rock in the step that was weighed last [1]; 0 for a frozen rock without solved contacts.
   double unbalance(int rock) const;
@@ -110,7 +114,7 @@ class Freezing {
   struct Load {
     Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
     double carried = 0;
-    bool machine = false, solved = false;
+    bool solved = false;
   };
   struct Body {
     int collider = -1;
