@@ -95,7 +95,7 @@ int study_blade(const Settings& s) {
   Progress progress;
   engine::contact::WorldOptions off, on;
   on.freezing.on = true;
-  Paired drag, moved, ms;
+  Paired drag, moved;
   for (int seed = 1; seed <= s.seeds; ++seed) {
     const SettledState settled = settled_pile(s.rocks, static_cast<std::uint64_t>(seed), off, progress);
     const auto add = [&](std::vector<double> Paired::*which, const AccuracySample& sample) {
@@ -144,9 +144,9 @@ int study_cycle(const Settings& s) {
       scenario.pile_file = started;
       write_pile(started, start, scenario);  // one pile, whatever it was poured with
       double solve = 0;
-      const LoadingLog log =
-          simulate(scenario,
-                   {[&](const auto& r) { solve += 1e3 * (r.broad_s + r.narrow_s + r.solver_s + r.rest_s); }});
+      SimulationHooks hooks;
+      hooks.on_step = [&](const auto& r) { solve += 1e3 * (r.broad_s + r.narrow_s + r.solver_s + r.rest_s); };
+      const LoadingLog log = simulate(scenario, hooks);
       if (!log.completed) throw std::runtime_error("seed " + std::to_string(seed) + ": " + log.message);
       (force.*which).push_back(mean_bucket_force(log));
       (mass.*which).push_back(log.cycles.front().loaded_mass);
