@@ -62,7 +62,7 @@ TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
     EXPECT_NE(hash(flags), once) << flags;
 }
 
-// After 1.5 s a thin layer of rocks has stood still for longer than the 0.25 s that freezing asks for.
+// After 1.5 s a thin layer of rocks has stood still for longer than the 0.5 s that freezing asks for.
 TEST_F(ScenarioCommands, PileFreezesWhenTold) {
   const std::string settled = pile + " --rocks 40 --settle 150 --steps 20 --dig 5 --json";
   EXPECT_LT(run(settled + " --freeze on").json().at("awake").get<int>(), 40);
