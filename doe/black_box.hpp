@@ -2,18 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// A black box is anything callable: f(x), f(x, seed) or f(X, seeds).
+/// A black box is anything callable: f(x), f(x, seed), f(x, seed, stop) or f(X, seeds).
 ///
 /// x has one number a variable, X is n x d with one run a row, both in natural units. Equal (x, seed) must
 /// give equal outcomes, and a black box may be called from several threads at once: so the call must be
 /// const. Where a type offers several forms, the batch form is used, for it is the one that can be faster
 /// than its rows one by one. The calls below turn what goes wrong (an exception, a wrong count, a value that
-/// is not finite) into a Failure.
+/// is not finite) into a Failure. `stop` is a std::stop_token: a long run that looks at it now and then can
+/// end early when its time is up or the study is cancelled; what it returns then does not count.
 
 #include <Eigen/Core>
 #include <concepts>
 #include <exception>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <variant>
@@ -35,12 +37,17 @@ concept SeededFunction = requires(const F& f, const Eigen::VectorXd& x, Seed see
 };
 
 template <class F>
+concept StoppableFunction = requires(const F& f, const Eigen::VectorXd& x, Seed seed, std::stop_token stop) {
+  { f(x, seed, stop) } -> std::convertible_to<Outcome>;
+};
+
+template <class F>
 concept BatchFunction = requires(const F& f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) {
   { f(X, seeds) } -> std::convertible_to<std::vector<Outcome>>;
 };
 
 template <class F>
-concept BlackBox = PointFunction<F> || SeededFunction<F> || BatchFunction<F>;
+concept BlackBox = PointFunction<F> || SeededFunction<F> || StoppableFunction<F> || BatchFunction<F>;
 
 namespace detail {
 
@@ -50,6 +57,7 @@ concept TakesThePoint = requires(const F& f, const Eigen::VectorXd& x, const Eig
   f(x);
 }
 || requires(const F& f, const Eigen::VectorXd& x, Seed seed) { f(x, seed); }
+|| requires(const F& f, const Eigen::VectorXd& x, Seed seed, std::stop_token stop) { f(x, seed, stop); }
 || requires(const F& f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) { f(X, seeds); };
 
 template <class F>
@@ -58,6 +66,7 @@ concept CallableOnlyWhenMutable =
     (
         requires(F & f, const Eigen::VectorXd& x) { f(x); } ||
         requires(F & f, const Eigen::VectorXd& x, Seed seed) { f(x, seed); } ||
+        requires(F & f, const Eigen::VectorXd& x, Seed seed, std::stop_token stop) { f(x, seed, stop); } ||
         requires(F & f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) { f(X, seeds); });
 
 }  // namespace detail
@@ -71,11 +80,13 @@ constexpr void require_black_box() {
                 "'operator()(...) const', or remove 'mutable' from the lambda. Expected one of "
                 "Outcome f(const Eigen::VectorXd& x) const; "
                 "Outcome f(const Eigen::VectorXd& x, doe::Seed seed) const; "
+                "Outcome f(const Eigen::VectorXd& x, doe::Seed seed, std::stop_token stop) const; "
                 "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds) const.");
   static_assert(BlackBox<F> || !detail::TakesThePoint<F>,
                 "drawpoint: not a black box. It takes the point but returns the wrong type. Expected one of "
                 "Outcome f(const Eigen::VectorXd& x); "
                 "Outcome f(const Eigen::VectorXd& x, doe::Seed seed); "
+                "Outcome f(const Eigen::VectorXd& x, doe::Seed seed, std::stop_token stop); "
                 "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds); "
                 "where a double, an Eigen::VectorXd or a doe::Failure converts to Outcome.");
   static_assert(
@@ -83,6 +94,7 @@ constexpr void require_black_box() {
       "drawpoint: not a black box. It cannot be called with a point. Expected one of "
       "Outcome f(const Eigen::VectorXd& x); "
       "Outcome f(const Eigen::VectorXd& x, doe::Seed seed); "
+      "Outcome f(const Eigen::VectorXd& x, doe::Seed seed, std::stop_token stop); "
       "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds); "
       "where X has one run a row and Outcome may be a double, an Eigen::VectorXd or a doe::Failure.");
 }
@@ -128,13 +140,16 @@ std::variant<std::vector<Outcome>, Failure> call_rows(const F& f, const Eigen::M
   });
 }
 
-/// One run at x: never throws what the black box throws.
+/// One run at x: never throws what the black box throws. `stop` goes to a stoppable function.
 template <BlackBox F>
-Outcome call(const F& f, const Problem& problem, const Eigen::VectorXd& x, Seed seed) {
+Outcome call(const F& f, const Problem& problem, const Eigen::VectorXd& x, Seed seed,
+             const std::stop_token& stop = {}) {
   if constexpr (BatchFunction<F>) {
     auto rows = call_rows(f, x.transpose(), std::span<const Seed>(&seed, 1));
     if (auto* failure = std::get_if<Failure>(&rows)) return std::move(*failure);
     return checked(std::move(std::get<0>(rows).front()), problem);
+  } else if constexpr (StoppableFunction<F>) {
+    return checked(guarded<Outcome>([&]() -> Outcome { return f(x, seed, stop); }), problem);
   } else if constexpr (SeededFunction<F>) {
     return checked(guarded<Outcome>([&]() -> Outcome { return f(x, seed); }), problem);
   } else {

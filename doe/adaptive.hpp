@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Adaptive sampling: evaluate a first design, then add batches where a sampler says, until a criterion
+/// holds.
+///
+/// This is the loop  runs = evaluate(f, problem, X);  while (!stop(runs)) runs += evaluate(f, problem,
+/// propose(runs, sampler)),  with budget, journal and status. `stop` is asked before each batch and before
+/// the sampler, so that a model fitted and scored there can serve the sampler too. Batch after batch is a
+/// function of the runs so far and the options alone: with a journal (EvaluateOptions::journal) the same call
+/// after a crash repeats the proposals, finds the runs on disk and goes on, to the same bits.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <concepts>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <drawpoint/doe/criterion.hpp>
+#include <drawpoint/doe/evaluate.hpp>
+#include <drawpoint/doe/lola_voronoi.hpp>
+#include <drawpoint/doe/propose.hpp>
+
+namespace drawpoint::doe {
+
+struct RefineOptions {
+  int max_points = 500;  ///< design points in all, those of the first design included; 1 or more
+  /// Whether the runs so far are enough: a surrogate's error below its target, say. Empty: never.
+  std::function<bool(const Evaluations& runs)> stop = {};
+  ProposeOptions propose{.batch = 8};  ///< batch: as many as can run at once
+  EvaluateOptions evaluate = {};       ///< first_run is set by the loop
+};
+
+enum class RefineStatus {
+  criterion_met,  ///< stop said so
+  budget_spent,   ///< max_points reached
+  no_candidate,   ///< no point is left to propose
+  cancelled       ///< evaluate.stop was requested
+};
+
+struct Refinement {
+  Evaluations runs;
+  RefineStatus status = RefineStatus::budget_spent;
+  std::string message;  ///< for people
+  int batches = 0;      ///< after the first design
+};
+
+namespace detail {
+
+/// Evaluates X as the runs after those in `all` and appends them; false when it was cancelled.
+template <class F>
+bool extend(const F& f, Evaluations& all, const Eigen::MatrixXd& X, int& points, EvaluateOptions options) {
+  options.first_run = points;
+  Evaluations more = evaluate(f, all.problem, X, options);
+  const bool whole = static_cast<Eigen::Index>(more.rows.size()) == X.rows() * options.replicates;
+  for (Evaluation& row : more.rows) all.rows.push_back(std::move(row));
+  points += static_cast<int>(X.rows());
+  return whole;
+}
+
+template <class F, class S>
+Refinement refined(const F& f, const Problem& problem, const Eigen::MatrixXd& first, S& sampler,
+                   const RefineOptions& options) {
+  Refinement result{Evaluations{problem, {}}, RefineStatus::cancelled, {}, 0};
+  const auto end = [&](RefineStatus status, int points, const std::string& why) {
+    result.status = status;
+    result.message =
+        why + " after " + std::to_string(points) + " points, " + std::to_string(result.batches) + " batches";
+    return std::move(result);
+  };
+  int points = 0;
+  bool whole = extend(f, result.runs, first, points, options.evaluate);
+  while (whole) {
+    if (options.stop && options.stop(result.runs))
+      return end(RefineStatus::criterion_met, points, "the stopping criterion held");
+    if (points >= options.max_points)
+      return end(RefineStatus::budget_spent, points, "max_points was reached");
+    ProposeOptions next = options.propose;
+    next.batch = std::min(next.batch, options.max_points - points);
+    const Eigen::MatrixXd X = propose(result.runs, sampler, next);
+    if (X.rows() == 0) return end(RefineStatus::no_candidate, points, "no candidate was left");
+    whole = extend(f, result.runs, X, points, options.evaluate);
+    ++result.batches;
+  }
+  return end(RefineStatus::cancelled, points, "cancelled");
+}
+
+}  // namespace detail
+
+/// first: n x d, the first design, natural units. `sampler` is a sampler or a Mix (criterion.hpp). Throws as
+/// evaluate and propose do, and whatever stop throws.
+template <class F, class S>
+Refinement refine(const F& f, const Problem& problem, const Eigen::MatrixXd& first, S&& sampler,
+                  const RefineOptions& options = {}) {
+  using Given = std::remove_reference_t<S>;
+  require_black_box<F>();
+  if constexpr (!std::same_as<std::remove_const_t<Given>, Mix>) require_sampler<Given>();
+  if (options.max_points < 1)
+    throw std::invalid_argument("doe::refine: max_points is " + std::to_string(options.max_points) +
+                                "; allowed is 1 or more; give the budget with the first design in it");
+  if (first.rows() < 1)
+    throw std::invalid_argument(
+        "doe::refine: the first design has 0 runs; allowed is 1 or more; start from a Latin hypercube");
+  if constexpr (BlackBox<F> && (std::same_as<std::remove_const_t<Given>, Mix> || SamplerFunction<Given>))
+    return detail::refined(f, problem, first, sampler, options);
+  else
+    return {};  // so that the message above stands alone
+}
+
+}  // namespace drawpoint::doe
