@@ -33,8 +33,12 @@ namespace drawpoint::doe {
 using Criterion = std::function<Eigen::VectorXd(const Eigen::MatrixXd& X)>;
 using Sampler = std::function<Criterion(const Evaluations& runs)>;
 
+// Eigen's matrices can be called too, with indices: they are scores, not a criterion.
 template <class C>
-concept CriterionFunction = requires(C& c, const Eigen::MatrixXd& X) {
+concept CriterionFunction = !requires {
+  typename C::PlainObject;
+}
+&&requires(C& c, const Eigen::MatrixXd& X) {
   { c(X) } -> std::convertible_to<Eigen::VectorXd>;
 };
 

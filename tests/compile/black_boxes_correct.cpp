@@ -16,8 +16,8 @@ struct Table {
   }
 };
 
-// Every accepted form: functions, lambdas, objects and std::function, with and without a seed, one point or
-// many.
+// Every accepted form: functions, lambdas, objects and std::function, with and without a seed or a stop
+// token, one point or many.
 void accepted(const doe::Problem& problem, const Eigen::MatrixXd& X) {
   doe::evaluate(number, problem, X);
   doe::evaluate(&vector, problem, X);
@@ -26,6 +26,7 @@ void accepted(const doe::Problem& problem, const Eigen::MatrixXd& X) {
   doe::evaluate([](Eigen::VectorXd x) -> doe::Outcome { return doe::Failure{x.size() ? "stuck" : "empty"}; },
                 problem, X);
   doe::evaluate(Table{}, problem, X);
+  doe::evaluate([](const Eigen::VectorXd& x, doe::Seed, std::stop_token) { return x[0]; }, problem, X);
   pareto::nsga2(Table{}, problem);
   pareto::nsga2(std::function<doe::Outcome(const Eigen::VectorXd&, doe::Seed)>(), problem);
 }

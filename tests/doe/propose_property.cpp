@@ -86,20 +86,28 @@ TEST(Propose, PlacesThePointFarthestFromAllRuns) {
   EXPECT_EQ(by_tie, by_score);
 }
 
-TEST(Propose, PenaltyKeepsABatchApartAcrossCells) {
+// Each choice has the highest (score − lowest) Π min(1, |x − c|²/r_c²) of all candidates, worked out anew.
+TEST(Propose, PenaltyIsItsFormula) {
   const Evaluations runs = some_runs(3);
-  const Eigen::MatrixXd X =
-      propose(runs, peaked, {.batch = 6, .candidates = 4000, .spread = Spread::penalty});
+  const ProposeOptions options{.batch = 6, .candidates = 2000, .spread = Spread::penalty};
+  const Eigen::MatrixXd X = propose(runs, peaked, options);
   ASSERT_EQ(X.rows(), 6);
+  std::uint64_t counter = 0;
+  const Eigen::MatrixXd drawn =
+      detail::allowed_points(runs.problem, {}, run_seed(options.seed, 3, 1), 2000, counter);
+  Eigen::VectorXd score = peaked(runs)(drawn), gap = distance_to_runs(runs)(drawn);
+  score.array() -= score.minCoeff();
   std::set<int> cells;
-  double closest = 1;
-  for (int a = 0; a < 6; ++a) {
-    cells.insert(cell(runs, X.row(a).transpose()));
-    for (int b = 0; b < a; ++b) closest = std::min(closest, (X.row(a) - X.row(b)).norm());
+  for (int k = 0; k < 6; ++k) {
+    Eigen::Index best;
+    score.maxCoeff(&best);
+    EXPECT_EQ(X.row(k), drawn.row(best));
+    cells.insert(cell(runs, X.row(k).transpose()));
+    const Eigen::VectorXd away = (drawn.rowwise() - X.row(k)).rowwise().norm();
+    score.array() *= (away.array() / gap[best]).square().min(1.0);
+    gap = gap.cwiseMin(away);
   }
-  EXPECT_LT(cells.size(), 6U);  // more points than cells
-  // A point 0.1 from a chosen one whose nearest run is 0.2 away or more has at most a quarter of its score.
-  EXPECT_GT(closest, 0.1);
+  EXPECT_LT(cells.size(), 6U);  // no cell is closed: there are three
 }
 
 TEST(Propose, TheBelieverIsAskedAfterEachChoice) {
