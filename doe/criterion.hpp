@@ -33,12 +33,18 @@ namespace drawpoint::doe {
 using Criterion = std::function<Eigen::VectorXd(const Eigen::MatrixXd& X)>;
 using Sampler = std::function<Criterion(const Evaluations& runs)>;
 
+namespace detail {
+
 // Eigen's matrices can be called too, with indices: they are scores, not a criterion.
 template <class C>
-concept CriterionFunction = !requires {
+concept EigenObject = requires {
   typename C::PlainObject;
-}
-&&requires(C& c, const Eigen::MatrixXd& X) {
+};
+
+}  // namespace detail
+
+template <class C>
+concept CriterionFunction = !detail::EigenObject<C> && requires(C & c, const Eigen::MatrixXd& X) {
   { c(X) } -> std::convertible_to<Eigen::VectorXd>;
 };
 
