@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,13 +17,20 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double thickness = 1e-9;  // of the extent: what counts as the same point or the same plane
-// Triples flatter than this are no plane: 1e-6 keeps the tilt of a plane by round-off (1e-16/1e-6) below
-// `thickness`.
-constexpr double smallest_area = 1e-6;
+// Triples lower than this, of the extent, are no plane: 1e-6 keeps the tilt of a plane by round-off
+// (1e-16/1e-6) below `thickness`.
+constexpr double smallest_height = 1e-6;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("contact::ConvexPolyhedron: " + what +
                               "; give at least four finite points that span a volume");
+}
+
+std::string too_flat(double extent) {
+  std::ostringstream text;
+  text << "the points are too flat or too nearly in one plane: widths and heights of faces must be at least "
+       << smallest_height << " of the extent, here " << smallest_height * extent << " m";
+  return text.str();
 }
 
 struct Plane {
@@ -116,8 +125,9 @@ class Search {
 
  private:
   void try_plane(const std::array<int, 3>& t) {
-    const Vector3d area = (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
-    if (area.norm() < smallest_area * extent_ * extent_ || known(t)) return;
+    const Vector3d u = points_[t[1]] - points_[t[0]], v = points_[t[2]] - points_[t[0]], area = u.cross(v);
+    const double longest = std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()}));
+    if (area.norm() < smallest_height * extent_ * longest || known(t)) return;
     Plane plane{area.normalized(), 0};
     plane.offset = plane.normal.dot(points_[t[0]]);
     const int outward = side(points_, plane, tolerance_);
@@ -152,8 +162,7 @@ class Search {
       result.faces.emplace_back();
       for (int v : face) result.faces.back().push_back(index[v]);
     }
-    if (!is_closed(result.faces, result.vertices.size()))
-      refuse("the points are too flat or too nearly in one plane");
+    if (!is_closed(result.faces, result.vertices.size())) refuse(too_flat(extent_));
     return result;
   }
 

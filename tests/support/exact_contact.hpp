@@ -107,13 +107,19 @@ inline double segment_distance(const std::pair<Vector3d, Vector3d>& e,
   return best;
 }
 
-/// Distance of two polyhedra that do not overlap.
+/// Distance of two polyhedra that do not overlap; of two that do, however little, their features may be far
+/// from each other and this is no answer.
 inline double distance(const ConvexPolyhedron& a, const ConvexPolyhedron& b) {
   double best = std::min(vertex_face_distance(a, b), vertex_face_distance(b, a));
   const auto edges_a = edges_of(a), edges_b = edges_of(b);
   for (const auto& e : edges_a)
     for (const auto& f : edges_b) best = std::min(best, segment_distance(e, f));
   return best;
+}
+
+/// Distance of two polyhedra whose best separation is known: 0 when they overlap.
+inline double distance(const ConvexPolyhedron& a, const ConvexPolyhedron& b, double separation) {
+  return separation > 0 ? std::max(separation, distance(a, b)) : 0;
 }
 
 /// One candidate of the separating-axis theorem.

@@ -91,7 +91,7 @@ TEST(ContactFinderExactness, AgreesWithAnExhaustiveSearchInSpecialPositions) {
       ASSERT_NEAR(support::least_gap(found[0]), separation, 1.1e-7) << "trial " << trial;
       continue;
     }
-    const double distance = std::max(separation, support::distance(in_world_a, in_world_b));
+    const double distance = support::distance(in_world_a, in_world_b, separation);
     if (distance < margin - doubt) {
       ASSERT_EQ(found.size(), 1u) << "trial " << trial << ", distance " << distance;
     } else if (distance > margin + doubt) {

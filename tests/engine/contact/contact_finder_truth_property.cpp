@@ -71,7 +71,7 @@ void check(const ConvexPolyhedron& a, const ConvexPolyhedron& b, const Manifold*
     return;
   }
   const double distance =
-      best.separation > margin + doubt ? best.separation : std::max(best.separation, support::distance(a, b));
+      best.separation > margin + doubt ? best.separation : support::distance(a, b, best.separation);
   if (distance < margin - doubt) {
     ++tally.near;
     ASSERT_NE(found, nullptr) << "missed shapes " << distance << " m apart";
