@@ -92,13 +92,13 @@ TEST(FreeRotation, KeepsMomentumAndEnergy) {
        .measured = spins()[0].worst_energy,
        .budget = std::pow(h * start.norm(), 2) / 8,
        .budget_reason =
-           "Energy: the midpoint rule takes the rate in the middle of a turn by hω, whose cosine differs by "
-           "(hω/2)²/2; it swings by that and does not drift."});
+           "Energy: Strang's rule of two flows A and B changes it by h²(B²A/12 − A²B/24) in nested brackets, "
+           "A and B turning at rates below ω: by less than (hω)²/8; it swings by that and does not drift."});
   const auto energy = validation::extrapolate(
       {spins()[0].worst_energy, spins()[1].worst_energy, spins()[2].worst_energy}, 2, 2);
   record(free_rotation, {.quantity = "order in h of that change",
                          .expected = 2,
-                         .source = "implicit midpoint rule",
+                         .source = "Strang's rule",
                          .measured = energy.order,
                          .budget = 0.2,
                          .budget_reason = "Order: 0.2 tells second order from first and third."});
