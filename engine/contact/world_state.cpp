@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/contact/world_checks.hpp>
 #include <drawpoint/engine/contact/world_state.hpp>
 
 namespace drawpoint::engine::contact {
@@ -127,6 +128,16 @@ std::uint64_t state_hash(const World& world) {
   return hash.value();
 }
 
+// No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
+void check_motion(const Rock& rock, const StateReader& in) {
+  constexpr double farthest = 1e9;  // [m]
+  if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
+    in.fail("holds a rock more than 1e9 m from the origin");
+  if (rock.velocity.cwiseAbs().maxCoeff() > detail::fastest_solution ||
+      rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * detail::fastest_solution)
+    in.fail("holds a rock faster than 1e4 m/s or 1e5 rad/s");
+}
+
 // What a state is of: a restore compares them one by one, so that it can say what differs.
 struct World::SceneMarks {
   std::uint64_t options, materials, surroundings, rocks, machine;
@@ -225,6 +236,7 @@ void World::restore(std::span<const std::byte> state) {
     in.get(rock.pose);
     in.get(rock.velocity);
     in.get(rock.angular_velocity);
+    check_motion(rock, in);
   }
   WarmStart warm_start;
   warm_start.restore(in);

@@ -4,17 +4,20 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 
-/// The world whose snapshots are fuzzed: five boxes that fall on a floor between a wall and a cylinder, one
-/// of them removed, so that every kind of record is in its state.
+/// The world whose snapshots are fuzzed: five boxes that fall on a floor beside a wall, one of them removed.
+/// Two sweeps a substep: the reader is fuzzed, not the solver's accuracy. No cylinder: its record is that of
+/// any hull, and each restore would make its prism of 48 sides anew, at a hundred times the cost of all else.
 namespace drawpoint::fuzz {
 
 inline std::unique_ptr<engine::contact::World> small_world() {
   using namespace drawpoint::support;
+  engine::contact::WorldOptions options;
+  options.solver.sweeps = 2;
+  options.solver.spare_work = 0;
   auto world = std::make_unique<engine::contact::World>(
-      engine::contact::WorldOptions{}, one_material({.friction = 0.5, .rolling = 0.02, .stiffness = 1e8}));
+      options, one_material({.friction = 0.5, .rolling = 0.02, .stiffness = 1e8}));
   add_floor(*world);
   world->add_static(shared(engine::contact::box({0.1, 2, 1})), at(1, 0, 1), 0);
-  world->add_static(shared(engine::contact::Cylinder{0.5, 1}), at(-1, 0, 0.5), 0);
   for (int k = 0; k < 5; ++k)
     world->add_rock(box_body({0.2, 0.15, 0.1 + 0.02 * k}), at(0.1 * k, 0, 0.15 + 0.26 * k), {0.3 * k, 0, 0});
   return world;
