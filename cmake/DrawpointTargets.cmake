@@ -23,7 +23,11 @@ function(drawpoint_test module stem)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${module}.${stem} COMMAND ${target})
   string(REGEX MATCH "[a-z]+$" label ${stem})
-  set_tests_properties(${module}.${stem} PROPERTIES LABELS "${label};${module}" TIMEOUT 600)
+  set(limit 600)
+  if(CMAKE_BUILD_TYPE STREQUAL "Debug") # the sanitizers' presets
+    set(limit 7200)
+  endif()
+  set_tests_properties(${module}.${stem} PROPERTIES LABELS "${label};${module}" TIMEOUT ${limit})
 endfunction()
 
 # drawpoint_benchmark(FILE_STEM LIBRARY...): one executable in <build>/benchmarks.

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <drawpoint/engine/contact/hand_over.hpp>
 #include <drawpoint/engine/contact/stage_team.hpp>
 #include <thread>
 
@@ -18,13 +19,16 @@ constexpr int spins_before_yield = 2000;
 
 struct StageTeam::Impl {
   explicit Impl(int threads) : arena(threads) {
-    for (int k = 1; k < threads; ++k) arena.execute([this] { group.run([this] { help(); }); });
+    hand_over.begin();
+    for (int k = 1; k < threads; ++k)
+      arena.execute([this] { group.run([this] { hand_over.task([this] { help(); }); }); });
   }
 
   ~Impl() {
     stop.store(true, std::memory_order_release);
     stage.fetch_add(1, std::memory_order_release);
     arena.execute([this] { group.wait(); });
+    hand_over.end();
   }
 
   // A claim is the stage's number and the blocks left in one word: a helper that comes late cannot claim a
@@ -72,6 +76,7 @@ struct StageTeam::Impl {
       if (++spins > spins_before_yield) std::this_thread::yield();
   }
 
+  HandOver hand_over;
   oneapi::tbb::task_arena arena;
   oneapi::tbb::task_group group;
   std::atomic<bool> stop{false};
