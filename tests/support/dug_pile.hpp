@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/contact/world_state.hpp>
+#include <drawpoint/engine/record/snapshot_file.hpp>
+#include <drawpoint/tests/support/blade_pile.hpp>
+#include <memory>
+
+/// The heap of blade_pile.hpp with its blade driven to and fro, and in mid-run put into a snapshot file,
+/// thrown away, built anew and read back: the run whose state is compared bit for bit between numbers of
+/// threads, builds and runs.
+namespace drawpoint::support {
+
+class DugPile {
+ public:
+  static constexpr long stroke = 250;  ///< steps between two turns of the blade
+
+  DugPile(int rocks, const engine::contact::WorldOptions& options)
+      : rocks_(rocks), options_(options), pile_(std::make_unique<BladePile>(rocks, options)) {}
+
+  void run(long steps) {
+    for (const long end = step_ + steps; step_ < end; ++step_) {
+      pile_->blade().set_motor(0, step_ / stroke % 2 == 0 ? 0.6 : -0.6);
+      pile_->run(1);
+    }
+  }
+
+  /// Through the file, which is removed afterwards, into a pile that knows nothing of this one.
+  void restart(const std::filesystem::path& file) {
+    engine::record::write_snapshot(file, pile_->world().save());
+    pile_ = std::make_unique<BladePile>(rocks_, options_);
+    pile_->world().restore(engine::record::read_snapshot(file));
+    std::filesystem::remove(file);
+  }
+
+  long step() const { return step_; }
+  std::uint64_t hash() const { return engine::contact::state_hash(pile_->world()); }
+  const engine::contact::StepReport& report() const { return pile_->report(); }
+
+ private:
+  int rocks_;
+  engine::contact::WorldOptions options_;
+  std::unique_ptr<BladePile> pile_;
+  long step_ = 0;
+};
+
+}  // namespace drawpoint::support
