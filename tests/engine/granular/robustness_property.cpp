@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Nothing breaks the engine: what is thrown, squeezed, born overlapping, thin as a sheet or very many gives a
-// bounded result or a status, never a number that is not finite.
+// Nothing breaks the engine: what is thrown, squeezed, born overlapping or very many gives a bounded result
+// or a status, never a number that is not finite. Thin shapes: slivers_property.cpp; the loader against a
+// wall: tests/engine/loading/wall_property.cpp.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -167,66 +168,6 @@ TEST_P(Squeezed, StaysBounded) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forces, Squeezed, testing::Values(20e3, 1e9));
-
-/// A body of a shape moved to its centre of mass and principal axes.
-contact::RockBody body_of(const contact::ConvexPolyhedron& shape) {
-  const auto properties = contact::mass_properties(shape, 2500);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(properties.inertia);
-  Eigen::Matrix3d axes = eigen.eigenvectors();
-  if (axes.determinant() < 0) axes.col(0) *= -1;
-  Eigen::Isometry3d X(axes.transpose());
-  X.translation() = -axes.transpose() * properties.centre;
-  return {shared(shape.transformed(X)), properties.mass, eigen.eigenvalues(), 0};
-}
-
-// Sheets, needles and slivers: as thin as 2e-4 of their width or 1/400 of their length, they fall, hit and
-// come to rest or slide, but stay finite and above the floor by their centres; or the step that loses them
-// says which rock it was and changes nothing.
-TEST(Slivers, FallAndStayBounded) {
-  const std::vector<Vector3d> sliver{{0, 0, 0}, {0.4, 0, 0}, {0.2, 0.3, 0}, {0.2, 0.1, 1e-3}};
-  const std::vector<contact::RockBody> bodies{
-      body_of(contact::box({0.3, 0.3, 5e-5})), body_of(contact::box({0.4, 1e-3, 1e-3})),
-      body_of(contact::prism(0.3, 1e-4, 24)), body_of(contact::ConvexPolyhedron::hull_of(sliver))};
-  World world({}, stone());
-  add_floor(world);
-  CounterRandom turns(11);
-  for (int k = 0; k < 12; ++k) {
-    Eigen::Isometry3d pose(turns.rotation());
-    pose.translation() = Vector3d(0.1 * (k % 3), 0.1 * (k / 3), 0.5 + 0.3 * k);
-    world.add_rock(bodies[static_cast<std::size_t>(k % 4)], pose);
-  }
-  try {
-    for (int k = 0; k < 400; ++k) {
-      world.step();
-      expect_finite(world);
-    }
-  } catch (const contact::SolutionBroken& broken) {
-    EXPECT_NE(std::string(broken.what()).find("rock "), std::string::npos) << broken.what();
-    expect_finite(world);
-  }
-  for (const contact::Rock& rock : world.rocks()) EXPECT_GT(rock.pose.translation().z(), -0.01);
-}
-
-TEST(Slivers, WithoutVolumeAreRefused) {
-  const double nan = std::nan("");
-  const std::vector<std::vector<Vector3d>> none{
-      {},
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
-      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}},
-      {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1e-10}},
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, nan}},
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::infinity()}}};
-  for (const auto& points : none) {
-    try {
-      contact::ConvexPolyhedron::hull_of(points);
-      ADD_FAILURE() << points.size() << " points without volume were taken";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("give at least four finite points"), std::string::npos);
-    }
-  }
-}
 
 TEST(Crowd, NoRocksAtAll) {
   World world({}, stone());
