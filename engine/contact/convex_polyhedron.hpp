@@ -11,10 +11,9 @@
 /// A polyhedron is the convex hull of its vertices. Its faces are planar polygons, counter-clockwise seen
 /// from outside; coplanar triangles are merged into one face and vertices inside a face or an edge are
 /// dropped, so that a box has 8 vertices and 6 faces. Two points nearer than 1e-9 of the extent are one
-/// point, and a point nearer than that to a plane lies in it; faces must be at least 1e-6 of the extent wide
-/// and high. Any frame, metres. A polyhedron is an immutable
-/// value. Cost of hull_of: every triple of the n points is tried as a plane, O(n³) to O(n⁴); 50 points take
-/// about 1 ms.
+/// point, and a point nearer than that to a plane lies in it; faces are at least 1e-6 of it wide and high.
+/// Any frame, metres. A polyhedron is an immutable value. Cost of hull_of: every triple of the n points is
+/// tried as a plane, O(n³) to O(n⁴); 50 points take about 1 ms.
 namespace drawpoint::engine::contact {
 
 class ConvexPolyhedron {
