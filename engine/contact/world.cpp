@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
-#include <drawpoint/engine/contact/contact_law.hpp>
 #include <drawpoint/engine/contact/free_turn.hpp>
 #include <drawpoint/engine/contact/world.hpp>
 #include <drawpoint/engine/contact/world_checks.hpp>
@@ -17,11 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A point this far apart [m] joins the solve even when it does not close in; with the travel of two steps
-// added it covers whatever the solve itself may set moving.
-constexpr double resting_margin = 1e-3;
-constexpr int bodies_a_block = 128, manifolds_a_block = 64;  // that a thread takes at a time
-constexpr int world_body = 0;                                // problem_.bodies[0] never moves
+constexpr int bodies_a_block = 128;  // that a thread takes at a time
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -94,98 +88,6 @@ void World::fill_bodies() {
   });
 }
 
-int World::solver_index(const Surface& surface) const {
-  if (surface.owner == Owner::part) return machine_part(surface.index);
-  return surface.owner == Owner::rock ? body_of_rock_[surface.index] : world_body;
-}
-
-World::Side World::side_of(const Surface& surface) const {
-  if (surface.owner == Owner::part) {
-    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
-    return {super_->origins[surface.index], V.tail<3>(), V.head<3>()};
-  }
-  if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
-  const Rock& rock = rocks_[surface.index];
-  return {rock.pose.translation(), rock.velocity, rock.angular_velocity};
-}
-
-// Points that may come to bear within the step join the solve: each manifold is looked at twice, first to see
-// which do, then to write them where they belong, so that threads may share the work.
-void World::fill_contacts() {
-  const int manifolds = static_cast<int>(manifolds_->size());
-  joins_.resize(manifolds_->size());
-  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) {
-    for (int k = first; k < last; ++k) joins_[k] = joining((*manifolds_)[k]);
-  });
-  problem_.step = options_.step;
-  problem_.pairs.clear();
-  int points = 0;
-  pair_manifolds_.clear();
-  for (int k = 0; k < manifolds; ++k) {
-    const int count = std::popcount(joins_[k]);
-    if (count == 0) continue;
-    pair_manifolds_.push_back(k);
-    ContactPair& pair = problem_.pairs.emplace_back();
-    pair.first = points;
-    pair.count = count;
-    points += count;
-  }
-  problem_.points.resize(static_cast<std::size_t>(points));
-  parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
-    WarmStart::Reader reader(warm_start_);
-    for (int k = first; k < last; ++k) fill_pair(k, reader);
-  });
-}
-
-unsigned World::joining(const Manifold& m) const {
-  const Side a = side_of(surfaces_[m.collider_a]), b = side_of(surfaces_[m.collider_b]);
-  unsigned joins = 0;
-  for (int k = 0; k < m.count; ++k) {
-    const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
-    if (m.points[k].gap <= resting_margin + 2 * options_.step * u.norm()) joins |= 1u << k;
-  }
-  return joins;
-}
-
-void World::fill_pair(int index, WarmStart::Reader& reader) {
-  const int manifold = pair_manifolds_[index];
-  const Manifold& m = (*manifolds_)[manifold];
-  const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
-  const Material& material = materials_.of(a.material, b.material);
-  const Vector3d origin_a = side_of(a).origin, origin_b = side_of(b).origin;
-  reader.begin_pair(m.collider_a, m.collider_b);
-  ContactPair& pair = problem_.pairs[index];
-  pair.a = solver_index(a);
-  pair.b = solver_index(b);
-  pair.collider_a = m.collider_a;
-  pair.collider_b = m.collider_b;
-  pair.rolling_arm = material.rolling * m.radius;
-  pair.spinning_arm = material.spinning * m.radius;
-  pair.start = options_.warm_start * reader.rolling();
-  const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
-                                                      [](const ManifoldPoint& p) { return p.gap <= 0; }));
-  int place = pair.first;
-  for (int k = 0; k < m.count; ++k) {
-    if (!(joins_[manifold] >> k & 1u)) continue;
-    const ManifoldPoint& p = m.points[k];
-    ContactPoint& c = problem_.points[place++];
-    c.feature = p.feature;
-    c.position = p.position;
-    c.arm_a = p.position - origin_a;
-    c.arm_b = p.position - origin_b;
-    c.normal = m.normal;
-    c.gap = p.gap;
-    const double stiffness = material.law == NormalLaw::linear
-                                 ? material.stiffness
-                                 : hertz_stiffness(material.stiffness, m.radius, -p.gap);
-    c.stiffness = stiffness / touching;
-    c.damping_time = material.damping_time;
-    c.friction = material.friction;
-    c.restitution = material.restitution;
-    c.start = options_.warm_start * reader.point(p.feature, p.position);
-  }
-}
-
 void World::move_rocks() {
   const std::vector<int>& awake = freezing_.awake();
   parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
@@ -242,23 +144,6 @@ SolverReport World::solve_contacts(StepReport& report) {
   return solved;
 }
 
-void World::keep_impulses() {
-  warm_start_.begin_store(problem_.pairs.size(), problem_.points.size());
-  parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
-    for (int index = first; index < last; ++index) {
-      const ContactPair& pair = problem_.pairs[index];
-      warm_start_.store_pair(
-          index, {pair.collider_a, pair.collider_b, pair.start, static_cast<std::size_t>(pair.first),
-                  static_cast<std::size_t>(pair.count)});
-      for (int k = pair.first; k < pair.first + pair.count; ++k) {
-        const ContactPoint& p = problem_.points[k];
-        warm_start_.store_point(k, {p.feature, p.position, p.carried * p.start, false});
-      }
-    }
-  });
-  warm_start_.end_store();
-}
-
 void World::thaw(const std::vector<int>& rocks) {
   for (const int rock : rocks) finder_.set_moves(rocks_[rock].collider, true);
   warm_start_.insert(freezing_.thaw(rocks));
@@ -297,22 +182,6 @@ void World::settle_frozen() {
     rocks_[rock].velocity.setZero();
     rocks_[rock].angular_velocity.setZero();
   }
-}
-
-// Of a rock in anything, at the start of the step.
-double World::deepest_overlap() {
-  const int manifolds = static_cast<int>(manifolds_->size());
-  deepest_.assign(static_cast<std::size_t>(manifolds / manifolds_a_block + 1), 0.0);
-  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) {
-    double& deepest = deepest_[static_cast<std::size_t>(first / manifolds_a_block)];
-    for (int i = first; i < last; ++i) {
-      const Manifold& m = (*manifolds_)[i];
-      if (surfaces_[m.collider_a].owner != Owner::rock && surfaces_[m.collider_b].owner != Owner::rock)
-        continue;
-      for (int k = 0; k < m.count; ++k) deepest = std::max(deepest, -m.points[k].gap);
-    }
-  });
-  return *std::max_element(deepest_.begin(), deepest_.end());
 }
 
 StepReport World::step() {

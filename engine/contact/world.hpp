@@ -125,7 +125,8 @@ class World {
 
  private:
   enum class Owner { fixed, rock, part };
-  static constexpr int detached = -2;  // index of a part's surface whose machine was detached
+  static constexpr int world_body = 0;  // problem_.bodies[0] never moves
+  static constexpr int detached = -2;   // index of a part's surface whose machine was detached
   struct Surface {
     Owner owner;
     int index;
