@@ -2,40 +2,126 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The inverse of a symmetric positive definite matrix from its Cholesky factor, K = L⁻ᵀ L⁻¹, by blocks of
-/// columns that skip the zeros of the triangles: 2n³/3 operations, where solving for the n columns of the
-/// identity takes 2n³.
+/// Cholesky factor A = L Lᵀ, triangular systems and the inverse A⁻¹ = L⁻ᵀ L⁻¹, by halves down to 16 columns.
+///
+/// All work of order n³ is one product, C ± A Bᵀ (matrix_product.hpp). Operations: factor n³/3, inverse of
+/// the factor n³/3, inverse from that n³/3. Only the lower triangle of A and of its inverse is read or
+/// written to effect; what stands above the diagonal is not defined. Results do not depend on the number of
+/// threads. Source: Gustavson 1997, "Recursion leads to automatic variable blocking for dense linear-algebra
+/// algorithms".
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+
+#include <drawpoint/kriging/matrix_product.hpp>
 
 namespace drawpoint::kriging::detail {
 
-inline constexpr Eigen::Index inverse_block = 48;
+inline constexpr Index smallest = 16;
 
-/// L: n x n, lower triangle used. Returns L⁻¹ with zeros above the diagonal.
-inline Eigen::MatrixXd inverse_of_lower(const Eigen::MatrixXd& L) {
-  const Eigen::Index n = L.rows();
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index j = 0; j < n; j += inverse_block) {
-    const Eigen::Index width = std::min(inverse_block, n - j), height = n - j;
-    auto columns = inverse.block(j, j, height, width);
-    columns.topRows(width).setIdentity();
-    L.bottomRightCorner(height, height).triangularView<Eigen::Lower>().solveInPlace(columns);
+/// About half, a multiple of the smallest size.
+inline Index half(Index n) { return std::max(smallest, n / 2 / smallest * smallest); }
+
+/// X Lᵀ = B for at most 16 columns, in place, rows in strips that stay in the first cache.
+inline void solve_few_columns(const Block& L, const Block& B) {
+  constexpr Index strip = 128;
+  for (Index i = 0; i < B.rows; i += strip) {
+    const Index rows = std::min(strip, B.rows - i);
+    for (Index j = 0; j < B.columns; ++j) {
+      Eigen::Map<Eigen::ArrayXd> x(B.column(j) + i, rows);
+      for (Index k = 0; k < j; ++k)
+        x -= L.column(k)[j] * Eigen::Map<const Eigen::ArrayXd>(B.column(k) + i, rows);
+      x *= 1.0 / L.column(j)[j];
+    }
   }
-  return inverse;
 }
 
-/// Lower triangle of K = (L Lᵀ)⁻¹, diagonal included; what stands above the diagonal is not defined.
-inline void inverse_from_cholesky(const Eigen::MatrixXd& L, Eigen::MatrixXd& K) {
-  const Eigen::MatrixXd inverse = inverse_of_lower(L);
-  const Eigen::Index n = L.rows();
-  K.resize(n, n);
-  for (Eigen::Index i = 0; i < n; i += inverse_block) {
-    const Eigen::Index height = std::min(inverse_block, n - i), depth = n - i;
-    K.block(i, 0, height, i + height).noalias() =
-        inverse.block(i, i, depth, height).transpose() * inverse.block(i, 0, depth, i + height);
+/// X Lᵀ = B in place. L: n x n lower, B: m x n.
+inline void solve_right(const Block& L, const Block& B) {
+  const Index n = L.rows;
+  if (n <= smallest) return solve_few_columns(L, B);
+  const Index first = half(n), second = n - first;
+  const Block left = B.part(0, 0, B.rows, first), right = B.part(0, first, B.rows, second);
+  solve_right(L.part(0, 0, first, first), left);
+  add_product(left, L.part(first, 0, second, first), -1.0, right);
+  solve_right(L.part(first, first, second, second), right);
+}
+
+/// The same with the rows of B shared out to threads.
+inline void solve_right(const Block& L, const Block& B, int threads) {
+  constexpr Index rows = 192;
+  const int count = static_cast<int>((B.rows + rows - 1) / rows);
+  if (L.rows < 4 * smallest) threads = 1;
+  for_each_task(count, threads, [&](int t) {
+    solve_right(L, B.part(t * rows, 0, std::min(rows, B.rows - t * rows), B.columns));
+  });
+}
+
+/// False when A is not numerically positive definite.
+inline bool factor_few_columns(const Block& A) {
+  for (Index j = 0; j < A.columns; ++j) {
+    Eigen::Map<Eigen::ArrayXd> x(A.column(j) + j, A.rows - j);
+    for (Index k = 0; k < j; ++k)
+      x -= A.column(k)[j] * Eigen::Map<const Eigen::ArrayXd>(A.column(k) + j, A.rows - j);
+    if (!(x[0] > 0.0)) return false;
+    const double root = std::sqrt(x[0]);
+    x *= 1.0 / root;
+    x[0] = root;
   }
+  return true;
+}
+
+/// A becomes L in its lower triangle. False when A is not numerically positive definite.
+inline bool factor(const Block& A, int threads) {
+  const Index n = A.rows;
+  if (n <= smallest) return factor_few_columns(A);
+  const Index first = half(n), second = n - first;
+  const Block top = A.part(0, 0, first, first), low = A.part(first, 0, second, first);
+  if (!factor(top, threads)) return false;
+  solve_right(top, low, threads);
+  const Block rest = A.part(first, first, second, second);
+  add_product(low, low, -1.0, rest, Part::lower, threads);
+  return factor(rest, threads);
+}
+
+/// X: n x n, zero at entry, becomes L⁻ᵀ (upper triangular).
+inline void invert_transposed(const Block& L, const Block& X, int threads) {
+  const Index n = L.rows;
+  if (n <= smallest) {
+    for (Index i = 0; i < n; ++i) X.column(i)[i] = 1.0;
+    return solve_few_columns(L, X);
+  }
+  const Index first = half(n), second = n - first;
+  const Block corner = X.part(0, first, first, second);
+  invert_transposed(L.part(0, 0, first, first), X.part(0, 0, first, first), threads);
+  for (Index i = 0; i < first; i += tile) {  // the zeros left of the diagonal are skipped tile by tile
+    const Index height = std::min(tile, first - i);
+    add_product(X.part(i, i, height, first - i), L.part(first, i, second, first - i), -1.0,
+                corner.part(i, 0, height, second), Part::all, threads);
+  }
+  solve_right(L.part(first, first, second, second), corner, threads);
+  invert_transposed(L.part(first, first, second, second), X.part(first, first, second, second), threads);
+}
+
+/// L⁻ᵀ, upper triangular with zeros below. L: n x n, lower triangle used.
+inline void inverse_transposed(Eigen::MatrixXd& L, Eigen::MatrixXd& X, int threads = 1) {
+  X.setZero(L.rows(), L.cols());
+  invert_transposed(block_of(L), block_of(X), threads);
+}
+
+/// Lower triangle of K = X Xᵀ for upper triangular X = L⁻ᵀ, that is, of (L Lᵀ)⁻¹.
+inline void product_of_upper(Eigen::MatrixXd& X, Eigen::MatrixXd& K, int threads = 1) {
+  const Index n = X.rows(), rows = std::clamp<Index>(n / 4 / 8 * 8, 24, 96);
+  K.setZero(n, n);
+  const Block upper = block_of(X), result = block_of(K);
+  const int count = static_cast<int>((n + rows - 1) / rows);
+  if (n < 400) threads = 1;
+  for_each_task(count, threads, [&](int t) {
+    const Index i = t * rows, height = std::min(rows, n - i);
+    add_product(upper.part(i, i, height, n - i), upper.part(0, i, i + height, n - i), 1.0,
+                result.part(i, 0, height, i + height));
+  });
 }
 
 }  // namespace drawpoint::kriging::detail

@@ -2,101 +2,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Fits regression Kriging to runs: `Model model = fit(X, y);`
+/// Fits Kriging to runs: `Model model = fit(X, y);`
 ///
-/// θ and λ maximise the concentrated log likelihood (likelihood.hpp). Candidates are ranked by their
-/// likelihood, the best that lie apart start local searches by Ipopt (maximize.hpp), the best search wins. Up
-/// to 250 runs all searches are made, by the secant curvature, and the winner is finished by the exact
-/// Hessian. Beyond, where an evaluation is dear and maxima are fewer, the searches end as soon as three have
-/// come within 0.1 of the best.
+/// θ, the exponents and λ maximise the concentrated log likelihood (likelihood.hpp); search.hpp says how they
+/// are found. The default is regression Kriging with the Gaussian correlation and a constant trend.
 ///
-/// Deterministic: equal input gives equal bits. Safe to call concurrently; the searches then wait for each
-/// other. Cost: about 20 to 40 evaluations of n³ operations a search; O(n²) memory. A model is always valid:
-/// see Status for what was met on the way.
+/// Deterministic: equal input gives equal bits on any number of threads. Safe to call concurrently; the last
+/// part of the searches then wait for each other. Cost: see search.hpp; O(n²) memory. A model is always
+/// valid: see Status for what was met on the way.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/kriging/blind.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
-#include <drawpoint/kriging/maximize.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
-#include <drawpoint/kriging/starting_points.hpp>
+#include <drawpoint/kriging/search.hpp>
 #include <drawpoint/kriging/training_data.hpp>
-#include <stdexcept>
+#include <limits>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace drawpoint::kriging {
 
 namespace detail {
 
-inline constexpr double agreement = 0.1;         // log likelihood
-inline constexpr int enough_agreeing = 3;        // of many runs
 inline constexpr double condition_limit = 1e14;  // leaves two of the 16 digits
 
-/// Bounds of (ln θ, ln λ). An input that never varies has no θ to estimate: it is fixed.
-inline Box parameter_box(const TrainingData& data, const FitOptions& options) {
-  const Eigen::Index d = data.X.cols();
-  Box box{Eigen::VectorXd::Constant(d + 1, std::log(options.theta_lower)),
-          Eigen::VectorXd::Constant(d + 1, std::log(options.theta_upper))};
-  for (Eigen::Index k = 0; k < d; ++k)
-    if (data.input.factor[k] == 0.0) box.upper[k] = box.lower[k];
-  box.lower[d] = std::log(options.nugget_lower);
-  box.upper[d] = std::log(options.nugget_upper);
+inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitOptions& options) {
+  return {data.X,           data.y,
+          data.F,           data.noise,
+          data.known_noise, options.correlation,
+          options.exponent, thread_count(options.threads)};
+}
+
+/// Bounds of (ln θ, exponents, ln λ). An input that never varies has no θ to estimate: it is fixed.
+inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood, const FitOptions& options) {
+  const Eigen::Index d = data.X.cols(), last = likelihood.parameters() - 1;
+  Box box{Eigen::VectorXd::Constant(last + 1, 1.0), Eigen::VectorXd::Constant(last + 1, 2.0)};
+  box.lower.head(d).setConstant(std::log(options.theta_lower));
+  box.upper.head(d).setConstant(std::log(options.theta_upper));
+  box.lower[last] = std::log(options.nugget_lower);
+  box.upper[last] = std::log(options.nugget_upper);
+  for (Eigen::Index k = 0; k < d; ++k) {
+    if (data.input.factor[k] != 0.0) continue;
+    box.upper[k] = box.lower[k];
+    if (likelihood.estimates_exponents()) box.lower[d + k] = box.upper[d + k];
+  }
   return box;
 }
 
-inline std::string inputs_that_never_vary(const TrainingData& data) {
-  std::string text;
-  for (Eigen::Index k = 0; k < data.X.cols(); ++k)
-    if (data.input.factor[k] == 0.0)
-      text += "; input " + std::to_string(k) + " never varies, so predictions ignore it";
-  return text;
-}
-
-struct Search {
-  Maximum best;
-  int tried = 0, agreed = 0;
-};
-
-inline Search search_from(Likelihood& likelihood, const Box& box, const std::vector<Eigen::VectorXd>& starts,
-                          int max_iterations) {
-  const bool many_runs = likelihood.runs() > many;
-  std::vector<double> values;
-  Search search;
-  for (const Eigen::VectorXd& start : starts) {
-    const Maximum found = maximize(likelihood, box, start, Curvature::secant, max_iterations);
-    values.push_back(found.value);
-    if (found.value > search.best.value) search.best = found;
-    search.agreed = static_cast<int>(std::count_if(
-        values.begin(), values.end(), [&](double v) { return v >= search.best.value - agreement; }));
-    if (many_runs && search.agreed >= enough_agreeing) break;
-  }
-  search.tried = static_cast<int>(values.size());
-  return search;
-}
-
-/// Searches the box; the best point has the value −∞ when R is singular wherever it was tried.
-inline Search search(Likelihood& likelihood, const TrainingData& data, const Box& box,
-                     const FitOptions& options, int& evaluations) {
-  Likelihood screen(thinned(data.X, many), thinned(data.y, many));
-  const auto starts = starting_points(screen, box, options);
-  evaluations += screen.factorizations();
-  if (box.lower == box.upper) return {{starts.front(), likelihood.value(starts.front()), true}, 1, 1};
-  Search found = search_from(likelihood, box, starts, options.max_iterations);
-  if (!std::isfinite(found.best.value) || likelihood.runs() > many) return found;
-  const Maximum finished = maximize(likelihood, box, found.best.p, Curvature::exact, options.max_iterations);
-  if (finished.value >= found.best.value) {
-    const bool converged = found.best.converged || finished.converged;
-    found.best = finished;
-    found.best.converged = converged;
-  }
-  return found;
-}
-
 /// The status and the message of a search whose best point `likelihood` stands at.
-inline void judge(const Search& search, const Likelihood& likelihood, FitReport& report) {
+inline void judge(const Search& search, Likelihood& likelihood, FitReport& report) {
   report.starts_tried = search.tried;
   report.starts_agreed = search.agreed;
   report.condition = likelihood.condition();
@@ -112,41 +70,107 @@ inline void judge(const Search& search, const Likelihood& likelihood, FitReport&
   }
 }
 
-inline Model constant_model(const TrainingData& data, const FitOptions& options) {
-  FitReport report;
-  report.status = Status::constant_response;
-  report.message = "all responses equal " + text(data.y_centre) + ": the model is that constant";
-  return Model(data, options, report);
+/// What the data were like, after what the search says.
+inline void add_remarks(const TrainingData& data, FitReport& report) {
+  for (Eigen::Index k = 0; k < data.X.cols(); ++k)
+    if (data.input.factor[k] == 0.0)
+      report.message += "; input " + std::to_string(k) + " never varies, so predictions ignore it";
+  if (data.terms_dropped > 0)
+    report.message += "; " + std::to_string(data.terms_dropped) + " terms of the trend are left out, which " +
+                      std::to_string(data.X.rows()) + " runs cannot tell from the others";
+  if (!data.trend_reduced) return;
+  report.status = Status::too_few_runs;
+  report.message +=
+      "; the trend asked for has as many terms as there are runs or more: it is a constant instead";
 }
 
-}  // namespace detail
+/// A model without runs: a constant response, or one run.
+inline Model constant_model(const TrainingData& data, const FitOptions& options) {
+  ModelState s;
+  s.input = data.input;
+  s.observed = data.observed;
+  s.y_centre = data.y_centre;
+  s.y_scale = 0;
+  s.correlation = {options.correlation, Eigen::VectorXd::Constant(data.X.cols(), options.theta_lower),
+                   options.exponent};
+  s.nugget = options.nugget_lower;
+  s.X.resize(0, data.X.cols());
+  if (data.observed.size() == 1) {
+    s.constant_variance = std::numeric_limits<double>::infinity();
+    s.report.status = Status::too_few_runs;
+    s.report.message = "one run says nothing about how the response varies: the model is the constant " +
+                       text(data.y_centre) + " with infinite variance";
+  } else {
+    s.report.status = Status::constant_response;
+    s.report.message = "all responses equal " + text(data.y_centre) + ": the model is that constant";
+  }
+  return Model(std::move(s));
+}
 
-/// X: n x d, one run a row, natural units; y: n, any unit. Throws std::invalid_argument for fewer than two
-/// runs, unequal lengths, numbers that are not finite, and options out of their range.
-inline Model fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const FitOptions& options = {}) {
-  const detail::TrainingData data = detail::prepare(X, y, options);
-  if (data.y.size() == 0) return detail::constant_model(data, options);
-  Likelihood likelihood(data.X, data.y);
-  Box box = detail::parameter_box(data, options);
+inline ModelState state_of(const TrainingData& data, const Likelihood& likelihood, FitReport report) {
+  ModelState s;
+  s.input = data.input;
+  s.y_centre = data.y_centre;
+  s.y_scale = data.y_scale;
+  s.observed = data.observed;
+  s.correlation = likelihood.correlation();
+  s.nugget = likelihood.nugget();
+  s.noise = data.noise;
+  s.known_noise = data.known_noise;
+  s.noise_unit = data.noise_unit;
+  s.trend = data.trend;
+  s.X = data.X;
+  s.F = data.F;
+  s.y = data.y;
+  s.L = likelihood.cholesky();
+  s.gls = likelihood.least_squares();
+  s.process_variance = likelihood.estimates().process_variance;
+  s.log_likelihood =
+      likelihood.estimates().log_likelihood - static_cast<double>(data.X.rows()) * std::log(data.y_scale);
+  s.report = std::move(report);
+  return s;
+}
+
+inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
+  Likelihood likelihood(likelihood_problem(data, options));
+  Box box = parameter_box(data, likelihood, options);
   FitReport report;
-  detail::Search found = detail::search(likelihood, data, box, options, report.evaluations);
+  Search found = search(likelihood, box, options, report.evaluations);
   const bool singular = !std::isfinite(found.best.value);
   // λ of some n times the round-off makes any correlation matrix positive definite, so this ends.
   while (!std::isfinite(found.best.value)) {
     box.lower.tail<1>().array() += std::log(100.0);
     box.upper = box.upper.cwiseMax(box.lower);
-    found = detail::search(likelihood, data, box, options, report.evaluations);
+    found = search(likelihood, box, options, report.evaluations);
   }
   likelihood.value(found.best.p);
+  judge(found, likelihood, report);
   report.evaluations += likelihood.factorizations();
-  detail::judge(found, likelihood, report);
   if (singular) {
     report.status = Status::ill_conditioned;
     report.message += "; the matrix was singular within nugget_upper, so the nugget was raised to " +
-                      detail::text(likelihood.nugget());
+                      text(likelihood.nugget());
   }
-  report.message += detail::inputs_that_never_vary(data);
-  return Model(data, likelihood, report);
+  add_remarks(data, report);
+  return Model(state_of(data, likelihood, std::move(report)));
+}
+
+}  // namespace detail
+
+/// X: n x d, one run a row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
+/// lengths, numbers that are not finite, and options out of their range.
+inline Model fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const FitOptions& options = {}) {
+  const detail::TrainingData data = detail::prepare(X, y, options);
+  if (data.y.size() == 0) return detail::constant_model(data, options);
+  const Model model = detail::fit_prepared(data, options);
+  if (options.trend != Trend::blind) return model;
+  const std::vector<TrendTerm> terms = detail::blind_terms(model.state());
+  if (terms.size() == 1) return model;
+  detail::TrainingData chosen = data;
+  detail::set_trend(chosen, X, {terms, {}, {}});
+  const Model blind = detail::fit_prepared(chosen, options);
+  return detail::leave_one_out_error(blind.state()) < detail::leave_one_out_error(model.state()) ? blind
+                                                                                                 : model;
 }
 
 }  // namespace drawpoint::kriging

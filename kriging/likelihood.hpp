@@ -2,53 +2,70 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The concentrated log likelihood of regression Kriging, its gradient and its Hessian.
+/// The concentrated log likelihood of regression Kriging, its gradient, its Hessian and its information.
 ///
-///   R = C(θ) + λ I,  μ = 1ᵀR⁻¹y / 1ᵀR⁻¹1,  α = R⁻¹(y − 1μ),  s² = (y − 1μ)ᵀα / n
-///   LL(p) = −n/2 ln(2π s²) − ½ ln|R| − n/2,  p = (ln θ₁ .. ln θ_d, ln λ)
-///   ∂LL/∂pₐ = ½ Σᵢⱼ Mᵢⱼ (Rₐ)ᵢⱼ,  M = ααᵀ/s² − R⁻¹,  Rₐ = ∂R/∂pₐ
-///   ∂²LL/∂pₐ∂p_b = ½ Σᵢⱼ Mᵢⱼ (R_ab)ᵢⱼ − αᵀRₐ P R_b α/s² + qₐq_b/(2n s⁴) + ½ tr(R⁻¹Rₐ R⁻¹R_b)
-/// with qₐ = −αᵀRₐα and P = R⁻¹ − R⁻¹1 1ᵀR⁻¹/(1ᵀR⁻¹1).
+///   R = C(θ, p) + λ diag(w),  β = (FᵀR⁻¹F)⁻¹FᵀR⁻¹y,  α = R⁻¹(y − Fβ),  S = (y − Fβ)ᵀα
+///   LL = −n/2 ln(2π s²) − ½ ln|R| − S/(2s²)
+///   ∂LL/∂a = ½ Σᵢⱼ Mᵢⱼ (Rₐ)ᵢⱼ,  M = ααᵀ/s² − R⁻¹,  Rₐ = ∂R/∂a
+///   ∂²LL/∂a∂b = ½ Σᵢⱼ Mᵢⱼ (R_ab)ᵢⱼ − αᵀRₐ P R_b α/s² + qₐq_b/(2n s⁴) + ½ tr(R⁻¹Rₐ R⁻¹R_b)
+/// with qₐ = −αᵀRₐα, P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹. Parameters: ln θ, the exponents p where they are
+/// estimated, ln λ. s² = S/n is concentrated out. Known noise of mean τ² ties s² = τ²/λ instead: then the
+/// derivatives by ln λ gain those through ln s², and the term with qₐq_b is gone.
 ///
-/// Cost: value n³/3, gradient n³, Hessian about 3d n³ more; O(n²) memory whatever d is: derivatives of R are
-/// summed as they are computed and never stored together. Where R is not numerically positive definite the
-/// value is −∞. Source: Forrester, Sóbester, Keane 2008, section 2.4 and chapter 6; the derivatives are those
-/// of Mardia, Marshall 1984, Biometrika 71, "Maximum likelihood estimation of models for residual covariance
-/// in spatial regression".
+/// Cost: value n³/3, gradient n³, Hessian about 3 parameters · n³ more; O(n²) memory whatever d is. Where R
+/// is not numerically positive definite the value is −∞. Source: Forrester, Sóbester, Keane 2008, section 2.4
+/// and chapter 6; derivatives: Mardia, Marshall 1984, Biometrika 71, "Maximum likelihood estimation of models
+/// for residual covariance in spatial regression".
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <drawpoint/kriging/cholesky.hpp>
 #include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/least_squares.hpp>
 
 namespace drawpoint::kriging {
 
-/// Estimates that follow from θ and λ.
+/// Estimates that follow from θ, p and λ.
 struct Concentrated {
-  double trend = 0;             ///< μ, unit of y
+  double trend = 0;             ///< β₁, unit of y
   double process_variance = 0;  ///< s², unit of y squared
   double log_likelihood = -std::numeric_limits<double>::infinity();
+};
+
+/// What the likelihood is of. X: n x d on [-1, 1], y: n.
+struct LikelihoodProblem {
+  Eigen::MatrixXd X;
+  Eigen::VectorXd y;
+  Eigen::MatrixXd F;       ///< n x q, the trend's terms; empty: a column of ones
+  Eigen::VectorXd noise;   ///< w, n entries; empty: all 1
+  double known_noise = 0;  ///< τ², unit of y squared; 0: s² is estimated
+  Correlation family = Correlation::gaussian;
+  Eigen::VectorXd exponent;  ///< given p of power_exponential, d entries; empty: parameters
+  int threads = 1;
 };
 
 /// Remembers the last point, so that value, gradient and Hessian at one p share their factorisation. Not for
 /// concurrent use; copies are independent.
 class Likelihood {
-  // (xᵢₖ − xⱼₖ)² for i ≥ j; above the public part because its type is deduced.
-  auto squares(Eigen::Index j, Eigen::Index k) const {
-    return (X_.col(k).tail(runs() - j).array() - X_(j, k)).square();
+ public:
+  explicit Likelihood(LikelihoodProblem problem) : in_(std::move(problem)), points_(in_.X.transpose()) {
+    if (in_.F.size() == 0) in_.F = Eigen::MatrixXd::Ones(runs(), 1);
+    f_.family = in_.family;
+    f_.exponent = in_.exponent;
+    estimated_exponents_ = in_.family == Correlation::power_exponential && in_.exponent.size() == 0;
   }
 
- public:
-  /// X: n x d on [-1, 1], y: n.
-  Likelihood(Eigen::MatrixXd X, Eigen::VectorXd y) : X_(std::move(X)), y_(std::move(y)) {}
+  /// Gaussian correlation, constant trend, the same noise everywhere.
+  Likelihood(Eigen::MatrixXd X, Eigen::VectorXd y) : Likelihood(with(std::move(X), std::move(y))) {}
 
-  Eigen::Index runs() const { return X_.rows(); }
-  Eigen::Index parameters() const { return X_.cols() + 1; }
+  Eigen::Index runs() const { return in_.X.rows(); }
+  Eigen::Index variables() const { return in_.X.cols(); }
+  bool estimates_exponents() const { return estimated_exponents_; }
+  Eigen::Index parameters() const { return variables() * (estimated_exponents_ ? 2 : 1) + 1; }
+  const LikelihoodProblem& problem() const { return in_; }
 
   /// Number of matrices factored so far.
   int factorizations() const { return factorizations_; }
@@ -59,178 +76,172 @@ class Likelihood {
     return estimates_.log_likelihood;
   }
 
-  /// d + 1 entries; zero where the value is −∞.
+  /// One entry a parameter; zero where the value is −∞.
   Eigen::VectorXd gradient(const Eigen::VectorXd& p) {
     if (!invert(p)) return Eigen::VectorXd::Zero(parameters());
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(parameters());
-    const Eigen::Index n = runs(), d = X_.cols();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      weigh(j);
-      for (Eigen::Index k = 0; k < d; ++k)
-        g[k] -= theta_[k] * (weight_.tail(n - j).array() * squares(j, k)).sum();
-    }
-    g[d] = 0.5 * nugget_ * (alpha_.squaredNorm() / estimates_.process_variance - K_.diagonal().sum());
+    constexpr Eigen::Index columns = 64;
+    const Eigen::Index n = runs(), last = parameters() - 1;
+    const int blocks = static_cast<int>((n + columns - 1) / columns);
+    Eigen::MatrixXd sums =
+        Eigen::MatrixXd::Zero(last, blocks);  // added up in order: equal bits on any threads
+    detail::for_each_task(blocks, n < 500 ? 1 : in_.threads, [&](int t) {
+      for (Eigen::Index j = t * columns; j < std::min(n, (t + 1) * columns); ++j) add_slopes(j, sums.col(t));
+    });
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(last + 1);
+    for (int t = 0; t < blocks; ++t) g.head(last) += sums.col(t);
+    const double s2 = estimates_.process_variance;
+    g[last] = 0.5 * nugget_ * noise_sum(gls_.alpha.array().square() / s2 - K_.diagonal().array());
+    if (in_.known_noise > 0) g[last] += 0.5 * static_cast<double>(n) - 0.5 * gls_.sum_of_squares / s2;
     return g;
   }
 
-  /// (d + 1) x (d + 1), symmetric; zero where the value is −∞.
-  Eigen::MatrixXd hessian(const Eigen::VectorXd& p) {
-    const Eigen::Index m = parameters();
-    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);
-    const Eigen::VectorXd g = gradient(p);
-    if (!std::isfinite(estimates_.log_likelihood)) return H;
-    K_.triangularView<Eigen::StrictlyUpper>() = K_.transpose();
-    add_second_derivatives(g, H);
-    add_traces(H);
-    add_trend_and_scale(H);
-    H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
-    return H;
-  }
+  /// Symmetric, one row a parameter; zero where the value is −∞.
+  Eigen::MatrixXd hessian(const Eigen::VectorXd& p);
 
-  /// The expected value of −∂²LL/∂p∂p: (d + 1) x (d + 1), symmetric and positive semidefinite, with μ and s²
-  /// estimated: Fₐ_b = ½ tr(R⁻¹Rₐ R⁻¹R_b) − tr(R⁻¹Rₐ) tr(R⁻¹R_b)/(2n). Zero where the value is −∞.
-  Eigen::MatrixXd fisher(const Eigen::VectorXd& p) {
-    const Eigen::Index m = parameters();
-    Eigen::MatrixXd F = Eigen::MatrixXd::Zero(m, m);
-    if (!invert(p)) return F;
-    K_.triangularView<Eigen::StrictlyUpper>() = K_.transpose();
-    add_traces(F);
-    Eigen::VectorXd t(m);
-    for (Eigen::Index a = 0; a + 1 < m; ++a) t[a] = 2.0 * trace_with_derivative(K_, a);
-    t[m - 1] = nugget_ * K_.diagonal().sum();
-    F.triangularView<Eigen::Lower>() -= t * t.transpose() / (2.0 * runs());
-    F.triangularView<Eigen::StrictlyUpper>() = F.transpose();
-    return F;
-  }
+  /// The expected value of −∂²LL/∂p∂p, symmetric and positive semidefinite: Fₐ_b = ½ tr(R⁻¹Rₐ R⁻¹R_b) −
+  /// tr(R⁻¹Rₐ) tr(R⁻¹R_b)/(2n) with s² estimated; with s² = τ²/λ the first term of s²R. Zero where the value
+  /// is −∞.
+  Eigen::MatrixXd fisher(const Eigen::VectorXd& p);
 
   // What belongs to the last p with a finite value.
   const Concentrated& estimates() const { return estimates_; }
-  const Eigen::VectorXd& theta() const { return theta_; }
+  const CorrelationFunction& correlation() const { return f_; }
+  const Eigen::VectorXd& theta() const { return f_.theta; }
   double nugget() const { return nugget_; }
-  const Eigen::VectorXd& weights() const { return alpha_; }        ///< α
-  const Eigen::VectorXd& weights_of_one() const { return beta_; }  ///< R⁻¹1
-  Eigen::MatrixXd cholesky() const { return llt_.matrixL(); }
-  double condition() const { return 1.0 / llt_.rcond(); }  ///< estimate in the 1-norm
+  const Eigen::VectorXd& weights() const { return gls_.alpha; }  ///< α
+  const detail::LeastSquares& least_squares() const { return gls_; }
+  /// Lower triangular, zeros above.
+  Eigen::MatrixXd cholesky() const { return L_.triangularView<Eigen::Lower>(); }
+  /// Product of the 1-norms of R and R⁻¹; needs the inverse, which costs 2n³/3 if it is not there yet.
+  double condition() {
+    if (!invert(p_)) return std::numeric_limits<double>::infinity();
+    Eigen::MatrixXd R = C_;
+    add_noise(R);
+    return norm(R) * norm(K_);
+  }
 
  private:
-  bool factor(const Eigen::VectorXd& p) {
-    if (p_.size() == p.size() && p_ == p) return std::isfinite(estimates_.log_likelihood);
+  static LikelihoodProblem with(Eigen::MatrixXd X, Eigen::VectorXd y) {
+    LikelihoodProblem problem;
+    problem.X = std::move(X);
+    problem.y = std::move(y);
+    return problem;
+  }
+
+  // Σ wᵢ vᵢ.
+  template <class Array>
+  double noise_sum(const Array& v) const {
+    return in_.noise.size() ? (v * in_.noise.array()).sum() : v.sum();
+  }
+
+  void add_noise(Eigen::MatrixXd& R) const {
+    if (in_.noise.size())
+      R.diagonal().array() += nugget_ * in_.noise.array() + detail::noise_floor;
+    else
+      R.diagonal().array() += nugget_;
+  }
+
+  // 1-norm of the symmetric matrix of which A has the lower triangle.
+  static double norm(const Eigen::MatrixXd& A) {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(A.rows());
+    for (Eigen::Index j = 0; j < A.cols(); ++j) {
+      const auto below = A.col(j).tail(A.rows() - j - 1).cwiseAbs();
+      sums[j] += std::abs(A(j, j)) + below.sum();
+      sums.tail(below.size()) += below;
+    }
+    return sums.maxCoeff();
+  }
+
+  void set(const Eigen::VectorXd& p) {
+    const Eigen::Index d = variables();
     p_ = p;
     inverted_ = false;
     estimates_ = {};
-    theta_ = p.head(X_.cols()).array().exp();
-    nugget_ = std::exp(p[X_.cols()]);
-    fill_correlation(X_, theta_, C_);
-    K_ = C_;
-    K_.diagonal().array() += nugget_;
+    f_.theta = p.head(d).array().exp();
+    if (estimated_exponents_) f_.exponent = p.segment(d, d);
+    nugget_ = std::exp(p[p.size() - 1]);
+  }
+
+  bool factor(const Eigen::VectorXd& p) {
+    if (p_.size() == p.size() && p_ == p) return std::isfinite(estimates_.log_likelihood);
+    set(p);
+    fill_correlation(in_.X, f_, C_, in_.threads);
+    L_ = C_;
+    add_noise(L_);
     ++factorizations_;
-    llt_.compute(K_);
-    return llt_.info() == Eigen::Success && estimate();
+    return detail::factor(detail::block_of(L_), in_.threads) && estimate();
   }
 
   bool estimate() {
     const double n = static_cast<double>(runs());
-    beta_ = llt_.solve(Eigen::VectorXd::Ones(runs()));
-    const double trend = beta_.dot(y_) / beta_.sum();
-    const Eigen::VectorXd residual = y_.array() - trend;
-    alpha_ = llt_.solve(residual);
-    const double variance = residual.dot(alpha_) / n;
-    const double log_determinant = 2.0 * llt_.matrixLLT().diagonal().array().log().sum();
-    const double value =
-        -0.5 * n * std::log(2.0 * std::numbers::pi * variance) - 0.5 * log_determinant - 0.5 * n;
-    if (!(beta_.sum() > 0) || !(variance > 0) || !std::isfinite(value)) return false;
-    estimates_ = {trend, variance, value};
+    gls_ = detail::least_squares(L_, in_.F, in_.y);
+    const double variance = in_.known_noise > 0 ? in_.known_noise / nugget_ : gls_.sum_of_squares / n;
+    const double value = detail::concentrated_log_likelihood(L_, gls_.sum_of_squares, variance);
+    if (!(variance > 0) || !std::isfinite(value)) return false;
+    estimates_ = {gls_.beta[0], variance, value};
     return true;
   }
 
   bool invert(const Eigen::VectorXd& p) {
     if (!factor(p)) return false;
-    if (!inverted_) detail::inverse_from_cholesky(llt_.matrixLLT(), K_);
+    if (inverted_) return true;
+    detail::inverse_transposed(L_, work_, in_.threads);
+    detail::product_of_upper(work_, K_, in_.threads);
     inverted_ = true;
     return true;
   }
 
-  // weight_ from row j on: column j of M∘C.
-  void weigh(Eigen::Index j) {
-    const Eigen::Index m = runs() - j;
-    weight_.resize(runs());
-    weight_.tail(m) = (alpha_.tail(m) * (alpha_[j] / estimates_.process_variance) - K_.col(j).tail(m))
-                          .cwiseProduct(C_.col(j).tail(m));
+  // Rows j + first .. of column j of M∘C below the diagonal.
+  detail::Chunk weight(Eigen::Index j, const detail::Rows& rows) const {
+    const auto part = [&](const auto& v) { return v.segment(rows.first, rows.count).array(); };
+    return (part(gls_.alpha) * (gls_.alpha[j] / estimates_.process_variance) - part(K_.col(j))) *
+           part(C_.col(j));
   }
 
-  // ½ Σ M R_ab, lower triangle.
-  void add_second_derivatives(const Eigen::VectorXd& g, Eigen::MatrixXd& H) {
-    const Eigen::Index n = runs(), d = X_.cols();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      weigh(j);
-      for (Eigen::Index a = 0; a < d; ++a)
-        for (Eigen::Index b = 0; b <= a; ++b)
-          H(a, b) +=
-              theta_[a] * theta_[b] * (weight_.tail(n - j).array() * squares(j, a) * squares(j, b)).sum();
-    }
-    H.diagonal() += g;
+  // Calls use(rows) for column j in pieces of at most 256 rows from the diagonal on.
+  template <class Use>
+  void in_chunks(Eigen::Index j, const Use& use) const {
+    for (Eigen::Index i = j; i < runs(); i += detail::chunk_rows)
+      use(detail::Rows{in_.X, i, std::min(detail::chunk_rows, runs() - i), &points_(0, j)});
   }
 
-  // Rₐ of a θ: n x n.
-  void fill_derivative(Eigen::Index a, Eigen::MatrixXd& D) const {
-    const Eigen::Index n = runs();
-    D.resize(n, n);
-    for (Eigen::Index j = 0; j < n; ++j)
-      D.col(j).tail(n - j) = -theta_[a] * C_.col(j).tail(n - j).array() * squares(j, a);
-    D.triangularView<Eigen::StrictlyUpper>() = D.transpose();
+  // ½ Σ M Rₐ of column j, doubled for its mirror; the diagonal of Rₐ is 0 but for the noise.
+  void add_slopes(Eigen::Index j, Eigen::Ref<Eigen::VectorXd> g) const {
+    const Eigen::Index d = variables();
+    in_chunks(j, [&](const detail::Rows& rows) {
+      const detail::Chunk w = weight(j, rows);
+      for (Eigen::Index k = 0; k < d; ++k) {
+        if (f_.family == Correlation::gaussian) {
+          g[k] -= f_.theta[k] *
+                  (w * (in_.X.col(k).segment(rows.first, rows.count).array() - rows.x[k]).square()).sum();
+          continue;
+        }
+        const detail::Chunk h = rows.distance(k);
+        g[k] += (w * detail::slope_in_theta(f_, k, h)).sum();
+        if (estimated_exponents_) g[d + k] += (w * detail::slope_in_exponent(f_, k, h)).sum();
+      }
+    });
   }
 
-  // ½ tr(K Rₐ K R_b), lower triangle.
-  void add_traces(Eigen::MatrixXd& H) const {
-    const Eigen::Index d = X_.cols();
-    Eigen::MatrixXd D, W, V;
-    for (Eigen::Index a = 0; a < d; ++a) {
-      fill_derivative(a, D);
-      W.noalias() = K_ * D;
-      H(a, a) += 0.5 * W.cwiseProduct(W.transpose()).sum();
-      H(d, a) += 0.5 * nugget_ * W.cwiseProduct(K_).sum();
-      if (a + 1 == d) continue;
-      V.noalias() = W * K_;
-      for (Eigen::Index b = a + 1; b < d; ++b) H(b, a) += trace_with_derivative(V, b);
-    }
-    H(d, d) += 0.5 * nugget_ * nugget_ * K_.squaredNorm();
-  }
+  void add_second_derivatives(Eigen::MatrixXd& H) const;
+  void fill_derivative(Eigen::Index a, Eigen::MatrixXd& D) const;
+  void add_traces(Eigen::MatrixXd& H);
+  Eigen::VectorXd traces() const;
+  void add_trend_and_scale(Eigen::MatrixXd& H) const;
 
-  // ½ Σ V R_b for symmetric V.
-  double trace_with_derivative(const Eigen::MatrixXd& V, Eigen::Index b) const {
-    double sum = 0;
-    for (Eigen::Index j = 0; j < runs(); ++j) {
-      const Eigen::Index m = runs() - j;
-      sum -= (V.col(j).tail(m).array() * C_.col(j).tail(m).array() * squares(j, b)).sum();
-    }
-    return theta_[b] * sum;
-  }
-
-  // −αᵀRₐ P R_b α/s² + qₐq_b/(2n s⁴), lower triangle.
-  void add_trend_and_scale(Eigen::MatrixXd& H) const {
-    const Eigen::Index d = X_.cols();
-    const double s2 = estimates_.process_variance;
-    Eigen::MatrixXd U(runs(), d + 1), D;
-    for (Eigen::Index a = 0; a < d; ++a) {
-      fill_derivative(a, D);
-      U.col(a).noalias() = D * alpha_;
-    }
-    U.col(d) = nugget_ * alpha_;
-    const Eigen::VectorXd q = U.transpose() * alpha_, t = U.transpose() * beta_;
-    const Eigen::MatrixXd PU = K_ * U - beta_ * (t.transpose() / beta_.sum());
-    H.triangularView<Eigen::Lower>() +=
-        q * q.transpose() / (2.0 * runs() * s2 * s2) - U.transpose() * PU / s2;
-  }
-
-  Eigen::MatrixXd X_;
-  Eigen::VectorXd y_;
-  Eigen::VectorXd p_, theta_, alpha_, beta_, weight_;
+  LikelihoodProblem in_;
+  Eigen::MatrixXd points_;  // X transposed
+  bool estimated_exponents_ = false;
+  Eigen::VectorXd p_;
+  CorrelationFunction f_;
   double nugget_ = 0;
   Concentrated estimates_;
-  Eigen::MatrixXd C_, K_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Eigen::MatrixXd C_, L_, K_, work_;
+  detail::LeastSquares gls_;
   bool inverted_ = false;
   int factorizations_ = 0;
 };
 
 }  // namespace drawpoint::kriging
+
+#include <drawpoint/kriging/likelihood_curvature.hpp>

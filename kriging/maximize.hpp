@@ -6,10 +6,12 @@
 ///
 /// Ipopt gets the analytic gradient and one of two curvatures:
 /// * exact: the Hessian, about 3d times the cost of a gradient. Few iterations, and saddles do not hold it.
-/// * secant: the Fisher information at the start, then damped BFGS updates (Nocedal, Wright 2006, "Numerical
-///   Optimization", procedure 18.2), one gradient an iteration.
-/// Stops when Ipopt's optimality error is below 1e-4, or when the last 4 iterations together gained less than
-/// 1e-3: near a singular R the likelihood carries round-off that no step can climb.
+/// * secant: a given matrix at the start, then damped BFGS updates (climb.hpp), one gradient an iteration.
+/// Parameters that start at a bound with the gradient pushing outward are fixed there and released only when
+/// the gradient turns: an interior-point method would push them off and spend iterations on their way back.
+/// Stops when the gain that the curvature promises, ½ gᵀB⁻¹g, is below 1e-4, when Ipopt's optimality error is
+/// below 1e-4, or when the last 4 iterations together gained less than 1e-3: near a singular R the likelihood
+/// carries round-off that no step can climb.
 ///
 /// Ipopt's linear solver MUMPS keeps global state, so searches of different threads wait for each other.
 /// Nothing is printed and no option file is read.
@@ -19,6 +21,7 @@
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/kriging/climb.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
 #include <limits>
 #include <mutex>
@@ -27,64 +30,35 @@
 
 namespace drawpoint::kriging {
 
-enum class Curvature { exact, secant };
-
 struct Maximum {
-  Eigen::VectorXd p;  ///< (ln θ, ln λ)
+  Eigen::VectorXd p;  ///< (ln θ, exponents where they are estimated, ln λ)
   double value = -std::numeric_limits<double>::infinity();
   bool converged = false;
 };
 
-struct Box {
-  Eigen::VectorXd lower, upper;
+/// Where a search starts. Without a curvature B ≈ −∂²LL/∂p∂p the exact Hessian is used throughout.
+struct SearchStart {
+  Eigen::VectorXd p;
+  Eigen::MatrixXd curvature;
 };
 
 namespace detail {
 
-/// Positive definite approximation of the Hessian of a function that is minimised.
-class SecantHessian {
- public:
-  bool empty() const { return B_.size() == 0; }
-  const Eigen::MatrixXd& matrix() const { return B_; }
-
-  void start(const Eigen::MatrixXd& B, const Eigen::VectorXd& p, const Eigen::VectorXd& g) {
-    B_ = B;
-    p_ = p;
-    g_ = g;
-  }
-
-  void move_to(const Eigen::VectorXd& p, const Eigen::VectorXd& g) {
-    const Eigen::VectorXd s = p - p_, Bs = B_ * s;
-    Eigen::VectorXd y = g - g_;
-    const double curvature = s.dot(Bs);
-    p_ = p;
-    g_ = g;
-    if (!(curvature > 1e-14)) return;
-    if (s.dot(y) < 0.2 * curvature) {
-      const double share = 0.8 * curvature / (curvature - s.dot(y));
-      y = share * y + (1.0 - share) * Bs;
-    }
-    B_ += y * y.transpose() / s.dot(y) - Bs * Bs.transpose() / curvature;
-  }
-
- private:
-  Eigen::MatrixXd B_;
-  Eigen::VectorXd p_, g_;
-};
+inline constexpr double negligible_gain = 1e-4;
 
 /// −LL as Ipopt wants it. Keeps the best point that was seen, which a search cut short would lose.
 class NegativeLikelihood : public Ipopt::TNLP {
  public:
-  NegativeLikelihood(Likelihood& likelihood, const Box& box, Eigen::VectorXd start, Curvature curvature)
-      : likelihood_(likelihood), box_(box), start_(std::move(start)), curvature_(curvature) {}
+  NegativeLikelihood(Likelihood& likelihood, const Box& box, const SearchStart& start)
+      : likelihood_(likelihood), box_(box), start_(start) {}
 
   const Eigen::VectorXd& best() const { return best_; }
   double best_value() const { return best_value_; }
-  bool stalled() const { return stalled_; }
+  bool stopped() const { return stopped_; }
 
   bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& jacobian, Ipopt::Index& hessian,
                     IndexStyleEnum& style) override {
-    n = static_cast<Ipopt::Index>(start_.size());
+    n = static_cast<Ipopt::Index>(start_.p.size());
     m = jacobian = 0;
     hessian = n * (n + 1) / 2;
     style = C_STYLE;
@@ -99,7 +73,7 @@ class NegativeLikelihood : public Ipopt::TNLP {
 
   bool get_starting_point(Ipopt::Index, bool, double* x, bool, double*, double*, Ipopt::Index, bool,
                           double*) override {
-    std::copy(start_.begin(), start_.end(), x);
+    std::copy(start_.p.begin(), start_.p.end(), x);
     return true;
   }
 
@@ -115,25 +89,26 @@ class NegativeLikelihood : public Ipopt::TNLP {
   }
 
   bool eval_grad_f(Ipopt::Index n, const double* x, bool, double* g) override {
-    Eigen::Map<Eigen::VectorXd>(g, n) = -likelihood_.gradient(Eigen::Map<const Eigen::VectorXd>(x, n));
+    at_ = Eigen::Map<const Eigen::VectorXd>(x, n);
+    gradient_ = likelihood_.gradient(at_);
+    Eigen::Map<Eigen::VectorXd>(g, n) = -gradient_;
     return std::isfinite(likelihood_.estimates().log_likelihood);
   }
 
   bool eval_h(Ipopt::Index n, const double* x, bool, double factor, Ipopt::Index, const double*, bool,
               Ipopt::Index, Ipopt::Index* rows, Ipopt::Index* columns, double* values) override {
-    Eigen::MatrixXd H;
-    if (values) H = factor * curvature_at(Eigen::Map<const Eigen::VectorXd>(x, n));
+    if (values) update_curvature(Eigen::Map<const Eigen::VectorXd>(x, n));
     for (Ipopt::Index i = 0, entry = 0; i < n; ++i) {
       for (Ipopt::Index j = 0; j <= i; ++j, ++entry) {
         if (values) {
-          values[entry] = H(i, j);
+          values[entry] = factor * B_(i, j);
         } else {
           rows[entry] = i;
           columns[entry] = j;
         }
       }
     }
-    return !values || H.allFinite();
+    return !values || B_.allFinite();
   }
 
   bool eval_g(Ipopt::Index, const double*, bool, Ipopt::Index, double*) override { return true; }
@@ -149,8 +124,9 @@ class NegativeLikelihood : public Ipopt::TNLP {
     constexpr double gain = 1e-3;
     history_.push_back(best_value_);
     const std::size_t count = history_.size();
-    stalled_ = count > window && !(best_value_ - history_[count - 1 - window] >= gain);
-    return !stalled_;
+    const bool stalled = count > window && !(best_value_ - history_[count - 1 - window] >= gain);
+    stopped_ = stalled || promises_nothing();
+    return !stopped_;
   }
 
   void finalize_solution(Ipopt::SolverReturn, Ipopt::Index, const double*, const double*, const double*,
@@ -158,24 +134,39 @@ class NegativeLikelihood : public Ipopt::TNLP {
                          Ipopt::IpoptCalculatedQuantities*) override {}
 
  private:
-  Eigen::MatrixXd curvature_at(const Eigen::VectorXd& p) {
-    if (curvature_ == Curvature::exact) return -likelihood_.hessian(p);
-    const Eigen::VectorXd g = -likelihood_.gradient(p);
+  void update_curvature(const Eigen::VectorXd& p) {
+    if (start_.curvature.size() == 0) {
+      B_ = -likelihood_.hessian(p);
+      return;
+    }
+    const Eigen::VectorXd g = likelihood_.gradient(p);
     if (secant_.empty())
-      secant_.start(likelihood_.fisher(p), p, g);
+      secant_.start(start_.curvature, p, g);
     else
       secant_.move_to(p, g);
-    return secant_.matrix();
+    B_ = secant_.matrix();
+  }
+
+  // The curvature is the one before the last step, the gradient that of the last point.
+  bool promises_nothing() const {
+    if (B_.size() == 0 || gradient_.size() == 0) return false;
+    const auto free = free_parameters(box_, at_, gradient_);
+    if (free.empty()) return true;
+    const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd(B_(free, free)));
+    if (llt.info() != Eigen::Success) return false;
+    const Eigen::VectorXd g = gradient_(free);
+    return 0.5 * g.dot(llt.solve(g)) < negligible_gain;
   }
 
   Likelihood& likelihood_;
   const Box& box_;
-  Eigen::VectorXd start_, best_;
-  Curvature curvature_;
-  SecantHessian secant_;
+  const SearchStart& start_;
+  Eigen::VectorXd best_, at_, gradient_;
+  Curvature secant_;
+  Eigen::MatrixXd B_;
   double best_value_ = -std::numeric_limits<double>::infinity();
   std::vector<double> history_;
-  bool stalled_ = false;
+  bool stopped_ = false;
 };
 
 inline Ipopt::SmartPtr<Ipopt::IpoptApplication> silent_ipopt(int max_iterations) {
@@ -186,6 +177,8 @@ inline Ipopt::SmartPtr<Ipopt::IpoptApplication> silent_ipopt(int max_iterations)
   ipopt->Options()->SetNumericValue("tol", 1e-4);
   ipopt->Options()->SetNumericValue("bound_relax_factor", 0.0);
   ipopt->Options()->SetStringValue("nlp_scaling_method", "none");
+  // The start is near the maximum: no large barrier, which would push it away again.
+  ipopt->Options()->SetNumericValue("mu_init", 1e-4);
   // Steps shrink fourfold and not below 1e-2 of the full one: shorter ones would only chase round-off.
   ipopt->Options()->SetNumericValue("alpha_red_factor", 0.25);
   ipopt->Options()->SetNumericValue("alpha_min_frac", 1.0);
@@ -199,20 +192,54 @@ inline std::mutex& ipopt_mutex() {
   return mutex;
 }
 
+/// One run of Ipopt in a box in which equal bounds fix a parameter.
+inline Maximum run_ipopt(Likelihood& likelihood, const Box& box, const SearchStart& start,
+                         int max_iterations) {
+  const std::lock_guard<std::mutex> lock(ipopt_mutex());
+  Ipopt::SmartPtr<NegativeLikelihood> problem = new NegativeLikelihood(likelihood, box, start);
+  const auto ipopt = silent_ipopt(max_iterations);
+  const auto status = ipopt->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(problem)));
+  const bool done = status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level ||
+                    status == Ipopt::Search_Direction_Becomes_Too_Small;
+  return {problem->best(), problem->best_value(), done || problem->stopped()};
+}
+
+/// `box` with the parameters fixed that a bound holds at p.
+inline Box held_at(const Box& box, const Eigen::VectorXd& p, const Eigen::VectorXd& gradient) {
+  Box held{p, p};
+  for (const Eigen::Index i : free_parameters(box, p, gradient)) {
+    held.lower[i] = box.lower[i];
+    held.upper[i] = box.upper[i];
+  }
+  return held;
+}
+
 }  // namespace detail
 
 /// Climbs from `start`, which lies in the box. The value is −∞ only when no point of the search had a finite
 /// one.
-inline Maximum maximize(Likelihood& likelihood, const Box& box, const Eigen::VectorXd& start,
-                        Curvature curvature, int max_iterations) {
-  const std::lock_guard<std::mutex> lock(detail::ipopt_mutex());
-  Ipopt::SmartPtr<detail::NegativeLikelihood> problem =
-      new detail::NegativeLikelihood(likelihood, box, start, curvature);
-  const auto ipopt = detail::silent_ipopt(max_iterations);
-  const auto status = ipopt->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(problem)));
-  const bool done = status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level ||
-                    status == Ipopt::Search_Direction_Becomes_Too_Small;
-  return {problem->best(), problem->best_value(), done || problem->stalled()};
+inline Maximum maximize(Likelihood& likelihood, const Box& box, SearchStart start, int max_iterations) {
+  Maximum best{start.p, likelihood.value(start.p), false};
+  if (!std::isfinite(best.value)) return best;
+  for (int round = 0; round < 3; ++round) {
+    const Box held = detail::held_at(box, best.p, likelihood.gradient(best.p));
+    if (held.lower == held.upper) {
+      best.converged = true;
+      return best;
+    }
+    start.p = best.p;
+    const Maximum found = detail::run_ipopt(likelihood, held, start, max_iterations);
+    const bool better = found.value >= best.value;
+    best.converged = found.converged;
+    if (!better) return best;
+    best.p = found.p;
+    best.value = found.value;
+    const Box now = detail::held_at(box, best.p, likelihood.gradient(best.p));
+    const bool released =
+        ((held.lower.array() == held.upper.array()) && (now.lower.array() < now.upper.array())).any();
+    if (!released) return best;
+  }
+  return best;
 }
 
 }  // namespace drawpoint::kriging

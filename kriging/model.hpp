@@ -2,23 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// A fitted regression Kriging model. A value: copy it, share it between threads.
+/// A fitted Kriging model. A value: copy it, share it between threads.
 ///
-/// With r = c(x, X), the correlations of x with the runs, without λ:
-///   mean      ŷ(x)  = μ + rᵀα
-///   variance  s²(x) = s² [1 − rᵀR⁻¹r + (1 − 1ᵀR⁻¹r)²/(1ᵀR⁻¹1)]
-/// The last term is what estimating μ adds. This is the variance of the latent function, the response without
-/// noise; it does not vanish at the runs when λ > 0. A new noisy observation has the variance s²(x) + λ s².
-/// Units: mean in the unit of y, variance in its square. Cost a point: mean n d, variance n² more.
-/// Source: Forrester, Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy' Computer
-/// Experiments".
+/// With r = c(x, X), the correlations of x with the runs, without λ, and f = f(x) the terms of the trend:
+///   mean        ŷ(x)    = fᵀβ + rᵀα
+///   variance    s²(x)   = s² [1 − rᵀR⁻¹r + uᵀ(FᵀR⁻¹F)⁻¹u],  u = f − FᵀR⁻¹r
+///   covariance  s²(x,z) = s² [c(x, z) − rₓᵀR⁻¹r_z + uₓᵀ(FᵀR⁻¹F)⁻¹u_z]
+/// The last terms are what estimating β adds. This is about the latent function, the response without noise;
+/// its variance does not vanish at the runs when λ > 0. A new noisy observation has the variance s²(x) + λ
+/// s², where runs of different noise have their mean. Units: mean in the unit of y, variance in its square.
+/// Cost a point: mean n d, variance n² more, covariance of m points m n² + m² n. Source: Forrester, Keane,
+/// Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy' Computer Experiments"; universal
+/// Kriging: Santner, Williams, Notz 2003, section 3.3.
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <drawpoint/kriging/correlation.hpp>
-#include <drawpoint/kriging/likelihood.hpp>
+#include <drawpoint/kriging/model_state.hpp>
 #include <drawpoint/kriging/options.hpp>
-#include <drawpoint/kriging/training_data.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -30,35 +32,20 @@ struct Prediction {
   Eigen::VectorXd mean, variance;  ///< one entry a point
 };
 
+/// Derivatives by the d inputs at one point: [unit of y / unit of x] and [unit of y squared / unit of x].
+struct PredictionGradient {
+  Eigen::VectorXd mean, variance;
+};
+
 /// What a variance is about: the response without noise, or one more run of it.
 enum class Target { latent, observation };
 
 class Model {
  public:
-  /// The model at the last point of `likelihood`, whose value there is finite. Made by fit().
-  Model(const detail::TrainingData& data, const Likelihood& likelihood, FitReport report)
-      : input_(data.input),
-        X_(data.X),
-        theta_(likelihood.theta()),
-        nugget_(likelihood.nugget()),
-        trend_(data.y_centre + data.y_scale * likelihood.estimates().trend),
-        process_variance_(data.y_scale * data.y_scale * likelihood.estimates().process_variance),
-        log_likelihood_(likelihood.estimates().log_likelihood -
-                        static_cast<double>(data.X.rows()) * std::log(data.y_scale)),
-        weights_(data.y_scale * likelihood.weights()),
-        weights_of_one_(likelihood.weights_of_one()),
-        cholesky_(likelihood.cholesky()),
-        report_(std::move(report)) {}
-
-  /// The constant model of a constant response.
-  Model(const detail::TrainingData& data, const FitOptions& options, FitReport report)
-      : input_(data.input),
-        X_(0, data.X.cols()),
-        theta_(Eigen::VectorXd::Constant(data.X.cols(), options.theta_lower)),
-        nugget_(options.nugget_lower),
-        trend_(data.y_centre),
-        log_likelihood_(std::numeric_limits<double>::infinity()),
-        report_(std::move(report)) {}
+  /// Made by fit() and by what changes a model.
+  explicit Model(detail::ModelState state) : s_(std::move(state)), runs_(s_.X.transpose()) {
+    if (s_.X.rows() > 0) triangle_ = s_.gls.T.transpose().triangularView<Eigen::Lower>();
+  }
 
   /// X: m x d, natural units. Throws std::invalid_argument for another number of columns and for numbers that
   /// are not finite.
@@ -67,11 +54,11 @@ class Model {
     Prediction p{Eigen::VectorXd(X.rows()), Eigen::VectorXd(X.rows())};
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
       const Eigen::Index count = std::min(block, X.rows() - i);
-      Eigen::MatrixXd R = correlations(X.middleRows(i, count));
-      p.mean.segment(i, count) = mean_of(R);
-      p.variance.segment(i, count) = variance_of(R);
+      const Eigen::MatrixXd points = X.middleRows(i, count), scaled = s_.input.apply(points);
+      p.mean.segment(i, count) = mean_of(points, scaled);
+      p.variance.segment(i, count) = variance_of(points, scaled);
     }
-    if (target == Target::observation) p.variance.array() += nugget_ * process_variance_;
+    if (target == Target::observation) p.variance.array() += noise_variance();
     return p;
   }
 
@@ -81,7 +68,8 @@ class Model {
     Eigen::VectorXd mean(X.rows());
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
       const Eigen::Index count = std::min(block, X.rows() - i);
-      mean.segment(i, count) = mean_of(correlations(X.middleRows(i, count)));
+      const Eigen::MatrixXd points = X.middleRows(i, count);
+      mean.segment(i, count) = mean_of(points, s_.input.apply(points));
     }
     return mean;
   }
@@ -89,20 +77,71 @@ class Model {
   /// The mean at one point x of d entries: a model is a black box itself.
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
 
-  Eigen::Index variables() const { return theta_.size(); }
+  /// Derivatives of the latent mean and variance at one point x of d entries. Cost n² + n d. Throws as
+  /// predict.
+  PredictionGradient gradient(const Eigen::VectorXd& x) const {
+    check(x.size(), x.allFinite());
+    PredictionGradient g{Eigen::VectorXd::Zero(x.size()), Eigen::VectorXd::Zero(x.size())};
+    if (s_.X.rows() == 0) return g;
+    const Eigen::VectorXd scaled = s_.input.apply(x.transpose()).transpose();
+    const Eigen::VectorXd r = cross_correlation(s_.X, scaled.transpose(), s_.correlation).col(0);
+    const Eigen::MatrixXd J = slopes_of(r, scaled);
+    const Eigen::VectorXd half_range = s_.input.half_range();
+    const detail::TrendPoint point{x, scaled, half_range};
+    const Eigen::MatrixXd slope = s_.trend.jacobian(point);
+    g.mean = s_.y_scale * (J.transpose() * s_.gls.alpha + slope.transpose() * s_.gls.beta);
+    // v = T⁻ᵀu and its derivatives; R⁻¹r = L⁻ᵀL⁻¹r.
+    const Eigen::VectorXd v =
+        triangle_.triangularView<Eigen::Lower>().solve(s_.trend.values(point)) - s_.gls.B.transpose() * r;
+    const Eigen::MatrixXd dv =
+        triangle_.triangularView<Eigen::Lower>().solve(slope) - s_.gls.B.transpose() * J;
+    Eigen::VectorXd w = s_.L.triangularView<Eigen::Lower>().solve(r);
+    s_.L.triangularView<Eigen::Lower>().transpose().solveInPlace(w);
+    g.variance = 2.0 * process_variance() * (dv.transpose() * v - J.transpose() * w);
+    return g;
+  }
+
+  /// Joint covariance of the latent function at the rows of X: m x m, symmetric. Throws as predict.
+  Eigen::MatrixXd covariance(const Eigen::MatrixXd& X) const {
+    check(X.cols(), X.allFinite());
+    const Eigen::Index m = X.rows();
+    if (s_.X.rows() == 0)
+      return Eigen::MatrixXd(Eigen::VectorXd::Constant(m, s_.constant_variance).asDiagonal());
+    const Eigen::MatrixXd scaled = s_.input.apply(X);
+    Eigen::MatrixXd R = correlations(scaled), C;
+    const Eigen::MatrixXd V = trend_part(X, scaled, R);
+    detail::solve_right(detail::block_of(s_.L), detail::block_of(R));
+    fill_correlation(scaled, s_.correlation, C);
+    C = Eigen::MatrixXd(C.selfadjointView<Eigen::Lower>());
+    C += V * V.transpose() - R * R.transpose();
+    return 0.5 * process_variance() * (C + C.transpose());
+  }
+
+  Eigen::Index variables() const { return s_.input.centre.size(); }
+  Eigen::Index runs() const { return s_.observed.size(); }
+  const CorrelationFunction& correlation() const { return s_.correlation; }
   /// d entries, on inputs scaled to [-1, 1]: how fast the response varies with each input.
-  const Eigen::VectorXd& theta() const { return theta_; }
-  double nugget() const { return nugget_; }                      ///< λ
-  double process_variance() const { return process_variance_; }  ///< s², unit of y squared
-  double trend() const { return trend_; }                        ///< μ, unit of y
+  const Eigen::VectorXd& theta() const { return s_.correlation.theta; }
+  double nugget() const { return s_.nugget; }  ///< λ
+  /// s², unit of y squared.
+  double process_variance() const { return s_.y_scale * s_.y_scale * s_.process_variance; }
+  double noise_variance() const { return s_.nugget * process_variance(); }  ///< λ s², unit of y squared
+  /// Coefficient of the trend's first term, the constant unless the user's basis begins with another.
+  double trend() const { return s_.y_centre + (s_.X.rows() ? s_.y_scale * s_.gls.beta[0] : 0.0); }
+  /// One entry a term, unit of y over the unit of the term, in the order of trend_function(). The first term
+  /// lacks the mean of the runs, which trend() includes.
+  Eigen::VectorXd trend_coefficients() const { return s_.y_scale * s_.gls.beta; }
+  const detail::TrendFunction& trend_function() const { return s_.trend; }
   /// Concentrated log likelihood in the unit of y; +∞ for a constant response.
-  double log_likelihood() const { return log_likelihood_; }
-  const FitReport& report() const { return report_; }
-  Status status() const { return report_.status; }
-  const std::string& message() const { return report_.message; }
+  double log_likelihood() const { return s_.log_likelihood; }
+  const FitReport& report() const { return s_.report; }
+  Status status() const { return s_.report.status; }
+  const std::string& message() const { return s_.report.message; }
+  /// All that makes the model, for what builds on it.
+  const detail::ModelState& state() const { return s_; }
 
  private:
-  static constexpr Eigen::Index block = 128;  // points at a time: n x 128 correlations stay in the cache
+  static constexpr Eigen::Index block = 128;  // points at a time: 128 x n correlations stay in the cache
 
   void check(Eigen::Index columns, bool finite) const {
     if (columns != variables())
@@ -115,33 +154,71 @@ class Model {
           "point");
   }
 
-  // n x m, without λ.
-  Eigen::MatrixXd correlations(const Eigen::MatrixXd& X) const {
-    return cross_correlation(X_, input_.apply(X), theta_);
+  // m x n, without λ: points down, so that all work runs along them.
+  Eigen::MatrixXd correlations(const Eigen::MatrixXd& scaled) const {
+    Eigen::MatrixXd R(scaled.rows(), s_.X.rows());
+    for (Eigen::Index j = 0; j < R.cols(); ++j)
+      detail::correlate(s_.correlation, {scaled, 0, scaled.rows(), &runs_(0, j)}, &R(0, j));
+    return R;
   }
 
-  Eigen::VectorXd mean_of(const Eigen::MatrixXd& R) const {
-    if (X_.rows() == 0) return Eigen::VectorXd::Constant(R.cols(), trend_);
-    return (R.transpose() * weights_).array() + trend_;
+  // n x d: derivatives of r by the natural inputs.
+  Eigen::MatrixXd slopes_of(const Eigen::VectorXd& r, const Eigen::VectorXd& scaled) const {
+    Eigen::MatrixXd J(r.size(), scaled.size());
+    for (Eigen::Index k = 0; k < J.cols(); ++k)
+      for (Eigen::Index i = 0; i < J.rows(); ++i)
+        J(i, k) =
+            r[i] * s_.input.factor[k] * detail::slope_in_place(s_.correlation, k, scaled[k] - s_.X(i, k));
+    return J;
   }
 
-  // Overwrites R with L⁻¹R.
-  Eigen::VectorXd variance_of(Eigen::MatrixXd& R) const {
-    if (X_.rows() == 0) return Eigen::VectorXd::Zero(R.cols());
-    const Eigen::ArrayXd missing = 1.0 - (R.transpose() * weights_of_one_).array();
-    cholesky_.triangularView<Eigen::Lower>().solveInPlace(R);
-    const Eigen::ArrayXd explained = R.colwise().squaredNorm().transpose();
+  Eigen::VectorXd mean_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const {
+    if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.y_centre);
+    Eigen::VectorXd m = s_.correlation.family == Correlation::gaussian
+                            ? gaussian_sums(scaled)
+                            : Eigen::VectorXd(correlations(scaled) * s_.gls.alpha);
+    if (s_.trend.is_constant())
+      m.array() += s_.gls.beta[0];
+    else
+      m += detail::trend_matrix(s_.trend, X, scaled, s_.input) * s_.gls.beta;
+    return (s_.y_scale * m).array() + s_.y_centre;
+  }
+
+  // Σⱼ αⱼ c(x, xⱼ), four points at a time; the last four are filled up with copies of the last point.
+  Eigen::VectorXd gaussian_sums(const Eigen::MatrixXd& scaled) const {
+    const Eigen::Index m = scaled.rows(), d = scaled.cols();
+    Eigen::VectorXd sums(m);
+    Eigen::MatrixXd four(4, d);
+    for (Eigen::Index i = 0; i < m; i += 4) {
+      for (Eigen::Index a = 0; a < 4; ++a) four.row(a) = scaled.row(std::min(i + a, m - 1));
+      double out[4];
+      detail::gaussian_sum_of_four({four.data(), 4, d, s_.correlation.theta.data(), runs_.data()},
+                                   s_.gls.alpha.data(), s_.X.rows(), out);
+      for (Eigen::Index a = 0; a < std::min<Eigen::Index>(4, m - i); ++a) sums[i + a] = out[a];
+    }
+    return sums;
+  }
+
+  // Rows T⁻ᵀu of the points, m x q.
+  Eigen::MatrixXd trend_part(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled,
+                             const Eigen::MatrixXd& R) const {
+    const Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
+    return triangle_.triangularView<Eigen::Lower>().solve(F.transpose()).transpose() - R * s_.gls.B;
+  }
+
+  Eigen::VectorXd variance_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const {
+    if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.constant_variance);
+    Eigen::MatrixXd R = correlations(scaled);
+    const Eigen::ArrayXd missing = trend_part(X, scaled, R).rowwise().squaredNorm();
+    detail::solve_right(detail::block_of(s_.L), detail::block_of(R));
+    const Eigen::ArrayXd explained = R.rowwise().squaredNorm();
     // Round-off may leave a small negative number at a run.
-    return process_variance_ * (1.0 - explained + missing.square() / weights_of_one_.sum()).max(0.0);
+    return process_variance() * (1.0 - explained + missing).max(0.0);
   }
 
-  detail::InputScale input_;
-  Eigen::MatrixXd X_;  // n x d scaled; no rows in a constant model
-  Eigen::VectorXd theta_;
-  double nugget_ = 0, trend_ = 0, process_variance_ = 0, log_likelihood_ = 0;
-  Eigen::VectorXd weights_, weights_of_one_;  // R⁻¹(y − 1μ) in the unit of y, and R⁻¹1
-  Eigen::MatrixXd cholesky_;
-  FitReport report_;
+  detail::ModelState s_;
+  Eigen::MatrixXd runs_;      // X transposed: a run's coordinates stand together
+  Eigen::MatrixXd triangle_;  // Tᵀ
 };
 
 }  // namespace drawpoint::kriging

@@ -5,22 +5,33 @@
 /// What a fit can be told, and what it reports.
 ///
 /// θ lives on inputs scaled to [-1, 1]; θ = 1/(8 l²) for a length scale l on [0, 1]. The nugget λ is a share
-/// of the process variance: the noise variance is λ s². The default bounds are l in [0.01, 100] and λ in
+/// of the process variance: the noise variance is λ s². The default bounds are l in [0.01, 102] and λ in
 /// [1e-10, 10].
 
 #include <Eigen/Core>
 #include <drawpoint/doe/seed.hpp>
+#include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/trend.hpp>
 #include <string>
 #include <string_view>
 
 namespace drawpoint::kriging {
+
+/// What is known of the noise of the runs.
+enum class Noise {
+  nugget,        ///< nothing but that it is the same everywhere: λ is estimated
+  known,         ///< the variance of each run, FitOptions::noise_variance; λ follows from s²
+  proportional,  ///< the variance of each run up to a common factor, which is estimated as λ
+};
 
 struct FitOptions {
   /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
   /// Give the box of the problem when θ is to be compared between fits to different runs.
   Eigen::VectorXd lower, upper;
 
-  double theta_lower = 1.25e-5, theta_upper = 1250.0;  ///< > 0; equal bounds fix θ
+  /// > 0; equal bounds fix θ. At the lower one the correlation across the range of an input is 1 − 5e-5: the
+  /// input has no effect. A length scale of 0.01 at the upper one is shorter than runs can lie apart.
+  double theta_lower = 1.2e-5, theta_upper = 1250.0;
   /// > 0; equal bounds fix λ. Far below 1e-10 the matrix of some hundred smooth runs is singular to
   /// round-off.
   double nugget_lower = 1e-10, nugget_upper = 10.0;
@@ -31,13 +42,28 @@ struct FitOptions {
   int candidates = 128;      ///< points from which the starts are chosen by their likelihood, >= starts
   int max_iterations = 200;  ///< of one local search, >= 1
   doe::Seed seed = 1;        ///< of the candidates
+
+  Correlation correlation = Correlation::gaussian;
+  /// power_exponential only: pₖ in [1, 2], one entry a variable. Empty: estimated.
+  Eigen::VectorXd exponent;
+
+  Trend trend = Trend::constant;
+  Basis basis;  ///< Trend::user only
+
+  Noise noise = Noise::nugget;
+  /// Unit of y squared, one entry a run, >= 0, not all 0; Noise::known and Noise::proportional only.
+  Eigen::VectorXd noise_variance;
+
+  /// >= 0; 0: as many as processors. They share the matrix work of many runs; results do not depend on them.
+  int threads = 0;
 };
 
 enum class Status {
   converged,          ///< the best local search met its stopping rule
   not_converged,      ///< the best search ended before its stopping rule: valid, maybe not the likeliest
   constant_response,  ///< all y are equal: the model is that constant with variance 0
-  ill_conditioned     ///< a valid model, but R is so close to singular that few digits can be trusted
+  ill_conditioned,    ///< a valid model, but R is so close to singular that few digits can be trusted
+  too_few_runs  ///< one run: that constant, variance +∞; or the trend asked for has more terms than runs
 };
 
 inline std::string_view to_string(Status status) {
@@ -50,6 +76,8 @@ inline std::string_view to_string(Status status) {
       return "constant_response";
     case Status::ill_conditioned:
       return "ill_conditioned";
+    case Status::too_few_runs:
+      return "too_few_runs";
   }
   return "unknown";
 }

@@ -15,8 +15,8 @@
 #include <cmath>
 #include <cstddef>
 #include <drawpoint/doe/seed.hpp>
+#include <drawpoint/kriging/climb.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
-#include <drawpoint/kriging/maximize.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <vector>
 
@@ -31,13 +31,14 @@ inline double log_uniform(doe::RandomStream& random, double lower, double upper)
   return std::log(lower) + random.uniform() * std::log(upper / lower);
 }
 
-/// (ln θ, ln λ) inside the box.
-inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box) {
-  const Eigen::Index d = box.lower.size() - 1;
+/// (ln θ, exponents, ln λ) inside the box of m parameters for d variables.
+inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, Eigen::Index d) {
+  const Eigen::Index m = box.lower.size();
   const double common = log_uniform(random, 0.1, 1.0) + 0.5 * std::log(static_cast<double>(d));
-  Eigen::VectorXd p(d + 1);
+  Eigen::VectorXd p(m);
   for (Eigen::Index k = 0; k < d; ++k) p[k] = -std::log(8.0) - 2.0 * (common + log_uniform(random, 0.5, 4.0));
-  p[d] = log_uniform(random, 1e-8, 0.3);
+  for (Eigen::Index k = d; k + 1 < m; ++k) p[k] = 1.5 + 0.49 * random.uniform();
+  p[m - 1] = log_uniform(random, 1e-8, 0.3);
   return p.cwiseMax(box.lower).cwiseMin(box.upper);
 }
 
@@ -60,7 +61,7 @@ inline std::vector<Candidate> ranked_candidates(Likelihood& likelihood, const Bo
   doe::RandomStream random(seed);
   std::vector<Candidate> all(count);
   for (Candidate& c : all) {
-    c.p = candidate(random, box);
+    c.p = candidate(random, box, likelihood.variables());
     c.value = likelihood.value(c.p);
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value > b.value; });

@@ -48,17 +48,10 @@ TEST(BadInput, Runs) {
   EXPECT_EQ(refusal([](Call& c) { c.X.resize(6, 0); }),
             "kriging::fit: X has 0 columns; allowed is 1 or more; give one column a variable");
   EXPECT_EQ(refusal([](Call& c) {
-              c.X.conservativeResize(1, 2);
-              c.y.conservativeResize(1);
-            }),
-            "kriging::fit: X has 1 run; allowed is 2 or more; a single run says nothing about how the "
-            "response varies");
-  EXPECT_EQ(refusal([](Call& c) {
               c.X.resize(0, 2);
               c.y.resize(0);
             }),
-            "kriging::fit: X has 0 runs; allowed is 2 or more; a single run says nothing about how the "
-            "response varies");
+            "kriging::fit: X has 0 runs; allowed is 1 or more; give one row a run");
 }
 
 TEST(BadInput, Numbers) {
@@ -106,6 +99,61 @@ TEST(BadInput, Options) {
             "kriging::fit: candidates is 4; allowed is starts 8 or more; raise it");
   EXPECT_EQ(refusal([](Call& c) { c.options.max_iterations = 0; }),
             "kriging::fit: max_iterations is 0; allowed is 1 or more; use 200");
+}
+
+TEST(BadInput, Exponents) {
+  EXPECT_EQ(
+      refusal([](Call& c) { c.options.exponent = Eigen::Vector2d(2, 2); }),
+      "kriging::fit: exponent is given for the correlation gaussian; allowed is power_exponential; leave it "
+      "empty");
+  EXPECT_EQ(refusal([](Call& c) {
+              c.options.correlation = Correlation::power_exponential;
+              c.options.exponent = Eigen::Vector2d(2, 2.5);
+            }),
+            "kriging::fit: exponent[1] is 2.5; allowed are numbers from 1 to 2; use 2 for a smooth response");
+  EXPECT_EQ(
+      refusal([](Call& c) {
+        c.options.correlation = Correlation::power_exponential;
+        c.options.exponent = VectorXd::Ones(3);
+      }),
+      "kriging::fit: exponent has 3 entries; allowed is one a column of X, 2, or none; leave it empty to "
+      "estimate it");
+}
+
+TEST(BadInput, NoiseVariances) {
+  EXPECT_EQ(refusal([](Call& c) { c.options.noise_variance = VectorXd::Ones(6); }),
+            "kriging::fit: noise_variance is given but noise is nugget; set noise to known or proportional");
+  const auto with = [](const VectorXd& v) {
+    return refusal([&](Call& c) {
+      c.options.noise = Noise::known;
+      c.options.noise_variance = v;
+    });
+  };
+  EXPECT_EQ(with(VectorXd::Ones(5)),
+            "kriging::fit: noise_variance has 5 entries but X has 6 rows; give one variance a run");
+  EXPECT_EQ(
+      with(-VectorXd::Ones(6)),
+      "kriging::fit: noise_variance[0] is -1; allowed are numbers from 0 on; give variances, the squares of "
+      "standard deviations");
+  EXPECT_EQ(with(VectorXd::Zero(6)),
+            "kriging::fit: noise_variance is 0 for all runs; allowed is one above 0; use Noise::nugget");
+  EXPECT_EQ(with(VectorXd::Constant(6, not_a_number)),
+            "kriging::fit: noise_variance[0] is nan; allowed are finite numbers; leave failed runs out");
+}
+
+TEST(BadInput, TrendsAndThreads) {
+  EXPECT_EQ(refusal([](Call& c) { c.options.trend = Trend::user; }),
+            "kriging::fit: trend is user but basis.values is empty; give the functions");
+  EXPECT_EQ(refusal([](Call& c) { c.options.basis.values = [](const VectorXd& x) { return x; }; }),
+            "kriging::fit: basis.values is given but trend is not user; set trend to user");
+  EXPECT_EQ(
+      refusal([](Call& c) {
+        c.options.trend = Trend::user;
+        c.options.basis.values = [](const VectorXd&) { return VectorXd::Zero(2); };
+      }),
+      "kriging::fit: basis.values is 0 at all runs; allowed is one function that is not; add the constant 1");
+  EXPECT_EQ(refusal([](Call& c) { c.options.threads = -1; }),
+            "kriging::fit: threads is -1; allowed is 0 or more; use 0 for all processors");
 }
 
 TEST(BadInput, Points) {

@@ -113,6 +113,44 @@ TEST(Fit, IsNoWorseThanAGridSearch) {
   }
 }
 
+// 600 runs are more than the 500 from which on threads share the work.
+TEST(Fit, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const Runs runs = hilly(600, 0.05);
+  FitOptions options;
+  options.starts = 2;
+  options.candidates = 8;
+  options.max_iterations = 2;
+  options.threads = 1;
+  const Model alone = fit(runs.X, runs.y, options);
+  for (const int threads : {2, 3, 8}) {
+    options.threads = threads;
+    expect_same_model(alone, fit(runs.X, runs.y, options));
+  }
+}
+
+TEST(Fit, OneRunIsAConstantOfInfiniteVariance) {
+  const Model model = fit(points.topRows(1), VectorXd::Constant(1, 3.5));
+  EXPECT_EQ(model.status(), Status::too_few_runs);
+  EXPECT_EQ(model.message(),
+            "one run says nothing about how the response varies: the model is the constant 3.5 with infinite "
+            "variance");
+  const Prediction p = model.predict(points);
+  EXPECT_EQ(p.mean, VectorXd(VectorXd::Constant(50, 3.5)));
+  EXPECT_EQ(p.variance.minCoeff(), std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(model.gradient(points.row(0)).mean.isZero(0.0));
+}
+
+TEST(Fit, ATrendOfTooManyTermsBecomesAConstant) {
+  const Runs runs = hilly(5, 0.0);
+  FitOptions options;
+  options.trend = Trend::quadratic;  // six terms
+  const Model model = fit(runs.X, runs.y, options);
+  EXPECT_EQ(model.status(), Status::too_few_runs);
+  EXPECT_NE(model.message().find("it is a constant instead"), std::string::npos) << model.message();
+  EXPECT_TRUE(model.trend_function().is_constant());
+  expect_sound(model, points);
+}
+
 TEST(Fit, AConstantResponseIsAConstantModel) {
   const Model model = fit(points, VectorXd::Constant(50, 0.1));
   EXPECT_EQ(model.status(), Status::constant_response);

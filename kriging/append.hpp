@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// More runs in a model without a new fit: θ, the exponents, λ and the scales stay, β, α and s² are found
+/// anew.
+///
+/// With R = [R₁₁ R₂₁ᵀ; R₂₁ R₂₂] and R₁₁ = L₁₁L₁₁ᵀ at hand, L₂₁ = R₂₁L₁₁⁻ᵀ and L₂₂L₂₂ᵀ = R₂₂ − L₂₁L₂₁ᵀ: cost
+/// n² for each new run, where factoring anew costs n³/3. Equal to the full factor but for round-off. Runs
+/// that repeat others so closely that the matrix becomes singular get a little noise of their own, and the
+/// report says so.
+
+#include <Eigen/Core>
+#include <drawpoint/kriging/cholesky.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace drawpoint::kriging {
+
+namespace detail {
+
+struct NewRuns {
+  const Eigen::MatrixXd& X;
+  const Eigen::VectorXd &y, &noise_variance;
+};
+
+inline void check_new_runs(const Model& model, const NewRuns& runs) {
+  const auto reject = [](const std::string& what) {
+    throw std::invalid_argument("kriging::append: " + what);
+  };
+  const ModelState& s = model.state();
+  if (s.X.rows() == 0)
+    reject(
+        "the model is a constant and has no correlation to extend; allowed are fitted ones; fit all runs "
+        "anew");
+  if (runs.X.cols() != model.variables())
+    reject("X has " + std::to_string(runs.X.cols()) + " columns; the model has " +
+           std::to_string(model.variables()) + " variables; give one run a row");
+  if (runs.X.rows() != runs.y.size())
+    reject("X has " + std::to_string(runs.X.rows()) + " rows but y has " + std::to_string(runs.y.size()) +
+           " entries; give one response a run");
+  if (!runs.X.allFinite() || !runs.y.allFinite())
+    reject("X or y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
+  const Eigen::Index wanted = s.noise.size() ? runs.y.size() : 0;
+  if (runs.noise_variance.size() != wanted)
+    reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +
+           std::to_string(wanted) +
+           "; give one a run when the model was fitted with noise variances, else none");
+  if (!(runs.noise_variance.array() >= 0).all())
+    reject("noise_variance holds a number below 0 or NaN; allowed are numbers from 0 on; give variances");
+}
+
+/// R₂₂ without what the old runs explain, factored; `raised` is what had to be added to its diagonal.
+inline Eigen::MatrixXd corner_factor(const Eigen::MatrixXd& corner, double& raised) {
+  Eigen::MatrixXd L = corner;
+  raised = 0;
+  while (!factor(block_of(L), 1)) {
+    raised = raised > 0 ? 10 * raised : 1e-12;
+    L = corner;
+    L.diagonal().array() += raised;
+  }
+  return L.triangularView<Eigen::Lower>();
+}
+
+inline Eigen::MatrixXd stacked(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
+  Eigen::MatrixXd all(top.rows() + bottom.rows(), top.cols());
+  all << top, bottom;
+  return all;
+}
+
+/// Extends L by the runs whose scaled inputs stand last in s.X. Returns what was added to their diagonal.
+inline double extend_factor(ModelState& s) {
+  const Eigen::Index n = s.L.rows(), m = s.X.rows() - n;
+  const Eigen::MatrixXd added = s.X.bottomRows(m);
+  Eigen::MatrixXd side = cross_correlation(added, s.X.topRows(n), s.correlation), corner;
+  solve_right(block_of(s.L), block_of(side));
+  fill_correlation(added, s.correlation, corner);
+  corner.diagonal() += added_noise(s).tail(m);
+  add_product(block_of(side), block_of(side), -1.0, block_of(corner), Part::lower);
+  double raised = 0;
+  const Eigen::MatrixXd last = corner_factor(corner, raised);
+  s.L.conservativeResize(n + m, n + m);
+  s.L.topRightCorner(n, m).setZero();
+  s.L.bottomLeftCorner(m, n) = side;
+  s.L.bottomRightCorner(m, m) = last;
+  return raised;
+}
+
+}  // namespace detail
+
+/// X: m x d, y: m, natural units; noise_variance: one entry a run, unit of y squared, when the model was
+/// fitted with them, else empty. Throws std::invalid_argument for other sizes, numbers that are not finite
+/// and constant models.
+inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                    const Eigen::VectorXd& noise_variance = {}) {
+  detail::check_new_runs(model, {X, y, noise_variance});
+  if (y.size() == 0) return model;
+  detail::ModelState s = model.state();
+  const Eigen::MatrixXd scaled = s.input.apply(X);
+  s.F = detail::stacked(s.F, detail::trend_matrix(s.trend, X, scaled, s.input));
+  s.X = detail::stacked(s.X, scaled);
+  s.y = detail::stacked(s.y, (y.array() - s.y_centre) / s.y_scale);
+  s.observed = detail::stacked(s.observed, y);
+  if (s.noise.size()) s.noise = detail::stacked(s.noise, noise_variance / s.noise_unit);
+  const double raised = detail::extend_factor(s);
+  detail::estimate(s);
+  s.report.message += "; " + std::to_string(y.size()) + " runs appended without a new fit";
+  if (raised > 0) {
+    s.report.status = Status::ill_conditioned;
+    s.report.message +=
+        ", with " + detail::text(raised) + " added to their nugget because they repeat other runs";
+  }
+  return Model(std::move(s));
+}
+
+}  // namespace drawpoint::kriging

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// A short climb of the likelihood in a box, to tell good starts from bad ones before Ipopt polishes the
+/// best.
+///
+/// Projected quasi-Newton steps: parameters at a bound that the gradient pushes outward are held, the others
+/// move by B⁻¹g, clipped to the box and to e^2.5 a step, shortened until the gain is 1e-4 of the promised one
+/// (Armijo). B ≈ −∂²LL/∂p∂p by damped BFGS updates (Nocedal, Wright 2006, "Numerical Optimization", procedure
+/// 18.2 and section 16.7). A climb is done when ½ gᵀB⁻¹g, the gain that B promises, falls below a limit.
+/// Cost: one gradient a step, plus one value for each shortening.
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/kriging/likelihood.hpp>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::kriging {
+
+struct Box {
+  Eigen::VectorXd lower, upper;
+};
+
+namespace detail {
+
+/// Positive definite approximation of −∂²LL/∂p∂p, from changes of the gradient g of LL.
+class Curvature {
+ public:
+  bool empty() const { return B_.size() == 0; }
+  const Eigen::MatrixXd& matrix() const { return B_; }
+
+  void start(const Eigen::MatrixXd& B, const Eigen::VectorXd& p, const Eigen::VectorXd& g) {
+    B_ = B;
+    p_ = p;
+    g_ = g;
+  }
+
+  void move_to(const Eigen::VectorXd& p, const Eigen::VectorXd& g) {
+    const Eigen::VectorXd s = p - p_, Bs = B_ * s;
+    Eigen::VectorXd y = g_ - g;
+    const double curvature = s.dot(Bs);
+    p_ = p;
+    g_ = g;
+    if (!(curvature > 1e-14)) return;
+    if (s.dot(y) < 0.2 * curvature) {
+      const double share = 0.8 * curvature / (curvature - s.dot(y));
+      y = share * y + (1.0 - share) * Bs;
+    }
+    B_ += y * y.transpose() / s.dot(y) - Bs * Bs.transpose() / curvature;
+  }
+
+ private:
+  Eigen::MatrixXd B_;
+  Eigen::VectorXd p_, g_;
+};
+
+/// Parameters that a bound does not hold against the gradient g of a function that is maximised.
+inline std::vector<Eigen::Index> free_parameters(const Box& box, const Eigen::VectorXd& p,
+                                                 const Eigen::VectorXd& g) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    const bool held = box.lower[i] == box.upper[i] || (p[i] <= box.lower[i] && g[i] <= 0) ||
+                      (p[i] >= box.upper[i] && g[i] >= 0);
+    if (!held) free.push_back(i);
+  }
+  return free;
+}
+
+/// B⁻¹g of the free parameters, 0 for the others.
+inline Eigen::VectorXd newton_step(const Eigen::MatrixXd& B, const std::vector<Eigen::Index>& free,
+                                   const Eigen::VectorXd& g) {
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(g.size());
+  if (free.empty()) return step;
+  const Eigen::MatrixXd among = B(free, free);
+  const Eigen::VectorXd slope = g(free);
+  step(free) = Eigen::VectorXd(among.llt().solve(slope));
+  return step;
+}
+
+class Climb {
+ public:
+  Climb(Likelihood& likelihood, const Box& box, Eigen::VectorXd start)
+      : likelihood_(&likelihood), box_(&box), p_(std::move(start)), value_(likelihood.value(p_)) {}
+
+  const Eigen::VectorXd& p() const { return p_; }
+  double value() const { return value_; }
+  bool done() const { return done_; }
+  /// Empty before the first step.
+  const Eigen::MatrixXd& curvature() const { return curvature_.matrix(); }
+
+  /// Up to `count` steps.
+  void advance(int count, double least_gain) {
+    if (!std::isfinite(value_)) done_ = true;
+    for (int i = 0; i < count && !done_; ++i) advance_once(least_gain);
+  }
+
+ private:
+  static constexpr double longest = 2.5;
+
+  void advance_once(double least_gain) {
+    if (curvature_.empty()) begin();
+    const auto free = free_parameters(*box_, p_, g_);
+    Eigen::VectorXd step = newton_step(curvature_.matrix(), free, g_);
+    done_ = !(0.5 * step.dot(g_) >= least_gain);
+    if (done_) return;
+    step *= std::min(1.0, longest / step.cwiseAbs().maxCoeff());
+    done_ = !search_along(step);
+    if (done_) return;
+    g_ = likelihood_->gradient(p_);
+    if (scaled_) return curvature_.move_to(p_, g_);
+    scaled_ = true;
+    rescale();
+  }
+
+  void begin() {
+    g_ = likelihood_->gradient(p_);
+    const double size = std::max(g_.norm(), 1e-6);
+    curvature_.start(size * Eigen::MatrixXd::Identity(p_.size(), p_.size()), p_, g_);
+    first_p_ = p_;
+    first_g_ = g_;
+  }
+
+  // After the first step the identity gets the curvature that was met along it.
+  void rescale() {
+    const Eigen::VectorXd s = p_ - first_p_, y = first_g_ - g_;
+    const double met = s.dot(y) > 0 ? y.squaredNorm() / s.dot(y) : first_g_.norm();
+    curvature_.start(met * Eigen::MatrixXd::Identity(p_.size(), p_.size()), first_p_, first_g_);
+    curvature_.move_to(p_, g_);
+  }
+
+  bool search_along(const Eigen::VectorXd& step) {
+    double length = 1.0;
+    for (int attempt = 0; attempt < 6; ++attempt, length *= 0.25) {
+      const Eigen::VectorXd p = (p_ + length * step).cwiseMax(box_->lower).cwiseMin(box_->upper);
+      const double value = likelihood_->value(p);
+      if (!(value >= value_ + 1e-4 * g_.dot(p - p_))) continue;
+      p_ = p;
+      value_ = value;
+      return true;
+    }
+    return false;
+  }
+
+  Likelihood* likelihood_;
+  const Box* box_;
+  Eigen::VectorXd p_, g_, first_p_, first_g_;
+  double value_;
+  Curvature curvature_;
+  bool scaled_ = false, done_ = false;
+};
+
+}  // namespace detail
+}  // namespace drawpoint::kriging

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a criterion of
+/// one.
+///
+/// leave_one_out(model): closed form, θ and λ as fitted, β estimated anew without each run. With
+/// P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the error is (P y)ᵢ/Pᵢᵢ and the variance of the run s²/Pᵢᵢ, its noise
+/// included (Dubrule 1983, Mathematical Geology 15). Cost n³/3, no refits. The s² is that of all runs. θ and
+/// λ have seen the run, so the error is estimated somewhat low. k_fold and hold_out fit anew without the runs
+/// that they predict: honest, at the cost of the fits. Runs are shared out at random, by the seed.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/doe/seed.hpp>
+#include <drawpoint/kriging/blind.hpp>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/validate.hpp>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::kriging {
+
+/// Observed and predicted run by run, in the order of the runs. A constant model predicts its constant.
+inline Validation leave_one_out(const Model& model) {
+  const detail::ModelState& s = model.state();
+  const Eigen::Index n = model.runs();
+  Validation v;
+  v.observed = s.observed;
+  if (s.X.rows() == 0) {
+    v.predicted = Eigen::VectorXd::Constant(n, s.y_centre);
+    v.variance = v.observation_variance = Eigen::VectorXd::Constant(n, s.constant_variance);
+    return detail::scored(std::move(v));
+  }
+  const Eigen::VectorXd P = detail::diagonal_of_P(s);
+  v.predicted = s.observed - s.y_scale * s.gls.alpha.cwiseQuotient(P);
+  v.observation_variance = model.process_variance() * P.cwiseInverse();
+  v.variance = (v.observation_variance - model.process_variance() * detail::added_noise(s)).cwiseMax(0.0);
+  return detail::scored(std::move(v));
+}
+
+namespace detail {
+
+inline std::vector<Eigen::Index> shuffled(Eigen::Index n, doe::Seed seed) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  doe::RandomStream random(seed);
+  for (int i = static_cast<int>(n) - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
+  return order;
+}
+
+/// Fits without the runs of `out`, sorted, and writes its predictions of them into v.
+template <class F>
+void predict_without(const std::vector<Eigen::Index>& out, const Eigen::MatrixXd& X, const F& fitter,
+                     Validation& v) {
+  std::vector<Eigen::Index> in;
+  for (Eigen::Index i = 0; i < X.rows(); ++i)
+    if (!std::binary_search(out.begin(), out.end(), i)) in.push_back(i);
+  const auto model = fitter(Eigen::MatrixXd(X(in, Eigen::all)), Eigen::VectorXd(v.observed(in)));
+  const Eigen::MatrixXd points = X(out, Eigen::all);
+  const Prediction p = model.predict(points);
+  v.predicted(out) = p.mean;
+  v.variance(out) = p.variance;
+  v.observation_variance(out) = model.predict(points, Target::observation).variance;
+}
+
+inline Validation blank_validation(const Eigen::VectorXd& y) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(y.size());
+  return {.observed = y, .predicted = none, .variance = none, .observation_variance = none};
+}
+
+}  // namespace detail
+
+/// Every run predicted by a model of the other folds. X: n x d, y: n; 2 <= folds <= n. Throws
+/// std::invalid_argument for other folds, unequal lengths, and as the fitter.
+template <class F>
+Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds, const F& fitter,
+                  doe::Seed seed = 1) {
+  static_assert(Fitter<F>,
+                "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one "
+                "run a row, "
+                "y an Eigen::VectorXd");
+  detail::check_validation(X, y, "kriging::k_fold: ");
+  if (folds < 2 || folds > X.rows())
+    throw std::invalid_argument("kriging::k_fold: folds is " + std::to_string(folds) +
+                                "; allowed is 2 to the " + std::to_string(X.rows()) + " runs; use 5");
+  const std::vector<Eigen::Index> order = detail::shuffled(X.rows(), seed);
+  Validation v = detail::blank_validation(y);
+  for (int fold = 0; fold < folds; ++fold) {
+    std::vector<Eigen::Index> out;
+    for (std::size_t i = fold; i < order.size(); i += folds) out.push_back(order[i]);
+    std::sort(out.begin(), out.end());
+    detail::predict_without(out, X, fitter, v);
+  }
+  return detail::scored(std::move(v));
+}
+
+/// A share of the runs, at least one, predicted by a model of the others. X: n x d, y: n; 0 < share < 1.
+/// Throws std::invalid_argument for another share, fewer than two runs, unequal lengths, and as the fitter.
+template <class F>
+Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double share, const F& fitter,
+                    doe::Seed seed = 1) {
+  static_assert(Fitter<F>,
+                "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one "
+                "run a row, "
+                "y an Eigen::VectorXd");
+  detail::check_validation(X, y, "kriging::hold_out: ");
+  if (!(share > 0 && share < 1) || X.rows() < 2)
+    throw std::invalid_argument("kriging::hold_out: share is " + detail::text(share) + " of " +
+                                std::to_string(X.rows()) +
+                                " runs; allowed are numbers between 0 and 1 of 2 runs or more; use 0.2");
+  const Eigen::Index n = X.rows();
+  const auto count = std::clamp<Eigen::Index>(std::llround(share * static_cast<double>(n)), 1, n - 1);
+  std::vector<Eigen::Index> out = detail::shuffled(n, seed);
+  out.resize(static_cast<std::size_t>(count));
+  std::sort(out.begin(), out.end());
+  Validation all = detail::blank_validation(y);
+  detail::predict_without(out, X, fitter, all);
+  return detail::scored({.observed = all.observed(out),
+                         .predicted = all.predicted(out),
+                         .variance = all.variance(out),
+                         .observation_variance = all.observation_variance(out)});
+}
+
+enum class Estimator { leave_one_out, k_fold, hold_out };
+
+/// Whether a surrogate is good enough: (estimator, error function, target), as in SUMO.
+struct Criterion {
+  Estimator estimator = Estimator::k_fold;  ///< leave_one_out refits for surrogates without a closed form
+  ErrorFunction error = ErrorFunction::nrmse;
+  double target = 0.05;  ///< met at or below it; for q2 and coverage at or above it
+  int folds = 5;         ///< of k_fold
+  double share = 0.2;    ///< of hold_out
+  double level = 0.95;   ///< of coverage
+  doe::Seed seed = 1;    ///< of what is left out
+};
+
+struct Judgement {
+  double value = 0;
+  bool met = false;
+  Validation validation;
+};
+
+/// Throws std::invalid_argument as k_fold, hold_out and score.
+template <class F>
+Judgement judge(const Criterion& criterion, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                const F& fitter) {
+  static_assert(Fitter<F>,
+                "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one "
+                "run a row, "
+                "y an Eigen::VectorXd");
+  Judgement j;
+  if (criterion.estimator == Estimator::k_fold)
+    j.validation = k_fold(X, y, criterion.folds, fitter, criterion.seed);
+  else if (criterion.estimator == Estimator::hold_out)
+    j.validation = hold_out(X, y, criterion.share, fitter, criterion.seed);
+  else if constexpr (std::is_convertible_v<decltype(fitter(X, y)), Model>)
+    j.validation = leave_one_out(fitter(X, y));
+  else
+    j.validation = k_fold(X, y, static_cast<int>(X.rows()), fitter, criterion.seed);
+  j.value = score(j.validation, criterion.error, criterion.level);
+  j.met = higher_is_better(criterion.error) ? j.value >= criterion.target : j.value <= criterion.target;
+  return j;
+}
+
+}  // namespace drawpoint::kriging

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Generalised least squares: the trend's coefficients when errors have the covariance s² R, R = L Lᵀ.
+///
+///   L⁻¹F = Q T (Q: n x q orthonormal, T upper), β = T⁻¹Qᵀ L⁻¹y, α = R⁻¹(y − Fβ), B = L⁻ᵀQ
+/// so that P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ = R⁻¹ − B Bᵀ and α = P y. No normal equations are formed, so digits
+/// are lost by the condition of L⁻¹F once, not squared. Cost O(n² q).
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <cmath>
+#include <numbers>
+
+namespace drawpoint::kriging::detail {
+
+struct LeastSquares {
+  Eigen::VectorXd beta;       ///< q
+  Eigen::VectorXd alpha;      ///< n
+  Eigen::MatrixXd B;          ///< n x q
+  Eigen::MatrixXd T;          ///< q x q, upper triangular
+  double sum_of_squares = 0;  ///< (y − Fβ)ᵀα
+};
+
+/// F has independent columns, fewer than rows or as many.
+inline LeastSquares least_squares(const Eigen::MatrixXd& L, const Eigen::MatrixXd& F,
+                                  const Eigen::VectorXd& y) {
+  const auto lower = L.triangularView<Eigen::Lower>();
+  const Eigen::Index q = F.cols();
+  const Eigen::MatrixXd G = lower.solve(F);
+  const Eigen::VectorXd u = lower.solve(y);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(G);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(F.rows(), q);
+  LeastSquares s;
+  s.T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
+  const Eigen::VectorXd share = Q.transpose() * u;
+  s.beta = s.T.triangularView<Eigen::Upper>().solve(share);
+  const Eigen::VectorXd residual = lower.solve(y - F * s.beta);
+  s.sum_of_squares = residual.squaredNorm();
+  s.alpha = lower.transpose().solve(residual);
+  s.B = lower.transpose().solve(Q);
+  return s;
+}
+
+/// Beside noise that may be 0 at a run, this is added to the diagonal of R.
+inline constexpr double noise_floor = 1e-10;
+
+/// −n/2 ln(2π s²) − ½ ln|L Lᵀ| − S/(2s²).
+inline double concentrated_log_likelihood(const Eigen::MatrixXd& L, double sum_of_squares, double variance) {
+  return -0.5 * static_cast<double>(L.rows()) * std::log(2.0 * std::numbers::pi * variance) -
+         L.diagonal().array().log().sum() - 0.5 * sum_of_squares / variance;
+}
+
+}  // namespace drawpoint::kriging::detail

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Repeated runs as one run with a known noise, for Noise::known.
+///
+/// Of the mᵢ runs at xᵢ: the mean ȳᵢ, and its variance. pooled: the noise is the same everywhere, so τᵢ² =
+/// s²/mᵢ with s² = Σᵢ Σⱼ (yᵢⱼ − ȳᵢ)²/Σᵢ (mᵢ − 1); needs one repeated point. own: each point has its own
+/// noise, τᵢ² = sᵢ²/mᵢ with sᵢ² = Σⱼ (yᵢⱼ − ȳᵢ)²/(mᵢ − 1); needs two runs at each point, and ten to be good
+/// to a third. Fitting means costs less than fitting all runs: the n³ is of the distinct points. Source:
+/// Ankenman, Nelson, Staum 2010, Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling".
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drawpoint::kriging {
+
+enum class ReplicateNoise { pooled, own };
+
+struct Replicates {
+  Eigen::MatrixXd X;               ///< distinct points in the order of their first run, one a row
+  Eigen::VectorXd y;               ///< means
+  Eigen::VectorXd noise_variance;  ///< of the means, unit of y squared
+  Eigen::VectorXi count;           ///< runs of each point
+};
+
+namespace detail {
+
+/// For each distinct row of X the indices of its rows, in the order of the first.
+inline std::vector<std::vector<Eigen::Index>> groups_of_rows(const Eigen::MatrixXd& X) {
+  std::map<std::vector<double>, std::size_t> known;
+  std::vector<std::vector<Eigen::Index>> groups;
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    std::vector<double> row(static_cast<std::size_t>(X.cols()));
+    for (Eigen::Index k = 0; k < X.cols(); ++k) row[k] = X(i, k);
+    const auto [place, fresh] = known.try_emplace(row, groups.size());
+    if (fresh) groups.emplace_back();
+    groups[place->second].push_back(i);
+  }
+  return groups;
+}
+
+}  // namespace detail
+
+/// X: n x d, y: n; rows are repeats when they are equal. Throws std::invalid_argument when the sizes differ,
+/// a number is not finite, or the repeats do not suffice.
+inline Replicates replicates(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                             ReplicateNoise noise = ReplicateNoise::pooled) {
+  const auto reject = [](const std::string& what) {
+    throw std::invalid_argument("kriging::replicates: " + what);
+  };
+  if (X.rows() != y.size())
+    reject("X has " + std::to_string(X.rows()) + " rows but y has " + std::to_string(y.size()) +
+           " entries; give one response a run");
+  if (!X.allFinite() || !y.allFinite())
+    reject("X or y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
+  const auto groups = detail::groups_of_rows(X);
+  const auto points = static_cast<Eigen::Index>(groups.size());
+  if (points == X.rows())
+    reject("no two rows of X are equal; allowed is one repeated point or more; use Noise::nugget");
+  Replicates r{Eigen::MatrixXd(points, X.cols()), Eigen::VectorXd(points), Eigen::VectorXd(points),
+               Eigen::VectorXi(points)};
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const Eigen::VectorXd runs = y(groups[i]);
+    r.X.row(i) = X.row(groups[i].front());
+    r.count[i] = static_cast<int>(runs.size());
+    r.y[i] = runs.mean();
+    r.noise_variance[i] = (runs.array() - r.y[i]).square().sum();
+    if (noise == ReplicateNoise::own && runs.size() < 2)
+      reject("the point of row " + std::to_string(groups[i].front()) +
+             " has 1 run; allowed is 2 or more; use ReplicateNoise::pooled");
+  }
+  const Eigen::ArrayXd count = r.count.cast<double>();
+  if (noise == ReplicateNoise::pooled)
+    r.noise_variance = r.noise_variance.sum() / static_cast<double>(X.rows() - points) / count;
+  else
+    r.noise_variance = r.noise_variance.array() / (count - 1.0) / count;
+  return r;
+}
+
+}  // namespace drawpoint::kriging

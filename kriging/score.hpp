@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// How well predictions met what was then observed, in one number.
+///
+/// With errors eᵢ = yᵢ − ŷᵢ and σᵢ² the variance of observation i as predicted:
+///   rmse      √(1/n Σ eᵢ²), unit of y              mae   1/n Σ |eᵢ|, unit of y
+///   nrmse     rmse/(max y − min y)                 q2    1 − Σ eᵢ²/Σ (yᵢ − ȳ)²
+///   nlpd      1/n Σ [½ ln(2π σᵢ²) + eᵢ²/(2σᵢ²)]    coverage  share of |eᵢ| <= z σᵢ, z the normal quantile of
+///   (1 + level)/2
+/// nrmse and q2 are NaN when the observations are all equal. nlpd punishes error bars that are too narrow and
+/// too wide; coverage of a sound model is near `level`. Source: Rasmussen, Williams 2006, section 2.5.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace drawpoint::kriging {
+
+/// What was observed beside what was predicted without it, one entry a run.
+struct Validation {
+  double rmse = std::numeric_limits<double>::quiet_NaN(), nrmse = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd observed, predicted;   ///< unit of y
+  Eigen::VectorXd variance;              ///< of the latent function, unit of y squared
+  Eigen::VectorXd observation_variance;  ///< of a noisy run there, unit of y squared
+};
+
+enum class ErrorFunction { rmse, nrmse, mae, q2, nlpd, coverage };
+
+inline std::string_view to_string(ErrorFunction error) {
+  constexpr std::string_view names[] = {"rmse", "nrmse", "mae", "q2", "nlpd", "coverage"};
+  return names[static_cast<int>(error)];
+}
+
+namespace detail {
+
+/// x with P(Z <= x) = p for a standard normal Z, by Newton's steps on erfc from a logistic guess; 0 < p < 1.
+inline double normal_quantile(double p) {
+  double x = std::log(p / (1.0 - p)) / 1.702;
+  for (int i = 0; i < 60; ++i) {
+    const double miss = 0.5 * std::erfc(-x / std::numbers::sqrt2) - p;
+    const double step = miss / (std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi));
+    x -= std::clamp(step, -0.5, 0.5);
+    if (std::abs(step) < 1e-15 * (1.0 + std::abs(x))) break;
+  }
+  return x;
+}
+
+}  // namespace detail
+
+/// `level` is of coverage alone, between 0 and 1. Throws std::invalid_argument for an empty validation and
+/// another level.
+inline double score(const Validation& v, ErrorFunction error, double level = 0.95) {
+  if (v.observed.size() == 0)
+    throw std::invalid_argument(
+        "kriging::score: the validation holds 0 runs; allowed is 1 or more; validate first");
+  if (!(level > 0 && level < 1))
+    throw std::invalid_argument("kriging::score: level is " + std::to_string(level) +
+                                "; allowed are numbers between 0 and 1; use 0.95");
+  const Eigen::ArrayXd e = v.observed - v.predicted, s2 = v.observation_variance.array();
+  const double range = v.observed.maxCoeff() - v.observed.minCoeff(), rmse = std::sqrt(e.square().mean());
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  switch (error) {
+    case ErrorFunction::rmse:
+      return rmse;
+    case ErrorFunction::nrmse:
+      return range > 0 ? rmse / range : none;
+    case ErrorFunction::mae:
+      return e.abs().mean();
+    case ErrorFunction::q2:
+      return range > 0 ? 1.0 - e.square().sum() / (v.observed.array() - v.observed.mean()).square().sum()
+                       : none;
+    case ErrorFunction::nlpd:
+      return (0.5 * (2.0 * std::numbers::pi * s2).log() + 0.5 * e.square() / s2).mean();
+    case ErrorFunction::coverage:
+      return (e.abs() <= detail::normal_quantile(0.5 + 0.5 * level) * s2.sqrt()).cast<double>().mean();
+  }
+  return none;
+}
+
+/// Whether higher numbers are better ones.
+inline bool higher_is_better(ErrorFunction error) {
+  return error == ErrorFunction::q2 || error == ErrorFunction::coverage;
+}
+
+}  // namespace drawpoint::kriging

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// What all surrogates have in common, so that validation, comparison and searches take any of them.
+///
+/// A surrogate predicts means and variances of the latent function or of one more run (model.hpp says which
+/// is which) at the rows of X: m x d, natural units. A fitter makes one from runs.
+
+#include <Eigen/Core>
+#include <concepts>
+#include <drawpoint/kriging/model.hpp>
+#include <type_traits>
+
+namespace drawpoint::kriging {
+
+template <class S>
+concept Surrogate = requires(const S& s, const Eigen::MatrixXd& X) {
+  { s.predict(X) } -> std::convertible_to<Prediction>;
+  { s.predict(X, Target::observation) } -> std::convertible_to<Prediction>;
+  { s.mean(X) } -> std::convertible_to<Eigen::VectorXd>;
+};
+
+template <class F>
+concept Fitter = requires(const F& f, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
+  { f(X, y) } -> Surrogate;
+};
+
+static_assert(Surrogate<Model>);
+
+}  // namespace drawpoint::kriging
