@@ -53,6 +53,8 @@ struct CorrelationFunction {
 namespace detail {
 
 inline constexpr Eigen::Index chunk_rows = 256;
+/// Matérn's h beyond which exp(−h) is nothing, and h² must not overflow.
+inline constexpr double farthest = 800.0;
 /// Up to 256 numbers on the stack.
 using Chunk = Eigen::Array<double, Eigen::Dynamic, 1, 0, chunk_rows, 1>;
 
@@ -79,7 +81,7 @@ inline void correlate_chunk(const CorrelationFunction& f, const Rows& rows, doub
       c -= f.theta[k] * h.pow(f.exponent[k]);
       continue;
     }
-    h *= matern_rate(f.family, f.theta[k]);
+    h = (matern_rate(f.family, f.theta[k]) * h).min(farthest);
     c -= h;
     if (f.family == Correlation::matern32)
       factor *= 1.0 + h;
@@ -133,7 +135,7 @@ inline double slope_in_place(const CorrelationFunction& f, Eigen::Index k, doubl
   if (h == 0.0) return 0.0;
   if (f.family == Correlation::power_exponential)
     return -sign * theta * f.exponent[k] * std::pow(h, f.exponent[k] - 1.0);
-  const double rate = matern_rate(f.family, theta), u = rate * h;
+  const double rate = matern_rate(f.family, theta), u = std::min(rate * h, 1e100);
   if (f.family == Correlation::matern32) return -sign * rate * u / (1.0 + u);
   return -sign * rate * u * (1.0 + u) / (3.0 + 3.0 * u + u * u);
 }

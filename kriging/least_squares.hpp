@@ -28,18 +28,23 @@ inline LeastSquares least_squares(const Eigen::MatrixXd& L, const Eigen::MatrixX
                                   const Eigen::VectorXd& y) {
   const auto lower = L.triangularView<Eigen::Lower>();
   const Eigen::Index q = F.cols();
-  const Eigen::MatrixXd G = lower.solve(F);
-  const Eigen::VectorXd u = lower.solve(y);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(G);
+  Eigen::MatrixXd both(F.rows(), q + 1);  // solved together: a pass over L costs more than a column
+  both << F, y;
+  lower.solveInPlace(both);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(both.leftCols(q));
   const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(F.rows(), q);
+  Eigen::VectorXd residual = both.col(q);
   LeastSquares s;
   s.T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd share = Q.transpose() * u;
+  const Eigen::VectorXd share = Q.transpose() * residual;
   s.beta = s.T.triangularView<Eigen::Upper>().solve(share);
-  const Eigen::VectorXd residual = lower.solve(y - F * s.beta);
+  residual -= Q * share;
+  residual -= Q * (Q.transpose() * residual);  // once more takes away the round-off that is left along Q
   s.sum_of_squares = residual.squaredNorm();
-  s.alpha = lower.transpose().solve(residual);
-  s.B = lower.transpose().solve(Q);
+  both << Q, residual;
+  lower.transpose().solveInPlace(both);
+  s.B = both.leftCols(q);
+  s.alpha = both.col(q);
   return s;
 }
 

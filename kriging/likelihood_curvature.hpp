@@ -8,6 +8,7 @@
 /// for m parameters: about (2m − 1)·2n³ operations, O(n²) memory.
 
 #include <drawpoint/kriging/likelihood.hpp>
+#include <vector>
 
 namespace drawpoint::kriging {
 

@@ -44,6 +44,7 @@ class Model {
  public:
   /// Made by fit() and by what changes a model.
   explicit Model(detail::ModelState state) : s_(std::move(state)), runs_(s_.X.transpose()) {
+    stretched_ = s_.correlation.theta.cwiseSqrt().asDiagonal() * runs_;
     if (s_.X.rows() > 0) triangle_ = s_.gls.T.transpose().triangularView<Eigen::Lower>();
   }
 
@@ -184,17 +185,20 @@ class Model {
     return (s_.y_scale * m).array() + s_.y_centre;
   }
 
-  // Σⱼ αⱼ c(x, xⱼ), four points at a time; the last four are filled up with copies of the last point.
+  // Σⱼ αⱼ c(x, xⱼ), eight points at a time; the last eight are filled up with copies of the last point.
   Eigen::VectorXd gaussian_sums(const Eigen::MatrixXd& scaled) const {
-    const Eigen::Index m = scaled.rows(), d = scaled.cols();
+    constexpr Eigen::Index step = detail::points_at_once;
+    const Eigen::Index m = scaled.rows();
+    const Eigen::RowVectorXd root = s_.correlation.theta.cwiseSqrt().transpose();
+    const detail::GaussianRuns runs{stretched_.data(), s_.gls.alpha.data(), s_.X.rows(), scaled.cols()};
     Eigen::VectorXd sums(m);
-    Eigen::MatrixXd four(4, d);
-    for (Eigen::Index i = 0; i < m; i += 4) {
-      for (Eigen::Index a = 0; a < 4; ++a) four.row(a) = scaled.row(std::min(i + a, m - 1));
-      double out[4];
-      detail::gaussian_sum_of_four({four.data(), 4, d, s_.correlation.theta.data(), runs_.data()},
-                                   s_.gls.alpha.data(), s_.X.rows(), out);
-      for (Eigen::Index a = 0; a < std::min<Eigen::Index>(4, m - i); ++a) sums[i + a] = out[a];
+    Eigen::MatrixXd z(step, scaled.cols());
+    for (Eigen::Index i = 0; i < m; i += step) {
+      for (Eigen::Index a = 0; a < step; ++a)
+        z.row(a) = scaled.row(std::min(i + a, m - 1)).cwiseProduct(root);
+      double out[step];
+      detail::gaussian_sums(runs, z.data(), out);
+      std::copy(out, out + std::min(step, m - i), sums.data() + i);
     }
     return sums;
   }
@@ -217,8 +221,9 @@ class Model {
   }
 
   detail::ModelState s_;
-  Eigen::MatrixXd runs_;      // X transposed: a run's coordinates stand together
-  Eigen::MatrixXd triangle_;  // Tᵀ
+  Eigen::MatrixXd runs_;       // X transposed: a run's coordinates stand together
+  Eigen::MatrixXd stretched_;  // the same times √θ
+  Eigen::MatrixXd triangle_;   // Tᵀ
 };
 
 }  // namespace drawpoint::kriging

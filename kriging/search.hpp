@@ -72,12 +72,20 @@ inline std::vector<SearchStart> best_of_each_explanation(const std::vector<Climb
   return starts;
 }
 
+/// Raises λ tenfold, within the box, until R of all runs can be factored: few runs need less of it.
+inline void make_regular(Likelihood& likelihood, const Box& box, SearchStart& start) {
+  const Eigen::Index last = start.p.size() - 1;
+  while (!std::isfinite(likelihood.value(start.p)) && start.p[last] < box.upper[last])
+    start.p[last] = std::min(start.p[last] + std::log(10.0), box.upper[last]);
+}
+
 /// On all of many runs, from what the climbs on few of them found.
 inline Search search_many(Likelihood& likelihood, const Box& box, const std::vector<Climb>& ranked,
                           const FitOptions& options) {
   const double scale = static_cast<double>(likelihood.runs()) / static_cast<double>(many);
   Search search;
-  for (const SearchStart& start : best_of_each_explanation(ranked, scale)) {
+  for (SearchStart start : best_of_each_explanation(ranked, scale)) {
+    make_regular(likelihood, box, start);
     const Maximum found = maximize(likelihood, box, start, options.max_iterations);
     if (found.value > search.best.value) search.best = found;
   }

@@ -72,6 +72,65 @@ TEST(Likelihood, HessianIsTheDifferenceQuotientOfTheGradient) {
   }
 }
 
+// Every family, trend and kind of noise against differences, as above.
+TEST(Likelihood, DerivativesOfAllKindsAreDifferenceQuotients) {
+  const reference::Data data = reference::training("noisy4", 100);
+  LikelihoodProblem problem;
+  problem.X = scaled(data.X);
+  problem.y = reference::standardized(data.y);
+  for (const Correlation family :
+       {Correlation::power_exponential, Correlation::matern32, Correlation::matern52})
+    for (const double known : {0.0, 0.05})
+      for (const bool universal : {false, true}) {
+        problem.family = family;
+        problem.known_noise = known;
+        problem.F = MatrixXd::Ones(100, 1);
+        if (universal) {
+          problem.F.resize(100, 5);
+          problem.F << VectorXd::Ones(100), problem.X;
+        }
+        problem.noise = universal ? VectorXd::LinSpaced(100, 0.2, 1.8) : VectorXd();
+        Likelihood likelihood(problem);
+        VectorXd p = VectorXd::Constant(likelihood.parameters(), 1.7);
+        p.head(4) = somewhere().head(4);
+        p.tail(1) = somewhere().tail(1);
+        const VectorXd g = likelihood.gradient(p);
+        const MatrixXd H = likelihood.hessian(p);
+        for (Eigen::Index k = 0; k < p.size(); ++k) {
+          const double slope = derivative([&](const VectorXd& q) { return likelihood.value(q); }, p, k, step);
+          EXPECT_NEAR(g[k], slope, tolerance * g.norm()) << to_string(family) << " parameter " << k;
+          const VectorXd column =
+              derivative([&](const VectorXd& q) { return likelihood.gradient(q); }, p, k, step);
+          EXPECT_LT((H.col(k) - column).norm(), tolerance * H.norm())
+              << to_string(family) << " parameter " << k;
+        }
+      }
+}
+
+// With s² = τ²/λ the covariance is V = τ²/λ·(C + λ diag w), and F = ½ tr(V⁻¹Vₐ V⁻¹V_b).
+TEST(Likelihood, FisherInformationOfKnownNoiseFollowsItsDefinition) {
+  LikelihoodProblem problem;
+  const reference::Data data = reference::training("noisy4", 100);
+  problem.X = scaled(data.X);
+  problem.y = reference::standardized(data.y);
+  problem.known_noise = 0.05;
+  Likelihood likelihood(problem);
+  const auto matrix = [&](const VectorXd& q) {
+    MatrixXd V;
+    fill_correlation(problem.X, q.head(4).array().exp(), V);
+    V = MatrixXd(V.selfadjointView<Eigen::Lower>());
+    V.diagonal().array() += std::exp(q[4]);
+    return MatrixXd(0.05 * std::exp(-q[4]) * V);
+  };
+  const VectorXd p = somewhere();
+  const MatrixXd F = likelihood.fisher(p), K = matrix(p).inverse();
+  for (Eigen::Index a = 0; a < 5; ++a)
+    for (Eigen::Index b = 0; b < 5; ++b) {
+      const MatrixXd A = K * derivative(matrix, p, a, step), B = K * derivative(matrix, p, b, step);
+      EXPECT_NEAR(F(a, b), 0.5 * (A * B).trace(), tolerance * F.norm());
+    }
+}
+
 // F = ½ tr(R⁻¹Rₐ R⁻¹R_b) − tr(R⁻¹Rₐ) tr(R⁻¹R_b)/(2n), with Rₐ by differences of the whole matrix.
 TEST(Likelihood, FisherInformationFollowsItsDefinition) {
   Likelihood likelihood = noisy_likelihood();
