@@ -21,6 +21,7 @@
 #include <cmath>
 #include <drawpoint/kriging/cholesky.hpp>
 #include <drawpoint/kriging/model_state.hpp>
+#include <limits>
 #include <vector>
 
 namespace drawpoint::kriging::detail {

@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/kriging/cholesky.hpp>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/model_state.hpp>
 #include <drawpoint/kriging/options.hpp>
