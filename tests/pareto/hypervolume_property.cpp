@@ -49,6 +49,21 @@ RC_GTEST_PROP(Hypervolume, ScalesWithTheUnitsAndIgnoresTheOrigin, ()) {
   RC_ASSERT(hypervolume(moved, moved_reference) == scale.prod() * hypervolume(Y, reference.transpose()));
 }
 
+// By the definition, point by point; whole numbers, so equality is exact. Dominated and repeated points are
+// common in these sets.
+RC_GTEST_PROP(HypervolumeContributions, AreWhatTheVolumeLosesWithoutThePoint, ()) {
+  const int m = *rc::gen::inRange(1, 7);
+  const Eigen::MatrixXd Y = support::whole_points(*rc::gen::inRange(1, 25), m, 7);
+  const Eigen::VectorXd reference = Eigen::VectorXd::Constant(m, 6.0);
+  const Eigen::VectorXd contributions = hypervolume_contributions(Y, reference);
+  for (int i = 0; i < Y.rows(); ++i) {
+    std::vector<int> others;
+    for (int k = 0; k < Y.rows(); ++k)
+      if (k != i) others.push_back(k);
+    RC_ASSERT(contributions[i] == hypervolume(Y, reference) - hypervolume(Y(others, Eigen::all), reference));
+  }
+}
+
 TEST(Hypervolume, PointsBeyondTheReferenceAddNothing) {
   Eigen::MatrixXd Y(3, 4);
   Y << 1, 1, 1, 1, 0, 0, 0, 2, 0, 0, 5, 0;
@@ -67,6 +82,9 @@ TEST(Hypervolume, BadInputIsNamed) {
             "pareto::hypervolume: points holds NaN or infinity; leave out failed runs");
   EXPECT_EQ(text(Eigen::MatrixXd::Zero(2, 3), Eigen::VectorXd::Constant(3, INFINITY)),
             "pareto::hypervolume: reference holds NaN or infinity; give finite numbers");
+  EXPECT_EQ(text(Eigen::MatrixXd::Zero(2, 9), Eigen::VectorXd::Ones(9)),
+            "pareto::hypervolume: points has 9 objectives; allowed are up to 8, for the cost grows "
+            "exponentially; compare such fronts by pareto::igd_plus");
 }
 
 }  // namespace
