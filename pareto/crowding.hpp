@@ -38,7 +38,11 @@ inline void add_gaps(const SortedPoints& points, const std::vector<int>& distinc
   line.reserve(distinct.size());
   for (std::size_t k = 0; k < distinct.size(); ++k)
     line.emplace_back(points.Y(distinct[k], j), static_cast<int>(k));
-  std::sort(line.begin(), line.end());
+  // On a front of two objectives the one rises where the other falls.
+  if (std::is_sorted(line.rbegin(), line.rend()))
+    std::reverse(line.begin(), line.end());
+  else if (!std::is_sorted(line.begin(), line.end()))
+    std::sort(line.begin(), line.end());
   const double range = line.back().first - line.front().first;
   if (range <= 0.0) return;
   const auto at = [&](std::size_t k) -> double& { return distance[distinct[line[k].second]]; };

@@ -114,17 +114,34 @@ struct SortedPoints {
   bool equal(int a, int b) const { return std::equal(at(a), at(a) + Y.cols(), at(b)); }
 };
 
+/// Row numbers by the first objective alone, which settles nearly every comparison.
+inline std::vector<std::pair<double, int>> by_first_objective(const RowMajor& Y) {
+  std::vector<std::pair<double, int>> keys(static_cast<std::size_t>(Y.rows()));
+  for (int i = 0; i < static_cast<int>(keys.size()); ++i)
+    keys[static_cast<std::size_t>(i)] = {Y.cols() ? Y(i, 0) : 0.0, i};
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
 inline SortedPoints sorted_points(const Eigen::MatrixXd& Y) {
   if (Y.hasNaN()) throw std::invalid_argument("pareto: the objectives Y hold NaN; leave out failed runs");
-  SortedPoints points{Y, std::vector<int>(static_cast<std::size_t>(Y.rows()))};
-  std::iota(points.order.begin(), points.order.end(), 0);
-  const Eigen::Index m = Y.cols();
-  std::sort(points.order.begin(), points.order.end(), [&](int a, int b) {
+  SortedPoints points{Y, {}};
+  const auto keys = by_first_objective(points.Y);
+  points.order.reserve(keys.size());
+  for (const auto& key : keys) points.order.push_back(key.second);
+  const auto before = [&, m = Y.cols()](int a, int b) {
     const Point p = points.at(a), q = points.at(b);
-    for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index j = 1; j < m; ++j)
       if (p[j] != q[j]) return p[j] < q[j];
     return a < b;
-  });
+  };
+  for (std::size_t i = 0; i < keys.size();) {
+    std::size_t end = i + 1;
+    while (end < keys.size() && keys[end].first == keys[i].first) ++end;
+    const auto at = [&](std::size_t k) { return points.order.begin() + static_cast<std::ptrdiff_t>(k); };
+    if (end - i > 1) std::sort(at(i), at(end), before);
+    i = end;
+  }
   return points;
 }
 

@@ -39,4 +39,19 @@ inline std::vector<int> elitist_places(const std::vector<int>& sizes, int places
   return taken;
 }
 
+/// gamultiobj's form, as its documentation states it: the best front gets at most the share `fraction` of the
+/// places, rounded up, the others follow in order, and what they cannot fill goes back to the best. sizes and
+/// places as above, 0 < fraction <= 1.
+inline std::vector<int> fraction_places(const std::vector<int>& sizes, int places, double fraction) {
+  std::vector<int> taken(sizes.size(), 0);
+  int left = places;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const int allowed = i == 0 ? static_cast<int>(std::ceil(fraction * places)) : left;
+    taken[i] = std::min({allowed, sizes[i], left});
+    left -= taken[i];
+  }
+  if (!sizes.empty()) taken[0] += std::min(left, sizes[0] - taken[0]);
+  return taken;
+}
+
 }  // namespace drawpoint::pareto

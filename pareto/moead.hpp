@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// MOEA/D: one scalar problem for each direction, solved together with the neighbours' help.
+///
+/// Zhang, Li 2007, "MOEA/D: A multiobjective evolutionary algorithm based on decomposition", with the limits
+/// on mating and replacement of Li, Zhang 2009. Problem k minimises, with F = (f - z*)/(nadir - z*), z* the
+/// best values met and nadir the worst of the present feasible members,
+/// * chebyshev: max_j F_j / w_kj, whose optimum lies on the direction w_k;
+/// * pbi: d_1 + θ d_2, d_1 the length of F along w_k and d_2 its distance from that line.
+/// A child of two neighbours (of anyone with probability 1 - δ) replaces at most `replacements` members in
+/// whose problem it is better: less violation first, then the scalar. All children of a generation are one
+/// batch and replace after it in random order, so that the black box may run them in parallel.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/pareto/nsga3.hpp>
+
+namespace drawpoint::pareto {
+
+enum class Scalarisation { chebyshev, pbi };
+
+struct MoeadOptions {
+  int population = 100;  ///< most directions, one an objective or more; the population has one point for each
+  Eigen::MatrixXd directions{};  ///< k x m as in Nsga3Options; empty: reference_directions(m, population)
+  Scalarisation scalarisation =
+      Scalarisation::chebyshev;        ///< it reaches every shape of front; pbi is more even
+  double penalty = 5.0;                ///< θ of pbi, above 0; the authors' value
+  int neighbours = 20;                 ///< T, 2 or more; a fifth of the population, as the authors found best
+  double neighbour_probability = 0.9;  ///< δ, 0 to 1
+  int replacements = 2;                ///< a child, 1 or more; more copies good points and loses variety
+  Stopping stopping{};
+  Variation variation{.crossover_probability = 1.0};
+  std::vector<int> integers{};  ///< places of the integer variables in Problem::variables
+  doe::Seed seed = 1;
+  ProgressFunction progress{};
+};
+
+namespace detail {
+
+/// Value of a scalar problem at the scaled objectives F; w: its direction, of unit length for pbi.
+inline double scalarised(const MoeadOptions& options, const Eigen::RowVectorXd& F,
+                         const Eigen::RowVectorXd& w) {
+  if (options.scalarisation == Scalarisation::chebyshev)
+    return (F.array() / w.array().max(1e-6)).maxCoeff();  // a zero would leave an objective out of account
+  const double along = F.dot(w);
+  return along + options.penalty * (F - along * w).norm();
+}
+
+template <doe::BlackBox F>
+class Decomposition {
+ public:
+  Decomposition(const F& black_box, const doe::Problem& problem, const MoeadOptions& options,
+                const Setting& setting, const Eigen::MatrixXd& directions)
+      : problem_(problem),
+        options_(options),
+        directions_(directions.rowwise().normalized()),
+        space_(setting.place, problem, options.integers),
+        course_(setting.place, options.stopping, options.progress, roles(problem).objectives.size()),
+        breeder_(space_, options.variation),
+        evaluate_(black_box, problem, space_, options.seed) {
+    find_neighbours();
+  }
+
+  Front run() {
+    const int n = static_cast<int>(directions_.rows());
+    members_ = evaluate_(space_.start(n, doe::run_seed(options_.seed, 0, start_stream)));
+    meet(members_);
+    for (int generation = 0;; ++generation) {
+      if (ended(generation)) return result(generation);
+      doe::RandomStream random(
+          doe::run_seed(options_.seed, static_cast<std::uint64_t>(generation), generation_stream));
+      const Population children = evaluate_(bred(random));
+      meet(children);
+      scale();
+      for (const int k : shuffled(everyone_, random)) replace(children, k, random);
+    }
+  }
+
+ private:
+  void find_neighbours() {
+    const Eigen::Index n = directions_.rows();
+    const auto count = std::min<std::ptrdiff_t>(options_.neighbours, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::VectorXd distance = (directions_.rowwise() - directions_.row(k)).rowwise().squaredNorm();
+      std::vector<int> order(static_cast<std::size_t>(n));
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(),
+                [&](int a, int b) { return distance[a] != distance[b] ? distance[a] < distance[b] : a < b; });
+      order.resize(static_cast<std::size_t>(count));
+      neighbours_.push_back(std::move(order));
+    }
+    everyone_.resize(static_cast<std::size_t>(n));
+    std::iota(everyone_.begin(), everyone_.end(), 0);
+  }
+
+  /// The ideal point takes the new points in.
+  void meet(const Population& points) {
+    for (Eigen::Index i = 0; i < points.size(); ++i)
+      if (points.feasible(i))
+        ideal_ = ideal_.size() == 0 ? Eigen::RowVectorXd(points.Y.row(i))
+                                    : ideal_.cwiseMin(points.Y.row(i)).eval();
+  }
+
+  void scale() {
+    range_ = Eigen::RowVectorXd::Zero(directions_.cols());
+    for (Eigen::Index i = 0; i < members_.size(); ++i)
+      if (members_.feasible(i)) range_ = range_.cwiseMax(members_.Y.row(i) - ideal_).eval();
+    for (double& r : range_)
+      if (!(r > 0.0)) r = 1.0;
+  }
+
+  Eigen::MatrixXd bred(doe::RandomStream& random) {
+    const Eigen::Index n = members_.size();
+    Eigen::MatrixXd children(space_.dimension(), n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto& mates = mates_of(static_cast<int>(k), random);
+      const int count = static_cast<int>(mates.size());
+      children.col(k) = members_.U.row(mates[random.below(count)]).transpose();
+      Eigen::VectorXd second = members_.U.row(mates[random.below(count)]).transpose();
+      breeder_.breed(children.col(k), second, random);
+    }
+    return children.transpose();
+  }
+
+  const std::vector<int>& mates_of(int k, doe::RandomStream& random) const {
+    return random.uniform() < options_.neighbour_probability ? neighbours_[k] : everyone_;
+  }
+
+  static std::vector<int> shuffled(std::vector<int> rows, doe::RandomStream& random) {
+    for (int i = static_cast<int>(rows.size()) - 1; i >= 1; --i)
+      std::swap(rows[i], rows[random.below(i + 1)]);
+    return rows;
+  }
+
+  void replace(const Population& children, int k, doe::RandomStream& random) {
+    int left = options_.replacements;
+    for (const int i : shuffled(mates_of(k, random), random)) {
+      if (left == 0) return;
+      if (!better(children, k, i)) continue;
+      members_.U.row(i) = children.U.row(k);
+      members_.responses.row(i) = children.responses.row(k);
+      members_.Y.row(i) = children.Y.row(k);
+      members_.violations.row(i) = children.violations.row(k);
+      members_.failed[i] = children.failed[k];
+      --left;
+    }
+  }
+
+  /// Whether child k serves problem i better than member i does.
+  bool better(const Population& children, int k, int i) const {
+    const double ours = violation(children, k), theirs = violation(members_, i);
+    if (ours != theirs) return ours < theirs;
+    if (ours > 0.0) return false;
+    const Eigen::RowVectorXd w = directions_.row(i);
+    return value(children, k, w) < value(members_, i, w);
+  }
+
+  double value(const Population& points, int i, const Eigen::RowVectorXd& w) const {
+    return scalarised(options_, (points.Y.row(i) - ideal_).cwiseQuotient(range_), w);
+  }
+
+  double violation(const Population& points, int i) const {
+    if (points.failed[i]) return std::numeric_limits<double>::infinity();
+    const Eigen::RowVectorXd scale =
+        evaluate_.largest_violations().cwiseMax(std::numeric_limits<double>::min());
+    return points.violations.cols() == 0 ? 0.0 : points.violations.row(i).cwiseQuotient(scale).sum();
+  }
+
+  bool ended(int generation) {
+    Progress now;
+    now.generation = generation;
+    now.evaluations = evaluate_.evaluations();
+    now.failed = evaluate_.failed();
+    const auto worst = [&]() -> Eigen::RowVectorXd {
+      scale();
+      return ideal_ + range_;
+    };
+    return course_.done(now, best_of(members_).Y, worst, static_cast<int>(directions_.rows()));
+  }
+
+  Front result(int generation) const {
+    Front front = to_front(problem_, space_, best_of(members_), evaluate_);
+    front.generations = generation;
+    front.stopped_by = course_.reason();
+    return front;
+  }
+
+  const doe::Problem& problem_;
+  const MoeadOptions& options_;
+  Eigen::MatrixXd directions_;
+  SearchSpace space_;
+  Course course_;
+  Breeder breeder_;
+  Evaluator<F> evaluate_;
+  std::vector<std::vector<int>> neighbours_;
+  std::vector<int> everyone_;
+  Population members_;
+  Eigen::RowVectorXd ideal_, range_;
+};
+
+inline Setting setting_of(const MoeadOptions& o) {
+  Setting setting{.place = "pareto::moead: ", .population = o.population, .variation = o.variation};
+  check_range(setting.place, "penalty", o.penalty, o.penalty > 0.0, "above 0");
+  check_range(setting.place, "neighbours", o.neighbours, o.neighbours >= 2, "2 or more");
+  check_range(setting.place, "neighbour_probability", o.neighbour_probability,
+              o.neighbour_probability >= 0.0 && o.neighbour_probability <= 1.0, "0 to 1");
+  check_range(setting.place, "replacements", o.replacements, o.replacements >= 1, "1 or more");
+  return setting;
+}
+
+}  // namespace detail
+
+/// As nsga2: same problems, same errors, same result; at most one point a direction.
+template <class F>
+Front moead(const F& black_box, const doe::Problem& problem, const MoeadOptions& options = {}) {
+  doe::require_black_box<F>();
+  if constexpr (doe::BlackBox<F>) {
+    const detail::Setting setting = detail::setting_of(options);
+    detail::check(setting, problem);
+    const Eigen::MatrixXd directions =
+        detail::directions_for(setting.place, options.directions, problem, options.population);
+    return detail::Decomposition<F>(black_box, problem, options, setting, directions).run();
+  } else {
+    return {};  // so that the message above stands alone
+  }
+}
+
+}  // namespace drawpoint::pareto
