@@ -29,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/pareto/crowding.hpp>
 
 namespace drawpoint::pareto {
@@ -111,7 +112,7 @@ inline double multiplicative_epsilon(const Eigen::MatrixXd& Y, const Eigen::Matr
   if (Y.minCoeff() <= 0.0 || Z.minCoeff() <= 0.0)
     throw std::invalid_argument(
         "pareto::multiplicative_epsilon: " + std::string(Y.minCoeff() <= 0.0 ? "Y" : "Z") + " holds " +
-        std::to_string(std::min(Y.minCoeff(), Z.minCoeff())) +
+        doe::detail::number_text(std::min(Y.minCoeff(), Z.minCoeff())) +
         "; allowed is above 0; shift the objectives or use additive_epsilon");
   const auto factor = [m = Y.cols()](const double* y, const double* z) {
     double most = y[0] / z[0];

@@ -59,5 +59,24 @@ TEST(Elitism, WhatIsLeftIsFilledFromTheBestFront) {
   EXPECT_EQ(elitist_places({200, 3, 2}, 100, 0.65), (std::vector<int>{95, 3, 2}));
 }
 
+RC_GTEST_PROP(ParetoFraction, EveryPlaceIsGivenAndTheBestFrontGetsMoreThanItsShareOnlyForWantOfOthers, ()) {
+  const std::vector<int> sizes = arbitrary_sizes();
+  const int places = *rc::gen::inRange(0, 300);
+  const double fraction = *rc::gen::inRange(1, 101) / 100.0;
+  const std::vector<int> taken = fraction_places(sizes, places, fraction);
+  RC_ASSERT(total(taken) == std::min(places, total(sizes)));
+  for (std::size_t i = 0; i < sizes.size(); ++i) RC_ASSERT(taken[i] >= 0 && taken[i] <= sizes[i]);
+  if (!sizes.empty() && taken[0] > std::ceil(fraction * places))
+    RC_ASSERT(std::equal(taken.begin() + 1, taken.end(), sizes.begin() + 1));
+}
+
+// 35 of 100 places for the best front, the second whole, the rest to the third; with small fronts behind, the
+// best fills up.
+TEST(ParetoFraction, IsTheShareOfTheBestFront) {
+  EXPECT_EQ(fraction_places({80, 40, 80}, 100, 0.35), (std::vector<int>{35, 40, 25}));
+  EXPECT_EQ(fraction_places({80, 10, 5}, 100, 0.35), (std::vector<int>{80, 10, 5}));
+  EXPECT_EQ(fraction_places({20, 90}, 100, 0.35), (std::vector<int>{20, 80}));
+}
+
 }  // namespace
 }  // namespace drawpoint::pareto

@@ -22,7 +22,7 @@ doe::Problem cost_problem(doe::Response third = {"third", "1", doe::Goal::record
           {{"cost", "kg", doe::Goal::minimize}, {"yield", "kg/s", doe::Goal::maximize}, third}};
 }
 
-const Nsga2Options quick{.population = 40, .generations = 40};
+const Nsga2Options quick{.population = 40, .stopping = {.generations = 40}};
 
 void expect_equal(const Front& a, const Front& b) {
   EXPECT_EQ(a.X, b.X);
@@ -113,7 +113,7 @@ TEST(Nsga2, FindsASmallFeasibleRegion) {
   const auto f = [](const Eigen::VectorXd& x) -> doe::Outcome {
     return {x[0], x[1] - x[0], 1e3 * x.sum(), 1e-3 * x.sum()};
   };
-  const Front front = nsga2(f, problem, {.population = 60, .generations = 100});
+  const Front front = nsga2(f, problem, {.population = 60, .stopping = {.generations = 100}});
   EXPECT_EQ(front.status, SearchStatus::completed);
   ASSERT_GT(front.X.rows(), 10);
   EXPECT_GE(front.responses.col(2).minCoeff(), 400.0);
@@ -148,7 +148,7 @@ TEST(Nsga2, FailedRunsRankLastAndAreCounted) {
 
 TEST(Nsga2, ASearchWithoutResultSaysWhy) {
   const auto fails = [](const Eigen::VectorXd&) -> doe::Outcome { return doe::Failure{"no licence"}; };
-  const Front none = nsga2(fails, cost_problem(), {.population = 10, .generations = 2});
+  const Front none = nsga2(fails, cost_problem(), {.population = 10, .stopping = {.generations = 2}});
   EXPECT_EQ(none.status, SearchStatus::all_failed);
   EXPECT_EQ(none.message, "all 30 evaluations failed; the first: no licence");
   EXPECT_EQ(none.X.rows(), 0);
@@ -156,15 +156,50 @@ TEST(Nsga2, ASearchWithoutResultSaysWhy) {
   EXPECT_EQ(none.Y.cols(), 2);
 
   const Front infeasible = nsga2(cost_and_yield, cost_problem({"third", "m", doe::Goal::at_least, 1e3}),
-                                 {.population = 10, .generations = 2});
+                                 {.population = 10, .stopping = {.generations = 2}});
   EXPECT_EQ(infeasible.status, SearchStatus::no_feasible_point);
   EXPECT_EQ(infeasible.message,
             "none of 30 evaluations met every limit; relax a limit, widen the bounds or search longer");
 }
 
+TEST(Nsga2, StopsBeforeTheBudgetIsExceeded) {
+  const Front front =
+      nsga2(cost_and_yield, cost_problem(), {.population = 40, .stopping = {.evaluations = 230}});
+  EXPECT_EQ(front.evaluations, 200);
+  EXPECT_EQ(front.generations, 4);
+  EXPECT_EQ(front.stopped_by, StopReason::evaluations);
+}
+
+// The rule as it is stated: H(g) - H(g - w) <= gain H(g) holds at the last generation and at none before.
+TEST(Nsga2, StopsWhenTheHypervolumeStalls) {
+  std::vector<double> volumes;
+  Nsga2Options options{.population = 40,
+                       .stopping = {.generations = 500, .stall_generations = 10, .stall_gain = 1e-3}};
+  options.progress = [&](const Progress& now) {
+    EXPECT_EQ(now.generation, static_cast<int>(volumes.size()));
+    EXPECT_EQ(now.evaluations, 40 * (now.generation + 1));
+    volumes.push_back(now.hypervolume);
+    return true;
+  };
+  const Front front = nsga2(cost_and_yield, cost_problem(), options);
+  EXPECT_EQ(front.stopped_by, StopReason::stall);
+  EXPECT_EQ(front.generations, static_cast<int>(volumes.size()) - 1);
+  for (std::size_t g = 10; g < volumes.size(); ++g)
+    EXPECT_EQ(volumes[g] - volumes[g - 10] <= 1e-3 * volumes[g], g + 1 == volumes.size());
+}
+
+TEST(Nsga2, TheCallerMayStopIt) {
+  Nsga2Options options = quick;
+  options.progress = [](const Progress& now) { return now.generation < 3; };
+  const Front front = nsga2(cost_and_yield, cost_problem(), options);
+  EXPECT_EQ(front.stopped_by, StopReason::progress);
+  EXPECT_EQ(front.generations, 3);
+}
+
 TEST(Nsga2, OneObjectiveAndOddPopulationsWork) {
   const auto f = [](const Eigen::VectorXd& x) { return (x.array() - 0.25).square().sum(); };
-  const Front front = nsga2(f, support::unit_problem(3), {.population = 41, .generations = 100});
+  const Front front =
+      nsga2(f, support::unit_problem(3), {.population = 41, .stopping = {.generations = 100}});
   ASSERT_GE(front.X.rows(), 1);
   EXPECT_LT(front.Y.maxCoeff(), 1e-4);  // each x within about 0.006 of the optimum
 }
@@ -174,13 +209,27 @@ TEST(Nsga2, BadInputIsNamed) {
     return support::thrown_text<std::invalid_argument>([&] { nsga2(cost_and_yield, problem, options); });
   };
   EXPECT_EQ(text({.population = 1}), "pareto::nsga2: population is 1; allowed is 2 or more");
-  EXPECT_EQ(text({.generations = -1}), "pareto::nsga2: generations is -1; allowed is 0 or more");
-  EXPECT_EQ(text({.crossover_probability = 1.5}),
+  EXPECT_EQ(text({.stopping = {.generations = -1}}),
+            "pareto::nsga2: generations is -1; allowed is 0 or more");
+  EXPECT_EQ(text({.variation = {.crossover_probability = 1.5}}),
             "pareto::nsga2: crossover_probability is 1.5; allowed is 0 to 1");
-  EXPECT_EQ(text({.mutation_probability = -0.1}),
+  EXPECT_EQ(text({.variation = {.mutation_probability = -0.1}}),
             "pareto::nsga2: mutation_probability is -0.1; allowed is 0 to 1, or NaN for 1/d");
   EXPECT_EQ(text({.elitism_ratio = 1.0}),
             "pareto::nsga2: elitism_ratio is 1; allowed is 0 (plain) to below 1");
+  EXPECT_EQ(text({.pareto_fraction = 0.0}), "pareto::nsga2: pareto_fraction is 0; allowed is above 0 to 1");
+  EXPECT_EQ(text({.stopping = {.evaluations = -1}}),
+            "pareto::nsga2: evaluations is -1; allowed is 0 (no limit) or more");
+  EXPECT_EQ(text({.integers = {2}}),
+            "pareto::nsga2: integers holds 2; allowed is 0 to 1, places in Problem::variables");
+  doe::Problem fractional = cost_problem();
+  fractional.variables[0].upper = 9.5;
+  EXPECT_EQ(text({.integers = {0}}, fractional),
+            "pareto::nsga2: integer variable \"x0\" has bounds 0 m and 9.5 m; give whole numbers");
+  EXPECT_EQ(
+      text({.stopping = {.stall_generations = 5}}, support::unit_problem(2, 9)),
+      "pareto::nsga2: stall_generations needs the hypervolume, which is limited to 8 objectives, not 9; "
+      "set stall_generations = 0");
   EXPECT_EQ(text({}, support::unit_problem(2, 3, doe::Goal::record)),
             "pareto::nsga2: no response has goal minimize or maximize; give at least one");
   EXPECT_NE(text({}, doe::Problem{}).find("doe::Problem: no variables"), std::string::npos);

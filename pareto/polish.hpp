@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// From the points of a search to true optima of smooth functions, each with a certificate.
+///
+/// A search by populations ends near the front, and the dominated volume that it leaves is in every point.
+/// Where gradients exist (a fitted surrogate, a formula) each point x° of the front is improved by
+/// * chebyshev: min t + ρ Σ_j F_j(x) over x and t with F_j(x) - F_j(x°) <= t for all j: the point moves
+///   straight at the front in all objectives alike (Wierzbicki 1980);
+/// * epsilon_constraint: min F_k(x) with F_j(x) <= F_j(x°) for all others (Haimes, Lasdon, Wismer 1971): the
+///   point keeps its place in the others;
+/// both within the bounds and the limits of the problem, by Ipopt with the gradients as given and Hessians
+/// from differences of gradients. F are the objectives, minimised and scaled by their ranges on the front, x
+/// in the unit box. A result is kept only when it is feasible and no objective is worse than at x°, so the
+/// dominated volume never falls. Every point, moved or not, gets the residual of the first-order conditions
+/// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations a point, each
+/// one evaluation and d for the Hessian, plus about half a millisecond an iteration inside Ipopt.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/pareto/hypervolume.hpp>
+#include <drawpoint/pareto/scalar_problem.hpp>
+#include <drawpoint/pareto/search.hpp>
+#include <drawpoint/pareto/stationarity.hpp>
+
+namespace drawpoint::pareto {
+
+struct PolishOptions {
+  ScalarForm form = ScalarForm::chebyshev;
+  int objective = 0;           ///< k of epsilon_constraint: its place among the objectives
+  double augmentation = 1e-4;  ///< ρ >= 0 of chebyshev; above 0 no result is only weakly optimal
+  double tolerance = 1e-9;     ///< of Ipopt's optimality error in scaled units, above 0
+  int iterations = 100;        ///< most iterations a point, 1 or more
+  Eigen::VectorXd
+      reference{};  ///< of the hypervolumes: m, natural units; empty: worst of the front + a tenth
+};
+
+enum class PolishStatus { improved, unchanged, failed };
+
+struct Polished {
+  Front front;  ///< row i is polished from row i of the given front; rows may dominate each other
+  Eigen::VectorXd residual_before, residual;  ///< of the first-order conditions, 0 to 1; NaN where f failed
+  Eigen::MatrixXd weights;                    ///< n x m, λ of the conditions at the polished points
+  std::vector<PolishStatus> status;
+  double hypervolume_before = 0.0, hypervolume = 0.0;
+  Eigen::VectorXd reference;  ///< that they were taken with, natural units
+  int evaluations = 0;
+  std::string message;  ///< empty unless points failed
+};
+
+namespace detail {
+
+inline void check(const PolishOptions& o, const Front& front, std::size_t d, std::size_t m) {
+  const std::string place = "pareto::polish: ";
+  check_range(place, "objective", o.objective, o.objective >= 0 && o.objective < static_cast<int>(m),
+              "0 to the number of objectives - 1");
+  check_range(place, "augmentation", o.augmentation, o.augmentation >= 0.0, "0 or more");
+  check_range(place, "tolerance", o.tolerance, o.tolerance > 0.0, "above 0");
+  check_range(place, "iterations", o.iterations, o.iterations >= 1, "1 or more");
+  if (front.X.cols() != static_cast<Eigen::Index>(d) || front.Y.cols() != static_cast<Eigen::Index>(m))
+    throw std::invalid_argument(place + "front has " + std::to_string(front.X.cols()) + " variables and " +
+                                std::to_string(front.Y.cols()) + " objectives, the problem has " +
+                                std::to_string(d) + " and " + std::to_string(m) +
+                                "; give the front of this problem");
+  if (o.reference.size() != 0 && o.reference.size() != static_cast<Eigen::Index>(m))
+    throw std::invalid_argument(place + "reference has " + std::to_string(o.reference.size()) +
+                                " entries; give one an objective or none");
+}
+
+/// Gradients of the active limits and bounds at a point, as stationarity() wants them. Active is what lies
+/// nearer than 1e-6 of the box: Ipopt's iterates keep a distance of about 1e-8 from what holds them.
+inline Eigen::MatrixXd active_gradients(const ScaledPoint& p) {
+  constexpr double near = 1e-6;
+  const Eigen::Index d = p.u.size();
+  std::vector<Eigen::RowVectorXd> rows;
+  for (Eigen::Index c = 0; c < p.limits.size(); ++c)
+    if (p.limits[c] >= -near * p.limit_gradients.row(c).norm()) rows.push_back(p.limit_gradients.row(c));
+  for (Eigen::Index i = 0; i < d; ++i) {
+    if (p.u[i] <= near) rows.push_back(-Eigen::RowVectorXd::Unit(d, i));
+    if (p.u[i] >= 1.0 - near) rows.push_back(Eigen::RowVectorXd::Unit(d, i));
+  }
+  Eigen::MatrixXd gradients(static_cast<Eigen::Index>(rows.size()), d);
+  for (std::size_t i = 0; i < rows.size(); ++i) gradients.row(static_cast<Eigen::Index>(i)) = rows[i];
+  return gradients;
+}
+
+class Polisher {
+ public:
+  Polisher(ScaledProblem::Function f, const doe::Problem& problem, const Front& front,
+           const PolishOptions& options)
+      : options_(options), scaled_(std::move(f), problem, front.responses), before_(front) {
+    result_.front = front;
+    result_.residual_before = result_.residual =
+        Eigen::VectorXd::Constant(front.X.rows(), std::numeric_limits<double>::quiet_NaN());
+    result_.weights = Eigen::MatrixXd::Zero(front.X.rows(), front.Y.cols());
+  }
+
+  Polished run() {
+    int failed = 0;
+    for (Eigen::Index i = 0; i < before_.X.rows(); ++i) {
+      result_.status.push_back(polish(i));
+      failed += result_.status.back() == PolishStatus::failed;
+    }
+    measure();
+    result_.evaluations = scaled_.evaluations();
+    if (failed > 0)
+      result_.message =
+          std::to_string(failed) + " of " + std::to_string(before_.X.rows()) +
+          " points were left as they were: the function failed there, or the search did not end";
+    return std::move(result_);
+  }
+
+ private:
+  PolishStatus polish(Eigen::Index i) {
+    const ScaledPoint start = scaled_.at(scaled_.unit(before_.X.row(i).transpose()));
+    if (!start.sound) return PolishStatus::failed;
+    result_.residual_before[i] = certify(i, start);
+    const ScalarSolution end =
+        solve_scalar(scaled_, start, {options_.form, options_.objective, options_.augmentation},
+                     {options_.tolerance, options_.iterations});
+    const bool better = end.point.sound && (end.point.limits.array() <= 0.0).all() &&
+                        (end.point.F.array() <= start.F.array()).all() && end.point.F != start.F;
+    const double residual = result_.residual_before[i];
+    result_.residual[i] = better ? certify(i, end.point) : residual;
+    if (!better) return end.converged ? PolishStatus::unchanged : PolishStatus::failed;
+    result_.front.X.row(i) = scaled_.natural(end.point.u).transpose();
+    result_.front.responses.row(i) = end.point.responses.transpose();
+    return PolishStatus::improved;
+  }
+
+  double certify(Eigen::Index i, const ScaledPoint& p) {
+    const Stationarity s = stationarity(p.gradients, active_gradients(p));
+    result_.weights.row(i) = s.weights.transpose();
+    return s.residual;
+  }
+
+  void measure() {
+    const Roles& role = scaled_.roles();
+    result_.front.Y = result_.front.responses(Eigen::all, role.objectives);
+    Eigen::RowVectorXd sign(before_.Y.cols());
+    for (Eigen::Index j = 0; j < sign.size(); ++j) sign[j] = role.signs[j];
+    const Eigen::MatrixXd before = before_.Y * sign.asDiagonal(), after = result_.front.Y * sign.asDiagonal();
+    const Eigen::RowVectorXd worst = before.colwise().maxCoeff();
+    Eigen::RowVectorXd reference = worst + 0.1 * (worst - before.colwise().minCoeff());
+    if (options_.reference.size() > 0) reference = options_.reference.transpose().cwiseProduct(sign);
+    result_.reference = reference.cwiseProduct(sign).transpose();
+    result_.hypervolume_before = hypervolume(before, reference.transpose());
+    result_.hypervolume = hypervolume(after, reference.transpose());
+  }
+
+  const PolishOptions& options_;
+  ScaledProblem scaled_;
+  const Front& before_;
+  Polished result_;
+};
+
+}  // namespace detail
+
+/// front: what a search on f found; f gives all responses of the problem and their derivatives. Throws
+/// std::invalid_argument on a faulty option or a front of another problem. Deterministic; one thread at a
+/// time is inside Ipopt.
+template <class F>
+Polished polish(const F& f, const doe::Problem& problem, const Front& front,
+                const PolishOptions& options = {}) {
+  static_assert(DifferentiableFunction<F>,
+                "drawpoint: not a differentiable function. Expected "
+                "pareto::ValueAndJacobian f(const Eigen::VectorXd& x) const; "
+                "with all responses of the problem (r values) and their derivatives (r x d), natural units.");
+  if constexpr (DifferentiableFunction<F>) {
+    doe::check(problem);
+    detail::check(options, front, problem.variables.size(), detail::roles(problem).objectives.size());
+    if (front.X.rows() == 0) {
+      Polished none;
+      none.front = front;
+      return none;
+    }
+    return detail::Polisher([&f](const Eigen::VectorXd& x) -> ValueAndJacobian { return f(x); }, problem,
+                            front, options)
+        .run();
+  } else {
+    return {};  // so that the message above stands alone
+  }
+}
+
+}  // namespace drawpoint::pareto
