@@ -13,7 +13,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -63,19 +65,18 @@ inline double power(double base, double exponent) {
 inline double sbx_spread(double room, double u, double index) {
   const double alpha = 2.0 - 1.0 / power(1.0 + 2.0 * room, index + 1.0);
   const double v = u * alpha;
-  return std::pow(v <= 1.0 ? v : 1.0 / (2.0 - v), 1.0 / (index + 1.0));
+  return std::exp(std::log(v <= 1.0 ? v : 1.0 / (2.0 - v)) / (index + 1.0));
 }
 
-/// Crosses two numbers of [0, 1] in place.
-inline void sbx(double& first, double& second, double index, doe::RandomStream& random) {
+/// Crosses two numbers of [0, 1] in place; `swap`: which child gets the lower one.
+inline void sbx(double& first, double& second, double index, bool swap, doe::RandomStream& random) {
   const double a = std::min(first, second), b = std::max(first, second);
   if (b - a < 1e-14) return;  // closer than rounding resolves: children equal the parents
   const double u = random.uniform();
-  double low = 0.5 * (a + b - sbx_spread(a / (b - a), u, index) * (b - a));
-  double high = 0.5 * (a + b + sbx_spread((1.0 - b) / (b - a), u, index) * (b - a));
-  if (random.uniform() < 0.5) std::swap(low, high);
-  first = std::clamp(low, 0.0, 1.0);
-  second = std::clamp(high, 0.0, 1.0);
+  const double low = 0.5 * (a + b - sbx_spread(a / (b - a), u, index) * (b - a));
+  const double high = 0.5 * (a + b + sbx_spread((1.0 - b) / (b - a), u, index) * (b - a));
+  first = std::clamp(swap ? high : low, 0.0, 1.0);
+  second = std::clamp(swap ? low : high, 0.0, 1.0);
 }
 
 /// Mutates one number of [0, 1].
@@ -167,11 +168,18 @@ class Breeder {
  private:
   void cross(Eigen::Ref<Eigen::VectorXd> first, Eigen::Ref<Eigen::VectorXd> second,
              doe::RandomStream& random) const {
-    for (Eigen::Index j = 0; j < first.size(); ++j) {
-      if (random.uniform() >= 0.5) continue;
-      sbx(first[j], second[j], variation_.crossover_index, random);
-      first[j] = space_.nearest(first[j], j);
-      second[j] = space_.nearest(second[j], j);
+    for (Eigen::Index block = 0; block < first.size(); block += 64) {
+      const Eigen::Index left = first.size() - block;
+      std::uint64_t takes_part = random();  // one bit a variable
+      const std::uint64_t swaps = random();
+      if (left < 64) takes_part &= (std::uint64_t{1} << left) - 1;
+      for (; takes_part != 0; takes_part &= takes_part - 1) {
+        const int bit = std::countr_zero(takes_part);
+        const Eigen::Index j = block + bit;
+        sbx(first[j], second[j], variation_.crossover_index, (swaps >> bit) & 1u, random);
+        first[j] = space_.nearest(first[j], j);
+        second[j] = space_.nearest(second[j], j);
+      }
     }
   }
 
