@@ -8,8 +8,8 @@
 /// Where gradients exist (a fitted surrogate, a formula) each point x° of the front is improved by
 /// * chebyshev: min t + ρ Σ_j F_j(x) over x and t with F_j(x) - F_j(x°) <= t for all j: the point moves
 ///   straight at the front in all objectives alike (Wierzbicki 1980);
-/// * epsilon_constraint: min F_k(x) with F_j(x) <= F_j(x°) for all others (Haimes, Lasdon, Wismer 1971): the
-///   point keeps its place in the others;
+/// * epsilon_constraint: min F_k(x) + ρ Σ_j F_j(x) with F_j(x) <= F_j(x°) for all others (Haimes, Lasdon,
+///   Wismer 1971; ρ after Mavrotas 2009): the point keeps its place in the others;
 /// both within the bounds and the limits of the problem, by Ipopt with the gradients as given and Hessians
 /// from differences of gradients. F are the objectives, minimised and scaled by their ranges on the front, x
 /// in the unit box. A result is kept only when it is feasible and no objective is worse than at x°, so the
@@ -37,7 +37,7 @@ namespace drawpoint::pareto {
 struct PolishOptions {
   ScalarForm form = ScalarForm::chebyshev;
   int objective = 0;           ///< k of epsilon_constraint: its place among the objectives
-  double augmentation = 1e-4;  ///< ρ >= 0 of chebyshev; above 0 no result is only weakly optimal
+  double augmentation = 1e-4;  ///< ρ >= 0; above 0 no result is only weakly optimal
   double tolerance = 1e-9;     ///< of Ipopt's optimality error in scaled units, above 0
   int iterations = 100;        ///< most iterations a point, 1 or more
   Eigen::VectorXd

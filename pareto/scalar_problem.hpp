@@ -31,8 +31,8 @@ namespace detail {
 
 struct ScalarGoal {
   ScalarForm form = ScalarForm::chebyshev;
-  int objective = 0;          ///< of epsilon_constraint
-  double augmentation = 0.0;  ///< of chebyshev
+  int objective = 0;  ///< of epsilon_constraint
+  double augmentation = 0.0;
 };
 
 struct ScalarEffort {
@@ -83,16 +83,18 @@ class ScalarProblem : public Ipopt::TNLP {
 
   bool eval_f(Ipopt::Index n, const double* x, bool, double& f) override {
     if (!move_to(x)) return false;
-    f = with_t() ? x[n - 1] + goal_.augmentation * gained().sum() : gained()[goal_.objective];
+    f = goal_.augmentation * gained().sum() + (with_t() ? x[n - 1] : gained()[goal_.objective]);
     return true;
   }
 
   bool eval_grad_f(Ipopt::Index n, const double* x, bool, double* g) override {
     if (!move_to(x)) return false;
     Eigen::Map<Eigen::RowVectorXd> gradient(g, n);
-    gradient.head(dimension()) = with_t() ? (goal_.augmentation * at_.gradients.colwise().sum()).eval()
-                                          : at_.gradients.row(goal_.objective).eval();
-    if (with_t()) gradient[n - 1] = 1.0;
+    gradient.head(dimension()) = goal_.augmentation * at_.gradients.colwise().sum();
+    if (with_t())
+      gradient[n - 1] = 1.0;
+    else
+      gradient.head(dimension()) += at_.gradients.row(goal_.objective);
     return true;
   }
 
@@ -137,10 +139,8 @@ class ScalarProblem : public Ipopt::TNLP {
     }
     if (!move_to(x)) return false;
     Eigen::VectorXd weights = Eigen::Map<const Eigen::VectorXd>(multipliers, rows);
-    if (with_t())
-      weights.head(objectives()).array() += factor * goal_.augmentation;
-    else
-      weights[goal_.objective] += factor;
+    weights.head(objectives()).array() += factor * goal_.augmentation;
+    if (!with_t()) weights[goal_.objective] += factor;
     return differences(weights, values);
   }
 

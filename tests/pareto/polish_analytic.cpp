@@ -96,7 +96,7 @@ TEST_P(Forms, LeaveATrueOptimumWhereItIs) {
 TEST_P(Forms, KeepALimitInNaturalUnitsAndSigns) {
   const doe::Problem problem{{{"p", "kg", 0.0, 30.0}, {"q", "m", 0.0, 0.015}},
                              {{"less_p", "kg", Goal::maximize},
-                              {"q", "mm", Goal::minimize},
+                              {"wear", "mm", Goal::minimize},
                               {"radius", "1", Goal::at_least, 1.0},
                               {"kept", "1", Goal::record}}};
   const auto f = [](const Eigen::VectorXd& x) {
