@@ -6,7 +6,8 @@
 ///
 /// An integer variable of K values in lower..upper (whole numbers) has the grid u = k/(K-1). A start that is
 /// uniform in [0, 1] gives each value the same share, k = ⌊u K⌋; what crossover makes goes to the nearest
-/// value. The black box sees exact whole numbers.
+/// value. The black box sees exact whole numbers. Integer are the variables of kind integer and those that
+/// the options name; a categorical variable is searched as the integer of its level, as if they had an order.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -18,7 +19,6 @@
 
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/doe/scaling.hpp>
 
 namespace drawpoint::pareto::detail {
 
@@ -29,6 +29,10 @@ class SearchSpace {
   SearchSpace(const std::string& place, const doe::Problem& problem, const std::vector<int>& integers)
       : problem_(problem), steps_(problem.variables.size(), 0.0) {
     const int d = static_cast<int>(problem.variables.size());
+    for (int j = 0; j < d; ++j) {
+      const doe::Variable& v = problem.variables[static_cast<std::size_t>(j)];
+      if (v.kind != doe::VariableKind::real) steps_[static_cast<std::size_t>(j)] = v.upper - v.lower;
+    }
     for (const int j : integers) {
       if (j < 0 || j >= d)
         throw std::invalid_argument(place + "integers holds " + std::to_string(j) + "; allowed is 0 to " +
@@ -60,9 +64,14 @@ class SearchSpace {
   }
 
   Eigen::MatrixXd natural(const Eigen::MatrixXd& U) const {
-    Eigen::MatrixXd X = doe::detail::to_natural(U, problem_);
-    for (Eigen::Index j = 0; j < X.cols(); ++j)
-      if (steps(j) > 0.0) X.col(j) = X.col(j).array().round();
+    Eigen::MatrixXd X = U;
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      const doe::Variable& v = problem_.variables[static_cast<std::size_t>(j)];
+      const bool whole = steps(j) > 0.0;
+      for (double& x : X.col(j))
+        x = whole ? v.lower + std::round(x * steps(j))
+                  : std::clamp(v.lower + x * (v.upper - v.lower), v.lower, v.upper);
+    }
     return X;
   }
 

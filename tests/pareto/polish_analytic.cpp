@@ -93,6 +93,9 @@ TEST_P(Forms, LeaveATrueOptimumWhereItIs) {
 // their ranges 20 and 0.01) outside the unit circle: the front is the circle's arc. The limit is kept with
 // ten tolerances to spare, 1e-8 of its scale (its range on the front, at most 1): the radius² ends in [1, 1 +
 // 1e-7].
+// Where the last point's q is above 1, epsilon_constraint may bring p down to 0 and then only ρ presses q
+// at the limit: with gradients 1/range_q and 2/scale its multiplier is ρ·scale/(2 range_q), range_q < 1, and
+// the slack times the multiplier ends below 1e-9: the radius² may stay 2e-9/ρ = 2e-5 higher.
 TEST_P(Forms, KeepALimitInNaturalUnitsAndSigns) {
   const doe::Problem problem{{{"p", "kg", 0.0, 30.0}, {"q", "m", 0.0, 0.015}},
                              {{"less_p", "kg", Goal::maximize},
@@ -114,8 +117,9 @@ TEST_P(Forms, KeepALimitInNaturalUnitsAndSigns) {
   }
   const Polished polished = polish(f, problem, rough_front(f, problem, X), {.form = GetParam()});
   for (Eigen::Index i = 0; i < 8; ++i) {
+    const bool pressed_by_augmentation = GetParam() == ScalarForm::epsilon_constraint && X(i, 1) > 0.01;
     EXPECT_GE(polished.front.responses(i, 2), 1.0);
-    EXPECT_LE(polished.front.responses(i, 2), 1.0 + 1e-7);
+    EXPECT_LE(polished.front.responses(i, 2), 1.0 + 1e-7 + (pressed_by_augmentation ? 2e-5 : 0.0));
     EXPECT_LE(polished.residual[i], 1e-6);
   }
   EXPECT_GT(polished.hypervolume, polished.hypervolume_before);
