@@ -34,9 +34,9 @@ struct Nsga2Options {
   int population = 200;  ///< points a generation, 2 or more; also the most points of the front
   Stopping stopping{};
   Variation variation{};
-  /// Plain: on the six problems of benchmarks/toolkit/pareto_table it has the largest median hypervolume.
-  /// Controlled elitism spends places on dominated points, which pays where a front falls into pieces that a
-  /// search can lose (docs/pareto.md).
+  /// Plain: on five of the six problems of benchmarks/toolkit/pareto_table it has the largest median
+  /// hypervolume. Controlled elitism spends places on dominated points, which pays where a front falls into
+  /// pieces that a search can lose (docs/pareto.md).
   Elitism elitism = Elitism::plain;
   double elitism_ratio = 0.65;    ///< r of Elitism::geometric, 0 <= r < 1; Deb and Goel's value
   double pareto_fraction = 0.35;  ///< of Elitism::pareto_fraction, 0 < fraction <= 1; gamultiobj's default

@@ -124,17 +124,19 @@ TEST_P(Searches, LeaveAFailingHalfOfTheBox) {
   EXPECT_GE(front.X.col(0).minCoeff(), 5.0);
 }
 
-// Pieces n in 1..9 and a switch s in {0, 1}: cost n + 4 (1 - s), time 12/n: the front is s = 1 and each n,
-// nine points. All of them are found; MOEA/D by PBI owes only those that are best for one of its directions.
+// Pieces n in 1..9, of kind integer, and a switch s in {0, 1} that the options name: cost n + 4 (1 - s), time
+// 12/n: the front is s = 1 and each n, nine points. All of them are found; MOEA/D by PBI owes only those that
+// are best for one of its directions.
 TEST_P(Searches, FindEveryPointOfASmallIntegerFront) {
-  const doe::Problem problem{{{"n", "1", 1.0, 9.0}, {"x", "m", -1.0, 1.0}, {"s", "1", 0.0, 1.0}},
-                             {{"cost", "kg", doe::Goal::minimize}, {"time", "s", doe::Goal::minimize}}};
+  const doe::Problem problem{
+      {doe::integer_variable("n", "1", 1, 9), {"x", "m", -1.0, 1.0}, {"s", "1", 0.0, 1.0}},
+      {{"cost", "kg", doe::Goal::minimize}, {"time", "s", doe::Goal::minimize}}};
   const auto f = [](const Eigen::VectorXd& x) -> doe::Outcome {
     EXPECT_EQ(x[0], std::round(x[0]));
     EXPECT_TRUE(x[2] == 0.0 || x[2] == 1.0);
     return {x[0] + 4.0 * (1.0 - x[2]) + 1e-3 * x[1] * x[1], 12.0 / x[0]};
   };
-  const Front front = GetParam().search(f, problem, {.generations = 60, .integers = {0, 2}});
+  const Front front = GetParam().search(f, problem, {.generations = 60, .integers = {2}});
   std::vector<int> found(10, 0);
   for (const auto& x : front.X.rowwise()) {
     EXPECT_EQ(x[2], 1.0);
