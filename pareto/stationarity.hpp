@@ -7,8 +7,8 @@
 /// x is Pareto-stationary iff Σ λ_j ∇f_j + Σ μ_c ∇g_c = 0 with λ, μ >= 0, Σ λ_j = 1, over the objectives and
 /// the active constraints g_c <= 0 (Fritz John; active bounds are constraints). The residual is
 ///   r = min ‖Σ λ_j ∇f_j + Σ μ_c ∇g_c‖ / max_j ‖∇f_j‖,
-/// 0 at a stationary point, 1 where all gradients agree. It depends on how variables and objectives are scaled.
-/// With q the least square of the norm, the minimum over z = (λ, μ) >= 0 of ‖A z‖² + (Σ λ_j - 1)² is
+/// 0 at a stationary point, 1 where all gradients agree. It depends on how variables and objectives are
+/// scaled. With q the least square of the norm, the minimum over z = (λ, μ) >= 0 of ‖A z‖² + (Σ λ_j - 1)² is
 /// q/(1 + q), reached at a multiple of the same z: so non-negative least squares solves it exactly (Lawson,
 /// Hanson 1974, algorithm 23.10). Cost: a few factorisations of d x (m + active constraints).
 
