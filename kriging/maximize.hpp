@@ -21,6 +21,7 @@
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/ipopt_mutex.hpp>
 #include <drawpoint/kriging/climb.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
 #include <limits>
@@ -187,15 +188,10 @@ inline Ipopt::SmartPtr<Ipopt::IpoptApplication> silent_ipopt(int max_iterations)
   return ipopt;
 }
 
-inline std::mutex& ipopt_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 /// One run of Ipopt in a box in which equal bounds fix a parameter.
 inline Maximum run_ipopt(Likelihood& likelihood, const Box& box, const SearchStart& start,
                          int max_iterations) {
-  const std::lock_guard<std::mutex> lock(ipopt_mutex());
+  const std::lock_guard<std::mutex> lock(doe::detail::ipopt_mutex());
   Ipopt::SmartPtr<NegativeLikelihood> problem = new NegativeLikelihood(likelihood, box, start);
   const auto ipopt = silent_ipopt(max_iterations);
   const auto status = ipopt->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(problem)));
