@@ -35,6 +35,30 @@ foreach(component doe kriging pareto)
   endif()
 endforeach()
 list(JOIN drawpoint_ipopt_components "|" DRAWPOINT_IPOPT_COMPONENTS)
+# pkg-config: drawpoint-COMPONENT.pc for the header-only modules, for projects that do not use CMake.
+file(RELATIVE_PATH DRAWPOINT_PC_UP ${CMAKE_INSTALL_FULL_DATADIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" DRAWPOINT_PC_UP ${DRAWPOINT_PC_UP})
+
+# drawpoint_pkg_config(COMPONENT DESCRIPTION REQUIRED_MODULE...)
+function(drawpoint_pkg_config component description)
+  set(DRAWPOINT_PC_DESCRIPTION ${description})
+  list(JOIN ARGN ", " DRAWPOINT_PC_REQUIRES)
+  get_target_property(libraries drawpoint_${component} INTERFACE_LINK_LIBRARIES)
+  if("PkgConfig::IPOPT" IN_LIST libraries)
+    string(APPEND DRAWPOINT_PC_REQUIRES ", ipopt")
+  endif()
+  set(DRAWPOINT_PC_LIBS)
+  if("Threads::Threads" IN_LIST libraries)
+    set(DRAWPOINT_PC_LIBS -pthread)
+  endif()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/drawpoint.pc.in ${PROJECT_BINARY_DIR}/drawpoint-${component}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/drawpoint-${component}.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig
+          COMPONENT ${component})
+endfunction()
+drawpoint_pkg_config(doe "Designed experiments over any black box" "eigen3 >= 3.4")
+drawpoint_pkg_config(kriging "Regression Kriging" "drawpoint-doe = ${PROJECT_VERSION}")
+drawpoint_pkg_config(pareto "Multi-objective search" "drawpoint-doe = ${PROJECT_VERSION}")
+
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/DrawpointConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/DrawpointConfig.cmake
                               INSTALL_DESTINATION ${drawpoint_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
