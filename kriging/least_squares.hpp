@@ -9,7 +9,6 @@
 /// are lost by the condition of L⁻¹F once, not squared. Cost O(n² q).
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +22,22 @@ struct LeastSquares {
   double sum_of_squares = 0;  ///< (y − Fβ)ᵀα
 };
 
+/// Q = (Q as it comes) T⁻¹ with orthonormal columns; T: q x q, zero at entry, becomes upper triangular.
+/// Gram-Schmidt, twice a column, which leaves round-off along the others while the columns are independent in
+/// double precision (Giraud, Langou, Rozložník 2005, "The loss of orthogonality in the Gram-Schmidt
+/// orthogonalization process"). Eigen's QR would do as well, at seconds of every user's compile time.
+inline void orthonormalize(Eigen::MatrixXd& Q, Eigen::MatrixXd& T) {
+  for (Eigen::Index j = 0; j < Q.cols(); ++j) {
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::VectorXd along = Q.leftCols(j).transpose() * Q.col(j);
+      Q.col(j) -= Q.leftCols(j) * along;
+      T.col(j).head(j) += along;
+    }
+    T(j, j) = Q.col(j).norm();
+    Q.col(j) /= T(j, j);
+  }
+}
+
 /// F has independent columns, fewer than rows or as many.
 inline LeastSquares least_squares(const Eigen::MatrixXd& L, const Eigen::MatrixXd& F,
                                   const Eigen::VectorXd& y) {
@@ -31,11 +46,11 @@ inline LeastSquares least_squares(const Eigen::MatrixXd& L, const Eigen::MatrixX
   Eigen::MatrixXd both(F.rows(), q + 1);  // solved together: a pass over L costs more than a column
   both << F, y;
   lower.solveInPlace(both);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(both.leftCols(q));
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(F.rows(), q);
-  Eigen::VectorXd residual = both.col(q);
   LeastSquares s;
-  s.T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
+  s.T.setZero(q, q);
+  Eigen::MatrixXd Q = both.leftCols(q);
+  orthonormalize(Q, s.T);
+  Eigen::VectorXd residual = both.col(q);
   const Eigen::VectorXd share = Q.transpose() * residual;
   s.beta = s.T.triangularView<Eigen::Upper>().solve(share);
   residual -= Q * share;

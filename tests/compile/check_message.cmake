@@ -1,5 +1,6 @@
 # Compiles SOURCE with COMPILER and the folders INCLUDES (separated by |). With lines `// expect: TEXT` in SOURCE the compilation
-# has to fail and its first error to hold every TEXT; without one it has to succeed.
+# has to fail and its first error to hold every TEXT; without one it has to succeed. With a line `// times: N` the first
+# TEXT has to stand in N errors or more: one for each entry point that the file calls.
 file(STRINGS ${SOURCE} expected REGEX "^// expect: ")
 string(REPLACE "// expect: " "" expected "${expected}")
 string(REPLACE "|" ";-I" folders "-I${INCLUDES}")
@@ -21,3 +22,21 @@ foreach(text IN LISTS expected)
     message(FATAL_ERROR "the first error does not say: ${text}\nbut: ${first_error}\n${output}")
   endif()
 endforeach()
+
+file(STRINGS ${SOURCE} times REGEX "^// times: [0-9]+$")
+if(times)
+  string(REPLACE "// times: " "" times "${times}")
+  list(GET expected 0 text)
+  set(count 0)
+  string(REPLACE ";" "," output "${output}") # which would part the list of lines
+  string(REGEX MATCHALL "error: [^\n]*" errors "${output}")
+  foreach(error IN LISTS errors)
+    string(FIND "${error}" "${text}" place)
+    if(NOT place EQUAL -1)
+      math(EXPR count "${count} + 1")
+    endif()
+  endforeach()
+  if(count LESS times)
+    message(FATAL_ERROR "${count} errors say: ${text}\nbut ${times} calls should stop so\n${output}")
+  endif()
+endif()
