@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
