@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/normal_quantile.hpp>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -40,17 +41,7 @@ inline std::string_view to_string(ErrorFunction error) {
 
 namespace detail {
 
-/// x with P(Z <= x) = p for a standard normal Z, by Newton's steps on erfc from a logistic guess; 0 < p < 1.
-inline double normal_quantile(double p) {
-  double x = std::log(p / (1.0 - p)) / 1.702;
-  for (int i = 0; i < 60; ++i) {
-    const double miss = 0.5 * std::erfc(-x / std::numbers::sqrt2) - p;
-    const double step = miss / (std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi));
-    x -= std::clamp(step, -0.5, 0.5);
-    if (std::abs(step) < 1e-15 * (1.0 + std::abs(x))) break;
-  }
-  return x;
-}
+using doe::detail::normal_quantile;
 
 }  // namespace detail
 
