@@ -90,8 +90,9 @@ struct Process {
   }
 };
 
-// Among all single runs the one chosen leaves a Vorob'ev deviation that is among the least quarter, and a
-// batch of three leaves less than three runs at the largest deviations of the process would.
+// Among all single runs the one chosen leaves a Vorob'ev deviation that is among the least quarter. A batch
+// of three leaves less than any three of the largest deviation: the middles of both gaps, then any of the
+// four quarters.
 TEST(NextSimulations, ReduceTheVorobevDeviation) {
   const std::vector<int> known{0, 20, 40};
   const VorobevOptions options{.samples = 1024, .reference = Eigen::Vector2d(1.1, 1.1)};
@@ -108,7 +109,7 @@ TEST(NextSimulations, ReduceTheVorobevDeviation) {
   for (int i = 0; i < Process::n; ++i) better += left_by({i}) < chosen;
   EXPECT_LE(better, Process::n / 4);
   EXPECT_LT(chosen, left_by({}));
-  EXPECT_LT(left_by(next.rows), left_by({10, 30, 35}));
+  for (const int third : {5, 15, 25, 35}) EXPECT_LT(left_by(next.rows), left_by({10, 30, third}));
 }
 
 }  // namespace
