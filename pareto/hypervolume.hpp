@@ -8,7 +8,8 @@
 /// contribution of p is H(P) - H(P without p). Points that are not better than r in every objective add
 /// nothing; dominated and repeated points are allowed. H: a sweep over the last objective with the union of
 /// the others (box_union.hpp), O(n log n) for m = 2, near it for m = 3, O(n²) for m = 4, a factor n for each
-/// objective more at worst; meant for m <= 6. Contributions: O(n log n) for m = 2, n unions beyond. Relative
+/// objective more at worst; meant for m <= 6. Contributions: O(n log n) for m = 2, near it for m = 3
+/// (volume_contributions.hpp), n unions beyond. Relative
 /// rounding error of H below about n·1e-16, of a contribution about n·1e-16 of p's own box.
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include <drawpoint/pareto/box_union.hpp>
+#include <drawpoint/pareto/volume_contributions.hpp>
 
 namespace drawpoint::pareto {
 
@@ -105,7 +107,7 @@ double swept_volume(const Boxes& boxes) {
 
 /// One after the other is left out: `others` holds the boxes but the i-th, in order.
 template <int M>
-void contributions_beyond_two(const Boxes& boxes, Eigen::VectorXd& result) {
+void contributions_by_unions(const Boxes& boxes, Eigen::VectorXd& result) {
   BoxUnion<M> others;
   for (Eigen::Index i = 0; i < boxes.size(); ++i) {
     others.clear();
@@ -141,6 +143,14 @@ inline void contributions_of_areas(const Boxes& boxes, Eigen::VectorXd& result) 
   }
 }
 
+inline void contributions_of_volumes(const Boxes& boxes, Eigen::VectorXd& result) {
+  VolumeContributions sweep(boxes.rows.size());
+  for (Eigen::Index i = 0; i < boxes.size(); ++i)
+    sweep.add(boxes.sides(i, 0), boxes.sides(i, 1), boxes.sides(i, 2));
+  const std::vector<double> volumes = sweep.volumes();
+  for (std::size_t i = 0; i < volumes.size(); ++i) result[boxes.rows[i]] = volumes[i];
+}
+
 template <int M>
 Eigen::VectorXd contributions(const Boxes& boxes, Eigen::Index n) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(n);
@@ -148,8 +158,10 @@ Eigen::VectorXd contributions(const Boxes& boxes, Eigen::Index n) {
     contributions_of_lengths(boxes, result);
   } else if constexpr (M == 2) {
     contributions_of_areas(boxes, result);
+  } else if constexpr (M == 3) {
+    contributions_of_volumes(boxes, result);
   } else {
-    contributions_beyond_two<M>(boxes, result);
+    contributions_by_unions<M>(boxes, result);
   }
   return result;
 }
