@@ -9,18 +9,23 @@
 /// lexicographic order, so that nothing later dominates anything earlier, and each is put into the first
 /// front that does not dominate it, found by bisection (Zhang, Tian, Cheng, Jin 2015, "An efficient approach
 /// to non-dominated sorting", ENS-BS). A front is kept as what decides dominance: nothing for one objective,
-/// the best second objective for two, the staircase of the second and third for three, all its points beyond.
+/// the best second objective for two, the staircase of the second and third for three, all its points beyond
+/// (ranked_points.hpp).
 /// Cost with F fronts: O(n log n) for m <= 2, O(n log n log F) for m = 3, at worst O(m n²) beyond.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include <drawpoint/pareto/ranked_points.hpp>
 
 namespace drawpoint::pareto {
 
@@ -84,35 +89,19 @@ class StaircaseFront {
   std::vector<Step> steps_;
 };
 
-/// Any m: all points, the latest first, for it is the likeliest to dominate.
-class ListFront {
- public:
-  explicit ListFront(Eigen::Index m) : m_(m) {}
-
-  bool dominates(Point p) const {
-    return std::any_of(points_.rbegin(), points_.rend(), [&](Point q) {
-      for (Eigen::Index j = 1; j < m_; ++j)
-        if (q[j] > p[j]) return false;
-      return true;
-    });
-  }
-  void add(Point p) { points_.push_back(p); }
-
- private:
-  Eigen::Index m_;
-  std::vector<Point> points_;
-};
-
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The points, each contiguous, and their lexicographic order (equal points by index).
-struct SortedPoints {
-  RowMajor Y;
+/// The points, each contiguous, and their lexicographic order (equal points by index). T: double, or ranks.
+template <class T>
+struct OrderedPoints {
+  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> Y;
   std::vector<int> order;
 
-  Point at(int i) const { return Y.data() + i * Y.cols(); }
+  const T* at(int i) const { return Y.data() + i * Y.cols(); }
   bool equal(int a, int b) const { return std::equal(at(a), at(a) + Y.cols(), at(b)); }
 };
+
+using SortedPoints = OrderedPoints<double>;
 
 /// Row numbers by the first objective alone, which settles nearly every comparison.
 inline std::vector<std::pair<double, int>> by_first_objective(const RowMajor& Y) {
@@ -145,36 +134,43 @@ inline SortedPoints sorted_points(const Eigen::MatrixXd& Y) {
   return points;
 }
 
-template <class FrontType>
-std::vector<std::vector<int>> sorted_into_fronts(const SortedPoints& points) {
-  std::vector<std::vector<int>> members;
+/// Front by front the rows in rising order; place: the front of each row.
+inline std::vector<std::vector<int>> rows_by_front(const std::vector<int>& place,
+                                                   const std::vector<int>& sizes) {
+  std::vector<std::vector<int>> rows(sizes.size());
+  for (std::size_t k = 0; k < sizes.size(); ++k) rows[k].reserve(static_cast<std::size_t>(sizes[k]));
+  for (std::size_t i = 0; i < place.size(); ++i)
+    rows[static_cast<std::size_t>(place[i])].push_back(static_cast<int>(i));
+  return rows;
+}
+
+template <class FrontType, class T>
+std::vector<std::vector<int>> sorted_into_fronts(const OrderedPoints<T>& points) {
   std::vector<FrontType> fronts;
+  std::vector<int> place(points.order.size()), sizes;
   std::size_t front = 0;
   for (std::size_t i = 0; i < points.order.size(); ++i) {
     const int index = points.order[i];
-    if (i > 0 &&
-        points.equal(index, points.order[i - 1])) {  // joins its equal, which may look like a dominator
-      members[front].push_back(index);
-      continue;
+    const bool repeated = i > 0 && points.equal(index, points.order[i - 1]);
+    if (!repeated) {  // an equal point joins its equal, which may look like a dominator
+      const T* p = points.at(index);
+      const auto lets_pass = [&](const FrontType& f) { return f.dominates(p); };
+      front = static_cast<std::size_t>(std::partition_point(fronts.begin(), fronts.end(), lets_pass) -
+                                       fronts.begin());
+      if (front == fronts.size()) {
+        fronts.emplace_back(points.Y.cols());
+        sizes.push_back(0);
+      }
+      fronts[front].add(p);
     }
-    const Point p = points.at(index);
-    front =
-        static_cast<std::size_t>(std::partition_point(fronts.begin(), fronts.end(),
-                                                      [&](const FrontType& f) { return f.dominates(p); }) -
-                                 fronts.begin());
-    if (front == fronts.size()) {
-      fronts.emplace_back(points.Y.cols());
-      members.emplace_back();
-    }
-    fronts[front].add(p);
-    members[front].push_back(index);
+    ++sizes[front];
+    place[static_cast<std::size_t>(index)] = static_cast<int>(front);
   }
-  for (auto& indices : members) std::sort(indices.begin(), indices.end());
-  return members;
+  return rows_by_front(place, sizes);
 }
 
-template <class FrontType>
-std::vector<int> first_front(const SortedPoints& points) {
+template <class FrontType, class T>
+std::vector<int> first_front(const OrderedPoints<T>& points) {
   std::vector<int> members;
   FrontType front(points.Y.cols());
   for (const int index : points.order) {
@@ -187,23 +183,34 @@ std::vector<int> first_front(const SortedPoints& points) {
   return members;
 }
 
+/// Calls body with the type of front that suits the points, and the points as it wants them.
+template <class Body>
+auto with_fronts_for(const Eigen::MatrixXd& Y, const Body& body) {
+  SortedPoints points = sorted_points(Y);
+  if (Y.cols() <= 2) return body(std::type_identity<SweepFront>(), points);
+  if (Y.cols() == 3) return body(std::type_identity<StaircaseFront>(), points);
+  if (Y.rows() <= std::numeric_limits<std::int16_t>::max())
+    return body(std::type_identity<BlockFront<std::int16_t>>(),
+                OrderedPoints<std::int16_t>{ranks_of<std::int16_t>(Y), std::move(points.order)});
+  return body(std::type_identity<BlockFront<std::int32_t>>(),
+              OrderedPoints<std::int32_t>{ranks_of<std::int32_t>(Y), std::move(points.order)});
+}
+
 }  // namespace detail
 
 /// Y: n x m, one point a row, minimised. Returns the fronts from the best, each the row numbers in rising
 /// order; together they hold every row once. Throws std::invalid_argument when Y holds NaN.
 inline std::vector<std::vector<int>> non_dominated_sort(const Eigen::MatrixXd& Y) {
-  const detail::SortedPoints points = detail::sorted_points(Y);
-  if (Y.cols() <= 2) return detail::sorted_into_fronts<detail::SweepFront>(points);
-  if (Y.cols() == 3) return detail::sorted_into_fronts<detail::StaircaseFront>(points);
-  return detail::sorted_into_fronts<detail::ListFront>(points);
+  return detail::with_fronts_for(Y, [](auto front, const auto& points) {
+    return detail::sorted_into_fronts<typename decltype(front)::type>(points);
+  });
 }
 
 /// The first front only: the rows of Y that no other row dominates, in rising order.
 inline std::vector<int> non_dominated(const Eigen::MatrixXd& Y) {
-  const detail::SortedPoints points = detail::sorted_points(Y);
-  if (Y.cols() <= 2) return detail::first_front<detail::SweepFront>(points);
-  if (Y.cols() == 3) return detail::first_front<detail::StaircaseFront>(points);
-  return detail::first_front<detail::ListFront>(points);
+  return detail::with_fronts_for(Y, [](auto front, const auto& points) {
+    return detail::first_front<typename decltype(front)::type>(points);
+  });
 }
 
 }  // namespace drawpoint::pareto

@@ -61,11 +61,30 @@ RC_GTEST_PROP(NonDominatedSort, OrderOfTheRowsDoesNotMatter, ()) {
   RC_ASSERT(fronts == non_dominated_sort(Y));
 }
 
+// More points than 16 bits have ranks for take the wider ones. 33 000 points x with x_4 = 1 - x_1 are one
+// front; 300 of them with 20 added to all are another, behind it, and every rank of the last objective
+// differs.
+TEST(NonDominatedSort, RanksOfMoreThanSixteenBits) {
+  const int n = 33000;
+  Eigen::MatrixXd Y(n, 4);
+  for (int i = 0; i < n; ++i) {
+    const double x = static_cast<double>(i) / n;
+    Y.row(i) = Eigen::RowVector4d(x, i % 7, i % 5, 1.0 - x).array() + (i < 300 ? 20.0 : 0.0);
+  }
+  const auto fronts = non_dominated_sort(Y);
+  ASSERT_EQ(fronts.size(), 2u);
+  EXPECT_EQ(fronts[1].size(), 300u);
+  EXPECT_EQ(fronts[1].front(), 0);
+  EXPECT_EQ(fronts[0].front(), 300);
+}
+
 TEST(NonDominatedSort, TakesInfinityAndRefusesNaN) {
   const double infinity = std::numeric_limits<double>::infinity();
-  Eigen::MatrixXd Y(3, 3);
+  Eigen::MatrixXd Y(3, 3), wide(3, 4);
   Y << infinity, 0, 0, infinity, 0, 1, -infinity, 5, 5;
   EXPECT_EQ(non_dominated_sort(Y), (std::vector<std::vector<int>>{{0, 2}, {1}}));
+  wide << Y, Y.col(0);
+  EXPECT_EQ(non_dominated_sort(wide), non_dominated_sort(Y));
   Y(1, 1) = std::nan("");
   EXPECT_THROW(non_dominated_sort(Y), std::invalid_argument);
   EXPECT_THROW(non_dominated(Y), std::invalid_argument);
