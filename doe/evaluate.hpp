@@ -29,6 +29,7 @@
 #include <drawpoint/doe/evaluate_options.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/run_journal.hpp>
+#include <drawpoint/doe/scaling.hpp>
 #include <drawpoint/doe/watchdog.hpp>
 
 namespace drawpoint::doe {
@@ -49,23 +50,6 @@ inline void check_options(const EvaluateOptions& options) {
   if (!(options.time_limit > 0.0))
     throw std::invalid_argument("doe::evaluate: time_limit is " + number_text(options.time_limit) +
                                 " s; allowed is a time above 0 s; leave it out for no limit");
-}
-
-inline void check_points(const Problem& problem, const Eigen::MatrixXd& X) {
-  const auto d = static_cast<Eigen::Index>(problem.variables.size());
-  if (X.cols() != d)
-    throw std::invalid_argument("doe::evaluate: X has " + std::to_string(X.cols()) +
-                                " columns, the problem has " + std::to_string(d) +
-                                " variables; X is n x d with one run a row");
-  for (Eigen::Index i = 0; i < X.rows(); ++i)
-    for (Eigen::Index j = 0; j < d; ++j) {
-      const Variable& v = problem.variables[j];
-      if (X(i, j) >= v.lower && X(i, j) <= v.upper) continue;
-      throw std::invalid_argument("doe::evaluate: row " + std::to_string(i) + ", variable \"" + v.name +
-                                  "\": " + with_unit(X(i, j), v.unit) + " is outside " +
-                                  with_unit(v.lower, v.unit) + " to " + with_unit(v.upper, v.unit) +
-                                  "; correct the point or widen the bounds");
-    }
 }
 
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -230,8 +214,7 @@ void run_points(const F& f, Evaluations& table, RunBook& book, const EvaluateOpt
 template <BlackBox F>
 Evaluations evaluated(const F& f, const Problem& problem, const Eigen::MatrixXd& X,
                       const EvaluateOptions& options) {
-  check(problem);
-  check_points(problem, X);
+  check_inside(X, problem, "doe::evaluate");
   check_options(options);
   Evaluations table = planned(problem, X, options);
   RunBook book(table, options);
@@ -246,9 +229,10 @@ Evaluations evaluated(const F& f, const Problem& problem, const Eigen::MatrixXd&
 
 }  // namespace detail
 
-/// X: n x d, natural units, inside the bounds. Returns n·replicates rows, or those that were done when
-/// options.stop was requested. Throws std::invalid_argument on a faulty problem, X or option,
-/// std::runtime_error from the journal, and whatever the callbacks throw; what f throws becomes a failed row.
+/// X: n x d, natural units, inside the bounds, whole numbers where the variable takes no others. Returns
+/// n·replicates rows, or those that were done when options.stop was requested. Throws std::invalid_argument
+/// on a faulty problem, X or option, std::runtime_error from the journal, and whatever the callbacks throw;
+/// what f throws becomes a failed row.
 template <class F>
 Evaluations evaluate(const F& f, const Problem& problem, const Eigen::MatrixXd& X,
                      const EvaluateOptions& options = {}) {

@@ -162,15 +162,29 @@ TEST(Evaluate, BadInputIsNamed) {
   EXPECT_EQ(text({.threads = 0}), "doe::evaluate: threads is 0; allowed is 1 or more");
   EXPECT_EQ(text({.replicates = -1}), "doe::evaluate: replicates is -1; allowed is 1 or more");
   X(2, 0) = 7.5;
-  EXPECT_EQ(text(),
-            "doe::evaluate: row 2, variable \"lip_angle\": 7.5 deg is outside -25 deg to 5 deg; correct the "
-            "point or widen "
-            "the bounds");
+  EXPECT_EQ(
+      text(),
+      "doe::evaluate: row 2, variable \"lip_angle\": 7.5 deg is not within -25 deg to 5 deg; correct the "
+      "point or the bounds");
   X(2, 0) = std::nan("");
-  EXPECT_NE(text().find("row 2, variable \"lip_angle\": nan deg is outside"), std::string::npos);
+  EXPECT_NE(text().find("row 2, variable \"lip_angle\": nan deg is not within"), std::string::npos);
   X.resize(3, 2);
   EXPECT_EQ(text(),
             "doe::evaluate: X has 2 columns, the problem has 3 variables; X is n x d with one run a row");
+}
+
+TEST(Evaluate, AFractionOfAnIntegerIsRefused) {
+  const Problem problem{.variables = {integer_variable("teeth", "1", 2, 6)}, .responses = {{"cost", "EUR"}}};
+  const auto f = [](const Eigen::VectorXd& x) { return x.sum(); };
+  const auto text = [&](double teeth) {
+    return support::thrown_text<std::invalid_argument>(
+        [&] { evaluate(f, problem, Eigen::MatrixXd::Constant(1, 1, teeth)); });
+  };
+  EXPECT_EQ(
+      text(3.5),
+      "doe::evaluate: row 0, variable \"teeth\": 3.5 is not a whole number from 2 to 6; correct the point "
+      "or the bounds");
+  EXPECT_EQ(evaluate(f, problem, Eigen::MatrixXd::Constant(1, 1, 3.0)).rows.size(), 1u);
 }
 
 TEST(Evaluate, AnEmptyDesignGivesAnEmptyTable) {
