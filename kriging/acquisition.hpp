@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Where a surrogate wants the next run: criteria for doe::propose and doe::refine, higher is better.
+///
+/// With mean μ and deviation σ at x, f* the best value so far, z = (f* − μ)/σ (signs turned to maximise):
+///   maximum_variance           σ²
+///   expected_improvement       E[(f* − Y)⁺] = σ [φ(z) + zΦ(z)]
+///   log_expected_improvement   its logarithm: the same order, also where the number underflows
+///   cross_validation_error     |leave-one-out error| of the nearest run: constant in its cell
+/// For a Kriging model the improvement is that of its re-interpolation: of a noisy response the mean at the
+/// runs counts as known, so that no run is asked for again, and f* is the best of these means, not the
+/// luckiest observation. Limits are in acquisition_constraints.hpp, several objectives in
+/// acquisition_hypervolume.hpp.
+/// Sources: Jones, Schonlau, Welch 1998, J. Global Optimization 13 (EI); Forrester, Keane, Bressloff 2006,
+/// AIAA J. 44(10) (re-interpolation); Ament et al. 2023 (logarithm).
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/doe/criterion.hpp>
+#include <drawpoint/doe/nearest.hpp>
+#include <drawpoint/doe/outcome.hpp>
+#include <drawpoint/kriging/blind.hpp>
+#include <drawpoint/kriging/normal.hpp>
+#include <drawpoint/kriging/reinterpolation.hpp>
+#include <drawpoint/kriging/surrogate.hpp>
+
+namespace drawpoint::kriging {
+
+namespace detail {
+
+template <class S>
+constexpr void require_surrogate() {
+  static_assert(
+      Surrogate<S>,
+      "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
+      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
+}
+
+/// +1 to minimise, −1 to maximise.
+inline double sign_of(const char* place, doe::Goal goal) {
+  if (!doe::is_objective(goal))
+    throw std::invalid_argument(
+        std::string(place) + ": goal is " + std::string(doe::to_string(goal)) +
+        "; allowed are minimize and maximize; use probability_of_feasibility for limits");
+  return goal == doe::Goal::minimize ? 1.0 : -1.0;
+}
+
+inline void check_finite(const char* place, const char* name, double value) {
+  if (!std::isfinite(value))
+    throw std::invalid_argument(std::string(place) + ": " + name + " is " + doe::detail::number_text(value) +
+                                "; allowed are finite numbers; leave failed runs out");
+}
+
+/// Variances up to this are round-off of the factor of an interpolating model: at a run the variance is at
+/// most λs²(1 + 1/4), with the small λ of reinterpolation.hpp.
+inline double variance_floor(const Model& interpolating) { return 2.0 * interpolating.noise_variance(); }
+
+/// The surrogate that a search for improvement asks: a Kriging model is re-interpolated, and its round-off at
+/// the runs is no variance.
+template <class S>
+class SearchModel {
+ public:
+  explicit SearchModel(const S& model) : model_(searched(model)) {}
+
+  /// Of the latent function at the m x d points.
+  Prediction predict(const Eigen::MatrixXd& X) const {
+    Prediction p = model_.predict(X);
+    if constexpr (std::is_same_v<S, Model>)
+      p.variance = (p.variance.array() <= variance_floor(model_)).select(0.0, p.variance);
+    return p;
+  }
+
+ private:
+  static S searched(const S& model) {
+    if constexpr (std::is_same_v<S, Model>)
+      return reinterpolated(model);
+    else
+      return model;
+  }
+
+  S model_;
+};
+
+}  // namespace detail
+
+/// The model's means at its own runs, without their noise: n entries, unit of y.
+inline Eigen::VectorXd fitted_values(const Model& model) {
+  const detail::ModelState& s = model.state();
+  if (s.X.rows() == 0) return Eigen::VectorXd::Constant(s.observed.size(), s.y_centre);
+  return s.observed - s.y_scale * detail::added_noise(s).cwiseProduct(s.gls.alpha);
+}
+
+/// σ² of the latent function, unit of y squared.
+template <class S>
+doe::Criterion maximum_variance(S model) {
+  detail::require_surrogate<S>();
+  return [model = std::move(model)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+    return model.predict(X).variance;
+  };
+}
+
+namespace detail {
+
+struct ImprovementOn {
+  double best;     ///< unit of y
+  double sign;     ///< +1 to minimise, −1 to maximise
+  bool logarithm;  ///< ln E instead of E
+};
+
+/// By the model as it is; it has predict(X).
+template <class S>
+doe::Criterion improvement(S model, const ImprovementOn& on) {
+  return [model = std::move(model), on](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+    const Prediction p = model.predict(X);
+    Eigen::VectorXd score(X.rows());
+    for (Eigen::Index i = 0; i < score.size(); ++i) {
+      const double gain = on.sign * (on.best - p.mean[i]);
+      const double deviation = std::sqrt(p.variance[i]);
+      if (!on.logarithm)
+        score[i] = expected_shortfall(gain, 0.0, deviation);
+      else if (deviation > 0)
+        score[i] = std::log(deviation) + log_normal_improvement(gain / deviation);
+      else
+        score[i] = std::log(std::max(gain, 0.0));
+    }
+    return score;
+  };
+}
+
+/// By the re-interpolated model, on the best fitted value of `runs`, all of them when empty.
+inline doe::Criterion reinterpolated_improvement(const Model& model, double sign, bool logarithm,
+                                                 const std::vector<Eigen::Index>& runs = {}) {
+  Eigen::VectorXd values = sign * fitted_values(model);
+  if (!runs.empty()) values = Eigen::VectorXd(values(runs));
+  return improvement(SearchModel<Model>(model), {sign * values.minCoeff(), sign, logarithm});
+}
+
+}  // namespace detail
+
+/// Improvement on a value of your own, `best` in the unit of y, with the variance of the surrogate as it is;
+/// goal: minimize or maximize. Throws std::invalid_argument for another goal and a best that is not finite.
+template <class S>
+doe::Criterion expected_improvement(S model, doe::Goal goal, double best) {
+  detail::require_surrogate<S>();
+  detail::check_finite("kriging::expected_improvement", "best", best);
+  const double sign = detail::sign_of("kriging::expected_improvement", goal);
+  return detail::improvement(std::move(model), {best, sign, false});
+}
+
+/// Of a Kriging model, re-interpolated, on the best of its fitted values. Throws as above.
+inline doe::Criterion expected_improvement(const Model& model, doe::Goal goal) {
+  return detail::reinterpolated_improvement(model, detail::sign_of("kriging::expected_improvement", goal),
+                                            false);
+}
+
+/// ln of the first; −∞ where nothing can be won.
+template <class S>
+doe::Criterion log_expected_improvement(S model, doe::Goal goal, double best) {
+  detail::require_surrogate<S>();
+  detail::check_finite("kriging::log_expected_improvement", "best", best);
+  const double sign = detail::sign_of("kriging::log_expected_improvement", goal);
+  return detail::improvement(std::move(model), {best, sign, true});
+}
+
+/// ln of the second.
+inline doe::Criterion log_expected_improvement(const Model& model, doe::Goal goal) {
+  return detail::reinterpolated_improvement(model, detail::sign_of("kriging::log_expected_improvement", goal),
+                                            true);
+}
+
+/// |leave-one-out error| of the run nearest to each point, distances in the model's scaled inputs; unit of y.
+/// Take it with doe::Spread::cells. A constant model scores 0.
+inline doe::Criterion cross_validation_error(const Model& model) {
+  const detail::ModelState& s = model.state();
+  if (s.X.rows() == 0)
+    return [](const Eigen::MatrixXd& X) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(X.rows()); };
+  const Eigen::VectorXd error = s.y_scale * s.gls.alpha.cwiseQuotient(detail::diagonal_of_P(s)).cwiseAbs();
+  return [input = s.input, runs = s.X, error](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+    const std::vector<int> site = doe::detail::nearest_sites(input.apply(X), runs).site;
+    Eigen::VectorXd score(X.rows());
+    for (Eigen::Index i = 0; i < score.size(); ++i) score[i] = error[site[static_cast<std::size_t>(i)]];
+    return score;
+  };
+}
+
+/// What the models expect of a run at x: doe::ProposeOptions::believe for Spread::believer. One model a
+/// response.
+template <class S>
+std::function<doe::Outcome(const Eigen::VectorXd& x)> believer(std::vector<S> models) {
+  detail::require_surrogate<S>();
+  return [models = std::move(models)](const Eigen::VectorXd& x) -> doe::Outcome {
+    Eigen::VectorXd y(static_cast<Eigen::Index>(models.size()));
+    for (std::size_t j = 0; j < models.size(); ++j)
+      y[static_cast<Eigen::Index>(j)] = models[j].mean(x.transpose())[0];
+    return y;
+  };
+}
+
+}  // namespace drawpoint::kriging
