@@ -14,11 +14,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/blind.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -128,6 +130,25 @@ Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double s
                          .observation_variance = all.observation_variance(out)});
 }
 
+/// Surrogates whose leave_one_out(s) needs no refits, or says by an empty optional that it would.
+template <class S>
+concept LeaveOneOutInClosedForm = requires(const S& s) {
+  { leave_one_out(s) } -> std::convertible_to<std::optional<Validation>>;
+};
+
+namespace detail {
+
+/// Leave-one-out in closed form where the surrogate has one, else by a fit a run.
+template <class F>
+Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter, doe::Seed seed) {
+  const auto model = fitter(X, y);
+  if constexpr (LeaveOneOutInClosedForm<std::remove_cvref_t<decltype(model)>>)
+    if (const std::optional<Validation> v = leave_one_out(model)) return *v;
+  return k_fold(X, y, static_cast<int>(X.rows()), fitter, seed);
+}
+
+}  // namespace detail
+
 enum class Estimator { leave_one_out, k_fold, hold_out };
 
 /// Whether a surrogate is good enough: (estimator, error function, target), as in SUMO.
@@ -160,10 +181,8 @@ Judgement judge(const Criterion& criterion, const Eigen::MatrixXd& X, const Eige
     j.validation = k_fold(X, y, criterion.folds, fitter, criterion.seed);
   else if (criterion.estimator == Estimator::hold_out)
     j.validation = hold_out(X, y, criterion.share, fitter, criterion.seed);
-  else if constexpr (std::is_convertible_v<decltype(fitter(X, y)), Model>)
-    j.validation = leave_one_out(fitter(X, y));
   else
-    j.validation = k_fold(X, y, static_cast<int>(X.rows()), fitter, criterion.seed);
+    j.validation = detail::without_each(X, y, fitter, criterion.seed);
   j.value = score(j.validation, criterion.error, criterion.level);
   j.met = higher_is_better(criterion.error) ? j.value >= criterion.target : j.value <= criterion.target;
   return j;

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Any surrogate behind one type, so that different kinds stand in one list.
+///
+/// A value: copies share the surrogate, which nothing changes. Costs one virtual call a block of points.
+
+#include <Eigen/Core>
+#include <concepts>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/surrogate.hpp>
+
+namespace drawpoint::kriging {
+
+class AnySurrogate {
+ public:
+  template <class S>
+  requires(!std::same_as<std::remove_cvref_t<S>, AnySurrogate> && Surrogate<std::remove_cvref_t<S>>)
+      AnySurrogate(S&& surrogate)  // NOLINT: conversion is its purpose
+      : held_(std::make_shared<Holder<std::remove_cvref_t<S>>>(std::forward<S>(surrogate))) {}
+
+  Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
+    return held_->predict(X, target);
+  }
+  Eigen::VectorXd mean(const Eigen::MatrixXd& X) const { return held_->mean(X); }
+  double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+
+  /// The surrogate as it was, when it is an S, else nullptr.
+  template <class S>
+  const S* as() const {
+    const auto* holder = dynamic_cast<const Holder<S>*>(held_.get());
+    return holder ? &holder->surrogate : nullptr;
+  }
+
+  friend std::optional<Validation> leave_one_out(const AnySurrogate& any) { return any.held_->closed_form(); }
+
+ private:
+  struct Held {
+    virtual ~Held() = default;
+    virtual Prediction predict(const Eigen::MatrixXd& X, Target target) const = 0;
+    virtual Eigen::VectorXd mean(const Eigen::MatrixXd& X) const = 0;
+    virtual std::optional<Validation> closed_form() const = 0;
+  };
+
+  template <class S>
+  struct Holder final : Held {
+    explicit Holder(S s) : surrogate(std::move(s)) {}
+    Prediction predict(const Eigen::MatrixXd& X, Target target) const override {
+      return surrogate.predict(X, target);
+    }
+    Eigen::VectorXd mean(const Eigen::MatrixXd& X) const override { return surrogate.mean(X); }
+    std::optional<Validation> closed_form() const override {
+      if constexpr (LeaveOneOutInClosedForm<S>)
+        return leave_one_out(surrogate);
+      else
+        return std::nullopt;
+    }
+    S surrogate;
+  };
+
+  std::shared_ptr<const Held> held_;
+};
+
+static_assert(Surrogate<AnySurrogate>);
+
+}  // namespace drawpoint::kriging

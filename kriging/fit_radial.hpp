@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Fits radial basis functions (radial.hpp) to runs, with shape and ridge by closed-form leave-one-out.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <drawpoint/kriging/radial.hpp>
+
+namespace drawpoint::kriging {
+
+namespace detail {
+
+/// The best of `steps` + 1 even places of [low, high] and then of 30 golden sections about it.
+template <class F>
+double line_search(const F& f, double low, double high, int steps) {
+  double best = low, least = std::numeric_limits<double>::infinity();
+  const double step = (high - low) / steps;
+  for (int k = 0; k <= steps; ++k) {
+    const double value = f(low + k * step);
+    if (value < least) least = value, best = low + k * step;
+  }
+  double a = std::max(low, best - step), b = std::min(high, best + step);
+  constexpr double golden = 0.6180339887498949;
+  for (int k = 0; k < 30 && b - a > 1e-3; ++k) {
+    const double left = b - golden * (b - a), right = a + golden * (b - a);
+    const double at_left = f(left), at_right = f(right);
+    if (at_left < least) least = at_left, best = left;
+    if (at_right < least) least = at_right, best = right;
+    (at_left < at_right ? b : a) = at_left < at_right ? right : left;
+  }
+  return best;
+}
+
+/// Λ and U of one ε; the leave-one-out error is then cheap for any λ.
+struct RadialSpectrum {
+  Eigen::MatrixXd U, squares;  ///< n x (n − q), and its squares
+  Eigen::VectorXd values, z;   ///< Λ clipped to 0, Uᵀy
+
+  double largest() const { return values.maxCoeff(); }
+
+  /// λ is never below n times the round-off of the eigenvalues.
+  double floor() const {
+    return 4.0 * static_cast<double>(U.rows()) * std::numeric_limits<double>::epsilon() * largest();
+  }
+
+  double error(double ridge) const {
+    const Eigen::VectorXd inverse = (values.array() + ridge).inverse();
+    const Eigen::ArrayXd w = U * z.cwiseProduct(inverse), B = squares * inverse;
+    return (w / B).square().sum();
+  }
+};
+
+inline RadialSpectrum radial_spectrum(const RadialState& s, const Eigen::MatrixXd& X,
+                                      const Eigen::VectorXd& y) {
+  const Eigen::MatrixXd P = radial_tail(s, X);
+  const Eigen::Index n = X.rows(), q = P.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(P);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n).rightCols(n - q);
+  const Eigen::MatrixXd inner = Q.transpose() * radial_matrix(s, X, X) * Q;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (inner + inner.transpose()));
+  RadialSpectrum r{Q * eigen.eigenvectors(), {}, eigen.eigenvalues().cwiseMax(0.0), {}};
+  r.squares = r.U.cwiseAbs2();
+  r.z = r.U.transpose() * y;
+  return r;
+}
+
+inline double best_ridge(const RadialSpectrum& spectrum, double ridge) {
+  if (ridge >= 0) return std::max(ridge * spectrum.largest(), spectrum.floor());
+  const auto error = [&](double logarithm) { return spectrum.error(std::exp(logarithm)); };
+  return std::exp(line_search(error, std::log(spectrum.floor()), std::log(10.0 * spectrum.largest()), 24));
+}
+
+/// ε of the least leave-one-out error, on 250 of the runs when there are more.
+inline double best_shape(RadialState s, const TrainingData& data, double ridge) {
+  constexpr Eigen::Index most = 250;
+  const Eigen::Index n = data.X.rows(), count = std::min(n, most);
+  std::vector<Eigen::Index> runs;
+  for (Eigen::Index i = 0; i < count; ++i) runs.push_back(i * n / count);
+  const Eigen::MatrixXd X = data.X(runs, Eigen::all);
+  const Eigen::VectorXd y = data.y(runs);
+  const auto error = [&](double logarithm) {
+    s.shape = std::exp(logarithm);
+    const RadialSpectrum spectrum = radial_spectrum(s, X, y);
+    return spectrum.error(best_ridge(spectrum, ridge));
+  };
+  return std::exp(line_search(error, std::log(0.05), std::log(20.0), 12));
+}
+
+/// Weights, tail and what predictions need.
+inline void solve_radial(RadialState& s, const TrainingData& data, double ridge) {
+  const RadialSpectrum spectrum = radial_spectrum(s, data.X, data.y);
+  s.ridge = best_ridge(spectrum, ridge);
+  s.X = data.X;
+  s.P = radial_tail(s, s.X);
+  s.U = spectrum.U;
+  s.values = spectrum.values.array() + s.ridge;
+  s.w = s.U * spectrum.z.cwiseQuotient(s.values);
+  s.diagonal = spectrum.squares * s.values.cwiseInverse();
+  const Eigen::Index q = s.P.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(s.P);
+  const Eigen::MatrixXd Q1 = qr.householderQ() * Eigen::MatrixXd::Identity(s.P.rows(), q);
+  const Eigen::MatrixXd T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
+  Eigen::MatrixXd K = radial_matrix(s, s.X, s.X);
+  K.diagonal().array() += s.ridge;
+  s.c = T.triangularView<Eigen::Upper>().solve(Q1.transpose() * (data.y - K * s.w));
+  s.G = T.triangularView<Eigen::Upper>().solve(Q1.transpose()).transpose();
+  s.H = K * s.G;
+  s.M = s.G.transpose() * s.H;
+  s.process_variance = s.w.cwiseAbs2().cwiseQuotient(s.diagonal).mean();
+  s.message = std::string(to_string(s.function)) + ", shape " + text(s.shape) + ", ridge " + text(s.ridge);
+  if (ridge == 0 && spectrum.values.minCoeff() < spectrum.floor()) {
+    s.status = Status::ill_conditioned;
+    s.message +=
+        "; the matrix was singular to round-off, so the ridge is not 0: estimate it, or remove runs that "
+        "nearly repeat others";
+  }
+}
+
+inline void check_radial(const RadialOptions& options) {
+  const auto reject = [](const std::string& what) {
+    throw std::invalid_argument("kriging::fit_radial: " + what);
+  };
+  if (!std::isfinite(options.shape) || options.shape < 0)
+    reject("shape is " + text(options.shape) +
+           "; allowed are finite numbers above 0, or 0; use 0 to estimate it");
+  if (!has_shape(options.function) && options.shape != 0)
+    reject("shape is " + text(options.shape) + " but " + std::string(to_string(options.function)) +
+           " has none; allowed is 0; leave it out");
+  if (!std::isfinite(options.ridge))
+    reject("ridge is " + text(options.ridge) + "; allowed are finite numbers; use -1 to estimate it");
+}
+
+inline Radial constant_radial(RadialState s, Eigen::Index n) {
+  s.y_scale = 0;
+  s.X.resize(0, s.input.centre.size());
+  s.constant_variance = n == 1 ? std::numeric_limits<double>::infinity() : 0.0;
+  s.status = n == 1 ? Status::too_few_runs : Status::constant_response;
+  s.message = n == 1 ? "one run: the model is that constant with infinite variance"
+                     : "all responses equal " + text(s.y_centre) + ": the model is that constant";
+  return Radial(std::move(s));
+}
+
+}  // namespace detail
+
+/// X: n x d, one run a row, natural units; y: n, any unit. With fewer than two runs more than the tail has
+/// terms, or runs that lie in a plane where the tail needs more, the function is a multiquadric, whose tail
+/// is 1, and the status too_few_runs or ill_conditioned. Throws std::invalid_argument for no run, unequal
+/// lengths, numbers that are not finite, and options out of their range. Deterministic.
+inline Radial fit_radial(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                         const RadialOptions& options = {}) {
+  detail::check_radial(options);
+  FitOptions box;
+  box.lower = options.lower;
+  box.upper = options.upper;
+  const detail::TrainingData data = detail::runs_of_surrogate("kriging::fit_radial", X, y, box);
+  detail::RadialState s;
+  s.input = data.input;
+  s.y_centre = data.y_centre;
+  s.y_scale = data.y_scale;
+  s.observed = data.observed;
+  s.function = options.function;
+  if (data.y.size() == 0) return detail::constant_radial(std::move(s), y.size());
+  const Eigen::MatrixXd P = detail::radial_tail(s, data.X);
+  const bool few = P.cols() + 2 > P.rows();
+  const bool flat = !few && static_cast<Eigen::Index>(detail::independent_columns(P).size()) < P.cols();
+  if (few || flat) s.function = RadialFunction::multiquadric;
+  if (detail::has_shape(s.function))
+    s.shape = options.shape > 0 ? options.shape : detail::best_shape(s, data, options.ridge);
+  detail::solve_radial(s, data, options.ridge);
+  if (few || flat) {
+    s.status = few ? Status::too_few_runs : Status::ill_conditioned;
+    s.message += std::string("; the runs ") +
+                 (few ? "are too few for" : "lie in a plane, which leaves open") + " the linear tail of " +
+                 std::string(to_string(options.function)) + ": this function has none";
+  }
+  return Radial(std::move(s));
+}
+
+}  // namespace drawpoint::kriging

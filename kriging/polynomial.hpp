@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Polynomial regression, the plainest surrogate: `Polynomial p = fit_polynomial(X, y);`
+///
+///   ŷ(x) = f(x)ᵀβ,  β from F = Q T (Q: n x q orthonormal),  s² = |y − Fβ|²/(n − q)
+///   variance of the mean s² |T⁻ᵀf|², of one more run s² (1 + |T⁻ᵀf|²)
+///   leave-one-out error eᵢ/(1 − hᵢ), h = diagonal of Q Qᵀ; its variance s²/(1 − hᵢ)
+/// in inputs scaled to [-1, 1]. Terms that the runs cannot tell from earlier ones are left out. With
+/// Selection::leave_one_out the term that lowers the leave-one-out error most is added while it lowers its
+/// square by 1 % and the terms are at most half the runs; candidates are kept orthogonal to the chosen, so
+/// that each costs n. The variance then does not know of the choice and is somewhat low. Where terms are as
+/// many as runs or more, the degree is lowered. Cost n q². Source: Myers, Montgomery, Anderson-Cook 2009,
+/// "Response Surface Methodology", chapter 2; Allen 1974, Technometrics 16 (leave-one-out).
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/kriging/monomials.hpp>
+#include <drawpoint/kriging/runs_of_surrogate.hpp>
+#include <drawpoint/kriging/surrogate.hpp>
+#include <drawpoint/kriging/validate.hpp>
+
+namespace drawpoint::kriging {
+
+enum class Selection { all, leave_one_out };
+
+struct PolynomialOptions {
+  int degree = 2;       ///< of a term, >= 0
+  int interaction = 2;  ///< inputs in a term, >= 1; 1: no products
+  Selection selection = Selection::all;
+  /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
+  Eigen::VectorXd lower = {}, upper = {};
+};
+
+namespace detail {
+
+struct PolynomialState {
+  InputScale input;
+  double y_centre = 0, y_scale = 0;  ///< y = y_centre + y_scale · standardised
+  std::vector<Monomial> terms;
+  Eigen::VectorXd beta;                ///< q, of the standardised response
+  Eigen::MatrixXd T;                   ///< q x q, upper triangular; empty: a constant of `variance`
+  double variance = 0;                 ///< s², unit of y squared
+  Eigen::VectorXd observed, residual;  ///< n, unit of y
+  Eigen::VectorXd leverage;            ///< h, n
+  Status status = Status::converged;
+  std::string message;
+};
+
+}  // namespace detail
+
+class Polynomial {
+ public:
+  /// Made by fit_polynomial().
+  explicit Polynomial(detail::PolynomialState state) : s_(std::move(state)) {}
+
+  /// X: m x d, natural units. Throws std::invalid_argument for another number of columns and for numbers that
+  /// are not finite.
+  Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
+    const Eigen::MatrixXd F = terms_at(X);
+    Prediction p{means(F), Eigen::VectorXd::Constant(X.rows(), s_.variance)};
+    if (s_.T.size() > 0) {
+      const Eigen::MatrixXd v = s_.T.transpose().triangularView<Eigen::Lower>().solve(F.transpose());
+      p.variance = s_.variance * v.colwise().squaredNorm().transpose();
+    }
+    if (target == Target::observation) p.variance.array() += s_.variance;
+    return p;
+  }
+
+  /// Throws as predict.
+  Eigen::VectorXd mean(const Eigen::MatrixXd& X) const { return means(terms_at(X)); }
+
+  double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+
+  Eigen::Index variables() const { return s_.input.centre.size(); }
+  Eigen::Index runs() const { return s_.observed.size(); }
+  const std::vector<Monomial>& terms() const { return s_.terms; }
+  /// One entry a term, in scaled inputs; unit of y. The constant lacks the mean of the runs.
+  Eigen::VectorXd coefficients() const { return s_.y_scale * s_.beta; }
+  double noise_variance() const { return s_.variance; }  ///< s², unit of y squared
+  Status status() const { return s_.status; }
+  const std::string& message() const { return s_.message; }
+  const detail::PolynomialState& state() const { return s_; }
+
+ private:
+  Eigen::MatrixXd terms_at(const Eigen::MatrixXd& X) const {
+    detail::check_points("kriging::Polynomial", X, variables());
+    return detail::monomial_matrix(s_.terms, s_.input.apply(X));
+  }
+
+  Eigen::VectorXd means(const Eigen::MatrixXd& F) const {
+    return (s_.y_scale * (F * s_.beta)).array() + s_.y_centre;
+  }
+
+  detail::PolynomialState s_;
+};
+
+static_assert(Surrogate<Polynomial>);
+
+/// Closed form: the terms as chosen, β estimated anew without each run.
+inline Validation leave_one_out(const Polynomial& model) {
+  const detail::PolynomialState& s = model.state();
+  const Eigen::ArrayXd left = 1.0 - s.leverage.array();
+  Validation v;
+  v.observed = s.observed;
+  v.predicted = s.observed.array() - s.residual.array() / left;
+  v.observation_variance = s.variance / left;
+  v.variance = v.observation_variance.array() - s.variance;
+  if (s.T.size() == 0)
+    v.variance = v.observation_variance = Eigen::VectorXd::Constant(model.runs(), s.variance);
+  return detail::scored(std::move(v));
+}
+
+namespace detail {
+
+// A run of leverage 1 decides a coefficient alone: without it there is no prediction.
+inline constexpr double largest_leverage = 1.0 - 1e-10;
+
+/// Σ (eᵢ/(1 − hᵢ))²; +∞ where a run decides alone.
+inline double press(const Eigen::ArrayXd& residual, const Eigen::ArrayXd& leverage) {
+  if (leverage.maxCoeff() > largest_leverage) return std::numeric_limits<double>::infinity();
+  return (residual / (1.0 - leverage)).square().sum();
+}
+
+/// Which columns of F lower the leave-one-out error of y, in the order of their choice; column 0 first.
+inline std::vector<Eigen::Index> forward_selection(Eigen::MatrixXd F, Eigen::VectorXd y) {
+  constexpr double worth = 0.99, independent = 1e-8;
+  const Eigen::VectorXd size = F.colwise().norm();
+  Eigen::ArrayXd leverage = Eigen::ArrayXd::Zero(F.rows());
+  std::vector<Eigen::Index> chosen;
+  Eigen::Index best = 0;
+  for (double error = std::numeric_limits<double>::infinity();;) {
+    chosen.push_back(best);
+    const Eigen::VectorXd q = F.col(best).normalized();
+    y -= q * q.dot(y);
+    leverage += q.array().square();
+    for (int pass = 0; pass < 2; ++pass) F -= q * (q.transpose() * F);
+    error = chosen.size() == 1 ? press(y, leverage) : error;
+    if (2 * (chosen.size() + 1) > static_cast<std::size_t>(F.rows())) return chosen;
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index j = 0; j < F.cols(); ++j) {
+      const double norm = F.col(j).norm();
+      if (!(norm > independent * size[j])) continue;
+      const Eigen::VectorXd v = F.col(j) / norm;
+      const double with = press(y - v * v.dot(y), leverage + v.array().square());
+      if (with < least) least = with, best = j;
+    }
+    if (!(least < worth * error)) return chosen;
+    error = least;
+  }
+}
+
+/// The highest degree up to the one asked for with fewer terms than runs.
+inline int affordable_degree(Eigen::Index runs, Eigen::Index d, const PolynomialOptions& options) {
+  int degree = 0;
+  while (degree < options.degree &&
+         static_cast<Eigen::Index>(monomials(d, degree + 1, options.interaction).size()) < runs)
+    ++degree;
+  return degree;
+}
+
+inline Polynomial constant_polynomial(const TrainingData& data) {
+  PolynomialState s;
+  const Eigen::Index n = data.observed.size();
+  s.input = data.input;
+  s.y_centre = data.y_centre;
+  s.terms = monomials(data.X.cols(), 0, 1);
+  s.beta = Eigen::VectorXd::Zero(1);
+  s.observed = data.observed;
+  s.residual = s.leverage = Eigen::VectorXd::Zero(n);
+  s.variance = n == 1 ? std::numeric_limits<double>::infinity() : 0.0;
+  s.status = n == 1 ? Status::too_few_runs : Status::constant_response;
+  s.message = n == 1 ? "one run: the model is that constant with infinite variance"
+                     : "all responses equal " + text(data.y_centre) + ": the model is that constant";
+  return Polynomial(std::move(s));
+}
+
+/// β, s² and what leave-one-out needs, for independent columns F.
+inline void regress(PolynomialState& s, const Eigen::MatrixXd& F, const Eigen::VectorXd& y) {
+  const Eigen::Index q = F.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(F);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(F.rows(), q);
+  s.T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
+  s.beta = s.T.triangularView<Eigen::Upper>().solve(Q.transpose() * y);
+  s.residual = s.y_scale * (y - F * s.beta);
+  s.leverage = Q.rowwise().squaredNorm().cwiseMin(largest_leverage);
+  s.variance = s.residual.squaredNorm() / static_cast<double>(F.rows() - q);
+}
+
+}  // namespace detail
+
+/// X: n x d, one run a row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
+/// lengths, numbers that are not finite, and options out of their range. Deterministic.
+inline Polynomial fit_polynomial(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                                 const PolynomialOptions& options = {}) {
+  const std::string place = "kriging::fit_polynomial";
+  if (options.degree < 0 || options.degree > 20)
+    throw std::invalid_argument(place + ": degree is " + std::to_string(options.degree) +
+                                "; allowed is 0 to 20; use 2");
+  if (options.interaction < 1)
+    throw std::invalid_argument(place + ": interaction is " + std::to_string(options.interaction) +
+                                "; allowed is 1 or more; use 1 for no products");
+  FitOptions box;
+  box.lower = options.lower;
+  box.upper = options.upper;
+  const detail::TrainingData data = detail::runs_of_surrogate(place, X, y, box);
+  if (data.y.size() == 0) return detail::constant_polynomial(data);
+  detail::PolynomialState s;
+  s.input = data.input;
+  s.y_centre = data.y_centre;
+  s.y_scale = data.y_scale;
+  s.observed = data.observed;
+  const int degree = options.selection == Selection::all
+                         ? detail::affordable_degree(X.rows(), X.cols(), options)
+                         : options.degree;
+  const std::vector<Monomial> asked = detail::monomials(X.cols(), degree, options.interaction);
+  const Eigen::MatrixXd F = detail::monomial_matrix(asked, data.X);
+  const std::vector<Eigen::Index> kept = options.selection == Selection::all
+                                             ? detail::independent_columns(F)
+                                             : detail::forward_selection(F, data.y);
+  for (const Eigen::Index j : kept) s.terms.push_back(asked[static_cast<std::size_t>(j)]);
+  detail::regress(s, F(Eigen::all, kept), data.y);
+  s.message = std::to_string(kept.size()) + " of " + std::to_string(asked.size()) + " terms";
+  if (degree < options.degree) {
+    s.status = Status::too_few_runs;
+    s.message += "; degree " + std::to_string(options.degree) +
+                 " has as many terms as there are runs or more: it is " + std::to_string(degree) + " instead";
+  } else if (options.selection == Selection::all && kept.size() < asked.size()) {
+    s.status = Status::ill_conditioned;
+    s.message += ", the others of which the runs cannot tell from these";
+  }
+  return Polynomial(std::move(s));
+}
+
+}  // namespace drawpoint::kriging

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Radial basis functions with a polynomial tail: `Radial r = fit_radial(X, y);`
+///
+///   ŷ(x) = Σ wᵢ φ(|x − xᵢ|) + p(x)ᵀc,  (Φ + λI) w + P c = y,  Pᵀw = 0
+/// in inputs scaled to [-1, 1], with r = |x − xᵢ| and the shape ε:
+///   thin_plate    r² ln r         tail 1, x      multiquadric  −√(1 + (εr)²)   tail 1
+///   cubic         r³              tail 1, x      gaussian      exp(−(εr)²)     tail 1
+/// These signs make Qᵀ(Φ + λI)Q positive definite, Q a basis of {w : Pᵀw = 0}; with its eigenvectors, U = QV
+/// and values Λ, B = U(Λ + λ)⁻¹Uᵀ, w = B y and the run i is missed by wᵢ/Bᵢᵢ without it (Rippa's formula,
+/// with the tail refitted too). ε and λ minimise Σ (wᵢ/Bᵢᵢ)²: a grid of ε, each with a search of λ that costs
+/// n² a value, then golden sections. Error bars are those of Kriging with the covariance s²φ (intrinsic
+/// random functions), s² = mean wᵢ²/Bᵢᵢ, which makes the leave-one-out errors have unit variance on the mean.
+/// Cost 10 n³ an ε; beyond 250 runs ε is found on 250 of them. Sources: Rippa 1999, Adv. Computational
+/// Mathematics 11; Wahba 1990, "Spline Models for Observational Data".
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <drawpoint/kriging/runs_of_surrogate.hpp>
+#include <drawpoint/kriging/surrogate.hpp>
+#include <drawpoint/kriging/validate.hpp>
+
+namespace drawpoint::kriging {
+
+enum class RadialFunction { thin_plate, cubic, multiquadric, gaussian };
+
+inline std::string_view to_string(RadialFunction f) {
+  constexpr std::string_view names[] = {"thin_plate", "cubic", "multiquadric", "gaussian"};
+  return names[static_cast<int>(f)];
+}
+
+struct RadialOptions {
+  RadialFunction function = RadialFunction::cubic;
+  double shape = 0;  ///< ε > 0 for multiquadric and gaussian; 0: estimated between 0.05 and 20
+  double ridge =
+      -1;  ///< λ as a share of the largest eigenvalue, 0: interpolate; below 0: estimated, up to 10
+  /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
+  Eigen::VectorXd lower = {}, upper = {};
+};
+
+namespace detail {
+
+struct RadialState {
+  InputScale input;
+  double y_centre = 0, y_scale = 0;  ///< y = y_centre + y_scale · standardised
+  RadialFunction function = RadialFunction::cubic;
+  double shape = 0, ridge = 0;  ///< ε, λ
+  Eigen::MatrixXd X;            ///< n x d, scaled; no rows: a constant of variance `constant_variance`
+  Eigen::MatrixXd P, G;         ///< n x q tail at the runs, and P(PᵀP)⁻¹
+  Eigen::MatrixXd U;            ///< n x (n − q)
+  Eigen::VectorXd values;       ///< Λ + λ
+  Eigen::VectorXd w, c;         ///< of the standardised response
+  Eigen::MatrixXd H, M;         ///< (Φ + λI)G and Gᵀ(Φ + λI)G
+  double process_variance = 0;  ///< s², standardised
+  double constant_variance = 0;
+  Eigen::VectorXd observed, diagonal;  ///< y in its unit; Bᵢᵢ
+  Status status = Status::converged;
+  std::string message;
+};
+
+inline bool has_shape(RadialFunction f) {
+  return f == RadialFunction::multiquadric || f == RadialFunction::gaussian;
+}
+
+/// φ from the squared distance.
+inline double radial(RadialFunction f, double shape, double squared) {
+  switch (f) {
+    case RadialFunction::thin_plate:
+      return squared > 0 ? 0.5 * squared * std::log(squared) : 0.0;
+    case RadialFunction::cubic:
+      return squared * std::sqrt(squared);
+    case RadialFunction::multiquadric:
+      return -std::sqrt(1.0 + shape * shape * squared);
+    case RadialFunction::gaussian:
+      return std::exp(-shape * shape * squared);
+  }
+  return 0.0;
+}
+
+/// m x n: φ between the rows of Z and of X.
+inline Eigen::MatrixXd radial_matrix(const RadialState& s, const Eigen::MatrixXd& Z,
+                                     const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(Z.rows(), X.rows());
+  for (Eigen::Index j = 0; j < K.cols(); ++j) {
+    for (Eigen::Index k = 0; k < X.cols(); ++k) K.col(j).array() += (Z.col(k).array() - X(j, k)).square();
+    for (double& squared : K.col(j)) squared = radial(s.function, s.shape, squared);
+  }
+  return K;
+}
+
+/// 1, and the inputs that vary for the functions that need them.
+inline Eigen::MatrixXd radial_tail(const RadialState& s, const Eigen::MatrixXd& Z) {
+  Eigen::MatrixXd P = Eigen::MatrixXd::Ones(Z.rows(), 1);
+  if (has_shape(s.function)) return P;
+  for (Eigen::Index k = 0; k < Z.cols(); ++k) {
+    if (s.input.factor[k] == 0.0) continue;
+    P.conservativeResize(Eigen::NoChange, P.cols() + 1);
+    P.rightCols(1) = Z.col(k);
+  }
+  return P;
+}
+
+}  // namespace detail
+
+class Radial {
+ public:
+  /// Made by fit_radial().
+  explicit Radial(detail::RadialState state) : s_(std::move(state)) {}
+
+  /// X: m x d, natural units. Cost a point: n² for the variance. Throws std::invalid_argument for another
+  /// number of columns and for numbers that are not finite.
+  Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
+    detail::check_points("kriging::Radial", X, variables());
+    Prediction p{Eigen::VectorXd::Constant(X.rows(), s_.y_centre),
+                 Eigen::VectorXd::Constant(X.rows(), s_.constant_variance)};
+    if (s_.X.rows() == 0) return p;
+    const Eigen::MatrixXd Z = s_.input.apply(X), K = detail::radial_matrix(s_, Z, s_.X),
+                          P = detail::radial_tail(s_, Z);
+    p.mean += s_.y_scale * (K * s_.w + P * s_.c);
+    const Eigen::MatrixXd g = (K - P * s_.H.transpose()) * s_.U;
+    const Eigen::ArrayXd alone = detail::radial(s_.function, s_.shape, 0.0) -
+                                 2.0 * (K * s_.G).cwiseProduct(P).rowwise().sum().array() +
+                                 (P * s_.M).cwiseProduct(P).rowwise().sum().array();
+    const Eigen::ArrayXd explained =
+        (g.array().square().rowwise() / s_.values.transpose().array()).rowwise().sum();
+    const double unit = s_.y_scale * s_.y_scale * s_.process_variance;
+    p.variance = unit * (alone - explained).max(0.0);
+    if (target == Target::observation) p.variance.array() += noise_variance();
+    return p;
+  }
+
+  /// Cost a point: n d. Throws as predict.
+  Eigen::VectorXd mean(const Eigen::MatrixXd& X) const {
+    detail::check_points("kriging::Radial", X, variables());
+    if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.y_centre);
+    const Eigen::MatrixXd Z = s_.input.apply(X);
+    return (s_.y_scale * (detail::radial_matrix(s_, Z, s_.X) * s_.w + detail::radial_tail(s_, Z) * s_.c))
+               .array() +
+           s_.y_centre;
+  }
+
+  double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+
+  Eigen::Index variables() const { return s_.input.centre.size(); }
+  Eigen::Index runs() const { return s_.observed.size(); }
+  double shape() const { return s_.shape; }  ///< ε, on scaled inputs
+  double ridge() const { return s_.ridge; }  ///< λ
+  /// λ s², unit of y squared.
+  double noise_variance() const { return s_.y_scale * s_.y_scale * s_.ridge * s_.process_variance; }
+  Status status() const { return s_.status; }
+  const std::string& message() const { return s_.message; }
+  const detail::RadialState& state() const { return s_; }
+
+ private:
+  detail::RadialState s_;
+};
+
+static_assert(Surrogate<Radial>);
+
+/// Closed form: ε and λ as found, weights and tail anew without each run.
+inline Validation leave_one_out(const Radial& model) {
+  const detail::RadialState& s = model.state();
+  Validation v;
+  v.observed = s.observed;
+  if (s.X.rows() == 0) {
+    v.predicted = Eigen::VectorXd::Constant(model.runs(), s.y_centre);
+    v.variance = v.observation_variance = Eigen::VectorXd::Constant(model.runs(), s.constant_variance);
+    return detail::scored(std::move(v));
+  }
+  const double unit = s.y_scale * s.y_scale * s.process_variance;
+  v.predicted = s.observed - s.y_scale * s.w.cwiseQuotient(s.diagonal);
+  v.observation_variance = unit * s.diagonal.cwiseInverse();
+  v.variance = (v.observation_variance.array() - model.noise_variance()).max(0.0);
+  return detail::scored(std::move(v));
+}
+
+}  // namespace drawpoint::kriging
