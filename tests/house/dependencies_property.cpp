@@ -29,6 +29,15 @@ TEST(Dependencies, EverySourceKeepsToTheTable) {
   EXPECT_TRUE(found.empty()) << joined(found);
 }
 
+// Who saves no models needs no JSON: the one header that does is included by no other of its module.
+TEST(Dependencies, SavingModelsIsAskedForByName) {
+  for (const Source& source : sources(root, {"kriging"}))
+    EXPECT_EQ(source.text.find("#include <drawpoint/kriging/save.hpp>"), std::string::npos) << source.path;
+  EXPECT_EQ(first_breach("kriging/save.hpp", "#include <nlohmann/json.hpp>"), "");
+  EXPECT_EQ(first_breach("kriging/fit.hpp", "#include <nlohmann/json.hpp>"),
+            "kriging/fit.hpp:1: <nlohmann/json.hpp>: kriging/ may not use nlohmann-json");
+}
+
 // The checker itself: each kind of breach is found and named, with its line.
 TEST(Dependencies, ABreachIsNamed) {
   EXPECT_EQ(first_breach("doe/a.hpp", "#pragma once\n#include <drawpoint/kriging/fit.hpp>\n"),
