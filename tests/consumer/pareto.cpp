@@ -62,7 +62,7 @@ int main() {
 
   // No design can cost less than the known optimum, given to five decimals, nor bend less than the largest
   // bar, which no limit forbids. The cheapest designs stand where four limits meet, and a search of the whole
-  // front gets near, not there: with this budget eight seeds came to 2.41 to 3.18 USD. Half above the optimum
+  // front gets near, not there: with this budget four seeds came to 2.41 to 3.18 USD. Half above the optimum
   // is allowed.
   const double optimum = 2.38119, largest_bar = 2.1952 / (10.0 * 10.0 * 10.0 * 5.0);
   const bool ends = cheapest > optimum - 5e-6 && cheapest < 1.5 * optimum &&
