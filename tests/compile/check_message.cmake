@@ -4,7 +4,8 @@
 file(STRINGS ${SOURCE} expected REGEX "^// expect: ")
 string(REPLACE "// expect: " "" expected "${expected}")
 string(REPLACE "|" ";-I" folders "-I${INCLUDES}")
-execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only ${folders} ${SOURCE}
+# Ipopt's headers ask for the definition, which its pkg-config file gives.
+execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only -DHAVE_CSTDDEF ${folders} ${SOURCE}
                 RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(expected STREQUAL "")
   if(NOT result EQUAL 0)
