@@ -28,7 +28,10 @@ inline const std::vector<Row>& dependency_table() {
   static const std::vector<Row> table{
       {"doe/", {"doe/"}, {"Eigen"}, {}},
       {"kriging/", {"doe/", "kriging/"}, {"Eigen", "Ipopt"}, {}},
-      {"kriging/save.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},  // no other header includes it
+      {"kriging/save.hpp",
+       {"doe/", "kriging/"},
+       {"Eigen", "nlohmann-json"},
+       {}},  // no other header includes it
       {"pareto/", {"doe/", "pareto/"}, {"Eigen", "Ipopt"}, {}},
       {"engine/", {}, {"Eigen"}, {}},  // what the folders share
       {"engine/contact/", {"engine/contact/"}, {"Eigen"}, {"FCL", "oneTBB", "Highway"}},
