@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
+#include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/moead.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
@@ -27,24 +27,8 @@ namespace {
 
 using namespace drawpoint;
 
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// The least time of up to 200 calls, as many as fit in half a second, three at least.
-double least_seconds(const std::function<void()>& call) {
-  double least = 1e9, spent = 0.0;
-  for (int k = 0; k < 3 || (k < 200 && spent < 0.5); ++k) {
-    const double start = cpu_seconds();
-    call();
-    const double time = cpu_seconds() - start;
-    least = std::min(least, time);
-    spent += time;
-  }
-  return least;
-}
+using benchmarks::cpu_seconds;
+using benchmarks::least_seconds;
 
 struct TestProblem {
   const char* name;

@@ -13,32 +13,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
-#include <limits>
+#include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <string>
 #include <vector>
 
 namespace drawpoint::peers {
 
-inline double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// The least time of three calls or more, up to half a second in all.
-template <class Call>
-double least_seconds(const Call& call) {
-  double least = std::numeric_limits<double>::infinity(), spent = 0.0;
-  for (int k = 0; k < 3 || (k < 200 && spent < 0.5); ++k) {
-    const double start = cpu_seconds();
-    call();
-    const double time = cpu_seconds() - start;
-    least = std::min(least, time);
-    spent += time;
-  }
-  return least;
-}
+using benchmarks::cpu_seconds;
+using benchmarks::least_seconds;
 
 struct SearchCase {
   const char* name;
