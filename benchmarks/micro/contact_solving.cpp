@@ -65,12 +65,11 @@ double bytes_of_a_sequential_sweep(const ContactProblem& problem) {
 
 // So many pairs of a colour a batch; a batch has as many point batches as its largest pair has points.
 double bytes_of_a_coloured_sweep(const ContactProblem& problem) {
-  const detail::Colouring colouring = detail::colour(problem);
+  const detail::Colouring colouring = detail::colour(problem, detail::batch_lanes);
   double bytes = 0;
-  for (std::size_t c = 0; c + 1 < colouring.starts.size(); ++c)
-    for (int k = colouring.starts[c]; k < colouring.starts[c + 1]; k += detail::batch_lanes)
-      bytes +=
-          sizeof(detail::PairBatch) + sizeof(detail::PointBatch) * problem.pairs[colouring.pairs[k]].count;
+  for (std::size_t k = 0; k + 1 < colouring.batches.size(); ++k)
+    bytes += sizeof(detail::PairBatch) +
+             sizeof(detail::PointBatch) * problem.pairs[colouring.pairs[colouring.batches[k]]].count;
   return bytes;
 }
 

@@ -30,8 +30,7 @@ HWY_INLINE void scatter_motion(const Motion& m, BodyRow* bodies, const std::int3
 // As many pairs of a batch as a V holds: their two bodies and what these answer.
 class Pairs {
  public:
-  HWY_INLINE Pairs(const BatchArrays& arrays, int batch, int at)
-      : pair_(arrays.pairs[batch]), bodies_(arrays.bodies), at_(at) {
+  HWY_INLINE Pairs(const BatchArrays& arrays, int batch, int at) : pair_(arrays.pairs[batch]), at_(at) {
     n_ = load(pair_.normal, at);
     t1_ = load(pair_.tangent, at);
     t2_ = cross(n_, t1_);
@@ -42,13 +41,13 @@ class Pairs {
     inertia_b_ = load(pair_.inertia_b, at);
   }
 
-  HWY_INLINE void gather() {
-    a_ = gather_motion(bodies_, pair_.a + at_);
-    b_ = gather_motion(bodies_, pair_.b + at_);
+  HWY_INLINE void gather(const BodyRow* bodies) {
+    a_ = gather_motion(bodies, pair_.a + at_);
+    b_ = gather_motion(bodies, pair_.b + at_);
   }
-  HWY_INLINE void scatter() const {
-    scatter_motion(a_, bodies_, pair_.a + at_);
-    scatter_motion(b_, bodies_, pair_.b + at_);
+  HWY_INLINE void scatter(BodyRow* bodies) const {
+    scatter_motion(a_, bodies, pair_.a + at_);
+    scatter_motion(b_, bodies, pair_.b + at_);
   }
 
   HWY_INLINE V3 in_frame(const V3& u) const { return {dot(n_, u), dot(t1_, u), dot(t2_, u)}; }
@@ -88,7 +87,6 @@ class Pairs {
 
  private:
   const PairBatch& pair_;
-  BodyRow* bodies_;
   int at_;
   V3 n_, t1_, t2_, offset_;
   V mass_a_, mass_b_;
@@ -155,77 +153,80 @@ HWY_INLINE void prepare_lanes(const BatchArrays& arrays, int batch, int at) {
   store(inverse.rho, pair.moment_inverse_rho, at);
 }
 
-// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp). The correction
-// takes back what the extrapolation of the bodies repeats of it.
-HWY_INLINE V carry_over(PointBatch& p, int at) {
-  const V3 end = load(p.impulse, at);
-  store(load(p.total, at) + end, p.total, at);
-  const V most =
-      all(2.0f) * load(p.begun, at) + all(static_cast<float>(impact_speed)) * load(p.inverse_nn, at);
-  const V kept = min(end.x, most), zero = all(0);
-  const V share = select(end.x > most, kept / end.x, all(1.0f));
-  const V3 carried = {kept, share * end.y, share * end.z};
-  store(carried, p.impulse, at);
-  store(kept, p.begun, at);
-  const V3 correction = carried - end;
-  store(correction, p.correction, at);
-  return select_or_zero(correction.x < zero, correction.x);
+// What of a pair's load carries over to the next substep goes to `begun`; returns what does not: blows.
+HWY_INLINE V add_to_totals(const BatchArrays& arrays, PairBatch& pair, int at) {
+  V blows = all(0);
+  for (int k = pair.first; k < pair.first + pair.points; ++k) {
+    PointBatch& p = arrays.points[k];
+    const V3 end = load(p.impulse, at);
+    store(load(p.total, at) + end, p.total, at);
+    const V most =
+        all(2.0f) * load(p.begun, at) + all(static_cast<float>(impact_speed)) * load(p.inverse_nn, at);
+    const V kept = min(end.x, most);
+    store(kept, p.begun, at);
+    blows = blows + (end.x - kept);
+  }
+  store(load(pair.moment_total, at) + load(pair.moment, at), pair.moment_total, at);
+  return blows;
 }
 
-HWY_INLINE void refresh_lanes(const BatchArrays& arrays, int batch, int at, const Substep& substep) {
+// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).
+HWY_INLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
+  const V blows = add_to_totals(arrays, pair, at);
+  if (all_zero(blows)) return;
+  Pairs corrections(arrays, batch, at);
+  corrections.gather(arrays.corrections);
+  V force = all(0);
+  for (int k = pair.first; k < pair.first + pair.points; ++k) {
+    PointBatch& p = arrays.points[k];
+    const V3 end = load(p.impulse, at);
+    const V kept = load(p.begun, at), share = select(end.x > kept, kept / end.x, all(1.0f));
+    const V3 carried = {kept, share * end.y, share * end.z};
+    store(carried, p.impulse, at);
+    corrections.push(load(p.arm, at), carried - end);
+    force = force + end.x;
+  }
+  const V3 moment = load(pair.moment, at);
+  const V3 correction = select_or_zero(blows > all(0), -blows / force) * moment;
+  store(moment + correction, pair.moment, at);
+  corrections.twist(correction);
+  corrections.scatter(arrays.corrections);
+}
+
+// Gaps and targets of a substep, from the velocities when it began.
+HWY_INLINE void aim_lanes(const BatchArrays& arrays, int batch, int at, const Sweep& sweep) {
+  const PairBatch& pair = arrays.pairs[batch];
   const V3 n = load(pair.normal, at), offset = load(pair.offset, at);
-  const Motion a = gather_motion(arrays.bodies, pair.a + at), b = gather_motion(arrays.bodies, pair.b + at);
-  const V h = all(substep.h), rate = all(-1.0f / substep.h), four = all(4.0f);
+  const Motion a = gather_motion(arrays.begin, pair.a + at), b = gather_motion(arrays.begin, pair.b + at);
+  const V h = all(sweep.h), rate = all(-1.0f / sweep.h), four = all(4.0f);
   const V impact = all(static_cast<float>(-impact_speed)), zero = all(0);
-  V force = zero, dropped = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 arm = load(p.arm, at);
     const V approach = dot(n, (b.v + cross(b.w, arm + offset)) - (a.v + cross(a.w, arm)));
     V gap = load(p.gap, at);
-    if (substep.first) {
+    if (sweep.first_substep) {
       store(load(p.impulse[0], at), p.begun, at);
     } else {
       gap = gap + h * approach;
       store(gap, p.gap, at);
-      force = force + load(p.impulse[0], at);
-      dropped = dropped + carry_over(p, at);
     }
     const V open = gap * rate;
     const V damping = select(approach < impact, zero, approach);
     const V closed = load(p.upsilon, at) * (damping + four * open);
     store(select(gap > zero, open, closed), p.target, at);
   }
-  if (substep.first) return;
-  const V3 moment = load(pair.moment, at);
-  store(load(pair.moment_total, at) + moment, pair.moment_total, at);
-  const V share = select_or_zero(dropped < zero, dropped / force);
-  store(share * moment, pair.moment_correction, at);
-  store(moment + share * moment, pair.moment, at);
-  store(dropped, pair.change, at);
-}
-
-// What refresh() took off the start impulses, off the bodies too.
-HWY_INLINE void correct_lanes(const BatchArrays& arrays, int batch, int at) {
-  const PairBatch& pair = arrays.pairs[batch];
-  if (all_zero(load(pair.change, at))) return;
-  Pairs pairs(arrays, batch, at);
-  pairs.gather();
-  for (int k = pair.first; k < pair.first + pair.points; ++k)
-    pairs.push(load(arrays.points[k].arm, at), load(arrays.points[k].correction, at));
-  if (pair.resists) pairs.twist(load(pair.moment_correction, at));
-  pairs.scatter();
 }
 
 HWY_INLINE void start_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
-  pairs.gather();
+  pairs.gather(arrays.bodies);
   for (int k = pair.first; k < pair.first + pair.points; ++k)
     pairs.push(load(arrays.points[k].arm, at), load(arrays.points[k].impulse, at));
   if (pair.resists) pairs.twist(load(pair.moment, at));
-  pairs.scatter();
+  pairs.scatter(arrays.bodies);
 }
 
 struct TangentStep {
@@ -250,7 +251,7 @@ HWY_INLINE V magnitude(const V3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 HWY_INLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
-  pairs.gather();
+  pairs.gather(arrays.bodies);
   const V zero = all(0), friction = load(pair.friction, at);
   V force = zero, change = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
@@ -284,8 +285,9 @@ HWY_INLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
     store(m, pair.moment, at);
     pairs.twist(m - before);
   }
-  store(change, pair.change, at);
-  pairs.scatter();
+  pairs.scatter(arrays.bodies);
+  BatchSums& sums = arrays.sums[batch];
+  sums = {plus_lanes(sums.change, change), plus_lanes(sums.normal_load, force)};
 }
 
 HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
@@ -294,7 +296,7 @@ HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
 HWY_INLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
-  pairs.gather();
+  pairs.gather(arrays.bodies);
   const V zero = all(0), friction = load(pair.friction, at);
   V normal = zero, tangent = zero, force = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
@@ -309,8 +311,8 @@ HWY_INLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
     const V scale = select(reach > limit, limit / reach, all(1.0f));
     tangent = tangent + length(l.y - p1 * scale, l.z - p2 * scale);
   }
-  store(normal, pair.change, at);
-  store(tangent, pair.miss, at);
+  store(normal, pair.normal_miss, at);
+  store(tangent, pair.tangent_miss, at);
   store(force, pair.load, at);
 }
 
@@ -323,20 +325,22 @@ HWY_INLINE void over(BatchRange range, const Kernel& kernel) {
 void prepare(const BatchArrays& arrays, BatchRange range) {
   over(range, [&](int batch, int at) { prepare_lanes(arrays, batch, at); });
 }
-void refresh(const BatchArrays& arrays, BatchRange range, const Substep& substep) {
-  over(range, [&](int batch, int at) { refresh_lanes(arrays, batch, at, substep); });
-}
 void start(const BatchArrays& arrays, BatchRange range) {
   over(range, [&](int batch, int at) { start_lanes(arrays, batch, at); });
 }
-void correct(const BatchArrays& arrays, BatchRange range) {
-  over(range, [&](int batch, int at) { correct_lanes(arrays, batch, at); });
+void hand_over(const BatchArrays& arrays, BatchRange range) {
+  over(range, [&](int batch, int at) { hand_over_lanes(arrays, batch, at); });
 }
 void judge(const BatchArrays& arrays, BatchRange range) {
   over(range, [&](int batch, int at) { judge_lanes(arrays, batch, at); });
 }
-void sweep(const BatchArrays& arrays, BatchRange range) {
-  over(range, [&](int batch, int at) { sweep_lanes(arrays, batch, at); });
+void sweep(const BatchArrays& arrays, BatchRange range, const Sweep& of) {
+  over(range, [&](int batch, int at) {
+    if (at == 0) arrays.sums[batch] = BatchSums();
+    if (of.first) aim_lanes(arrays, batch, at, of);
+    sweep_lanes(arrays, batch, at);
+    if (of.last) hand_over_lanes(arrays, batch, at);
+  });
 }
 
 }  // namespace drawpoint::engine::contact::detail::HWY_NAMESPACE
@@ -346,27 +350,22 @@ HWY_AFTER_NAMESPACE();
 namespace drawpoint::engine::contact::detail {
 
 HWY_EXPORT(prepare);
-HWY_EXPORT(refresh);
 HWY_EXPORT(start);
 HWY_EXPORT(sweep);
 HWY_EXPORT(judge);
-HWY_EXPORT(correct);
+HWY_EXPORT(hand_over);
 
 void prepare_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(prepare)(arrays, range);
 }
-void refresh_batches(const BatchArrays& arrays, BatchRange range, const Substep& substep) {
-  HWY_DYNAMIC_DISPATCH(refresh)(arrays, range, substep);
-}
 void start_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(start)(arrays, range);
 }
-void sweep_batches(const BatchArrays& arrays, BatchRange range) {
-  HWY_DYNAMIC_DISPATCH(sweep)(arrays, range);
+void sweep_batches(const BatchArrays& arrays, BatchRange range, const Sweep& of) {
+  HWY_DYNAMIC_DISPATCH(sweep)(arrays, range, of);
 }
-
-void correct_batches(const BatchArrays& arrays, BatchRange range) {
-  HWY_DYNAMIC_DISPATCH(correct)(arrays, range);
+void hand_over_batches(const BatchArrays& arrays, BatchRange range) {
+  HWY_DYNAMIC_DISPATCH(hand_over)(arrays, range);
 }
 void judge_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(judge)(arrays, range);

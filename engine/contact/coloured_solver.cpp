@@ -21,20 +21,12 @@ void fly(SolverBody& body, double h, int substeps) {
 
 SolverReport ColouredSolver::solve(ContactProblem& problem) {
   problem_ = &problem;
-  h_ = static_cast<float>(problem.step / options_.substeps);
-  batches_.fill(problem, colour(problem), options_.substeps, parallel_);
+  batches_.fill(problem, colour(problem, batch_lanes), options_.substeps, parallel_);
   machine_.emplace(problem, options_.substeps);
   team_.emplace(options_.threads);
   travel_.assign(problem.bodies.size(), BodyRow());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
-  for (int s = 0; s < options_.substeps; ++s) {
-    begin_substep(s == 0);
-    for (int k = 0; k < most_sweeps(options_, problem.points.size()); ++k) {
-      if (k >= options_.sweeps && change() <= options_.tolerance * normal_load()) break;
-      sweep(k % 2 == 0);
-    }
-    machine_->finish();
-  }
+  for (int s = 0; s < options_.substeps; ++s) run_substep(s);
   each_body([this](int k) { travel(k); });
   SolverReport solved = report();
   store_bodies();
@@ -82,14 +74,31 @@ void ColouredSolver::each_body(const Work& work) {
   });
 }
 
-void ColouredSolver::begin_substep(bool first) {
-  const Substep substep{h_, first};
-  everywhere([&](BatchRange range) { refresh_batches(batches_.arrays(), range, substep); });
+template <class Kernel>
+void ColouredSolver::each_colour(bool forward, const Kernel& kernel) {
+  const std::vector<BatchRange>& colours = batches_.colours();
+  for (std::size_t c = 0; c < colours.size(); ++c)
+    over(colours[forward ? c : colours.size() - 1 - c], kernel);
+}
+
+void ColouredSolver::run_substep(int number) {
   machine_->refresh(batches_.bodies);
-  if (first)
+  if (number == 0)
     start();
   else
     extrapolate();
+  const int most = most_sweeps(options_, problem_->points.size());
+  const bool hands_over = number + 1 < options_.substeps;
+  Sweep of{substep(), true, false, number == 0};
+  for (int k = 0; k < most; ++k, of.first = false) {
+    const bool converged = k >= options_.sweeps && change() <= options_.tolerance * normal_load();
+    if (converged) break;
+    of.last = hands_over && k + 1 == most;
+    sweep(k % 2 == 0, of);
+  }
+  if (hands_over && !of.last)
+    each_colour(true, [this](BatchRange range) { hand_over_batches(batches_.arrays(), range); });
+  machine_->finish();
 }
 
 void ColouredSolver::start() {
@@ -97,8 +106,7 @@ void ColouredSolver::start() {
     for (int i = 0; i < 3; ++i)
       batches_.bodies[k].velocity[i] += static_cast<float>(problem_->bodies[k].push[i] / options_.substeps);
   machine_->start(batches_.bodies);
-  for (const BatchRange& colour : batches_.colours())
-    over(colour, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
+  each_colour(true, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
 }
 
 // What changed a body in the last substep acts again: outer forces and contact impulses, but for blows.
@@ -106,32 +114,30 @@ void ColouredSolver::extrapolate() {
   machine_->extrapolate();
   each_body([this](int k) {
     travel(k);
-    BodyRow &now = batches_.bodies[k], &begin = batches_.begin[k];
+    BodyRow &now = batches_.bodies[k], &begin = batches_.begin[k], &correction = batches_.corrections[k];
     const BodyRow end = now;
     for (int i = 0; i < 4; ++i) {
-      now.velocity[i] = 2 * end.velocity[i] - begin.velocity[i];
-      now.angular_velocity[i] = 2 * end.angular_velocity[i] - begin.angular_velocity[i];
+      now.velocity[i] = 2 * end.velocity[i] - begin.velocity[i] + correction.velocity[i];
+      now.angular_velocity[i] =
+          2 * end.angular_velocity[i] - begin.angular_velocity[i] + correction.angular_velocity[i];
     }
     begin = end;
+    correction = BodyRow();
   });
   machine_->correct(batches_.bodies);
-  for (const BatchRange& colour : batches_.colours())
-    over(colour, [this](BatchRange range) { correct_batches(batches_.arrays(), range); });
 }
 
-void ColouredSolver::sweep(bool forward) {
+void ColouredSolver::sweep(bool forward, const Sweep& of) {
   machine_change_ = machine_->sweep(batches_.bodies, forward);
-  const std::vector<BatchRange>& colours = batches_.colours();
-  for (std::size_t c = 0; c < colours.size(); ++c)
-    over(colours[forward ? c : colours.size() - 1 - c],
-         [this](BatchRange range) { sweep_batches(batches_.arrays(), range); });
+  each_colour(forward, [&](BatchRange range) { sweep_batches(batches_.arrays(), range, of); });
 }
 
 // The way of the substep that has ended.
 void ColouredSolver::travel(int body) {
+  const float h = substep();
   for (int i = 0; i < 4; ++i) {
-    travel_[body].velocity[i] += h_ * batches_.bodies[body].velocity[i];
-    travel_[body].angular_velocity[i] += h_ * batches_.bodies[body].angular_velocity[i];
+    travel_[body].velocity[i] += h * batches_.bodies[body].velocity[i];
+    travel_[body].angular_velocity[i] += h * batches_.bodies[body].angular_velocity[i];
   }
 }
 

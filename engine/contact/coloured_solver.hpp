@@ -27,15 +27,18 @@ class ColouredSolver {
   void over(BatchRange range, const Kernel& kernel);
   template <class Kernel>
   void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
+  template <class Kernel>
+  void each_colour(bool forward, const Kernel& kernel);
   template <class Work>
   void each_body(const Work& work);
-  void begin_substep(bool first);
+  void run_substep(int number);
   void start();
   void extrapolate();
-  void sweep(bool forward);
+  void sweep(bool forward, const Sweep& of);
   void travel(int body);
   void store_bodies();
   SolverReport report();
+  float substep() const { return static_cast<float>(problem_->step / options_.substeps); }
   double change() const { return batches_.change() + machine_change_; }
   double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
 
@@ -47,7 +50,6 @@ class ColouredSolver {
 
   // During a solve.
   ContactProblem* problem_ = nullptr;
-  float h_ = 0;
   std::optional<MachinePairs> machine_;
   std::optional<StageTeam> team_;
   double machine_change_ = 0;  // of the machine's pairs in the last sweep

@@ -74,6 +74,14 @@ HWY_INLINE bool all_zero(const V& x) {
   return hn::AllTrue(d, hn::Eq(hn::Max(hn::Abs(x.v[0]), hn::Abs(x.v[1])), hn::Zero(d)));
 }
 
+/// `total` and the lanes, added in their order whatever the target.
+HWY_INLINE float plus_lanes(float total, const V& x) {
+  alignas(32) Lanes lanes;
+  store(x, lanes, 0);
+  for (int k = 0; k < width; ++k) total += lanes[k];
+  return total;
+}
+
 struct V3 {
   V x, y, z;
 };

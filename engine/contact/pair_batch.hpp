@@ -31,7 +31,7 @@ struct alignas(32) PointBatch {
   Lanes gap, upsilon, sigma, target;
   Lanes inverse_nn, inverse_tt[3], inverse_rho, w10, w20;
   Lanes impulse[3], total[3];  // in the frame; of the substep, of the step
-  Lanes begun, correction[3];  // the normal impulse that the substep began with; see refresh_batches
+  Lanes begun;                 // the normal impulse that the substep began with
 };
 
 struct alignas(32) PairBatch {
@@ -42,25 +42,34 @@ struct alignas(32) PairBatch {
   Lanes friction;
   Lanes rolling_arm, spinning_arm;
   Lanes moment_inverse_nn, moment_inverse_tt[3], moment_inverse_rho, moment_w10, moment_w20;
-  Lanes moment[3], moment_total[3], moment_correction[3];  // in the frame
-  Lanes change;                // Σ|Δλ| of the last sweep; after judge: the normals' residual
-  Lanes miss;                  // after judge: the tangents' residual
-  Lanes load;                  // after judge: of normals, as residual.hpp takes it
-  std::int32_t first, points;  // point batches
-  bool resists;                // any rolling or spinning
+  Lanes moment[3], moment_total[3];       // in the frame
+  Lanes normal_miss, tangent_miss, load;  // after judge: residuals, and their load (residual.hpp)
+  std::int32_t first, points;             // point batches
+  bool resists;                           // any rolling or spinning
+};
+
+/// Of a batch in the last sweep: Σ|Δλ|, Σ λ_n [N s].
+struct BatchSums {
+  float change = 0, normal_load = 0;
 };
 
 /// The arrays that a kernel works on.
 struct BatchArrays {
   PairBatch* pairs;
   PointBatch* points;
-  BodyRow* bodies;  // velocities
+  BodyRow* bodies;       // velocities
+  const BodyRow* begin;  // velocities when the substep began
+  BodyRow* corrections;  // of the velocities that the next substep starts from
   const BodyResponse* responses;
+  BatchSums* sums;
 };
 
-struct Substep {
-  float h;     // [s]
-  bool first;  // of the step: gaps are those of its start
+/// What a sweep is in its substep. The first one finds gaps and targets before a pair is solved, the last one
+/// hands its impulses over to the next substep after: a pair's data pass through the cache once.
+struct Sweep {
+  float h;             // of the substep [s]
+  bool first, last;    // sweep of the substep
+  bool first_substep;  // of the step: gaps are those of its start
 };
 
 struct BatchRange {
@@ -71,14 +80,13 @@ struct BatchRange {
 /// range must share no body.
 /// Responses and their inverses, from arms, normals and bodies.
 void prepare_batches(const BatchArrays& arrays, BatchRange range);
-/// Gaps and targets of a substep, from the velocities, which are still those at the end of the last one;
-/// start impulses without blows.
-void refresh_batches(const BatchArrays& arrays, BatchRange range, const Substep& substep);
-/// Takes the blows off the bodies, which extrapolation has repeated.
-void correct_batches(const BatchArrays& arrays, BatchRange range);
 /// Start impulses on the bodies.
 void start_batches(const BatchArrays& arrays, BatchRange range);
-void sweep_batches(const BatchArrays& arrays, BatchRange range);
+void sweep_batches(const BatchArrays& arrays, BatchRange range, const Sweep& sweep);
+/// What the last sweep of a substep does at its end, where it was not known to be the last: adds the impulses
+/// to the totals and leaves start impulses without blows; what extrapolation would repeat of these goes into
+/// the corrections.
+void hand_over_batches(const BatchArrays& arrays, BatchRange range);
 /// The natural map of the law in the substep that has just ended (residual.hpp), summed over a pair's points.
 void judge_batches(const BatchArrays& arrays, BatchRange range);
 

@@ -33,6 +33,7 @@ void PairBatches::fill(const ContactProblem& problem, const Colouring& colouring
     for (int batch = first; batch < last; ++batch) fill_batch(problem, batch, substeps);
   });
   begin = bodies;
+  corrections.assign(bodies.size(), BodyRow());
 }
 
 int PairBatches::own_rows(const ContactProblem& problem, const int* members, int pairs) const {
@@ -50,19 +51,18 @@ void PairBatches::plan(const ContactProblem& problem, const Colouring& colouring
   colours_.clear();
   rows_ = static_cast<int>(problem.bodies.size());
   point_batches_ = 0;
-  for (std::size_t c = 0; c + 1 < colouring_.starts.size(); ++c) {
-    const int first = count();
-    for (int k = colouring_.starts[c]; k < colouring_.starts[c + 1]; k += batch_lanes) {
-      const int* members = colouring_.pairs.data() + k;
-      const int pairs = std::min(batch_lanes, colouring_.starts[c + 1] - k);
-      const int points = problem.pairs[members[0]].count;  // the most: sorted so
-      plans_.push_back({members, pairs, points, point_batches_, rows_});
-      point_batches_ += points;
-      rows_ += own_rows(problem, members, pairs);
-    }
-    if (count() > first) colours_.push_back({first, count()});
+  for (std::size_t k = 0; k + 1 < colouring_.batches.size(); ++k) {
+    const int* members = colouring_.pairs.data() + colouring_.batches[k];
+    const int pairs = colouring_.batches[k + 1] - colouring_.batches[k];
+    const int points = problem.pairs[members[0]].count;  // the most: sorted so
+    plans_.push_back({members, pairs, points, point_batches_, rows_});
+    point_batches_ += points;
+    rows_ += own_rows(problem, members, pairs);
   }
+  for (std::size_t c = 0; c + 1 < colouring_.colours.size(); ++c)
+    colours_.push_back({colouring_.colours[c], colouring_.colours[c + 1]});
   grow(pairs_, plans_.size());
+  sums_.assign(plans_.size(), BatchSums());
   grow(points_, static_cast<std::size_t>(point_batches_));
 }
 
@@ -142,8 +142,13 @@ void PairBatches::fill_lane(const ContactProblem& problem, PairBatch& batch, int
 
 double PairBatches::change() const {
   double sum = 0;
-  for (int batch = 0; batch < count(); ++batch)
-    for (const float change : pairs_[batch].change) sum += change;
+  for (const BatchSums& batch : sums_) sum += batch.change;
+  return sum;
+}
+
+double PairBatches::normal_load() const {
+  double sum = 0;
+  for (const BatchSums& batch : sums_) sum += batch.normal_load;
   return sum;
 }
 
@@ -151,17 +156,10 @@ Misfit PairBatches::misfit() const {
   Misfit sum;
   for (int batch = 0; batch < count(); ++batch)
     for (int lane = 0; lane < batch_lanes; ++lane) {
-      sum.normal += pairs_[batch].change[lane];
-      sum.tangent += pairs_[batch].miss[lane];
+      sum.normal += pairs_[batch].normal_miss[lane];
+      sum.tangent += pairs_[batch].tangent_miss[lane];
       sum.load += pairs_[batch].load[lane];
     }
-  return sum;
-}
-
-double PairBatches::normal_load() const {
-  double sum = 0;
-  for (int k = 0; k < point_batches_; ++k)
-    for (const float impulse : points_[k].impulse[0]) sum += impulse;
   return sum;
 }
 

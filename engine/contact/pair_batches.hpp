@@ -16,20 +16,23 @@ class PairBatches {
   void fill(const ContactProblem& problem, const Colouring& colouring, int substeps,
             const Parallel& parallel);
 
-  BatchArrays arrays() { return {pairs_.data(), points_.data(), bodies.data(), responses_.data()}; }
+  BatchArrays arrays() {
+    return {pairs_.data(),      points_.data(),    bodies.data(), begin.data(),
+            corrections.data(), responses_.data(), sums_.data()};
+  }
   int count() const { return static_cast<int>(plans_.size()); }
   const std::vector<BatchRange>& colours() const { return colours_; }
 
   double change() const;       ///< Σ|Δλ| of the last sweep [N s]
-  double normal_load() const;  ///< Σ λ_n of the substep [N s]
+  double normal_load() const;  ///< Σ λ_n of the same [N s]
   Misfit misfit() const;       ///< after judge_batches()
 
   /// Writes the impulses of the step and the last substep into the problem.
   void store(ContactProblem& problem, int substeps, const Parallel& parallel) const;
 
-  /// Velocities now and at the beginning of the substep. Row k is body k; rows beyond the bodies stand for
-  /// fixed ones.
-  std::vector<BodyRow> bodies, begin;
+  /// Velocities now, at the beginning of the substep, and what the next one starts from less than it would by
+  /// extrapolation. Row k is body k; rows beyond the bodies stand for fixed ones.
+  std::vector<BodyRow> bodies, begin, corrections;
 
  private:
   /// Where a batch's pairs, points and own rows are. Fixed bodies and lanes without a pair have own rows.
@@ -53,6 +56,7 @@ class PairBatches {
   std::vector<PairBatch> pairs_;
   std::vector<PointBatch> points_;
   std::vector<BodyResponse> responses_;
+  std::vector<BatchSums> sums_;
   std::vector<BatchRange> colours_;
   int rows_ = 0, point_batches_ = 0;
 };
