@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
-#include <drawpoint/engine/contact/colouring.hpp>
 #include <drawpoint/engine/contact/pair_batch.hpp>
 #include <drawpoint/engine/contact/sequential_sweeper.hpp>
+#include <drawpoint/engine/contact/sweep_order.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
 #include <map>
 
@@ -65,11 +65,11 @@ double bytes_of_a_sequential_sweep(const ContactProblem& problem) {
 
 // So many pairs of a colour a batch; a batch has as many point batches as its largest pair has points.
 double bytes_of_a_coloured_sweep(const ContactProblem& problem) {
-  const detail::Colouring colouring = detail::colour(problem, detail::batch_lanes);
+  const detail::SweepOrder order = detail::sweep_order(problem, detail::batch_lanes);
   double bytes = 0;
-  for (std::size_t k = 0; k + 1 < colouring.batches.size(); ++k)
+  for (std::size_t k = 0; k + 1 < order.batches.size(); ++k)
     bytes += sizeof(detail::PairBatch) +
-             sizeof(detail::PointBatch) * problem.pairs[colouring.pairs[colouring.batches[k]]].count;
+             sizeof(detail::PointBatch) * problem.pairs[order.pairs[order.batches[k]]].count;
   return bytes;
 }
 

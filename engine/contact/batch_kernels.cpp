@@ -318,8 +318,9 @@ HWY_INLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
 
 template <class Kernel>
 HWY_INLINE void over(BatchRange range, const Kernel& kernel) {
-  for (int batch = range.begin; batch < range.end; ++batch)
-    for (int at = 0; at < batch_lanes; at += width) kernel(batch, at);
+  for (int k = range.begin; k < range.end; ++k)
+    for (int at = 0; at < batch_lanes; at += width)
+      kernel(range.forward ? k : range.begin + range.end - 1 - k, at);
 }
 
 void prepare(const BatchArrays& arrays, BatchRange range) {

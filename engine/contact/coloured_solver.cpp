@@ -6,7 +6,7 @@
 namespace drawpoint::engine::contact::detail {
 namespace {
 
-constexpr int batches_a_block = 3, bodies_a_block = 256;  // that a thread claims at a time: microseconds
+constexpr int batches_a_block = 8, bodies_a_block = 256;  // that a thread claims at a time: microseconds
 
 Eigen::Vector3d vector(const float (&v)[4]) { return {v[0], v[1], v[2]}; }
 
@@ -21,16 +21,16 @@ void fly(SolverBody& body, double h, int substeps) {
 
 SolverReport ColouredSolver::solve(ContactProblem& problem) {
   problem_ = &problem;
-  batches_.fill(problem, colour(problem, batch_lanes), options_.substeps, parallel_);
-  machine_.emplace(problem, options_.substeps);
+  batches_.fill(problem, sweep_order(problem, batch_lanes), options_.substeps, parallel_);
+  machine_.emplace(problem, batches_.row_of, options_.substeps);
   team_.emplace(options_.threads);
   travel_.assign(problem.bodies.size(), BodyRow());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   for (int s = 0; s < options_.substeps; ++s) run_substep(s);
-  each_body([this](int k) { travel(k); });
+  each_row([this](int row) { travel(row); });
   SolverReport solved = report();
-  store_bodies();
   team_.reset();
+  store_bodies();
   batches_.store(problem, options_.substeps, parallel_);
   solved.machine = machine_->store(problem);
   return solved;
@@ -51,34 +51,32 @@ SolverReport ColouredSolver::report() {
 }
 
 template <class Kernel>
-void ColouredSolver::over(BatchRange range, const Kernel& kernel) {
-  const int blocks = (range.end - range.begin + batches_a_block - 1) / batches_a_block;
-  if (options_.threads == 1 || blocks < 2) return kernel(range);
-  team_->run(blocks, [&](int block) {
-    const int begin = range.begin + block * batches_a_block;
-    kernel(BatchRange{begin, std::min(begin + batches_a_block, range.end)});
+void ColouredSolver::everywhere(const Kernel& kernel) {
+  const int batches = batches_.count();
+  team_->run((batches + batches_a_block - 1) / batches_a_block, [&](int block) {
+    kernel(BatchRange{block * batches_a_block, std::min((block + 1) * batches_a_block, batches)});
   });
 }
 
 template <class Kernel>
-void ColouredSolver::everywhere(const Kernel& kernel) {
-  over({0, batches_.count()}, kernel);
+void ColouredSolver::each_stage(bool forward, const Kernel& kernel) {
+  const SweepOrder& order = batches_.order();
+  const int stages = static_cast<int>(order.stages.size()) - 1;
+  for (int k = 0; k < stages; ++k) {
+    const int stage = forward ? k : stages - 1 - k, first = order.stages[stage];
+    team_->run(order.stages[stage + 1] - first, [&](int part) {
+      kernel(BatchRange{order.parts[first + part], order.parts[first + part + 1], forward});
+    });
+  }
 }
 
 template <class Work>
-void ColouredSolver::each_body(const Work& work) {
+void ColouredSolver::each_row(const Work& work) {
   const int bodies = static_cast<int>(problem_->bodies.size());
   team_->run((bodies + bodies_a_block - 1) / bodies_a_block, [&](int block) {
     const int last = std::min(bodies, (block + 1) * bodies_a_block);
     for (int k = block * bodies_a_block; k < last; ++k) work(k);
   });
-}
-
-template <class Kernel>
-void ColouredSolver::each_colour(bool forward, const Kernel& kernel) {
-  const std::vector<BatchRange>& colours = batches_.colours();
-  for (std::size_t c = 0; c < colours.size(); ++c)
-    over(colours[forward ? c : colours.size() - 1 - c], kernel);
 }
 
 void ColouredSolver::run_substep(int number) {
@@ -97,24 +95,26 @@ void ColouredSolver::run_substep(int number) {
     sweep(k % 2 == 0, of);
   }
   if (hands_over && !of.last)
-    each_colour(true, [this](BatchRange range) { hand_over_batches(batches_.arrays(), range); });
+    each_stage(true, [this](BatchRange range) { hand_over_batches(batches_.arrays(), range); });
   machine_->finish();
 }
 
 void ColouredSolver::start() {
   for (std::size_t k = 0; k < problem_->bodies.size(); ++k)
     for (int i = 0; i < 3; ++i)
-      batches_.bodies[k].velocity[i] += static_cast<float>(problem_->bodies[k].push[i] / options_.substeps);
+      batches_.bodies[batches_.row_of[k]].velocity[i] +=
+          static_cast<float>(problem_->bodies[k].push[i] / options_.substeps);
   machine_->start(batches_.bodies);
-  each_colour(true, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
+  each_stage(true, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
 }
 
 // What changed a body in the last substep acts again: outer forces and contact impulses, but for blows.
 void ColouredSolver::extrapolate() {
   machine_->extrapolate();
-  each_body([this](int k) {
-    travel(k);
-    BodyRow &now = batches_.bodies[k], &begin = batches_.begin[k], &correction = batches_.corrections[k];
+  each_row([this](int row) {
+    travel(row);
+    BodyRow &now = batches_.bodies[row], &begin = batches_.begin[row],
+            &correction = batches_.corrections[row];
     const BodyRow end = now;
     for (int i = 0; i < 4; ++i) {
       now.velocity[i] = 2 * end.velocity[i] - begin.velocity[i] + correction.velocity[i];
@@ -129,15 +129,15 @@ void ColouredSolver::extrapolate() {
 
 void ColouredSolver::sweep(bool forward, const Sweep& of) {
   machine_change_ = machine_->sweep(batches_.bodies, forward);
-  each_colour(forward, [&](BatchRange range) { sweep_batches(batches_.arrays(), range, of); });
+  each_stage(forward, [&](BatchRange range) { sweep_batches(batches_.arrays(), range, of); });
 }
 
 // The way of the substep that has ended.
-void ColouredSolver::travel(int body) {
+void ColouredSolver::travel(int row) {
   const float h = substep();
   for (int i = 0; i < 4; ++i) {
-    travel_[body].velocity[i] += h * batches_.bodies[body].velocity[i];
-    travel_[body].angular_velocity[i] += h * batches_.bodies[body].angular_velocity[i];
+    travel_[row].velocity[i] += h * batches_.bodies[row].velocity[i];
+    travel_[row].angular_velocity[i] += h * batches_.bodies[row].angular_velocity[i];
   }
 }
 
@@ -146,14 +146,19 @@ void ColouredSolver::store_bodies() {
   for (const ContactPair& pair : problem_->pairs)
     for (const int body : {pair.a, pair.b})
       if (body >= 0) touched_[body] = 1;
-  each_body([this](int k) {
-    SolverBody& body = problem_->bodies[k];
-    if (!touched_[k]) return fly(body, problem_->step, options_.substeps);
-    body.velocity = vector(batches_.bodies[k].velocity);
-    body.angular_velocity = vector(batches_.bodies[k].angular_velocity);
-    body.travel = vector(travel_[k].velocity);
-    body.turn = vector(travel_[k].angular_velocity);
+  parallel_.blocks(static_cast<int>(problem_->bodies.size()), bodies_a_block, [this](int first, int last) {
+    for (int body = first; body < last; ++body) store_body(body);
   });
+}
+
+void ColouredSolver::store_body(int index) {
+  SolverBody& body = problem_->bodies[index];
+  if (!touched_[index]) return fly(body, problem_->step, options_.substeps);
+  const int row = batches_.row_of[index];
+  body.velocity = vector(batches_.bodies[row].velocity);
+  body.angular_velocity = vector(batches_.bodies[row].angular_velocity);
+  body.travel = vector(travel_[row].velocity);
+  body.turn = vector(travel_[row].angular_velocity);
 }
 
 }  // namespace drawpoint::engine::contact::detail

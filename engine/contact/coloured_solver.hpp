@@ -8,12 +8,14 @@
 #include <drawpoint/engine/contact/stage_team.hpp>
 #include <optional>
 
-/// The fast method: colours of pairs that share no body, sixteen pairs at a time, single precision.
+/// The fast method: sixteen pairs at a time that share no body, zones of the scene on threads, single
+/// precision.
 ///
-/// Pairs that touch the machine are swept one after another in double precision before the colours, on the
-/// same velocities. Bodies that touch nothing keep double precision. Velocities and impulses of the others
-/// have 24 bits: a residual below about 1e-6 of the load is round-off, and momentum is kept to 6e-8 of a
-/// body's own a sweep. Positions stay in double precision outside. Cost and figures: docs/contact-solving.md.
+/// Pairs that touch the machine are swept one after another in double precision before the others
+/// (sweep_order.hpp), on the same velocities. Bodies that touch nothing keep double precision. Velocities and
+/// impulses of the others have 24 bits: a residual below about 1e-6 of the load is round-off, and momentum is
+/// kept to 6e-8 of a body's own a sweep. Positions stay in double precision outside. Cost and figures:
+/// docs/contact-solving.md.
 namespace drawpoint::engine::contact::detail {
 
 class ColouredSolver {
@@ -24,19 +26,18 @@ class ColouredSolver {
 
  private:
   template <class Kernel>
-  void over(BatchRange range, const Kernel& kernel);
-  template <class Kernel>
   void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
   template <class Kernel>
-  void each_colour(bool forward, const Kernel& kernel);
+  void each_stage(bool forward, const Kernel& kernel);  // for kernels that do
   template <class Work>
-  void each_body(const Work& work);
+  void each_row(const Work& work);  // of the bodies
   void run_substep(int number);
   void start();
   void extrapolate();
   void sweep(bool forward, const Sweep& of);
-  void travel(int body);
+  void travel(int row);
   void store_bodies();
+  void store_body(int index);
   SolverReport report();
   float substep() const { return static_cast<float>(problem_->step / options_.substeps); }
   double change() const { return batches_.change() + machine_change_; }
@@ -45,7 +46,7 @@ class ColouredSolver {
   SolverOptions options_;
   Parallel parallel_;
   PairBatches batches_;
-  std::vector<BodyRow> travel_;  // ∫ v dt, ∫ ω dt
+  std::vector<BodyRow> travel_;  // by row: ∫ v dt, ∫ ω dt
   std::vector<char> touched_;    // by body: in a pair
 
   // During a solve.

@@ -4,11 +4,11 @@
 
 namespace drawpoint::engine::contact::detail {
 
-MachinePairs::MachinePairs(const ContactProblem& problem, int substeps)
-    : part_(part_of_problem(problem, rows_, members_)), sweeper_(part_, substeps) {}
+MachinePairs::MachinePairs(const ContactProblem& problem, const std::vector<int>& row_of, int substeps)
+    : part_(part_of_problem(problem, row_of, rows_, members_)), sweeper_(part_, substeps) {}
 
-ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, std::vector<int>& rows,
-                                             std::vector<int>& members) {
+ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, const std::vector<int>& row_of,
+                                             std::vector<int>& rows, std::vector<int>& members) {
   ContactProblem part;
   part.step = problem.step;
   part.machine = problem.machine;
@@ -17,7 +17,7 @@ ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, std:
     if (index < 0) return index;
     if (place[index] < 0) {
       place[index] = static_cast<int>(rows.size());
-      rows.push_back(index);
+      rows.push_back(row_of[index]);
       part.bodies.push_back(problem.bodies[index]);
     }
     return place[index];

@@ -11,7 +11,8 @@ namespace drawpoint::engine::contact::detail {
 
 class MachinePairs {
  public:
-  MachinePairs(const ContactProblem& problem, int substeps);
+  /// `row_of`: of each body in the batch solve.
+  MachinePairs(const ContactProblem& problem, const std::vector<int>& row_of, int substeps);
 
   void refresh(const std::vector<BodyRow>& end);
   void start(std::vector<BodyRow>& bodies);
@@ -24,8 +25,8 @@ class MachinePairs {
   SuperBodySolution store(ContactProblem& problem);
 
  private:
-  static ContactProblem part_of_problem(const ContactProblem& problem, std::vector<int>& rows,
-                                        std::vector<int>& members);
+  static ContactProblem part_of_problem(const ContactProblem& problem, const std::vector<int>& row_of,
+                                        std::vector<int>& rows, std::vector<int>& members);
   void fetch(const std::vector<BodyRow>& bodies);
   void put_back(std::vector<BodyRow>& bodies) const;
 

@@ -4,6 +4,7 @@
 #include <drawpoint/engine/contact/contact_frame.hpp>
 #include <drawpoint/engine/contact/contact_law.hpp>
 #include <drawpoint/engine/contact/pair_batches.hpp>
+#include <utility>
 
 namespace drawpoint::engine::contact::detail {
 namespace {
@@ -25,9 +26,10 @@ void grow(std::vector<T>& buffer, std::size_t size) {
 
 }  // namespace
 
-void PairBatches::fill(const ContactProblem& problem, const Colouring& colouring, int substeps,
+void PairBatches::fill(const ContactProblem& problem, SweepOrder order, int substeps,
                        const Parallel& parallel) {
-  plan(problem, colouring);
+  order_ = std::move(order);
+  plan(problem);
   fill_bodies(problem, parallel);
   parallel.blocks(count(), batches_a_block, [&](int first, int last) {
     for (int batch = first; batch < last; ++batch) fill_batch(problem, batch, substeps);
@@ -45,22 +47,18 @@ int PairBatches::own_rows(const ContactProblem& problem, const int* members, int
   return rows;
 }
 
-void PairBatches::plan(const ContactProblem& problem, const Colouring& colouring) {
-  colouring_ = colouring;
+void PairBatches::plan(const ContactProblem& problem) {
   plans_.clear();
-  colours_.clear();
   rows_ = static_cast<int>(problem.bodies.size());
   point_batches_ = 0;
-  for (std::size_t k = 0; k + 1 < colouring_.batches.size(); ++k) {
-    const int* members = colouring_.pairs.data() + colouring_.batches[k];
-    const int pairs = colouring_.batches[k + 1] - colouring_.batches[k];
+  for (std::size_t k = 0; k + 1 < order_.batches.size(); ++k) {
+    const int* members = order_.pairs.data() + order_.batches[k];
+    const int pairs = order_.batches[k + 1] - order_.batches[k];
     const int points = problem.pairs[members[0]].count;  // the most: sorted so
     plans_.push_back({members, pairs, points, point_batches_, rows_});
     point_batches_ += points;
     rows_ += own_rows(problem, members, pairs);
   }
-  for (std::size_t c = 0; c + 1 < colouring_.colours.size(); ++c)
-    colours_.push_back({colouring_.colours[c], colouring_.colours[c + 1]});
   grow(pairs_, plans_.size());
   sums_.assign(plans_.size(), BatchSums());
   grow(points_, static_cast<std::size_t>(point_batches_));
@@ -69,8 +67,12 @@ void PairBatches::plan(const ContactProblem& problem, const Colouring& colouring
 void PairBatches::fill_bodies(const ContactProblem& problem, const Parallel& parallel) {
   bodies.assign(static_cast<std::size_t>(rows_), BodyRow());
   responses_.assign(static_cast<std::size_t>(rows_), BodyResponse());
+  row_of.resize(problem.bodies.size());
   parallel.blocks(static_cast<int>(problem.bodies.size()), bodies_a_block, [&](int first, int last) {
-    for (int row = first; row < last; ++row) fill_row(row, problem.bodies[row]);
+    for (int row = first; row < last; ++row) {
+      row_of[order_.bodies[row]] = row;
+      fill_row(row, problem.bodies[order_.bodies[row]]);
+    }
   });
 }
 
@@ -99,7 +101,7 @@ void PairBatches::fill_batch(const ContactProblem& problem, int index, int subst
   }
   int own_row = plan.first_row;
   const auto place = [&](int body) {
-    if (!is_fixed(problem.bodies[body])) return body;
+    if (!is_fixed(problem.bodies[body])) return row_of[body];
     fill_row(own_row, problem.bodies[body]);
     return own_row++;
   };

@@ -2,26 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/colouring.hpp>
 #include <drawpoint/engine/contact/pair_batch.hpp>
 #include <drawpoint/engine/contact/parallel.hpp>
 #include <drawpoint/engine/contact/sequential_sweeper.hpp>
+#include <drawpoint/engine/contact/sweep_order.hpp>
 
 /// A ContactProblem laid out in batches, and back. Buffers are kept from solve to solve.
 namespace drawpoint::engine::contact::detail {
 
 class PairBatches {
  public:
-  /// Lays out the coloured pairs of the problem.
-  void fill(const ContactProblem& problem, const Colouring& colouring, int substeps,
-            const Parallel& parallel);
+  /// Lays out the pairs of the problem that the order has.
+  void fill(const ContactProblem& problem, SweepOrder order, int substeps, const Parallel& parallel);
 
   BatchArrays arrays() {
     return {pairs_.data(),      points_.data(),    bodies.data(), begin.data(),
             corrections.data(), responses_.data(), sums_.data()};
   }
   int count() const { return static_cast<int>(plans_.size()); }
-  const std::vector<BatchRange>& colours() const { return colours_; }
+  const SweepOrder& order() const { return order_; }
 
   double change() const;       ///< Σ|Δλ| of the last sweep [N s]
   double normal_load() const;  ///< Σ λ_n of the same [N s]
@@ -31,8 +30,9 @@ class PairBatches {
   void store(ContactProblem& problem, int substeps, const Parallel& parallel) const;
 
   /// Velocities now, at the beginning of the substep, and what the next one starts from less than it would by
-  /// extrapolation. Row k is body k; rows beyond the bodies stand for fixed ones.
+  /// extrapolation. Rows are in order of place; rows beyond the bodies stand for fixed ones.
   std::vector<BodyRow> bodies, begin, corrections;
+  std::vector<int> row_of;  ///< of each body
 
  private:
   /// Where a batch's pairs, points and own rows are. Fixed bodies and lanes without a pair have own rows.
@@ -41,7 +41,7 @@ class PairBatches {
     int pairs, points, first_point, first_row;
   };
 
-  void plan(const ContactProblem& problem, const Colouring& colouring);
+  void plan(const ContactProblem& problem);
   int own_rows(const ContactProblem& problem, const int* members, int pairs) const;
   void fill_bodies(const ContactProblem& problem, const Parallel& parallel);
   void fill_row(int row, const SolverBody& body);
@@ -51,13 +51,12 @@ class PairBatches {
   void store_lane(ContactProblem& problem, const PairBatch& batch, int lane, ContactPair& pair,
                   int substeps) const;
 
-  Colouring colouring_;
+  SweepOrder order_;
   std::vector<Plan> plans_;
   std::vector<PairBatch> pairs_;
   std::vector<PointBatch> points_;
   std::vector<BodyResponse> responses_;
   std::vector<BatchSums> sums_;
-  std::vector<BatchRange> colours_;
   int rows_ = 0, point_batches_ = 0;
 };
 
