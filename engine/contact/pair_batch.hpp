@@ -77,8 +77,10 @@ struct BatchRange {
   bool forward = true;  // else from the last batch to the first
 };
 
-/// The kernels, run with the best instruction set of this machine; all sets give the same bits. The batches
-/// of a range are taken one after another. Responses and their inverses, from arms, normals and bodies.
+// The kernels, run with the best instruction set of this machine; all sets give the same bits. The batches of
+// a range are taken one after another.
+
+/// Responses and their inverses, from arms, normals and bodies.
 void prepare_batches(const BatchArrays& arrays, BatchRange range);
 /// Start impulses on the bodies.
 void start_batches(const BatchArrays& arrays, BatchRange range);
