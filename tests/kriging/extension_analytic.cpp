@@ -68,6 +68,7 @@ TEST(Gradient, IsTheDifferenceQuotientOfThePrediction) {
       const VectorXd x = Z.row(i);
       if ((runs.rowwise() - x.transpose()).cwiseAbs().minCoeff() < 4e-3) continue;
       const PredictionGradient g = model.gradient(x);
+      EXPECT_EQ(model.mean_gradient(x), g.mean);
       for (Eigen::Index k = 0; k < 2; ++k) {
         const auto quotient = [&](double h) -> Eigen::Vector2d {
           MatrixXd pair(2, 2);
