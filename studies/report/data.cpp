@@ -49,13 +49,25 @@ json to_json(const doe::Evaluations& table) {
   return {{"rows", std::move(rows)}};
 }
 
+json to_json(const Surface& s) {
+  json terms = json::array();
+  for (const kriging::TrendTerm& term : s.terms) terms.push_back({term.a, term.b});
+  return {{"centre", to_json(s.centre)},
+          {"factor", to_json(s.factor)},
+          {"correlation", to_string(s.correlation.family)},
+          {"theta", to_json(s.correlation.theta)},
+          {"exponent", to_json(s.correlation.exponent)},
+          {"X", to_json(s.X)},
+          {"weights", to_json(s.weights)},
+          {"terms", std::move(terms)},
+          {"coefficients", to_json(s.coefficients)},
+          {"constant", s.constant}};
+}
+
 json to_json(const kriging::Model& model, const std::optional<Surface>& s) {
-  const json theta = to_json(model.theta());
   json formula;
-  if (s)
-    formula = {{"lower", to_json(s->lower)}, {"upper", to_json(s->upper)},     {"theta", theta},
-               {"trend", model.trend()},     {"weights", to_json(s->weights)}, {"X", to_json(s->X)}};
-  return {{"theta", theta},
+  if (s) formula = to_json(*s);
+  return {{"theta", to_json(model.theta())},
           {"nugget", model.nugget()},
           {"process_variance", model.process_variance()},
           {"log_likelihood", model.log_likelihood()},
@@ -146,10 +158,11 @@ json report_data(const ReportInput& input) {
   std::vector<Eigen::VectorXd> effects;
   for (std::size_t j = 0; j < input.models.size(); ++j) {
     const kriging::Model& model = input.models[j];
-    const auto formula = surface(model, input.problem, known.training.X());
+    const auto formula = surface(model);
     if (!formula)
-      known.warnings.push_back("The response surface of " + pretty(input.problem.responses[j].name) +
-                               " is not drawn: its model was not fitted to the training runs listed here.");
+      known.warnings.push_back(
+          "The response surface of " + pretty(input.problem.responses[j].name) +
+          " is not drawn: the trend of its model is a function that this page does not know.");
     models.push_back(to_json(model, formula));
     validations.push_back(j < input.validations.size() ? to_json(model, input.validations[j]) : json());
     effects.push_back(influence(model, input.problem));

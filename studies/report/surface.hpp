@@ -4,9 +4,9 @@
 /// What the page needs of a surrogate: its mean, as a formula that the browser evaluates, and which variables
 /// matter.
 ///
-/// The mean is trend + Σᵢ wᵢ exp(-Σₖ ϑₖ (sₖ(x) - cᵢₖ)²) with s scaling a box to [-1, 1]. The weights w are
-/// recovered from the model's own means at the training points c, so that it does not matter how replicates
-/// were treated. Cost n³/6.
+/// The mean is constant + Σₜ βₜ sₐ s_b + Σᵢ wᵢ c(s, cᵢ) with s = (x - centre)·factor, the terms sₐ s_b of the
+/// trend and the correlation c of the model (kriging/correlation.hpp). All of it is the model's own, so the
+/// browser sees its mean to rounding.
 ///
 /// Influence is the total Sobol index by Jansen's estimator (Jansen 1999, Comput. Phys. Commun. 117, eq. 9;
 /// Saltelli et al. 2010, table 2): Tₖ = ½ E[(f(a) - f(aᵦₖ))²] / Var f, over the box with uniform weight, 512
@@ -17,19 +17,22 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 namespace drawpoint::studies::detail {
 
 struct Surface {
-  Eigen::VectorXd lower, upper;  ///< box that s scales, natural units
-  Eigen::MatrixXd X;             ///< n x d, the c, scaled
-  Eigen::VectorXd weights;       ///< n, unit of the response
+  Eigen::VectorXd centre, factor;  ///< d; factor 0 for a variable that never varied
+  kriging::CorrelationFunction correlation;
+  Eigen::MatrixXd X;                      ///< n x d, the c, scaled
+  Eigen::VectorXd weights;                ///< n, unit of the response
+  std::vector<kriging::TrendTerm> terms;  ///< the trend's
+  Eigen::VectorXd coefficients;           ///< β, unit of the response
+  double constant = 0.0;                  ///< unit of the response
 };
 
-/// X: the training points, n x d, natural units. Nothing when the formula misses the model's mean by more
-/// than 1 in 1000 of its range: then the model was not fitted to these points.
-std::optional<Surface> surface(const kriging::Model& model, const doe::Problem& problem,
-                               const Eigen::MatrixXd& X);
+/// Nothing for a trend of the user's own functions, which no browser knows.
+std::optional<Surface> surface(const kriging::Model& model);
 
 /// d total indices; all zero when the mean is constant. Deterministic.
 Eigen::VectorXd influence(const kriging::Model& model, const doe::Problem& problem);

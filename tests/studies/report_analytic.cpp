@@ -16,31 +16,41 @@ using namespace drawpoint::studies::report_cases;
 namespace {
 
 /// What report/web/kriging.js computes.
-double formula_of_page(const detail::Surface& s, const kriging::Model& model, const Eigen::VectorXd& x) {
-  double mean = model.trend();
+double correlation_of_page(const kriging::CorrelationFunction& f, Eigen::Index k, double h) {
+  const double theta = f.theta[k];
+  if (f.family == kriging::Correlation::gaussian) return std::exp(-theta * h * h);
+  if (f.family == kriging::Correlation::power_exponential)
+    return std::exp(-theta * std::pow(h, f.exponent[k]));
+  const bool once = f.family == kriging::Correlation::matern32;
+  const double u = std::sqrt((once ? 6.0 : 10.0) * theta) * h;
+  return (1.0 + u + (once ? 0.0 : u * u / 3.0)) * std::exp(-u);
+}
+
+double formula_of_page(const detail::Surface& s, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd at = (x - s.centre).cwiseProduct(s.factor);
+  double mean = s.constant;
+  for (std::size_t t = 0; t < s.terms.size(); ++t)
+    mean += s.coefficients[static_cast<Eigen::Index>(t)] * s.terms[t].at(at);
   for (Eigen::Index i = 0; i < s.X.rows(); ++i) {
-    double exponent = 0.0;
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const double at = 2.0 * (x[k] - s.lower[k]) / (s.upper[k] - s.lower[k]) - 1.0;
-      exponent += model.theta()[k] * (at - s.X(i, k)) * (at - s.X(i, k));
-    }
-    mean += s.weights[i] * std::exp(-exponent);
+    double c = 1.0;
+    for (Eigen::Index k = 0; k < x.size(); ++k)
+      c *= correlation_of_page(s.correlation, k, std::abs(at[k] - s.X(i, k)));
+    mean += s.weights[i] * c;
   }
   return mean;
 }
 
 void expect_same_mean(const ReportInput& in, const kriging::Model& model) {
-  const auto found = detail::surface(model, in.problem, in.training.X());
+  const auto found = detail::surface(model);
   ASSERT_TRUE(found);
   const detail::Surface& s = *found;
   const Eigen::MatrixXd points = doe::uniform_random(in.problem, 100, 99);
   const Eigen::VectorXd wanted = model.mean(points);
-  const double range = wanted.maxCoeff() - wanted.minCoeff();
-  // Tikhonov's jitter of 1e-11 moves the means at the runs by 1e-11 times the weights, which a nugget of
-  // 1e-10 and more keeps below 1e10 ranges; smooth responses stay orders below. A colour step of a plot is
-  // 1e-2 of the range.
+  // The same sums in another order: each correlation is good to some d rounding errors, 1e-15, and the last
+  // addition to that of the largest partial sum.
+  const double size = std::abs(s.constant) + s.weights.cwiseAbs().sum() + s.coefficients.cwiseAbs().sum();
   for (Eigen::Index i = 0; i < points.rows(); ++i)
-    EXPECT_NEAR(formula_of_page(s, model, points.row(i).transpose()), wanted[i], 1e-3 * range);
+    EXPECT_NEAR(formula_of_page(s, points.row(i).transpose()), wanted[i], 1e-13 * size);
 }
 
 }  // namespace
@@ -64,12 +74,32 @@ TEST(ReportSurface, ReplicatesOfNoisyRunsAreFine) {
   expect_same_mean(in, kriging::fit(in.training.X(), in.training.y("y0")));
 }
 
-TEST(ReportSurface, RefusesAModelOfOtherRuns) {
+TEST(ReportSurface, EveryCorrelationAndTrendIsDrawn) {
+  const ReportInput in = input(3, 1, 30, 0);
+  kriging::FitOptions options;
+  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::power_exponential,
+                                 kriging::Correlation::matern32, kriging::Correlation::matern52})
+    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear, kriging::Trend::quadratic}) {
+      options.correlation = correlation;
+      options.trend = trend;
+      expect_same_mean(in, kriging::fit(in.training.X(), in.training.y("y0"), options));
+    }
+}
+
+TEST(ReportSurface, AConstantResponseIsDrawnAsSuch) {
+  const ReportInput in = input(2, 1, 10, 0);
+  const kriging::Model model = kriging::fit(in.training.X(), Eigen::VectorXd::Constant(10, 3.0));
+  const auto s = detail::surface(model);
+  ASSERT_TRUE(s);
+  EXPECT_EQ(formula_of_page(*s, Eigen::Vector2d(0.3, 1.7)), 3.0);
+}
+
+TEST(ReportSurface, ATrendOfTheUsersOwnIsNot) {
   const ReportInput in = input(2, 1, 15, 0);
-  const doe::Problem half{{{"x0", "m", 0.0, 0.5}, {"x1", "m", 0.0, 0.5}}, in.problem.responses};
-  const Eigen::MatrixXd X = doe::latin_hypercube(half, 15);
-  const Eigen::VectorXd y = (X.col(0).array() * 40.0).sin() * (X.col(1).array() * 40.0).cos();
-  EXPECT_FALSE(detail::surface(kriging::fit(X, y), in.problem, in.training.X()));
+  kriging::FitOptions options;
+  options.trend = kriging::Trend::user;
+  options.basis.values = [](const Eigen::VectorXd& x) { return Eigen::VectorXd(Eigen::Vector2d(1.0, x[0])); };
+  EXPECT_FALSE(detail::surface(kriging::fit(in.training.X(), in.training.y("y0"), options)));
 }
 
 // f = x0 + 2 x1 on a square: the variances of the terms are 1:4, so the total indices are 0.2 and 0.8.

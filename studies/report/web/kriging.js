@@ -1,18 +1,27 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 // Mean of a fitted model in the browser, so that the sliders need no table of prepared slices:
-//   mean(x) = trend + sum_i w_i exp(-sum_k theta_k (s_k(x) - X_ik)^2),   s_k scales the box to [-1, 1].
+//   mean(x) = constant + sum_t beta_t s_a s_b + sum_i w_i prod_k c_k(|s_k - X_ik|),   s = (x - centre) factor.
 
-export function predictor(surface) {
-  const {lower, upper, theta, trend, weights, X} = surface;
-  const d = theta.length;
+/// By family: the factors of one variable, from its theta, its exponent and the distance.
+const correlations = {
+  gaussian: (theta, _, h) => Math.exp(-theta * h * h),
+  power_exponential: (theta, p, h) => Math.exp(-theta * h ** p),
+  matern32: (theta, _, h) => { const u = Math.sqrt(6 * theta) * h; return (1 + u) * Math.exp(-u); },
+  matern52: (theta, _, h) => { const u = Math.sqrt(10 * theta) * h; return (1 + u + (u * u) / 3) * Math.exp(-u); },
+};
+
+export function predictor({centre, factor, correlation, theta, exponent, X, weights, terms, coefficients, constant}) {
+  const c = correlations[correlation];
+  const d = centre.length;
   return (x) => {
-    const s = x.map((value, k) => (2 * (value - lower[k])) / (upper[k] - lower[k]) - 1);
-    let mean = trend;
+    const s = x.map((value, k) => (value - centre[k]) * factor[k]);
+    let mean = constant;
+    terms.forEach(([a, b], t) => { mean += coefficients[t] * (a < 0 ? 1 : s[a]) * (b < 0 ? 1 : s[b]); });
     for (let i = 0; i < weights.length; ++i) {
-      let distance = 0;
-      for (let k = 0; k < d; ++k) distance += theta[k] * (s[k] - X[i][k]) ** 2;
-      mean += weights[i] * Math.exp(-distance);
+      let product = 1;
+      for (let k = 0; k < d; ++k) product *= c(theta[k], exponent[k], Math.abs(s[k] - X[i][k]));
+      mean += weights[i] * product;
     }
     return mean;
   };
