@@ -3,11 +3,10 @@
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>
-#include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/studies/analysis.hpp>
 #include <drawpoint/studies/facts.hpp>
+#include <drawpoint/studies/front.hpp>
 #include <drawpoint/studies/plan.hpp>
 #include <drawpoint/studies/report/report.hpp>
 
@@ -18,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -202,10 +202,12 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     summary.nrmse[j].second = input.validations[j].nrmse;
   if (has_objective(study.problem)) {
-    input.front =
-        pareto::nsga2(kriging::Surrogates(input.models), study.problem, {.seed = store.identity().seed});
+    ModelFront found = front_of(input.models, study.problem, store.identity().seed);
+    input.front = std::move(found.front);
+    input.polishing = std::move(found.polishing);
   }
   summary.front = static_cast<int>(input.front.X.rows());
+  summary.polishing = input.polishing;
   input.facts = facts(store.identity(), runs);
   for (std::size_t j = 0; j < chosen.size(); ++j)
     input.facts.emplace_back("Model of " + study.problem.responses[j].name, chosen[j]);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/studies/summary.hpp>
 
 #include <cmath>
@@ -7,6 +8,30 @@
 #include <nlohmann/json.hpp>
 
 namespace drawpoint::studies {
+namespace {
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+std::string formatted(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string front_text(const Summary& summary) {
+  const Polishing& polishing = summary.polishing;
+  std::string line = "Pareto front: " + std::to_string(summary.front) + " points";
+  if (!polishing.skipped.empty()) return line + ", not polished: " + polishing.skipped;
+  if (polishing.residual.size() == 0) return line;
+  line += ", " + std::to_string(polishing.certified()) + " certified (KKT residual at most " +
+          doe::detail::number_text(certified_residual) + ")";
+  if (!std::isfinite(polishing.gain)) return line;
+  return line + "; polishing added " + formatted("%.2f", polishing.gain) + " % of hypervolume";
+}
+
+}  // namespace
 
 std::string json_line(const Summary& summary) {
   nlohmann::ordered_json line = {{"study", summary.study},
@@ -16,9 +41,14 @@ std::string json_line(const Summary& summary) {
                                  {"failed", summary.failed}};
   line["nrmse"] = nlohmann::ordered_json::object();
   for (const auto& [response, value] : summary.nrmse) {
-    line["nrmse"][response] = std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+    line["nrmse"][response] = number_or_null(value);
   }
   line["front"] = summary.front;
+  const Polishing& polishing = summary.polishing;
+  line["certified"] = polishing.residual.size() > 0 ? nlohmann::ordered_json(polishing.certified())
+                                                    : nlohmann::ordered_json();
+  line["polishing_gain_percent"] = number_or_null(polishing.gain);
+  if (!polishing.skipped.empty()) line["not_polished"] = polishing.skipped;
   line["report"] =
       summary.report.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.report.string());
   if (!summary.error.empty()) line["error"] = summary.error;
@@ -30,13 +60,11 @@ std::string text(const Summary& summary) {
                        std::to_string(summary.validation) + " validation runs, " +
                        std::to_string(summary.failed) + " failed\n";
   for (const auto& [response, value] : summary.nrmse) {
-    char number[32];
-    std::snprintf(number, sizeof number, std::isfinite(value) ? "%.4f" : "unknown", value);
+    const std::string number = std::isfinite(value) ? formatted("%.4f", value) : "unknown";
     result += "  NRMSE of " + response + ": " + number + "\n";
   }
   if (!summary.report.empty()) {
-    result += "Pareto front: " + std::to_string(summary.front) +
-              " points\nreport: " + summary.report.string() + "\n";
+    result += front_text(summary) + "\nreport: " + summary.report.string() + "\n";
   }
   return result;
 }

@@ -3,6 +3,8 @@
 #pragma once
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
+#include <drawpoint/studies/polishing.hpp>
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -16,12 +18,15 @@ struct Summary {
   int failed = 0;                                          ///< of both kinds
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
+  Polishing polishing = {};                                ///< of the front
   std::filesystem::path report = {};                       ///< empty if there is none
   std::string error = {};                                  ///< why there is none
 };
 
 /// {"study", "runs", "training", "validation", "failed", "nrmse": {response: number or null}, "front",
-/// "report": path or null}, and "error" if there is one. `runs` counts the rows of the store's table.
+/// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and
+/// "not_polished" and "error", which say why, if there is something to say. `runs` counts the rows of the
+/// store's table.
 std::string json_line(const Summary& summary);
 
 /// Several lines, each with its end.

@@ -85,6 +85,15 @@ json to_json(const kriging::Model& model, const kriging::Validation& v) {
           {"sd", to_json(deviation_of_runs(model, v))}};
 }
 
+/// A residual is null where it is unknown.
+json to_json(const Polishing& polishing) {
+  return {{"residual", to_json(polishing.residual)},
+          {"certified", polishing.certified()},
+          {"tolerance", certified_residual},
+          {"gain", polishing.gain},
+          {"skipped", polishing.skipped}};
+}
+
 json to_json(const doe::Problem& problem, const pareto::Front& front) {
   return {{"objectives", objectives(problem)},
           {"X", to_json(front.X)},
@@ -144,6 +153,10 @@ void check_results(const ReportInput& input) {
                  f.Y.cols() != static_cast<Eigen::Index>(objectives(input.problem).size()) ||
                  f.X.cols() != static_cast<Eigen::Index>(input.problem.variables.size())))
     reject("the front does not belong to the problem; give what the search on this problem returned");
+  const Eigen::Index residuals = input.polishing.residual.size();
+  if (residuals != 0 && residuals != f.X.rows())
+    reject(std::to_string(residuals) + " residuals for " + std::to_string(f.X.rows()) +
+           " points of the front; give one each or none");
 }
 
 }  // namespace
@@ -178,6 +191,7 @@ json report_data(const ReportInput& input) {
           {"models", std::move(models)},
           {"validations", std::move(validations)},
           {"front", to_json(input.problem, input.front)},
+          {"polishing", to_json(input.polishing)},
           {"influence", std::move(shares)},
           {"main_pair", main_pair(input.problem.variables.size(), effects)},
           {"illustrations", std::move(panels)},

@@ -21,7 +21,8 @@
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <drawpoint/pareto/nsga2.hpp>
+#include <drawpoint/pareto/search.hpp>
+#include <drawpoint/studies/polishing.hpp>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -38,6 +39,7 @@ struct ReportInput {
   std::vector<kriging::Model> models;  ///< one a response, in order; empty when none could be fitted
   std::vector<kriging::Validation> validations;  ///< one a response, in order; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
+  Polishing polishing;                           ///< of the front
   nlohmann::json illustrations =
       nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions

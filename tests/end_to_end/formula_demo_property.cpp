@@ -37,6 +37,8 @@ TEST_F(FormulaDemo, DoesTheWholeJob) {
     EXPECT_GT(nrmse.get<double>(), 0.0) << response;
   }
   EXPECT_GE(line["front"].get<int>(), 20);
+  EXPECT_GT(line["certified"].get<int>(), line["front"].get<int>() / 2);
+  EXPECT_GE(line["polishing_gain_percent"].get<double>(), 0.0);
   EXPECT_EQ(line["report"], (dir() / "report.html").string());
   EXPECT_TRUE(contains(contents(dir() / "report.html"), "</html>"));
   EXPECT_EQ(count("status = 'done'"), 52);

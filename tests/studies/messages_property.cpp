@@ -53,7 +53,8 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
                         .validation = 10,
                         .failed = 2,
                         .nrmse = {{"production", 0.0625}, {"spill", std::nan("")}},
-                        .front = 200,
+                        .front = 3,
+                        .polishing = {.residual = Eigen::Vector3d(1e-9, 1e-6, std::nan("")), .gain = 0.25},
                         .report = "/a \"b\"/report.html"};
   const std::string line = json_line(summary);
   EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -62,9 +63,37 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   EXPECT_EQ(data["failed"], 2);
   EXPECT_EQ(data["nrmse"]["production"], 0.0625);
   EXPECT_TRUE(data["nrmse"]["spill"].is_null());
-  EXPECT_EQ(data["front"], 200);
+  EXPECT_EQ(data["front"], 3);
+  EXPECT_EQ(data["certified"], 2);
+  EXPECT_EQ(data["polishing_gain_percent"], 0.25);
+  EXPECT_FALSE(data.contains("not_polished"));
   EXPECT_EQ(data["report"], "/a \"b\"/report.html");
   EXPECT_FALSE(data.contains("error"));
+}
+
+TEST(Text, TellsTheCertificateOfTheFront) {
+  Summary summary{.study = "s", .front = 2, .report = "/r.html"};
+  const auto line = [&] {
+    const std::string all = text(summary);
+    const std::size_t begin = all.find("Pareto front");
+    return all.substr(begin, all.find('\n', begin) - begin);
+  };
+  EXPECT_EQ(line(), "Pareto front: 2 points");
+  summary.polishing = {.residual = Eigen::Vector2d(1e-9, 0.1), .gain = 0.423};
+  EXPECT_EQ(line(),
+            "Pareto front: 2 points, 1 certified (KKT residual at most 1e-06); polishing added 0.42 % of "
+            "hypervolume");
+  summary.polishing.gain = std::nan("");
+  EXPECT_EQ(line(), "Pareto front: 2 points, 1 certified (KKT residual at most 1e-06)");
+}
+
+TEST(Text, SaysWhyAFrontIsNotPolished) {
+  const Summary summary{.study = "s", .front = 2, .polishing = {.skipped = "six objectives"}, .report = "/r"};
+  EXPECT_NE(text(summary).find("Pareto front: 2 points, not polished: six objectives\n"), std::string::npos);
+  const auto data = nlohmann::json::parse(json_line(summary));
+  EXPECT_TRUE(data["certified"].is_null());
+  EXPECT_TRUE(data["polishing_gain_percent"].is_null());
+  EXPECT_EQ(data["not_polished"], "six objectives");
 }
 
 TEST(JsonLine, WithoutAReportSaysWhy) {

@@ -113,6 +113,26 @@ TEST_F(Report, WithoutValidationRunsNothingIsCalledGood) {
   for (const auto& verdict : data.at("summary").at("trust")) EXPECT_EQ(verdict.at("grade"), "unknown");
 }
 
+TEST_F(Report, CarriesTheCertificateOfEveryPoint) {
+  ReportInput in = input(2, 2, 8, 0);
+  EXPECT_TRUE(written(in).at("polishing").at("residual").empty());
+  in.polishing.residual = Eigen::VectorXd::Constant(8, 1e-9);
+  in.polishing.residual[3] = std::nan("");
+  in.polishing.gain = 0.4;
+  const auto polishing = written(in).at("polishing");
+  EXPECT_EQ(polishing.at("certified"), 7);
+  EXPECT_TRUE(polishing.at("residual").at(3).is_null());
+  EXPECT_EQ(polishing.at("gain"), 0.4);
+  in.polishing.residual.resize(5);
+  try {
+    written(in);
+    FAIL() << "5 residuals for 8 points were taken";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(e.what(),
+                 "studies::write_report: 5 residuals for 8 points of the front; give one each or none");
+  }
+}
+
 TEST_F(Report, SaysThatAllRunsFailed) {
   const auto data = written(failed_input());
   EXPECT_TRUE(data.at("models").empty());

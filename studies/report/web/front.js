@@ -20,8 +20,16 @@ export function tradeOffs(data, chosen) {
 function lead(data, objectives) {
   if (!objectives.length) return 'The study names no response to minimize or maximize, so there is nothing to search for.';
   if (!data.front.X.length) return 'There is no front: the surrogates could not be fitted or searched.';
-  if (objectives.length === 1) return `The surrogate was searched for the best ${pretty(objectives[0].name)}.`;
-  return `${data.front.X.length} points that the surrogates cannot improve in one objective without losing in another (the Pareto front). They are predictions: confirm a point by simulating it before relying on it.`;
+  if (objectives.length === 1) return `The surrogate was searched for the best ${pretty(objectives[0].name)}.${certificate(data.polishing)}`;
+  return `${data.front.X.length} points that the surrogates cannot improve in one objective without losing in another (the Pareto front).${certificate(data.polishing)} All are predictions: confirm a point by simulating it before relying on it.`;
+}
+
+/// Which points meet the conditions of an optimum, and what it took. Of the surrogates, so no promise for the simulation.
+function certificate({residual, certified, tolerance, gain, skipped}) {
+  if (skipped) return ` The search was not finished with gradients: ${skipped}.`;
+  if (!residual.length) return '';
+  const added = gain === null ? '' : ` Finishing the search with gradients added ${number(gain, 2)} % of hypervolume.`;
+  return ` ${certified} of ${residual.length} are certified: they meet the first-order conditions of an optimum of the surrogates (KKT residual at most ${tolerance.toExponential(0)}).${added}`;
 }
 
 function pairs(count) {
@@ -78,8 +86,10 @@ const goal = (response) => axisLabel(response) + (response.goal === 'maximize' ?
 
 function pointTable(data, objectives, chosen) {
   const items = [...objectives, ...data.problem.variables];
-  const columns = [{title: 'Point', format: String}, ...items.map((item) => ({title: labelled(item), format: number}))];
-  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i], ...x]);
+  const {residual} = data.polishing;
+  const certificates = residual.length ? [{title: 'KKT residual', format: (value) => number(value, 2)}] : [];
+  const columns = [{title: 'Point', format: String}, ...items.map((item) => ({title: labelled(item), format: number})), ...certificates];
+  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i], ...x, ...residual.slice(i, i + 1)]);
   const detail = el('p', {class: 'note'});
   const {node, select: mark} = table(columns, rows, {onselect: (i) => chosen.select(chosen.selected === i ? -1 : i), tall: true});
   const update = () => {

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/kriging/surrogates.hpp>
+#include <drawpoint/pareto/dominance.hpp>
+#include <drawpoint/pareto/filter.hpp>
+#include <drawpoint/pareto/hypervolume.hpp>
+#include <drawpoint/pareto/nsga2.hpp>
+#include <drawpoint/pareto/polish.hpp>
+#include <drawpoint/studies/front.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+/// The means of the models with their gradients, as polish takes them.
+struct SmoothMeans {
+  const std::vector<kriging::Model>& models;
+
+  pareto::ValueAndJacobian operator()(const Eigen::VectorXd& x) const {
+    const auto r = static_cast<Eigen::Index>(models.size());
+    pareto::ValueAndJacobian y{Eigen::VectorXd(r), Eigen::MatrixXd(r, x.size())};
+    for (Eigen::Index j = 0; j < r; ++j) {
+      const kriging::Model& model = models[static_cast<std::size_t>(j)];
+      y.values[j] = model(x);
+      y.jacobian.row(j) = model.mean_gradient(x).transpose();
+    }
+    return y;
+  }
+};
+
+/// Empty when the front can be polished.
+std::string why_not(const doe::Problem& problem, const pareto::Front& front) {
+  for (const auto& variable : problem.variables) {
+    if (variable.kind == doe::VariableKind::real) continue;
+    return "variable \"" + variable.name + "\" is " + std::string(to_string(variable.kind)) +
+           ", and polishing follows gradients";
+  }
+  if (front.Y.cols() <= most_polished_objectives) return "";
+  return std::to_string(front.Y.cols()) + " objectives, and the hypervolume of more than " +
+         std::to_string(most_polished_objectives) + " takes too long";
+}
+
+/// The objectives of a front, minimised.
+Eigen::MatrixXd minimised(const pareto::Front& front, const doe::Problem& problem) {
+  Eigen::MatrixXd Y = front.Y;
+  Eigen::Index column = 0;
+  for (const auto& response : problem.responses) {
+    if (!doe::is_objective(response.goal)) continue;
+    if (response.goal == doe::Goal::maximize) Y.col(column) *= -1.0;
+    ++column;
+  }
+  return Y;
+}
+
+Eigen::MatrixXd stacked(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
+  Eigen::MatrixXd all(top.rows() + bottom.rows(), top.cols());
+  all << top, bottom;
+  return all;
+}
+
+ModelFront joined(const ModelFront& a, const ModelFront& b) {
+  ModelFront all = a;
+  all.front.X = stacked(a.front.X, b.front.X);
+  all.front.Y = stacked(a.front.Y, b.front.Y);
+  all.front.responses = stacked(a.front.responses, b.front.responses);
+  all.polishing.residual = stacked(a.polishing.residual, b.polishing.residual);
+  return all;
+}
+
+bool meets_limits(const Eigen::VectorXd& y, const doe::Problem& problem) {
+  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
+    const auto& response = problem.responses[j];
+    const double value = y[static_cast<Eigen::Index>(j)];
+    if (response.goal == doe::Goal::at_most && value > response.limit) return false;
+    if (response.goal == doe::Goal::at_least && value < response.limit) return false;
+  }
+  return true;
+}
+
+/// x with what lies within 1e-7 of the range of a bound on the bound.
+Eigen::VectorXd on_bounds(Eigen::VectorXd x, const doe::Problem& problem) {
+  for (std::size_t k = 0; k < problem.variables.size(); ++k) {
+    const auto& v = problem.variables[k];
+    double& value = x[static_cast<Eigen::Index>(k)];
+    const double near = 1e-7 * (v.upper - v.lower);
+    if (value - v.lower <= near) value = v.lower;
+    if (v.upper - value <= near) value = v.upper;
+  }
+  return x;
+}
+
+/// Ipopt stays about 1e-8 of the range away from the bounds that hold it, and searches end as near. Nobody
+/// wants to read that, or both beside each other.
+void put_on_bounds(pareto::Front& front, const SmoothMeans& means, const doe::Problem& problem) {
+  for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
+    const Eigen::VectorXd x = front.X.row(i).transpose(), there = on_bounds(x, problem);
+    if (there == x) continue;
+    const Eigen::VectorXd y = means(there).values;
+    if (!meets_limits(y, problem)) continue;
+    front.X.row(i) = there.transpose();
+    front.responses.row(i) = y.transpose();
+  }
+  Eigen::Index column = 0;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
+    if (doe::is_objective(problem.responses[j].goal))
+      front.Y.col(column++) = front.responses.col(static_cast<Eigen::Index>(j));
+  }
+}
+
+/// What no other dominates, in lexicographic order, equal points once.
+ModelFront best_of(const ModelFront& all, const doe::Problem& problem) {
+  Eigen::MatrixXd keys(all.front.X.rows(), all.front.Y.cols() + all.front.X.cols());
+  keys << minimised(all.front, problem), all.front.X;
+  std::vector<int> rows = pareto::non_dominated(keys.leftCols(all.front.Y.cols()));
+  std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) {
+    return std::lexicographical_compare(keys.row(a).begin(), keys.row(a).end(), keys.row(b).begin(),
+                                        keys.row(b).end());
+  });
+  const auto equal = [&](int a, int b) { return keys.row(a) == keys.row(b); };
+  rows.erase(std::unique(rows.begin(), rows.end(), equal), rows.end());
+  ModelFront best{.front = pareto::part_of(all.front, rows), .polishing = {}};
+  best.polishing.residual = all.polishing.residual(rows);
+  return best;
+}
+
+/// The points that are not certified, and the ends of every response's range, by which polish scales.
+std::vector<int> rows_to_try_again(const ModelFront& polished) {
+  std::vector<int> rows;
+  for (Eigen::Index i = 0; i < polished.front.X.rows(); ++i) {
+    if (!(polished.polishing.residual[i] <= certified_residual)) rows.push_back(static_cast<int>(i));
+  }
+  if (rows.empty()) return rows;
+  for (Eigen::Index j = 0; j < polished.front.responses.cols(); ++j) {
+    Eigen::Index least = 0, most = 0;
+    polished.front.responses.col(j).minCoeff(&least);
+    polished.front.responses.col(j).maxCoeff(&most);
+    rows.insert(rows.end(), {static_cast<int>(least), static_cast<int>(most)});
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+ModelFront arrived_points(const pareto::Polished& polished) {
+  std::vector<int> rows;
+  for (Eigen::Index i = 0; i < polished.residual.size(); ++i) {
+    if (polished.residual[i] <= certified_residual) rows.push_back(static_cast<int>(i));
+  }
+  ModelFront arrived{.front = pareto::part_of(polished.front, rows), .polishing = {}};
+  arrived.polishing.residual = polished.residual(rows);
+  return arrived;
+}
+
+/// All points met on the way from a searched front to the polished one.
+ModelFront polished_points(const pareto::Polished& first, const pareto::Front& searched,
+                           const SmoothMeans& means, const doe::Problem& problem) {
+  ModelFront before{.front = searched, .polishing = {.residual = first.residual_before}};
+  ModelFront after{.front = first.front, .polishing = {.residual = first.residual}};
+  put_on_bounds(before.front, means, problem);
+  put_on_bounds(after.front, means, problem);
+  const std::vector<int> rows = rows_to_try_again(after);
+  if (rows.empty()) return joined(before, after);
+  const pareto::Polished second =
+      pareto::polish(means, problem, pareto::part_of(after.front, rows),
+                     {.form = pareto::ScalarForm::epsilon_constraint, .iterations = 40});
+  ModelFront arrived = arrived_points(second);
+  put_on_bounds(arrived.front, means, problem);
+  return joined(joined(before, after), arrived);
+}
+
+/// Added to the hypervolume up to the reference [%]; NaN when there was none.
+double gain_of(const pareto::Front& before, const pareto::Front& after, const doe::Problem& problem,
+               const Eigen::VectorXd& reference) {
+  pareto::Front worst;
+  worst.Y = reference.transpose();
+  const Eigen::VectorXd corner = minimised(worst, problem).transpose();
+  const double was = pareto::hypervolume(minimised(before, problem), corner);
+  if (!(was > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return 100.0 * (pareto::hypervolume(minimised(after, problem), corner) / was - 1.0);
+}
+
+}  // namespace
+
+ModelFront finished(const pareto::Front& searched, const std::vector<kriging::Model>& models,
+                    const doe::Problem& problem) {
+  if (searched.X.rows() == 0) return {.front = searched, .polishing = {}};
+  if (const std::string reason = why_not(problem, searched); !reason.empty())
+    return {.front = searched, .polishing = {.skipped = reason}};
+  const SmoothMeans means{models};
+  const pareto::Polished first = pareto::polish(means, problem, searched);
+  ModelFront result = best_of(polished_points(first, searched, means, problem), problem);
+  if (searched.Y.cols() == 1)
+    result.polishing.residual.resize(0);
+  else
+    result.polishing.gain = gain_of(searched, result.front, problem, first.reference);
+  return result;
+}
+
+ModelFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem, doe::Seed seed) {
+  return finished(pareto::nsga2(kriging::Surrogates(models), problem, {.seed = seed}), models, problem);
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// Fronts of models that are exact: a quadratic trend holds a quadratic response to rounding, so the front of
+/// the models is that of the formulas.
+
+#include <gtest/gtest.h>
+
+#include <drawpoint/doe/latin_hypercube.hpp>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/surrogates.hpp>
+#include <drawpoint/pareto/dominance.hpp>
+#include <drawpoint/pareto/hypervolume.hpp>
+#include <drawpoint/pareto/nsga2.hpp>
+#include <drawpoint/studies/front.hpp>
+#include <drawpoint/tests/doe/problems.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace drawpoint::studies {
+namespace {
+
+using doe::Goal;
+using Formula = std::function<double(const Eigen::VectorXd&)>;
+
+/// |x - a|² and |x - b|² over the unit cube, minimised: the Pareto set is the segment from a to b.
+const Eigen::Vector3d a(0.2, 0.3, 0.5), b(0.8, 0.6, 0.4);
+double near_a(const Eigen::VectorXd& x) { return (x - a).squaredNorm(); }
+double near_b(const Eigen::VectorXd& x) { return (x - b).squaredNorm(); }
+
+double distance_to_segment(const Eigen::Vector3d& x) {
+  const double along = (x - a).dot(b - a) / (b - a).squaredNorm();
+  return (x - a - std::clamp(along, 0.0, 1.0) * (b - a)).norm();
+}
+
+std::vector<kriging::Model> exact_models(const doe::Problem& problem, const std::vector<Formula>& formulas) {
+  const Eigen::MatrixXd X = doe::latin_hypercube(problem, 30);
+  kriging::FitOptions options;
+  options.trend = kriging::Trend::quadratic;
+  std::vector<kriging::Model> models;
+  for (const auto& formula : formulas) {
+    Eigen::VectorXd y(X.rows());
+    for (Eigen::Index i = 0; i < X.rows(); ++i) y[i] = formula(X.row(i).transpose());
+    models.push_back(kriging::fit(X, y, options));
+  }
+  return models;
+}
+
+pareto::Front searched(const std::vector<kriging::Model>& models, const doe::Problem& problem) {
+  return pareto::nsga2(kriging::Surrogates(models), problem,
+                       {.population = 60, .stopping = {.generations = 60}, .seed = 3});
+}
+
+double median_distance(const Eigen::MatrixXd& X) {
+  std::vector<double> distances;
+  for (Eigen::Index i = 0; i < X.rows(); ++i) distances.push_back(distance_to_segment(X.row(i).transpose()));
+  std::sort(distances.begin(), distances.end());
+  return distances[distances.size() / 2];
+}
+
+// The models' gradients are those of the formulas to about 1e-9 (a correlated rest of rounding, 1e-16 of the
+// response, at the smallest length scale 0.01, times the condition of 30 runs). Where λ1 ∇F1 + λ2 ∇F2 has the
+// length ρ max |∇F|, ∇F = 2(x - a)/R1 and 2(x - b)/R2 with the ranges R: the distance to the segment's line
+// is at most ρ max |x - a or b| max R / min R. The ends of a searched front miss a and b by far less than
+// half the range, so the ratio is below 2, and |x - a or b| < 1: the distance is below 2 ρ, ρ the certified
+// residual.
+TEST(Front, CertifiedPointsLieOnTheKnownSet) {
+  const doe::Problem problem = support::unit_problem(3, 2);
+  const auto models = exact_models(problem, {near_a, near_b});
+  const pareto::Front before = searched(models, problem);
+  const ModelFront after = finished(before, models, problem);
+  ASSERT_EQ(after.polishing.residual.size(), after.front.X.rows());
+  EXPECT_GT(median_distance(before.X), 1e-3);  // a search alone does not get there
+  for (Eigen::Index i = 0; i < after.front.X.rows(); ++i) {
+    if (after.polishing.residual[i] > certified_residual) continue;
+    EXPECT_LE(distance_to_segment(after.front.X.row(i).transpose()), 2.0 * certified_residual);
+  }
+  // The problem is convex, so nothing can hold Ipopt up: every point arrives.
+  EXPECT_EQ(after.polishing.certified(), after.front.X.rows());
+  EXPECT_EQ(after.polishing.skipped, "");
+}
+
+TEST(Front, NothingGetsWorse) {
+  const doe::Problem problem = support::unit_problem(3, 2);
+  const auto models = exact_models(problem, {near_a, near_b});
+  const pareto::Front before = searched(models, problem);
+  const ModelFront after = finished(before, models, problem);
+  EXPECT_EQ(pareto::non_dominated(after.front.Y).size(), static_cast<std::size_t>(after.front.Y.rows()));
+  for (Eigen::Index i = 0; i < before.Y.rows(); ++i) {
+    const auto as_good = (after.front.Y.rowwise() - before.Y.row(i)).rowwise().maxCoeff().minCoeff();
+    EXPECT_LE(as_good, 0.0) << "row " << i;
+  }
+  const Eigen::VectorXd worst = before.Y.colwise().maxCoeff(), best = before.Y.colwise().minCoeff();
+  const Eigen::VectorXd reference = worst + 0.1 * (worst - best);
+  const double was = pareto::hypervolume(before.Y, reference),
+               is = pareto::hypervolume(after.front.Y, reference);
+  EXPECT_GT(is, was);
+  // The volumes are sums of 120 boxes, so their ratio is good to 1e-13.
+  EXPECT_NEAR(after.polishing.gain, 100.0 * (is / was - 1.0), 1e-10);
+}
+
+// With a and b moved out of the box the set lies on its face x2 = 0, where the gradients of both point out.
+TEST(Front, PointsEndOnTheBoundThatHoldsThem) {
+  const doe::Problem problem = support::unit_problem(3, 2);
+  const Eigen::Vector3d shift(0.0, 0.0, -0.7);
+  const auto models =
+      exact_models(problem, {[&](const Eigen::VectorXd& x) { return (x - a - shift).squaredNorm(); },
+                             [&](const Eigen::VectorXd& x) { return (x - b - shift).squaredNorm(); }});
+  const ModelFront found = front_of(models, problem, 1);
+  EXPECT_GT(found.polishing.certified(), found.front.X.rows() / 2);
+  for (Eigen::Index i = 0; i < found.front.X.rows(); ++i) {
+    if (found.polishing.residual[i] > certified_residual) continue;
+    EXPECT_EQ(found.front.X(i, 2), 0.0);
+  }
+}
+
+// Maximise 1 - |x - a|², keep |x - b|² at least 0.6 (a itself has 0.46), minimise x0: limits and signs in
+// natural units.
+TEST(Front, LimitsHold) {
+  doe::Problem problem = support::unit_problem(3, 3);
+  problem.responses[0].goal = Goal::maximize;
+  problem.responses[1] = {"room", "1", Goal::at_least, 0.6};
+  const auto models = exact_models(problem, {[](const Eigen::VectorXd& x) { return 1.0 - near_a(x); }, near_b,
+                                             [](const Eigen::VectorXd& x) { return x[0]; }});
+  const pareto::Front before = searched(models, problem);
+  const ModelFront after = finished(before, models, problem);
+  EXPECT_GE(after.front.responses.col(1).minCoeff(), 0.6);
+  EXPECT_EQ(after.front.Y.col(0), after.front.responses.col(0));
+  EXPECT_EQ(after.front.Y.col(1), after.front.responses.col(2));
+  EXPECT_GT(after.polishing.gain, 0.0);
+  EXPECT_GT(after.polishing.certified(), after.front.X.rows() / 2);
+}
+
+TEST(Front, WholeNumbersStayAsSearched) {
+  doe::Problem problem = support::unit_problem(3, 2);
+  problem.variables[1] = doe::integer_variable("teeth", "1", 0, 1);
+  const auto models = exact_models(support::unit_problem(3, 2), {near_a, near_b});
+  const pareto::Front before = searched(models, problem);
+  const ModelFront after = finished(before, models, problem);
+  EXPECT_EQ(after.front.X, before.X);
+  EXPECT_EQ(after.polishing.residual.size(), 0);
+  EXPECT_EQ(after.polishing.skipped, "variable \"teeth\" is integer, and polishing follows gradients");
+}
+
+TEST(Front, ManyObjectivesStayAsSearched) {
+  const doe::Problem problem = support::unit_problem(3, most_polished_objectives + 1);
+  const auto models = exact_models(
+      problem, std::vector<Formula>(problem.responses.size(), [](const auto& x) { return x[0]; }));
+  EXPECT_EQ(finished(searched(models, problem), models, problem).polishing.skipped,
+            "6 objectives, and the hypervolume of more than 5 takes too long");
+}
+
+TEST(Front, OneObjectiveEndsAtItsMinimum) {
+  const doe::Problem problem = support::unit_problem(3, 1);
+  const ModelFront best = front_of(exact_models(problem, {near_a}), problem, 1);
+  ASSERT_EQ(best.front.X.rows(), 1);
+  EXPECT_EQ(best.polishing.residual.size(), 0);
+  EXPECT_TRUE(std::isnan(best.polishing.gain));
+  // Ipopt's error of 1e-9 is that of the gradient 2 (x - a), augmentation and rounding far below.
+  EXPECT_LE((best.front.X.row(0).transpose() - a).norm(), 1e-8);
+}
+
+TEST(Front, WithoutAFeasiblePointThereIsNothingToPolish) {
+  doe::Problem problem = support::unit_problem(3, 2);
+  problem.responses[1] = {"far", "1", Goal::at_least, 10.0};
+  const ModelFront none = front_of(exact_models(problem, {near_a, near_b}), problem, 1);
+  EXPECT_EQ(none.front.X.rows(), 0);
+  EXPECT_EQ(none.polishing.skipped, "");
+  EXPECT_EQ(none.polishing.residual.size(), 0);
+}
+
+}  // namespace
+}  // namespace drawpoint::studies
