@@ -17,7 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
@@ -26,6 +26,7 @@
 #include <vector>
 
 using namespace drawpoint::kriging;
+using drawpoint::benchmarks::cpu_seconds;
 
 namespace {
 
@@ -40,12 +41,6 @@ constexpr Known known[] = {{"branin4", 100, -10.60608, .020796},  {"ishigami4", 
                            {"ishigami4", 500, 1172.880, 1.15e-3}, {"noisy4", 500, 10.67262, .010411},
                            {"branin4", 2000, 13531.7, 2.82e-5},   {"ishigami4", 2000, 12166.9, 9.97e-5},
                            {"noisy4", 2000, 198.63849, .0058457}};
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
