@@ -11,6 +11,7 @@
 /// report says so.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <drawpoint/kriging/cholesky.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <stdexcept>
@@ -41,14 +42,14 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
   if (runs.X.rows() != runs.y.size())
     reject("X has " + std::to_string(runs.X.rows()) + " rows but y has " + std::to_string(runs.y.size()) +
            " entries; give one response a run");
-  if (!runs.X.allFinite() || !runs.y.allFinite())
+  if (!all_finite(runs.X) || !all_finite(runs.y))
     reject("X or y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
   const Eigen::Index wanted = s.noise.size() ? runs.y.size() : 0;
   if (runs.noise_variance.size() != wanted)
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +
            std::to_string(wanted) +
            "; give one a run when the model was fitted with noise variances, else none");
-  if (!(runs.noise_variance.array() >= 0).all())
+  if (!std::all_of(runs.noise_variance.begin(), runs.noise_variance.end(), [](double v) { return v >= 0; }))
     reject("noise_variance holds a number below 0 or NaN; allowed are numbers from 0 on; give variances");
 }
 
@@ -59,14 +60,16 @@ inline Eigen::MatrixXd corner_factor(const Eigen::MatrixXd& corner, double& rais
   while (!factor(block_of(L), 1)) {
     raised = raised > 0 ? 10 * raised : 1e-12;
     L = corner;
-    L.diagonal().array() += raised;
+    add_to_diagonal(L, raised);
   }
-  return L.triangularView<Eigen::Lower>();
+  clear_upper(L);
+  return L;
 }
 
 inline Eigen::MatrixXd stacked(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
   Eigen::MatrixXd all(top.rows() + bottom.rows(), top.cols());
-  all << top, bottom;
+  all.topRows(top.rows()) = top;
+  all.bottomRows(bottom.rows()) = bottom;
   return all;
 }
 
@@ -77,7 +80,8 @@ inline double extend_factor(ModelState& s) {
   Eigen::MatrixXd side = cross_correlation(added, s.X.topRows(n), s.correlation), corner;
   solve_right(block_of(s.L), block_of(side));
   fill_correlation(added, s.correlation, corner);
-  corner.diagonal() += added_noise(s).tail(m);
+  const Eigen::VectorXd noise = added_noise(s);
+  for (Eigen::Index i = 0; i < m; ++i) corner(i, i) += noise[n + i];
   add_product(block_of(side), block_of(side), -1.0, block_of(corner), Part::lower);
   double raised = 0;
   const Eigen::MatrixXd last = corner_factor(corner, raised);
@@ -101,9 +105,9 @@ inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::V
   const Eigen::MatrixXd scaled = s.input.apply(X);
   s.F = detail::stacked(s.F, detail::trend_matrix(s.trend, X, scaled, s.input));
   s.X = detail::stacked(s.X, scaled);
-  s.y = detail::stacked(s.y, (y.array() - s.y_centre) / s.y_scale);
+  s.y = detail::stacked(s.y, detail::affine(detail::affine(y, 1.0, -s.y_centre), 1.0 / s.y_scale));
   s.observed = detail::stacked(s.observed, y);
-  if (s.noise.size()) s.noise = detail::stacked(s.noise, noise_variance / s.noise_unit);
+  if (s.noise.size()) s.noise = detail::stacked(s.noise, detail::affine(noise_variance, 1.0 / s.noise_unit));
   const double raised = detail::extend_factor(s);
   detail::estimate(s);
   s.report.message += "; " + std::to_string(y.size()) + " runs appended without a new fit";

@@ -30,13 +30,14 @@ namespace drawpoint::kriging::detail {
 inline Eigen::VectorXd diagonal_of_P(const ModelState& s) {
   Eigen::MatrixXd L = s.L, X;
   inverse_transposed(L, X);
-  return X.rowwise().squaredNorm() - s.gls.B.rowwise().squaredNorm();
+  Eigen::VectorXd P = row_squares(X);
+  add_scaled(P.data(), -1.0, row_squares(s.gls.B).data(), P.size());
+  return P;
 }
 
 /// Root mean square of the leave-one-out errors, standardised.
 inline double leave_one_out_error(const ModelState& s) {
-  return std::sqrt(s.gls.alpha.cwiseQuotient(diagonal_of_P(s)).squaredNorm() /
-                   static_cast<double>(s.y.size()));
+  return std::sqrt(square(entry_quotients(s.gls.alpha, diagonal_of_P(s))) / static_cast<double>(s.y.size()));
 }
 
 /// P and P y, and what a further term makes of them.
@@ -46,19 +47,22 @@ struct Projection {
 
   /// Σ eᵢ² with the term f; +∞ when the trend has it already.
   double error_with(const Eigen::VectorXd& f) const {
-    const Eigen::VectorXd Pf = P * f;
-    const double size = f.dot(Pf);
-    if (!(size > 1e-8 * f.squaredNorm() * P.diagonal().minCoeff()))
-      return std::numeric_limits<double>::infinity();
-    const Eigen::ArrayXd residual = Py.array() - Pf.array() * (f.dot(Py) / size);
-    return (residual / (P.diagonal().array() - Pf.array().square() / size)).square().sum();
+    const Eigen::VectorXd Pf = product(P, f), p = diagonal(P);
+    const double size = dot(f, Pf), share = dot(f, Py) / size;
+    if (!(size > 1e-8 * square(f) * smallest_entry(p))) return std::numeric_limits<double>::infinity();
+    double sum = 0;
+    for (Index i = 0; i < f.size(); ++i) {
+      const double error = (Py[i] - Pf[i] * share) / (p[i] - Pf[i] * Pf[i] / size);
+      sum += error * error;
+    }
+    return sum;
   }
 
   void add(const Eigen::VectorXd& f) {
-    const Eigen::VectorXd Pf = P * f;
-    const double size = f.dot(Pf);
-    Py -= Pf * (f.dot(Py) / size);
-    P -= Pf * (Pf.transpose() / size);
+    const Eigen::VectorXd Pf = product(P, f);
+    const double size = dot(f, Pf);
+    add_scaled(Py.data(), -dot(f, Py) / size, Pf.data(), Py.size());
+    add_outer(P, -1.0 / size, Pf, Pf);
   }
 };
 
@@ -66,8 +70,9 @@ inline Projection projection_of(const ModelState& s) {
   Eigen::MatrixXd L = s.L, X, K;
   inverse_transposed(L, X);
   product_of_upper(X, K);
-  K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
-  return {K - s.gls.B * s.gls.B.transpose(), s.gls.alpha};
+  add_product(block_of(s.gls.B), block_of(s.gls.B), -1.0, block_of(K), Part::lower);
+  mirror_lower(K);
+  return {K, s.gls.alpha};
 }
 
 inline Eigen::VectorXd column_of(const TrendTerm& term, const Eigen::MatrixXd& X) {
@@ -80,7 +85,7 @@ inline Eigen::VectorXd column_of(const TrendTerm& term, const Eigen::MatrixXd& X
 inline std::vector<TrendTerm> blind_terms(const ModelState& s) {
   constexpr double worth = 0.99;
   Projection now = projection_of(s);
-  double error = now.Py.cwiseQuotient(now.P.diagonal()).squaredNorm();
+  double error = square(entry_quotients(now.Py, diagonal(now.P)));
   const std::vector<TrendTerm> candidates = polynomial(static_cast<int>(s.X.cols()), Trend::quadratic);
   std::vector<TrendTerm> chosen{{}};
   while (3 * static_cast<Eigen::Index>(chosen.size() + 1) < s.X.rows()) {

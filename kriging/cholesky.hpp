@@ -29,10 +29,10 @@ inline void solve_few_columns(const Block& L, const Block& B) {
   for (Index i = 0; i < B.rows; i += strip) {
     const Index rows = std::min(strip, B.rows - i);
     for (Index j = 0; j < B.columns; ++j) {
-      Eigen::Map<Eigen::ArrayXd> x(B.column(j) + i, rows);
-      for (Index k = 0; k < j; ++k)
-        x -= L.column(k)[j] * Eigen::Map<const Eigen::ArrayXd>(B.column(k) + i, rows);
-      x *= 1.0 / L.column(j)[j];
+      double* x = B.column(j) + i;
+      for (Index k = 0; k < j; ++k) add_scaled(x, -L.column(k)[j], B.column(k) + i, rows);
+      const double inverse = 1.0 / L.column(j)[j];
+      for (Index r = 0; r < rows; ++r) x[r] *= inverse;
     }
   }
 }
@@ -61,12 +61,11 @@ inline void solve_right(const Block& L, const Block& B, int threads) {
 /// False when A is not numerically positive definite.
 inline bool factor_few_columns(const Block& A) {
   for (Index j = 0; j < A.columns; ++j) {
-    Eigen::Map<Eigen::ArrayXd> x(A.column(j) + j, A.rows - j);
-    for (Index k = 0; k < j; ++k)
-      x -= A.column(k)[j] * Eigen::Map<const Eigen::ArrayXd>(A.column(k) + j, A.rows - j);
+    double* x = A.column(j) + j;
+    for (Index k = 0; k < j; ++k) add_scaled(x, -A.column(k)[j], A.column(k) + j, A.rows - j);
     if (!(x[0] > 0.0)) return false;
-    const double root = std::sqrt(x[0]);
-    x *= 1.0 / root;
+    const double root = std::sqrt(x[0]), inverse = 1.0 / root;
+    for (Index r = 1; r < A.rows - j; ++r) x[r] *= inverse;
     x[0] = root;
   }
   return true;

@@ -11,10 +11,10 @@
 /// 18.2 and section 16.7). A climb is done when ½ gᵀB⁻¹g, the gain that B promises, falls below a limit.
 /// Cost: one gradient a step, plus one value for each shortening.
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/kriging/cholesky.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
 #include <limits>
 #include <utility>
@@ -41,17 +41,19 @@ class Curvature {
   }
 
   void move_to(const Eigen::VectorXd& p, const Eigen::VectorXd& g) {
-    const Eigen::VectorXd s = p - p_, Bs = B_ * s;
-    Eigen::VectorXd y = g_ - g;
-    const double curvature = s.dot(Bs);
+    const Eigen::VectorXd s = difference(p, p_), Bs = product(B_, s);
+    Eigen::VectorXd y = difference(g_, g);
+    const double curvature = dot(s, Bs), along = dot(s, y);
     p_ = p;
     g_ = g;
     if (!(curvature > 1e-14)) return;
-    if (s.dot(y) < 0.2 * curvature) {
-      const double share = 0.8 * curvature / (curvature - s.dot(y));
-      y = share * y + (1.0 - share) * Bs;
+    if (along < 0.2 * curvature) {
+      const double share = 0.8 * curvature / (curvature - along);
+      y = affine(y, share);
+      add_scaled(y.data(), 1.0 - share, Bs.data(), y.size());
     }
-    B_ += y * y.transpose() / s.dot(y) - Bs * Bs.transpose() / curvature;
+    add_outer(B_, 1.0 / dot(s, y), y, y);
+    add_outer(B_, -1.0 / curvature, Bs, Bs);
   }
 
  private:
@@ -71,15 +73,26 @@ inline std::vector<Eigen::Index> free_parameters(const Box& box, const Eigen::Ve
   return free;
 }
 
-/// B⁻¹g of the free parameters, 0 for the others.
+/// B⁻¹g of the free parameters, 0 for the others; not finite where B is not positive definite.
 inline Eigen::VectorXd newton_step(const Eigen::MatrixXd& B, const std::vector<Eigen::Index>& free,
                                    const Eigen::VectorXd& g) {
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(g.size());
-  if (free.empty()) return step;
-  const Eigen::MatrixXd among = B(free, free);
-  const Eigen::VectorXd slope = g(free);
-  step(free) = Eigen::VectorXd(among.llt().solve(slope));
+  Eigen::MatrixXd L = rows_of(columns_of(B, free), free);
+  Eigen::VectorXd some = entries_of(g, free), step = Eigen::VectorXd::Zero(g.size());
+  const bool positive = factor(block_of(L), 1);
+  solve_lower(L, some);
+  solve_lower_transposed(L, some);
+  for (std::size_t i = 0; i < free.size(); ++i)
+    step[free[i]] = positive ? some[static_cast<Index>(i)] : std::numeric_limits<double>::quiet_NaN();
   return step;
+}
+
+/// p + length · step, moved into the box.
+inline Eigen::VectorXd moved(const Box& box, const Eigen::VectorXd& p, double length,
+                             const Eigen::VectorXd& step) {
+  Eigen::VectorXd at = p;
+  for (Index i = 0; i < p.size(); ++i)
+    at[i] = std::min(std::max(p[i] + length * step[i], box.lower[i]), box.upper[i]);
+  return at;
 }
 
 class Climb {
@@ -106,9 +119,10 @@ class Climb {
     if (curvature_.empty()) begin();
     const auto free = free_parameters(*box_, p_, g_);
     Eigen::VectorXd step = newton_step(curvature_.matrix(), free, g_);
-    done_ = !(0.5 * step.dot(g_) >= least_gain);
+    done_ = !(0.5 * dot(step, g_) >= least_gain);
     if (done_) return;
-    step *= std::min(1.0, longest / step.cwiseAbs().maxCoeff());
+    const double size = std::max(largest_entry(step), -smallest_entry(step));
+    step = affine(step, std::min(1.0, longest / size));
     done_ = !search_along(step);
     if (done_) return;
     g_ = likelihood_->gradient(p_);
@@ -119,26 +133,25 @@ class Climb {
 
   void begin() {
     g_ = likelihood_->gradient(p_);
-    const double size = std::max(g_.norm(), 1e-6);
-    curvature_.start(size * Eigen::MatrixXd::Identity(p_.size(), p_.size()), p_, g_);
+    curvature_.start(scaled_identity(p_.size(), std::max(std::sqrt(square(g_)), 1e-6)), p_, g_);
     first_p_ = p_;
     first_g_ = g_;
   }
 
   // After the first step the identity gets the curvature that was met along it.
   void rescale() {
-    const Eigen::VectorXd s = p_ - first_p_, y = first_g_ - g_;
-    const double met = s.dot(y) > 0 ? y.squaredNorm() / s.dot(y) : first_g_.norm();
-    curvature_.start(met * Eigen::MatrixXd::Identity(p_.size(), p_.size()), first_p_, first_g_);
+    const Eigen::VectorXd s = difference(p_, first_p_), y = difference(first_g_, g_);
+    const double met = dot(s, y) > 0 ? square(y) / dot(s, y) : std::sqrt(square(first_g_));
+    curvature_.start(scaled_identity(p_.size(), met), first_p_, first_g_);
     curvature_.move_to(p_, g_);
   }
 
   bool search_along(const Eigen::VectorXd& step) {
     double length = 1.0;
     for (int attempt = 0; attempt < 6; ++attempt, length *= 0.25) {
-      const Eigen::VectorXd p = (p_ + length * step).cwiseMax(box_->lower).cwiseMin(box_->upper);
+      const Eigen::VectorXd p = moved(*box_, p_, length, step);
       const double value = likelihood_->value(p);
-      if (!(value >= value_ + 1e-4 * g_.dot(p - p_))) continue;
+      if (!(value >= value_ + 1e-4 * dot(g_, difference(p, p_)))) continue;
       p_ = p;
       value_ = value;
       return true;

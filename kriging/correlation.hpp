@@ -23,6 +23,7 @@
 #include <string_view>
 #include <utility>
 
+#include <drawpoint/kriging/dense.hpp>
 #include <drawpoint/kriging/parallel.hpp>
 #include <drawpoint/kriging/simd.hpp>
 
@@ -52,44 +53,97 @@ struct CorrelationFunction {
 
 namespace detail {
 
-inline constexpr Eigen::Index chunk_rows = 256;
+inline constexpr Index chunk_rows = 256;
 /// Matérn's h beyond which exp(−h) is nothing, and h² must not overflow.
 inline constexpr double farthest = 800.0;
-/// Up to 256 numbers on the stack.
-using Chunk = Eigen::Array<double, Eigen::Dynamic, 1, 0, chunk_rows, 1>;
+
+/// Up to 256 numbers on the stack, taken two at a time; beside a last odd one stands a 0.
+struct Chunk {
+  using Two = Pair::Vector;
+  Index count;
+  alignas(16) double number[chunk_rows];
+
+  explicit Chunk(Index size) : count(size) {
+    if (size % 2 == 1) number[size] = 0.0;
+  }
+  double operator[](Index i) const { return number[i]; }
+  Two two(Index i) const { return *reinterpret_cast<const Pair::Unaligned*>(number + i); }
+  void set_two(Index i, const Two& value) { *reinterpret_cast<Pair::Unaligned*>(number + i) = value; }
+};
+
+/// f of all numbers, given two at a time.
+template <class F>
+Chunk mapped(const Chunk& x, const F& f) {
+  Chunk y(x.count);
+  for (Index i = 0; i < x.count; i += 2) y.set_two(i, f(x.two(i)));
+  return y;
+}
+
+inline double dot(const Chunk& x, const Chunk& y) { return dot(x.number, y.number, x.count); }
+
+/// xᵢyᵢ.
+inline Chunk entry_products(const Chunk& x, const Chunk& y) {
+  Chunk z(x.count);
+  for (Index i = 0; i < x.count; i += 2) z.set_two(i, x.two(i) * y.two(i));
+  return z;
+}
 
 /// Rows first..first+count of Z against one point.
 struct Rows {
   const Eigen::MatrixXd& Z;
-  Eigen::Index first, count;
+  Index first, count;
   const double* x;  // d numbers
 
-  Chunk distance(Eigen::Index k) const { return (Z.col(k).segment(first, count).array() - x[k]).abs(); }
+  const double* column(Index k) const { return detail::column(Z, k) + first; }
+
+  Chunk distance(Index k) const {
+    const double* z = column(k);
+    Chunk h(count);
+    for (Index i = 0; i < count; ++i) h.number[i] = std::abs(z[i] - x[k]);
+    return h;
+  }
 };
 
 inline double matern_rate(Correlation family, double theta) {
   return std::sqrt((family == Correlation::matern32 ? 6.0 : 10.0) * theta);
 }
 
-inline void correlate_chunk(const CorrelationFunction& f, const Rows& rows, double* out) {
-  Eigen::Map<Eigen::ArrayXd> c(out, rows.count);
-  Chunk factor = Chunk::Ones(rows.count);
-  c.setZero();
-  for (Eigen::Index k = 0; k < rows.Z.cols(); ++k) {
-    Chunk h = rows.distance(k);
-    if (f.family == Correlation::power_exponential) {
-      c -= f.theta[k] * h.pow(f.exponent[k]);
-      continue;
-    }
-    h = (matern_rate(f.family, f.theta[k]) * h).min(farthest);
-    c -= h;
-    if (f.family == Correlation::matern32)
-      factor *= 1.0 + h;
-    else
-      factor *= 1.0 + h + h.square() / 3.0;
+/// θ h^p.
+inline Chunk scaled_powers(const Chunk& h, double theta, double exponent) {
+  Chunk y(h.count);
+  for (Index i = 0; i < h.count; ++i) y.number[i] = theta * std::pow(h.number[i], exponent);
+  return y;
+}
+
+/// Matérn's in variable k at the distances h: c = factor · exp(logarithm).
+inline void multiply_matern(const CorrelationFunction& f, Index k, const Chunk& h, Chunk& factor,
+                            Chunk& logarithm) {
+  using Two = Chunk::Two;
+  const double rate = matern_rate(f.family, f.theta[k]);
+  const Two most = Two{} + farthest;
+  for (Index i = 0; i < h.count; i += 2) {
+    Two u = rate * h.two(i);
+    u = u > most ? most : u;
+    logarithm.set_two(i, logarithm.two(i) - u);
+    const Two polynomial = f.family == Correlation::matern32 ? 1.0 + u : 1.0 + u + u * u / 3.0;
+    factor.set_two(i, factor.two(i) * polynomial);
   }
-  exp_in_place(out, rows.count);
-  c *= factor;
+}
+
+/// Of power_exponential and Matérn's.
+inline void correlate_chunk(const CorrelationFunction& f, const Rows& rows, double* out) {
+  Chunk factor(rows.count), logarithm(rows.count);
+  std::fill_n(factor.number, rows.count, 1.0);
+  std::fill_n(logarithm.number, rows.count, 0.0);
+  for (Index k = 0; k < rows.Z.cols(); ++k) {
+    const Chunk h = rows.distance(k);
+    if (f.family == Correlation::power_exponential)
+      add_scaled(logarithm.number, -1.0, scaled_powers(h, f.theta[k], f.exponent[k]).number, rows.count);
+    else
+      multiply_matern(f, k, h, factor, logarithm);
+  }
+  exp_in_place(logarithm.number, rows.count);
+  for (Index i = 0; i < rows.count; ++i) out[i] = logarithm.number[i] * factor.number[i];
 }
 
 /// out[i] = c(row first + i of Z, x) for i < count.
@@ -102,34 +156,52 @@ inline void correlate(const CorrelationFunction& f, const Rows& all, double* out
 }
 
 /// ∂ln c/∂(ln θₖ) from the distances h in variable k.
-inline Chunk slope_in_theta(const CorrelationFunction& f, Eigen::Index k, const Chunk& h) {
+inline Chunk slope_in_theta(const CorrelationFunction& f, Index k, const Chunk& h) {
+  using Two = Chunk::Two;
   const double theta = f.theta[k];
-  if (f.family == Correlation::gaussian) return -theta * h.square();
-  if (f.family == Correlation::power_exponential) return -theta * h.pow(f.exponent[k]);
-  const Chunk u = matern_rate(f.family, theta) * h;
-  if (f.family == Correlation::matern32) return -0.5 * u.square() / (1.0 + u);
-  return -u.square() * (1.0 + u) / (6.0 + 6.0 * u + 2.0 * u.square());
+  if (f.family == Correlation::gaussian) return mapped(h, [=](const Two& x) { return -theta * x * x; });
+  if (f.family == Correlation::power_exponential) return scaled_powers(h, -theta, f.exponent[k]);
+  const double rate = matern_rate(f.family, theta);
+  if (f.family == Correlation::matern32)
+    return mapped(h, [=](const Two& x) { return -0.5 * rate * rate * x * x / (1.0 + rate * x); });
+  return mapped(h, [=](const Two& x) {
+    const Two u = rate * x;
+    return -u * u * (1.0 + u) / (6.0 + 6.0 * u + 2.0 * u * u);
+  });
 }
 
 /// ∂²ln c/∂(ln θₖ)².
-inline Chunk curvature_in_theta(const CorrelationFunction& f, Eigen::Index k, const Chunk& h) {
+inline Chunk curvature_in_theta(const CorrelationFunction& f, Index k, const Chunk& h) {
+  using Two = Chunk::Two;
   if (f.family == Correlation::gaussian || f.family == Correlation::power_exponential)
     return slope_in_theta(f, k, h);
-  const Chunk u = matern_rate(f.family, f.theta[k]) * h;
-  if (f.family == Correlation::matern32) return -0.25 * u.square() * (2.0 + u) / (1.0 + u).square();
-  const Chunk bottom = 6.0 + 6.0 * u + 2.0 * u.square();
-  return -0.5 * u.square() * ((2.0 + 3.0 * u) * bottom - u * (1.0 + u) * (6.0 + 4.0 * u)) / bottom.square();
+  const double rate = matern_rate(f.family, f.theta[k]);
+  if (f.family == Correlation::matern32)
+    return mapped(h, [=](const Two& x) {
+      const Two u = rate * x;
+      return -0.25 * u * u * (2.0 + u) / ((1.0 + u) * (1.0 + u));
+    });
+  return mapped(h, [=](const Two& x) {
+    const Two u = rate * x, bottom = 6.0 + 6.0 * u + 2.0 * u * u;
+    return -0.5 * u * u * ((2.0 + 3.0 * u) * bottom - u * (1.0 + u) * (6.0 + 4.0 * u)) / (bottom * bottom);
+  });
+}
+
+/// ln h, 0 where h = 0.
+inline Chunk logarithms(const Chunk& h) {
+  Chunk y(h.count);
+  for (Index i = 0; i < h.count; ++i) y.number[i] = h.number[i] > 0.0 ? std::log(h.number[i]) : 0.0;
+  return y;
 }
 
 /// ∂ln c/∂pₖ = −θ Δ^p ln Δ, 0 where Δ = 0.
-inline Chunk slope_in_exponent(const CorrelationFunction& f, Eigen::Index k, const Chunk& h) {
-  const Chunk logarithm = (h > 0.0).select(h.max(1e-300).log(), 0.0);
-  return slope_in_theta(f, k, h) * logarithm;
+inline Chunk slope_in_exponent(const CorrelationFunction& f, Index k, const Chunk& h) {
+  return entry_products(slope_in_theta(f, k, h), logarithms(h));
 }
 
 /// dln c/dxₖ at the point x for one run at a signed distance of `step` = xₖ − runₖ. Simplification: the
 /// power_exponential with p = 1 has a kink at a run; 0 is given there.
-inline double slope_in_place(const CorrelationFunction& f, Eigen::Index k, double step) {
+inline double slope_in_place(const CorrelationFunction& f, Index k, double step) {
   const double theta = f.theta[k], h = std::abs(step), sign = step < 0 ? -1.0 : 1.0;
   if (f.family == Correlation::gaussian) return -2.0 * theta * step;
   if (h == 0.0) return 0.0;

@@ -41,8 +41,8 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
 inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood, const FitOptions& options) {
   const Eigen::Index d = data.X.cols(), last = likelihood.parameters() - 1;
   Box box{Eigen::VectorXd::Constant(last + 1, 1.0), Eigen::VectorXd::Constant(last + 1, 2.0)};
-  box.lower.head(d).setConstant(std::log(options.theta_lower));
-  box.upper.head(d).setConstant(std::log(options.theta_upper));
+  std::fill_n(box.lower.begin(), d, std::log(options.theta_lower));
+  std::fill_n(box.upper.begin(), d, std::log(options.theta_upper));
   box.lower[last] = std::log(options.nugget_lower);
   box.upper[last] = std::log(options.nugget_upper);
   for (Eigen::Index k = 0; k < d; ++k) {
@@ -139,8 +139,9 @@ inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
   const bool singular = !std::isfinite(found.best.value);
   // λ of some n times the round-off makes any correlation matrix positive definite, so this ends.
   while (!std::isfinite(found.best.value)) {
-    box.lower.tail<1>().array() += std::log(100.0);
-    box.upper = box.upper.cwiseMax(box.lower);
+    double &lower = box.lower[box.lower.size() - 1], &upper = box.upper[box.upper.size() - 1];
+    lower += std::log(100.0);
+    upper = std::max(lower, upper);
     found = search(likelihood, box, options, report.evaluations);
   }
   likelihood.value(found.best.p);

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <drawpoint/kriging/dense.hpp>
+
 namespace drawpoint::kriging::detail {
 
 struct LeastSquares {
@@ -22,44 +24,33 @@ struct LeastSquares {
   double sum_of_squares = 0;  ///< (y − Fβ)ᵀα
 };
 
-/// Q = (Q as it comes) T⁻¹ with orthonormal columns; T: q x q, zero at entry, becomes upper triangular.
-/// Gram-Schmidt, twice a column, which leaves round-off along the others while the columns are independent in
-/// double precision (Giraud, Langou, Rozložník 2005, "The loss of orthogonality in the Gram-Schmidt
-/// orthogonalization process"). Eigen's QR would do as well, at seconds of every user's compile time.
+/// Q = (Q as it comes) T⁻¹ with orthonormal columns; T: q x q, zero at entry, becomes upper triangular. The
+/// columns have to be independent in double precision.
 inline void orthonormalize(Eigen::MatrixXd& Q, Eigen::MatrixXd& T) {
-  for (Eigen::Index j = 0; j < Q.cols(); ++j) {
-    for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::VectorXd along = Q.leftCols(j).transpose() * Q.col(j);
-      Q.col(j) -= Q.leftCols(j) * along;
-      T.col(j).head(j) += along;
-    }
-    T(j, j) = Q.col(j).norm();
-    Q.col(j) /= T(j, j);
+  for (Index j = 0; j < Q.cols(); ++j) {
+    T(j, j) = orthogonalize(Q, j, column(Q, j), column(T, j));
+    for (Index i = 0; i < Q.rows(); ++i) Q(i, j) /= T(j, j);
   }
 }
 
 /// F has independent columns, fewer than rows or as many.
 inline LeastSquares least_squares(const Eigen::MatrixXd& L, const Eigen::MatrixXd& F,
                                   const Eigen::VectorXd& y) {
-  const auto lower = L.triangularView<Eigen::Lower>();
-  const Eigen::Index q = F.cols();
-  Eigen::MatrixXd both(F.rows(), q + 1);  // solved together: a pass over L costs more than a column
-  both << F, y;
-  lower.solveInPlace(both);
   LeastSquares s;
-  s.T.setZero(q, q);
-  Eigen::MatrixXd Q = both.leftCols(q);
-  orthonormalize(Q, s.T);
-  Eigen::VectorXd residual = both.col(q);
-  const Eigen::VectorXd share = Q.transpose() * residual;
-  s.beta = s.T.triangularView<Eigen::Upper>().solve(share);
-  residual -= Q * share;
-  residual -= Q * (Q.transpose() * residual);  // once more takes away the round-off that is left along Q
-  s.sum_of_squares = residual.squaredNorm();
-  both << Q, residual;
-  lower.transpose().solveInPlace(both);
-  s.B = both.leftCols(q);
-  s.alpha = both.col(q);
+  s.B = F;
+  s.T.setZero(F.cols(), F.cols());
+  solve_lower(L, s.B);
+  orthonormalize(s.B, s.T);
+  s.alpha = y;
+  solve_lower(L, s.alpha);
+  const Eigen::VectorXd share = transposed_product(s.B, s.alpha);
+  s.beta = solve_upper(s.T, share);
+  add_product(s.alpha.data(), -1.0, s.B, share.data());
+  // Once more takes away the round-off that is left along Q.
+  add_product(s.alpha.data(), -1.0, s.B, transposed_product(s.B, s.alpha).data());
+  s.sum_of_squares = square(s.alpha);
+  solve_lower_transposed(L, s.B);
+  solve_lower_transposed(L, s.alpha);
   return s;
 }
 
@@ -68,8 +59,10 @@ inline constexpr double noise_floor = 1e-10;
 
 /// −n/2 ln(2π s²) − ½ ln|L Lᵀ| − S/(2s²).
 inline double concentrated_log_likelihood(const Eigen::MatrixXd& L, double sum_of_squares, double variance) {
+  double half_log_determinant = 0;
+  for (Index i = 0; i < L.rows(); ++i) half_log_determinant += std::log(L(i, i));
   return -0.5 * static_cast<double>(L.rows()) * std::log(2.0 * std::numbers::pi * variance) -
-         L.diagonal().array().log().sum() - 0.5 * sum_of_squares / variance;
+         half_log_determinant - 0.5 * sum_of_squares / variance;
 }
 
 }  // namespace drawpoint::kriging::detail

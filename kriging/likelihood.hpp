@@ -18,6 +18,7 @@
 /// for residual covariance in spatial regression".
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -85,12 +86,13 @@ class Likelihood {
     Eigen::MatrixXd sums =
         Eigen::MatrixXd::Zero(last, blocks);  // added up in order: equal bits on any threads
     detail::for_each_task(blocks, n < 500 ? 1 : in_.threads, [&](int t) {
-      for (Eigen::Index j = t * columns; j < std::min(n, (t + 1) * columns); ++j) add_slopes(j, sums.col(t));
+      for (Eigen::Index j = t * columns; j < std::min(n, (t + 1) * columns); ++j)
+        add_slopes(j, detail::column(sums, t));
     });
     Eigen::VectorXd g = Eigen::VectorXd::Zero(last + 1);
-    for (int t = 0; t < blocks; ++t) g.head(last) += sums.col(t);
+    for (int t = 0; t < blocks; ++t) detail::add_scaled(g.data(), 1.0, detail::column(sums, t), last);
     const double s2 = estimates_.process_variance;
-    g[last] = 0.5 * nugget_ * noise_sum(gls_.alpha.array().square() / s2 - K_.diagonal().array());
+    g[last] = slope_in_nugget();
     if (in_.known_noise > 0) g[last] += 0.5 * static_cast<double>(n) - 0.5 * gls_.sum_of_squares / s2;
     return g;
   }
@@ -111,7 +113,11 @@ class Likelihood {
   const Eigen::VectorXd& weights() const { return gls_.alpha; }  ///< α
   const detail::LeastSquares& least_squares() const { return gls_; }
   /// Lower triangular, zeros above.
-  Eigen::MatrixXd cholesky() const { return L_.triangularView<Eigen::Lower>(); }
+  Eigen::MatrixXd cholesky() const {
+    Eigen::MatrixXd L = L_;
+    detail::clear_upper(L);
+    return L;
+  }
   /// Product of the 1-norms of R and R⁻¹; needs the inverse, which costs 2n³/3 if it is not there yet.
   double condition() {
     if (!invert(p_)) return std::numeric_limits<double>::infinity();
@@ -128,28 +134,32 @@ class Likelihood {
     return problem;
   }
 
-  // Σ wᵢ vᵢ.
-  template <class Array>
-  double noise_sum(const Array& v) const {
-    return in_.noise.size() ? (v * in_.noise.array()).sum() : v.sum();
+  double noise_weight(Eigen::Index i) const { return in_.noise.size() ? in_.noise[i] : 1.0; }
+
+  // ∂LL/∂(ln λ) for a given s²: ½ λ Σ wᵢMᵢᵢ.
+  double slope_in_nugget() const {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < runs(); ++i)
+      sum += noise_weight(i) * (gls_.alpha[i] * gls_.alpha[i] / estimates_.process_variance - K_(i, i));
+    return 0.5 * nugget_ * sum;
   }
 
   void add_noise(Eigen::MatrixXd& R) const {
-    if (in_.noise.size())
-      R.diagonal().array() += nugget_ * in_.noise.array() + detail::noise_floor;
-    else
-      R.diagonal().array() += nugget_;
+    const double floor = in_.noise.size() ? detail::noise_floor : 0.0;
+    for (Eigen::Index i = 0; i < runs(); ++i) R(i, i) += nugget_ * noise_weight(i) + floor;
   }
 
   // 1-norm of the symmetric matrix of which A has the lower triangle.
   static double norm(const Eigen::MatrixXd& A) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(A.rows());
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
-      const auto below = A.col(j).tail(A.rows() - j - 1).cwiseAbs();
-      sums[j] += std::abs(A(j, j)) + below.sum();
-      sums.tail(below.size()) += below;
+      sums[j] += std::abs(A(j, j));
+      for (Eigen::Index i = j + 1; i < A.rows(); ++i) {
+        sums[i] += std::abs(A(i, j));
+        sums[j] += std::abs(A(i, j));
+      }
     }
-    return sums.maxCoeff();
+    return *std::max_element(sums.begin(), sums.end());
   }
 
   void set(const Eigen::VectorXd& p) {
@@ -157,7 +167,8 @@ class Likelihood {
     p_ = p;
     inverted_ = false;
     estimates_ = {};
-    f_.theta = p.head(d).array().exp();
+    f_.theta.resize(d);
+    for (Eigen::Index k = 0; k < d; ++k) f_.theta[k] = std::exp(p[k]);
     if (estimated_exponents_) f_.exponent = p.segment(d, d);
     nugget_ = std::exp(p[p.size() - 1]);
   }
@@ -193,9 +204,12 @@ class Likelihood {
 
   // Rows j + first .. of column j of M∘C below the diagonal.
   detail::Chunk weight(Eigen::Index j, const detail::Rows& rows) const {
-    const auto part = [&](const auto& v) { return v.segment(rows.first, rows.count).array(); };
-    return (part(gls_.alpha) * (gls_.alpha[j] / estimates_.process_variance) - part(K_.col(j))) *
-           part(C_.col(j));
+    const double* alpha = gls_.alpha.data() + rows.first;
+    const double *K = &K_(rows.first, j), *C = &C_(rows.first, j),
+                 scale = gls_.alpha[j] / estimates_.process_variance;
+    detail::Chunk w(rows.count);
+    for (Eigen::Index i = 0; i < rows.count; ++i) w.number[i] = (alpha[i] * scale - K[i]) * C[i];
+    return w;
   }
 
   // Calls use(rows) for column j in pieces of at most 256 rows from the diagonal on.
@@ -206,19 +220,18 @@ class Likelihood {
   }
 
   // ½ Σ M Rₐ of column j, doubled for its mirror; the diagonal of Rₐ is 0 but for the noise.
-  void add_slopes(Eigen::Index j, Eigen::Ref<Eigen::VectorXd> g) const {
+  void add_slopes(Eigen::Index j, double* g) const {
     const Eigen::Index d = variables();
     in_chunks(j, [&](const detail::Rows& rows) {
       const detail::Chunk w = weight(j, rows);
       for (Eigen::Index k = 0; k < d; ++k) {
         if (f_.family == Correlation::gaussian) {
-          g[k] -= f_.theta[k] *
-                  (w * (in_.X.col(k).segment(rows.first, rows.count).array() - rows.x[k]).square()).sum();
+          g[k] -= f_.theta[k] * detail::weighted_squares(w.number, rows.column(k), rows.x[k], rows.count);
           continue;
         }
         const detail::Chunk h = rows.distance(k);
-        g[k] += (w * detail::slope_in_theta(f_, k, h)).sum();
-        if (estimated_exponents_) g[d + k] += (w * detail::slope_in_exponent(f_, k, h)).sum();
+        g[k] += dot(w, detail::slope_in_theta(f_, k, h));
+        if (estimated_exponents_) g[d + k] += dot(w, detail::slope_in_exponent(f_, k, h));
       }
     });
   }

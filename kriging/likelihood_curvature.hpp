@@ -17,11 +17,11 @@ inline Eigen::MatrixXd Likelihood::hessian(const Eigen::VectorXd& p) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);
   const Eigen::VectorXd g = gradient(p);
   if (!std::isfinite(estimates_.log_likelihood)) return H;
-  K_.triangularView<Eigen::StrictlyUpper>() = K_.transpose();
+  detail::mirror_lower(K_);
   add_second_derivatives(H);
   add_traces(H);
   add_trend_and_scale(H);
-  H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+  detail::mirror_lower(H);
   return H;
 }
 
@@ -29,43 +29,43 @@ inline Eigen::MatrixXd Likelihood::fisher(const Eigen::VectorXd& p) {
   const Eigen::Index m = parameters();
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(m, m);
   if (!invert(p)) return F;
-  K_.triangularView<Eigen::StrictlyUpper>() = K_.transpose();
+  detail::mirror_lower(K_);
   add_traces(F);
   const Eigen::VectorXd t = traces();
   const double n = static_cast<double>(runs());
   if (in_.known_noise > 0) {
-    F.row(m - 1) -= 0.5 * t.transpose();
+    for (Eigen::Index a = 0; a < m; ++a) F(m - 1, a) -= 0.5 * t[a];
     F(m - 1, m - 1) += 0.5 * n - 0.5 * t[m - 1];
   } else {
-    F.triangularView<Eigen::Lower>() -= t * t.transpose() / (2.0 * n);
+    detail::add_outer(F, -0.5 / n, t, t);
   }
-  F.triangularView<Eigen::StrictlyUpper>() = F.transpose();
+  detail::mirror_lower(F);
   return F;
 }
 
 // ½ Σ M R_ab, lower triangle. R_ab = C (slopeₐ slope_b + second derivative of ln c).
 inline void Likelihood::add_second_derivatives(Eigen::MatrixXd& H) const {
   const Eigen::Index d = variables(), last = parameters() - 1;
-  std::vector<detail::Chunk> slopes(static_cast<std::size_t>(last));
+  std::vector<detail::Chunk> slopes(static_cast<std::size_t>(last), detail::Chunk(0));
   for (Eigen::Index j = 0; j < runs(); ++j) {
     in_chunks(j, [&](const detail::Rows& rows) {
       const detail::Chunk w = weight(j, rows);
       for (Eigen::Index k = 0; k < d; ++k) {
         const detail::Chunk h = rows.distance(k);
         slopes[k] = detail::slope_in_theta(f_, k, h);
-        H(k, k) += (w * detail::curvature_in_theta(f_, k, h)).sum();
+        H(k, k) += dot(w, detail::curvature_in_theta(f_, k, h));
         if (!estimated_exponents_) continue;
         slopes[d + k] = detail::slope_in_exponent(f_, k, h);
-        const detail::Chunk logarithm = (h > 0.0).select(h.max(1e-300).log(), 0.0);
-        H(d + k, k) += (w * slopes[d + k]).sum();
-        H(d + k, d + k) += (w * slopes[d + k] * logarithm).sum();
+        H(d + k, k) += dot(w, slopes[d + k]);
+        H(d + k, d + k) += dot(entry_products(w, slopes[d + k]), detail::logarithms(h));
       }
-      for (Eigen::Index a = 0; a < last; ++a)
-        for (Eigen::Index b = 0; b <= a; ++b) H(a, b) += (w * slopes[a] * slopes[b]).sum();
+      for (Eigen::Index a = 0; a < last; ++a) {
+        const detail::Chunk v = entry_products(w, slopes[a]);
+        for (Eigen::Index b = 0; b <= a; ++b) H(a, b) += dot(v, slopes[b]);
+      }
     });
   }
-  const double s2 = estimates_.process_variance;
-  H(last, last) += 0.5 * nugget_ * noise_sum(gls_.alpha.array().square() / s2 - K_.diagonal().array());
+  H(last, last) += slope_in_nugget();
 }
 
 // Rₐ of a θ or an exponent: n x n, both triangles.
@@ -75,11 +75,12 @@ inline void Likelihood::fill_derivative(Eigen::Index a, Eigen::MatrixXd& D) cons
   for (Eigen::Index j = 0; j < runs(); ++j)
     in_chunks(j, [&](const detail::Rows& rows) {
       const detail::Chunk h = rows.distance(k);
-      D.col(j).segment(rows.first, rows.count) =
-          C_.col(j).segment(rows.first, rows.count).array() *
-          (a < d ? detail::slope_in_theta(f_, k, h) : detail::slope_in_exponent(f_, k, h));
+      const detail::Chunk slope =
+          a < d ? detail::slope_in_theta(f_, k, h) : detail::slope_in_exponent(f_, k, h);
+      for (Eigen::Index i = 0; i < rows.count; ++i)
+        D(rows.first + i, j) = C_(rows.first + i, j) * slope.number[i];
     });
-  D.triangularView<Eigen::StrictlyUpper>() = D.transpose();
+  detail::mirror_lower(D);
 }
 
 // tr(R⁻¹Rₐ); K has both triangles.
@@ -89,9 +90,10 @@ inline Eigen::VectorXd Likelihood::traces() const {
   Eigen::MatrixXd D;
   for (Eigen::Index a = 0; a < last; ++a) {
     fill_derivative(a, D);
-    t[a] = K_.cwiseProduct(D).sum();
+    t[a] = detail::dot(K_, D);
   }
-  t[last] = nugget_ * noise_sum(K_.diagonal().array());
+  t[last] = 0;
+  for (Eigen::Index i = 0; i < runs(); ++i) t[last] += nugget_ * noise_weight(i) * K_(i, i);
   return t;
 }
 
@@ -103,42 +105,44 @@ inline void Likelihood::add_traces(Eigen::MatrixXd& H) {
     detail::add_product(detail::block_of(A), detail::block_of(B), 1.0, detail::block_of(C), detail::Part::all,
                         in_.threads);
   };
-  const Eigen::VectorXd w = in_.noise.size() ? in_.noise : Eigen::VectorXd::Ones(n);
-  Eigen::MatrixXd D, W, V;
+  Eigen::MatrixXd D, W, V, noisy = K_;  // λ diag(w) K
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) noisy(i, j) *= nugget_ * noise_weight(i);
   for (Eigen::Index a = 0; a < last; ++a) {
     fill_derivative(a, D);
     product(K_, D, W);
-    H(a, a) += 0.5 * W.cwiseProduct(W.transpose()).sum();
-    H(last, a) += 0.5 * nugget_ * W.cwiseProduct(K_).rowwise().sum().dot(w);
+    H(a, a) += 0.5 * detail::dot(W, W.transpose());
+    H(last, a) += 0.5 * detail::dot(W, noisy);
     if (a + 1 == last) continue;
     product(W, K_, V);
     for (Eigen::Index b = a + 1; b < last; ++b) {
       fill_derivative(b, D);
-      H(b, a) += 0.5 * V.cwiseProduct(D).sum();
+      H(b, a) += 0.5 * detail::dot(V, D);
     }
   }
-  H(last, last) += 0.5 * nugget_ * nugget_ * w.dot(K_.cwiseAbs2() * w);
+  H(last, last) += 0.5 * detail::dot(noisy, noisy.transpose());
 }
 
 // −αᵀRₐ P R_b α/s² and what s² adds, lower triangle.
 inline void Likelihood::add_trend_and_scale(Eigen::MatrixXd& H) const {
   const Eigen::Index last = parameters() - 1;
   const double s2 = estimates_.process_variance;
-  Eigen::MatrixXd U(runs(), last + 1), D;
+  Eigen::MatrixXd U = Eigen::MatrixXd::Zero(runs(), last + 1), D;
   for (Eigen::Index a = 0; a < last; ++a) {
     fill_derivative(a, D);
-    U.col(a).noalias() = D * gls_.alpha;
+    detail::add_product(detail::column(U, a), 1.0, D, gls_.alpha.data());
   }
-  U.col(last) = nugget_ * gls_.alpha;
-  if (in_.noise.size()) U.col(last).array() *= in_.noise.array();
-  const Eigen::VectorXd q = U.transpose() * gls_.alpha;
-  const Eigen::MatrixXd BU = gls_.B.transpose() * U;
-  H.triangularView<Eigen::Lower>() -= (U.transpose() * (K_ * U) - BU.transpose() * BU) / s2;
+  for (Eigen::Index i = 0; i < runs(); ++i) U(i, last) = nugget_ * noise_weight(i) * gls_.alpha[i];
+  const Eigen::VectorXd q = detail::transposed_product(U, gls_.alpha);
+  const Eigen::MatrixXd BU = detail::transposed_product(gls_.B, U);
+  const Eigen::MatrixXd UKU = detail::transposed_product(U, detail::product(K_, U));
+  const Eigen::MatrixXd UBBU = detail::transposed_product(BU, BU);
+  for (Eigen::Index i = 0; i < H.size(); ++i) H.data()[i] -= (UKU.data()[i] - UBBU.data()[i]) / s2;
   if (in_.known_noise > 0) {
-    H.row(last) += 0.5 * q.transpose() / s2;
+    for (Eigen::Index a = 0; a <= last; ++a) H(last, a) += 0.5 * q[a] / s2;
     H(last, last) += 0.5 * q[last] / s2 - 0.5 * gls_.sum_of_squares / s2;
   } else {
-    H.triangularView<Eigen::Lower>() += q * q.transpose() / (2.0 * static_cast<double>(runs()) * s2 * s2);
+    detail::add_outer(H, 0.5 / (static_cast<double>(runs()) * s2 * s2), q, q);
   }
 }
 

@@ -14,12 +14,11 @@
 #include <algorithm>
 #include <vector>
 
+#include <drawpoint/kriging/dense.hpp>
 #include <drawpoint/kriging/parallel.hpp>
 #include <drawpoint/kriging/simd.hpp>
 
 namespace drawpoint::kriging::detail {
-
-using Index = Eigen::Index;
 
 /// A column-major block inside a larger matrix.
 struct Block {

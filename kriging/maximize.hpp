@@ -24,6 +24,7 @@
 #include <drawpoint/doe/ipopt_mutex.hpp>
 #include <drawpoint/kriging/climb.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -92,7 +93,7 @@ class NegativeLikelihood : public Ipopt::TNLP {
   bool eval_grad_f(Ipopt::Index n, const double* x, bool, double* g) override {
     at_ = Eigen::Map<const Eigen::VectorXd>(x, n);
     gradient_ = likelihood_.gradient(at_);
-    Eigen::Map<Eigen::VectorXd>(g, n) = -gradient_;
+    std::transform(gradient_.begin(), gradient_.end(), g, std::negate<>());
     return std::isfinite(likelihood_.estimates().log_likelihood);
   }
 
@@ -109,7 +110,7 @@ class NegativeLikelihood : public Ipopt::TNLP {
         }
       }
     }
-    return !values || B_.allFinite();
+    return !values || all_finite(B_);
   }
 
   bool eval_g(Ipopt::Index, const double*, bool, Ipopt::Index, double*) override { return true; }
@@ -137,7 +138,8 @@ class NegativeLikelihood : public Ipopt::TNLP {
  private:
   void update_curvature(const Eigen::VectorXd& p) {
     if (start_.curvature.size() == 0) {
-      B_ = -likelihood_.hessian(p);
+      B_ = likelihood_.hessian(p);
+      std::transform(B_.data(), B_.data() + B_.size(), B_.data(), std::negate<>());
       return;
     }
     const Eigen::VectorXd g = likelihood_.gradient(p);
@@ -153,10 +155,7 @@ class NegativeLikelihood : public Ipopt::TNLP {
     if (B_.size() == 0 || gradient_.size() == 0) return false;
     const auto free = free_parameters(box_, at_, gradient_);
     if (free.empty()) return true;
-    const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd(B_(free, free)));
-    if (llt.info() != Eigen::Success) return false;
-    const Eigen::VectorXd g = gradient_(free);
-    return 0.5 * g.dot(llt.solve(g)) < negligible_gain;
+    return 0.5 * dot(gradient_, newton_step(B_, free, gradient_)) < negligible_gain;
   }
 
   Likelihood& likelihood_;
@@ -231,8 +230,9 @@ inline Maximum maximize(Likelihood& likelihood, const Box& box, SearchStart star
     best.p = found.p;
     best.value = found.value;
     const Box now = detail::held_at(box, best.p, likelihood.gradient(best.p));
-    const bool released =
-        ((held.lower.array() == held.upper.array()) && (now.lower.array() < now.upper.array())).any();
+    bool released = false;
+    for (Eigen::Index i = 0; i < now.lower.size(); ++i)
+      released = released || (held.lower[i] == held.upper[i] && now.lower[i] < now.upper[i]);
     if (!released) return best;
   }
   return best;

@@ -45,33 +45,36 @@ class Model {
  public:
   /// Made by fit() and by what changes a model.
   explicit Model(detail::ModelState state) : s_(std::move(state)), runs_(s_.X.transpose()) {
-    stretched_ = s_.correlation.theta.cwiseSqrt().asDiagonal() * runs_;
-    if (s_.X.rows() > 0) triangle_ = s_.gls.T.transpose().triangularView<Eigen::Lower>();
+    stretched_ = runs_;
+    for (Eigen::Index j = 0; j < runs_.cols(); ++j)
+      for (Eigen::Index k = 0; k < runs_.rows(); ++k) stretched_(k, j) *= std::sqrt(s_.correlation.theta[k]);
+    if (s_.X.rows() > 0) triangle_ = s_.gls.T.transpose();
   }
 
   /// X: m x d, natural units. Throws std::invalid_argument for another number of columns and for numbers that
   /// are not finite.
   Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
-    check(X.cols(), X.allFinite());
+    check(X.cols(), detail::all_finite(X));
     Prediction p{Eigen::VectorXd(X.rows()), Eigen::VectorXd(X.rows())};
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
       const Eigen::Index count = std::min(block, X.rows() - i);
       const Eigen::MatrixXd points = X.middleRows(i, count), scaled = s_.input.apply(points);
-      p.mean.segment(i, count) = mean_of(points, scaled);
-      p.variance.segment(i, count) = variance_of(points, scaled);
+      const Eigen::VectorXd mean = mean_of(points, scaled), variance = variance_of(points, scaled);
+      std::copy(mean.begin(), mean.end(), p.mean.begin() + i);
+      std::copy(variance.begin(), variance.end(), p.variance.begin() + i);
     }
-    if (target == Target::observation) p.variance.array() += noise_variance();
+    if (target == Target::observation) p.variance = detail::affine(p.variance, 1.0, noise_variance());
     return p;
   }
 
   /// The mean alone, at a fraction of the cost. Throws as predict.
   Eigen::VectorXd mean(const Eigen::MatrixXd& X) const {
-    check(X.cols(), X.allFinite());
+    check(X.cols(), detail::all_finite(X));
     Eigen::VectorXd mean(X.rows());
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
-      const Eigen::Index count = std::min(block, X.rows() - i);
-      const Eigen::MatrixXd points = X.middleRows(i, count);
-      mean.segment(i, count) = mean_of(points, s_.input.apply(points));
+      const Eigen::MatrixXd points = X.middleRows(i, std::min(block, X.rows() - i));
+      const Eigen::VectorXd part = mean_of(points, s_.input.apply(points));
+      std::copy(part.begin(), part.end(), mean.begin() + i);
     }
     return mean;
   }
@@ -82,43 +85,50 @@ class Model {
   /// Derivatives of the latent mean and variance at one point x of d entries. Cost n² + n d. Throws as
   /// predict.
   PredictionGradient gradient(const Eigen::VectorXd& x) const {
-    check(x.size(), x.allFinite());
+    check(x.size(), detail::all_finite(x));
     PredictionGradient g{Eigen::VectorXd::Zero(x.size()), Eigen::VectorXd::Zero(x.size())};
     if (s_.X.rows() == 0) return g;
     const SlopesAt at = slopes_at(x);
     g.mean = mean_slope(at);
     // v = T⁻ᵀu and its derivatives; R⁻¹r = L⁻ᵀL⁻¹r.
-    const Eigen::VectorXd v =
-        triangle_.triangularView<Eigen::Lower>().solve(at.trend) - s_.gls.B.transpose() * at.r;
-    const Eigen::MatrixXd dv =
-        triangle_.triangularView<Eigen::Lower>().solve(at.trend_slopes) - s_.gls.B.transpose() * at.slopes;
-    Eigen::VectorXd w = s_.L.triangularView<Eigen::Lower>().solve(at.r);
-    s_.L.triangularView<Eigen::Lower>().transpose().solveInPlace(w);
-    g.variance = 2.0 * process_variance() * (dv.transpose() * v - at.slopes.transpose() * w);
+    Eigen::VectorXd v = at.trend, w = at.r;
+    Eigen::MatrixXd dv = at.trend_slopes;
+    detail::solve_lower(triangle_, v);
+    v = detail::difference(v, detail::transposed_product(s_.gls.B, at.r));
+    detail::solve_lower(triangle_, dv);
+    const Eigen::MatrixXd BJ = detail::transposed_product(s_.gls.B, at.slopes);
+    detail::add_scaled(dv.data(), -1.0, BJ.data(), dv.size());
+    detail::solve_lower(s_.L, w);
+    detail::solve_lower_transposed(s_.L, w);
+    g.variance =
+        detail::difference(detail::transposed_product(dv, v), detail::transposed_product(at.slopes, w));
+    g.variance = detail::affine(g.variance, 2.0 * process_variance());
     return g;
   }
 
   /// Its mean alone, at a fraction of the cost: n d. Throws as predict.
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {
-    check(x.size(), x.allFinite());
+    check(x.size(), detail::all_finite(x));
     if (s_.X.rows() == 0) return Eigen::VectorXd::Zero(x.size());
     return mean_slope(slopes_at(x));
   }
 
   /// Joint covariance of the latent function at the rows of X: m x m, symmetric. Throws as predict.
   Eigen::MatrixXd covariance(const Eigen::MatrixXd& X) const {
-    check(X.cols(), X.allFinite());
-    const Eigen::Index m = X.rows();
-    if (s_.X.rows() == 0)
-      return Eigen::MatrixXd(Eigen::VectorXd::Constant(m, s_.constant_variance).asDiagonal());
+    check(X.cols(), detail::all_finite(X));
+    if (s_.X.rows() == 0) return detail::scaled_identity(X.rows(), s_.constant_variance);
     const Eigen::MatrixXd scaled = s_.input.apply(X);
     Eigen::MatrixXd R = correlations(scaled), C;
-    const Eigen::MatrixXd V = trend_part(X, scaled, R);
+    Eigen::MatrixXd V = trend_part(X, scaled, R);
     detail::solve_right(detail::block_of(s_.L), detail::block_of(R));
     fill_correlation(scaled, s_.correlation, C);
-    C = Eigen::MatrixXd(C.selfadjointView<Eigen::Lower>());
-    C += V * V.transpose() - R * R.transpose();
-    return 0.5 * process_variance() * (C + C.transpose());
+    detail::add_product(detail::block_of(V), detail::block_of(V), 1.0, detail::block_of(C),
+                        detail::Part::lower);
+    detail::add_product(detail::block_of(R), detail::block_of(R), -1.0, detail::block_of(C),
+                        detail::Part::lower);
+    detail::mirror_lower(C);
+    for (double& entry : C.reshaped()) entry *= process_variance();
+    return C;
   }
 
   Eigen::Index variables() const { return s_.input.centre.size(); }
@@ -134,7 +144,7 @@ class Model {
   double trend() const { return s_.y_centre + (s_.X.rows() ? s_.y_scale * s_.gls.beta[0] : 0.0); }
   /// One entry a term, unit of y over the unit of the term, in the order of trend_function(). The first term
   /// lacks the mean of the runs, which trend() includes.
-  Eigen::VectorXd trend_coefficients() const { return s_.y_scale * s_.gls.beta; }
+  Eigen::VectorXd trend_coefficients() const { return detail::affine(s_.gls.beta, s_.y_scale); }
   const detail::TrendFunction& trend_function() const { return s_.trend; }
   /// Concentrated log likelihood in the unit of y; +∞ for a constant response.
   double log_likelihood() const { return s_.log_likelihood; }
@@ -185,7 +195,10 @@ class Model {
   }
 
   Eigen::VectorXd mean_slope(const SlopesAt& at) const {
-    return s_.y_scale * (at.slopes.transpose() * s_.gls.alpha + at.trend_slopes.transpose() * s_.gls.beta);
+    Eigen::VectorXd slope = detail::transposed_product(at.slopes, s_.gls.alpha);
+    const Eigen::VectorXd by_trend = detail::transposed_product(at.trend_slopes, s_.gls.beta);
+    detail::add_scaled(slope.data(), 1.0, by_trend.data(), slope.size());
+    return detail::affine(slope, s_.y_scale);
   }
 
   // n x d: derivatives of r by the natural inputs.
@@ -202,25 +215,28 @@ class Model {
     if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.y_centre);
     Eigen::VectorXd m = s_.correlation.family == Correlation::gaussian
                             ? gaussian_sums(scaled)
-                            : Eigen::VectorXd(correlations(scaled) * s_.gls.alpha);
-    if (s_.trend.is_constant())
-      m.array() += s_.gls.beta[0];
-    else
-      m += detail::trend_matrix(s_.trend, X, scaled, s_.input) * s_.gls.beta;
-    return (s_.y_scale * m).array() + s_.y_centre;
+                            : detail::product(correlations(scaled), s_.gls.alpha);
+    if (s_.trend.is_constant()) {
+      m = detail::affine(m, 1.0, s_.gls.beta[0]);
+    } else {
+      const Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
+      detail::add_product(m.data(), 1.0, F, s_.gls.beta.data());
+    }
+    return detail::affine(m, s_.y_scale, s_.y_centre);
   }
 
   // Σⱼ αⱼ c(x, xⱼ), eight points at a time; the last eight are filled up with copies of the last point.
   Eigen::VectorXd gaussian_sums(const Eigen::MatrixXd& scaled) const {
     constexpr Eigen::Index step = detail::points_at_once;
     const Eigen::Index m = scaled.rows();
-    const Eigen::RowVectorXd root = s_.correlation.theta.cwiseSqrt().transpose();
+    const Eigen::VectorXd& theta = s_.correlation.theta;
     const detail::GaussianRuns runs{stretched_.data(), s_.gls.alpha.data(), s_.X.rows(), scaled.cols()};
     Eigen::VectorXd sums(m);
     Eigen::MatrixXd z(step, scaled.cols());
     for (Eigen::Index i = 0; i < m; i += step) {
-      for (Eigen::Index a = 0; a < step; ++a)
-        z.row(a) = scaled.row(std::min(i + a, m - 1)).cwiseProduct(root);
+      for (Eigen::Index k = 0; k < z.cols(); ++k)
+        for (Eigen::Index a = 0; a < step; ++a)
+          z(a, k) = scaled(std::min(i + a, m - 1), k) * std::sqrt(theta[k]);
       double out[step];
       detail::gaussian_sums(runs, z.data(), out);
       std::copy(out, out + std::min(step, m - i), sums.data() + i);
@@ -231,18 +247,23 @@ class Model {
   // Rows T⁻ᵀu of the points, m x q.
   Eigen::MatrixXd trend_part(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled,
                              const Eigen::MatrixXd& R) const {
-    const Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
-    return triangle_.triangularView<Eigen::Lower>().solve(F.transpose()).transpose() - R * s_.gls.B;
+    Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
+    detail::solve_right(detail::block_of(triangle_), detail::block_of(F));
+    for (Eigen::Index j = 0; j < F.cols(); ++j)
+      detail::add_product(detail::column(F, j), -1.0, R, detail::column(s_.gls.B, j));
+    return F;
   }
 
   Eigen::VectorXd variance_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const {
     if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.constant_variance);
     Eigen::MatrixXd R = correlations(scaled);
-    const Eigen::ArrayXd missing = trend_part(X, scaled, R).rowwise().squaredNorm();
+    const Eigen::VectorXd missing = detail::row_squares(trend_part(X, scaled, R));
     detail::solve_right(detail::block_of(s_.L), detail::block_of(R));
-    const Eigen::ArrayXd explained = R.rowwise().squaredNorm();
+    Eigen::VectorXd variance = detail::row_squares(R);  // explained
     // Round-off may leave a small negative number at a run.
-    return process_variance() * (1.0 - explained + missing).max(0.0);
+    for (Eigen::Index i = 0; i < variance.size(); ++i)
+      variance[i] = process_variance() * std::max(1.0 - variance[i] + missing[i], 0.0);
+    return variance;
   }
 
   detail::ModelState s_;

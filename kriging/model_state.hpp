@@ -42,7 +42,7 @@ struct ModelState {
 
 /// What the diagonal of R has beyond that of C: n entries.
 inline Eigen::VectorXd added_noise(const ModelState& s) {
-  if (s.noise.size()) return s.nugget * s.noise.array() + noise_floor;
+  if (s.noise.size()) return affine(s.noise, s.nugget, noise_floor);
   return Eigen::VectorXd::Constant(s.X.rows(), s.nugget);
 }
 

@@ -17,21 +17,29 @@ inline int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+/// A task without its type, so that the threads are compiled once.
+struct AnyTask {
+  const void* task;
+  void (*call)(const void* task, int i);
+};
+
+inline void run_tasks(int count, int threads, const AnyTask& task) {
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) task.call(task.task, i);
+  };
+  std::vector<std::jthread> pool;
+  for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+  work();
+}
+
 /// Calls task(i) for i = 0..count-1, on the calling thread alone when `threads` is 1. A task must not throw.
 template <class Task>
 void for_each_task(int count, int threads, const Task& task) {
-  const int helpers = std::min(threads, count) - 1;
-  if (helpers <= 0) {
-    for (int i = 0; i < count; ++i) task(i);
-    return;
-  }
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) task(i);
-  };
-  std::vector<std::jthread> pool;
-  for (int i = 0; i < helpers; ++i) pool.emplace_back(work);
-  work();
+  if (std::min(threads, count) > 1)
+    return run_tasks(count, std::min(threads, count),
+                     {&task, [](const void* any, int i) { (*static_cast<const Task*>(any))(i); }});
+  for (int i = 0; i < count; ++i) task(i);
 }
 
 }  // namespace drawpoint::kriging::detail

@@ -26,19 +26,20 @@ inline Model reinterpolated(const Model& model) {
   detail::ModelState s = model.state();
   if (s.X.rows() == 0) return model;
   const double n = static_cast<double>(s.X.rows());
-  const Eigen::VectorXd share = detail::added_noise(s).cwiseProduct(s.gls.alpha);  // y − ŷ at the runs
-  const double process_variance = (s.gls.sum_of_squares - s.gls.alpha.dot(share)) / n;
+  const Eigen::VectorXd share =
+      detail::entry_products(detail::added_noise(s), s.gls.alpha);  // y − ŷ at the runs
+  const double process_variance = (s.gls.sum_of_squares - detail::dot(s.gls.alpha, share)) / n;
   const detail::LeastSquares regression = s.gls;
   Eigen::MatrixXd C;
   fill_correlation(s.X, s.correlation, C);
   s.nugget = 4.0 * n * std::numeric_limits<double>::epsilon();
   for (;; s.nugget *= 10.0) {
     s.L = C;
-    s.L.diagonal().array() += s.nugget;
+    detail::add_to_diagonal(s.L, s.nugget);
     if (detail::factor(detail::block_of(s.L), 1)) break;
   }
-  s.L.triangularView<Eigen::StrictlyUpper>().setZero();
-  s.y -= share;
+  detail::clear_upper(s.L);
+  s.y = detail::difference(s.y, share);
   s.noise.resize(0);
   s.known_noise = 0;
   s.gls = detail::least_squares(s.L, s.F, s.y);

@@ -44,14 +44,15 @@ inline LikelihoodProblem thinned(const LikelihoodProblem& all) {
 
 /// All climbs, best first; ties keep the order of the starts.
 inline std::vector<Climb> climbs(Likelihood& likelihood, const Box& box, const FitOptions& options) {
-  std::vector<Climb> all;
+  std::vector<Climb> all, ranked;
+  std::vector<double> values;
   for (const Eigen::VectorXd& start : starting_points(likelihood, box, options)) {
     all.emplace_back(likelihood, box, start);
     all.back().advance(options.max_iterations, climb_gain);
+    values.push_back(all.back().value());
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.value() > b.value(); });
-  return all;
+  for (const int i : ranking(values)) ranked.push_back(all[i]);
+  return ranked;
 }
 
 inline int agreeing(const std::vector<Climb>& all) {
@@ -63,7 +64,12 @@ inline int agreeing(const std::vector<Climb>& all) {
 /// `scale`.
 inline std::vector<SearchStart> best_of_each_explanation(const std::vector<Climb>& ranked, double scale) {
   const auto noisy = [](const Climb& c) { return c.p()[c.p().size() - 1] >= std::log(interpolation_nugget); };
-  const auto start = [&](const Climb& c) { return SearchStart{c.p(), scale * c.curvature()}; };
+  const auto start = [&](const Climb& c) {
+    SearchStart s{c.p(), c.curvature()};
+    std::for_each(s.curvature.data(), s.curvature.data() + s.curvature.size(),
+                  [=](double& b) { b *= scale; });
+    return s;
+  };
   std::vector<SearchStart> starts{start(ranked.front())};
   const auto other = std::find_if(ranked.begin(), ranked.end(), [&](const Climb& c) {
     return std::isfinite(c.value()) && noisy(c) != noisy(ranked.front());

@@ -18,6 +18,7 @@
 #include <drawpoint/kriging/climb.hpp>
 #include <drawpoint/kriging/likelihood.hpp>
 #include <drawpoint/kriging/options.hpp>
+#include <numeric>
 #include <vector>
 
 namespace drawpoint::kriging::detail {
@@ -39,14 +40,15 @@ inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, Eige
   for (Eigen::Index k = 0; k < d; ++k) p[k] = -std::log(8.0) - 2.0 * (common + log_uniform(random, 0.5, 4.0));
   for (Eigen::Index k = d; k + 1 < m; ++k) p[k] = 1.5 + 0.49 * random.uniform();
   p[m - 1] = log_uniform(random, 1e-8, 0.3);
-  return p.cwiseMax(box.lower).cwiseMin(box.upper);
+  return moved(box, p, 0.0, p);
 }
 
 /// Evenly picked rows of X (and of y) as a matrix of at most `limit` rows.
 inline Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, Eigen::Index limit) {
   const Eigen::Index n = X.rows(), m = std::min(n, limit);
   Eigen::MatrixXd rows(m, X.cols());
-  for (Eigen::Index i = 0; i < m; ++i) rows.row(i) = X.row(i * n / m);
+  for (Eigen::Index k = 0; k < X.cols(); ++k)
+    for (Eigen::Index i = 0; i < m; ++i) rows(i, k) = X(i * n / m, k);
   return rows;
 }
 
@@ -55,17 +57,28 @@ struct Candidate {
   double value = 0;
 };
 
+/// Places of the values from the highest down; equal ones keep their order.
+inline std::vector<int> ranking(const std::vector<double>& values) {
+  std::vector<int> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return values[a] > values[b] || (values[a] == values[b] && a < b); });
+  return order;
+}
+
 /// Best first; ties keep the order of drawing.
 inline std::vector<Candidate> ranked_candidates(Likelihood& likelihood, const Box& box, int count,
                                                 doe::Seed seed) {
   doe::RandomStream random(seed);
-  std::vector<Candidate> all(count);
+  std::vector<Candidate> all(count), ranked;
+  std::vector<double> values;
   for (Candidate& c : all) {
     c.p = candidate(random, box, likelihood.variables());
     c.value = likelihood.value(c.p);
+    values.push_back(c.value);
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
-  return all;
+  for (const int i : ranking(values)) ranked.push_back(all[i]);
+  return ranked;
 }
 
 /// Those that lie apart from all better ones: on average e apart or more in each θ, e³ in λ.
@@ -74,8 +87,8 @@ inline std::vector<Candidate> spread(const std::vector<Candidate>& ranked) {
   for (const Candidate& c : ranked) {
     const Eigen::Index d = c.p.size() - 1;
     const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-      const Eigen::VectorXd step = c.p - other.p;
-      return step.head(d).squaredNorm() + step[d] * step[d] / 9.0 >= 1.25 * static_cast<double>(d + 1);
+      const Eigen::VectorXd step = difference(c.p, other.p);
+      return dot(step.data(), step.data(), d) + step[d] * step[d] / 9.0 >= 1.25 * static_cast<double>(d + 1);
     });
     if (apart) kept.push_back(c);
   }

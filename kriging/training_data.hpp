@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/dense.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>
 #include <stdexcept>
@@ -24,11 +25,18 @@ struct InputScale {
   Eigen::VectorXd centre, factor;
 
   Eigen::MatrixXd apply(const Eigen::MatrixXd& X) const {
-    return (X.rowwise() - centre.transpose()) * factor.asDiagonal();
+    Eigen::MatrixXd scaled = X;
+    for (Index k = 0; k < X.cols(); ++k)
+      for (Index i = 0; i < X.rows(); ++i) scaled(i, k) = (X(i, k) - centre[k]) * factor[k];
+    return scaled;
   }
 
   /// Natural units a scaled one; 0 for an input that never varies.
-  Eigen::VectorXd half_range() const { return (factor.array() > 0).select(1.0 / factor.array(), 0.0); }
+  Eigen::VectorXd half_range() const {
+    Eigen::VectorXd range = factor;
+    for (double& entry : range) entry = entry > 0 ? 1.0 / entry : 0.0;
+    return range;
+  }
 };
 
 struct TrainingData {
@@ -55,6 +63,8 @@ inline constexpr double largest = 1e150, smallest_range = 1e-150;
 
 inline std::string text(double value) { return doe::detail::number_text(value); }
 
+inline bool is_usable(double value) { return std::abs(value) <= largest; }
+
 inline void check_number(double value, const std::string& place) {
   if (!std::isfinite(value))
     reject(place + " is " + text(value) + "; allowed are finite numbers; leave failed runs out");
@@ -70,8 +80,9 @@ inline void check_runs(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   if (X.rows() < 1) reject("X has 0 runs; allowed is 1 or more; give one row a run");
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     for (Eigen::Index k = 0; k < X.cols(); ++k)
-      check_number(X(i, k), "X(" + std::to_string(i) + ", " + std::to_string(k) + ")");
-    check_number(y[i], "y[" + std::to_string(i) + "]");
+      if (!is_usable(X(i, k)))
+        check_number(X(i, k), "X(" + std::to_string(i) + ", " + std::to_string(k) + ")");
+    if (!is_usable(y[i])) check_number(y[i], "y[" + std::to_string(i) + "]");
   }
 }
 
@@ -131,7 +142,7 @@ inline void check_noise(const FitOptions& options, Eigen::Index n) {
       reject("noise_variance[" + std::to_string(i) + "] is " + text(v[i]) +
              "; allowed are numbers from 0 on; give variances, the squares of standard deviations");
   }
-  if (!(v.maxCoeff() > 0))
+  if (!(largest_entry(v) > 0))
     reject("noise_variance is 0 for all runs; allowed is one above 0; use Noise::nugget");
 }
 
@@ -156,24 +167,25 @@ inline void check_options(const FitOptions& options, Eigen::Index d) {
 }
 
 inline InputScale input_scale(const Eigen::MatrixXd& X, const FitOptions& options) {
-  const Eigen::VectorXd low = X.colwise().minCoeff(), high = X.colwise().maxCoeff();
-  const Eigen::VectorXd lower = options.lower.size() ? options.lower : low;
-  const Eigen::VectorXd upper = options.upper.size() ? options.upper : high;
-  InputScale scale{0.5 * (lower + upper), Eigen::VectorXd::Zero(X.cols())};
+  InputScale scale{Eigen::VectorXd::Zero(X.cols()), Eigen::VectorXd::Zero(X.cols())};
   for (Eigen::Index k = 0; k < X.cols(); ++k) {
-    if (high[k] == low[k]) continue;
-    if (upper[k] - lower[k] < smallest_range)
-      reject("variable " + std::to_string(k) + " has a range of " + text(upper[k] - lower[k]) +
+    const auto [low, high] = std::minmax_element(column(X, k), column(X, k) + X.rows());
+    const double lower = options.lower.size() ? options.lower[k] : *low;
+    const double upper = options.upper.size() ? options.upper[k] : *high;
+    scale.centre[k] = 0.5 * (lower + upper);
+    if (*high == *low) continue;
+    if (upper - lower < smallest_range)
+      reject("variable " + std::to_string(k) + " has a range of " + text(upper - lower) +
              "; allowed are ranges from 1e-150 on; change the unit");
-    scale.factor[k] = 2.0 / (upper[k] - lower[k]);
+    scale.factor[k] = 2.0 / (upper - lower);
   }
   return scale;
 }
 
 /// Whether all y are equal to round-off: no differences that a model could explain.
 inline bool is_constant(const Eigen::VectorXd& y) {
-  const double round_off = 8.0 * std::numeric_limits<double>::epsilon() * y.cwiseAbs().maxCoeff();
-  return y.maxCoeff() - y.minCoeff() <= round_off;
+  const double size = std::max(std::abs(largest_entry(y)), std::abs(smallest_entry(y)));
+  return largest_entry(y) - smallest_entry(y) <= 8.0 * std::numeric_limits<double>::epsilon() * size;
 }
 
 /// n x q, the trend's terms at the rows of X, given in both units.
@@ -184,7 +196,8 @@ inline Eigen::MatrixXd trend_matrix(const TrendFunction& trend, const Eigen::Mat
   const Eigen::VectorXd half_range = input.half_range();
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     const Eigen::VectorXd natural = X.row(i), at = scaled.row(i);
-    F.row(i) = trend.values({natural, at, half_range});
+    const Eigen::VectorXd f = trend.values({natural, at, half_range});
+    for (Eigen::Index j = 0; j < F.cols(); ++j) F(i, j) = f[j];
   }
   return F;
 }
@@ -206,7 +219,7 @@ inline void set_trend(TrainingData& data, const Eigen::MatrixXd& X, TrendFunctio
   if (kept.empty())
     reject("basis.values is 0 at all runs; allowed is one function that is not; add the constant 1");
   data.terms_dropped = static_cast<int>(all.cols()) - static_cast<int>(kept.size());
-  data.F = all(Eigen::all, kept);
+  data.F = columns_of(all, kept);
   std::vector<TrendTerm> terms;
   if (trend.by_user())
     trend.kept = kept;
@@ -218,8 +231,8 @@ inline void set_trend(TrainingData& data, const Eigen::MatrixXd& X, TrendFunctio
 
 inline void set_noise(TrainingData& data, const FitOptions& options) {
   if (options.noise == Noise::nugget) return;
-  const double mean = options.noise_variance.mean();
-  data.noise = options.noise_variance / mean;
+  const double mean = mean_of(options.noise_variance);
+  data.noise = affine(options.noise_variance, 1.0 / mean);
   data.noise_unit = mean;
   if (options.noise == Noise::known) data.known_noise = mean / data.y_scale / data.y_scale;
 }
@@ -233,14 +246,14 @@ inline TrainingData prepare(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   data.observed = y;
   data.input = input_scale(X, options);
   data.X = data.input.apply(X);
-  data.y_centre = y[0] + (y.array() - y[0]).mean();
+  data.y_centre = y[0] + mean_of(affine(y, 1.0, -y[0]));
   if (y.size() == 1 || is_constant(y)) return data;
-  const double range = y.maxCoeff() - y.minCoeff();
+  const double range = largest_entry(y) - smallest_entry(y);
   if (range < smallest_range)
     reject("y has a range of " + text(range) + "; allowed are ranges from 1e-150 on; change the unit");
-  data.y = (y.array() - data.y_centre) / range;
-  data.y_scale = range * std::sqrt(data.y.squaredNorm() / static_cast<double>(y.size() - 1));
-  data.y *= range / data.y_scale;
+  data.y = affine(affine(y, 1.0, -data.y_centre), 1.0 / range);
+  data.y_scale = range * std::sqrt(square(data.y) / static_cast<double>(y.size() - 1));
+  data.y = affine(data.y, range / data.y_scale);
   set_noise(data, options);
   const Trend trend = options.trend == Trend::blind ? Trend::constant : options.trend;
   set_trend(data, X, {polynomial(static_cast<int>(X.cols()), trend), options.basis, {}});

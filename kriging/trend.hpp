@@ -11,7 +11,9 @@
 /// the number of terms.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <drawpoint/kriging/dense.hpp>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -72,7 +74,7 @@ struct TrendFunction {
   bool is_constant() const { return !by_user() && terms.size() == 1; }
 
   Eigen::VectorXd values(const TrendPoint& x) const {
-    if (by_user()) return called(x.natural)(kept);
+    if (by_user()) return entries_of(called(x.natural), kept);
     Eigen::VectorXd f(size());
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = terms[i].at(x.scaled);
     return f;
@@ -99,7 +101,7 @@ struct TrendFunction {
     if (!kept.empty() && f.size() <= kept.back())
       reject("values has " + std::to_string(f.size()) +
              " entries, fewer than at the runs; allowed is one size; " + "return as many everywhere");
-    if (!f.allFinite())
+    if (!all_finite(f))
       reject("values holds a number that is not finite; allowed are finite numbers; mend it");
     return f;
   }
@@ -109,7 +111,7 @@ struct TrendFunction {
     if (J.rows() <= kept.back() || J.cols() != x.natural.size())
       reject("jacobian is " + std::to_string(J.rows()) + " x " + std::to_string(J.cols()) +
              "; allowed is the size of values x " + std::to_string(x.natural.size()) + "; give ∂values/∂x");
-    return J(kept, Eigen::all);
+    return rows_of(J, kept);
   }
 
   Eigen::MatrixXd difference_quotients(const TrendPoint& x) const {
@@ -120,7 +122,9 @@ struct TrendFunction {
       Eigen::VectorXd up = x.natural, down = x.natural;
       up[k] += step;
       down[k] -= step;
-      J.col(k) = (called(up)(kept) - called(down)(kept)) / (up[k] - down[k]);
+      const Eigen::VectorXd at_up = called(up), at_down = called(down);
+      for (Eigen::Index i = 0; i < size(); ++i)
+        J(i, k) = (at_up[kept[i]] - at_down[kept[i]]) / (up[k] - down[k]);
     }
     return J;
   }
@@ -129,16 +133,18 @@ struct TrendFunction {
 /// Indices of the columns of F that are independent of those before them to eight digits.
 inline std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& F) {
   constexpr double least = 1e-8;
-  Eigen::MatrixXd Q(F.rows(), 0);
+  const Eigen::Index n = F.rows();
+  Eigen::MatrixXd Q = F;  // in its first columns those that are kept, made orthonormal
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < F.cols(); ++j) {
-    const double norm = F.col(j).norm();
-    if (!(norm > 0) || static_cast<Eigen::Index>(kept.size()) == F.rows()) continue;
-    Eigen::VectorXd v = F.col(j) / norm;
-    for (int pass = 0; pass < 2; ++pass) v -= Q * (Q.transpose() * v);
-    if (!(v.norm() > least)) continue;
-    Q.conservativeResize(Eigen::NoChange, Q.cols() + 1);
-    Q.col(Q.cols() - 1) = v / v.norm();
+    const auto count = static_cast<Eigen::Index>(kept.size());
+    const double norm = std::sqrt(dot(column(F, j), column(F, j), n));
+    if (!(norm > 0) || count == n) continue;
+    double* v = column(Q, count);
+    std::transform(column(F, j), column(F, j) + n, v, [=](double entry) { return entry / norm; });
+    const double left = orthogonalize(Q, count, v);
+    if (!(left > least)) continue;
+    for (Eigen::Index i = 0; i < n; ++i) v[i] /= left;
     kept.push_back(j);
   }
   return kept;

@@ -97,7 +97,8 @@ TEST(Correlation, SlopesAreDifferenceQuotients) {
           return std::log(one(f, k, std::exp(log_theta), exponent, at));
         };
         const double t = std::log(f.theta[k]), p = f.exponent.size() ? f.exponent[k] : 2.0;
-        const detail::Chunk h = detail::Chunk::Constant(1, distance);
+        detail::Chunk h(1);
+        h.number[0] = distance;
         const double slope = detail::slope_in_theta(f, k, h)[0];
         const double tolerance = 1e-6 * (1 + std::abs(slope));
         EXPECT_NEAR(slope, derivative([&](double x) { return logarithm(x, p, distance); }, t, 0.02),

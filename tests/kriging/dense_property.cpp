@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <drawpoint/kriging/cholesky.hpp>
+#include <drawpoint/kriging/dense.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
 using namespace drawpoint::kriging;
@@ -44,6 +45,43 @@ TEST(Product, IsThatOfItsDefinition) {
         add_product(block_of(A), block_of(B), -1.0, block_of(C));
         EXPECT_LE((C - expected).cwiseAbs().maxCoeff(), 2.0 * static_cast<double>(k + 1) * eps);
       }
+}
+
+// Sums of n products of numbers below 1 lose at most n ε each.
+TEST(Product, WithFewColumnsIsThatOfItsDefinition) {
+  for (const Eigen::Index m : sizes) {
+    const MatrixXd A = spread_matrix(m, 21, 1), B = spread_matrix(21, 3, 2), C = spread_matrix(m, 3, 4);
+    const VectorXd x = B.col(0), y = C.col(0);
+    const double bound = 2.0 * static_cast<double>(m + 21) * eps;
+    EXPECT_LE((product(A, x) - A * x).cwiseAbs().maxCoeff(), bound) << m;
+    EXPECT_LE((product(A, B) - A * B).cwiseAbs().maxCoeff(), bound) << m;
+    EXPECT_LE((transposed_product(A, y) - A.transpose() * y).cwiseAbs().maxCoeff(), bound) << m;
+    EXPECT_LE((transposed_product(A, C) - A.transpose() * C).cwiseAbs().maxCoeff(), bound) << m;
+    EXPECT_LE((row_squares(A) - A.rowwise().squaredNorm()).cwiseAbs().maxCoeff(), bound) << m;
+    MatrixXd outer = A;
+    add_outer(outer, -2.0, y, x);
+    EXPECT_LE((outer - (A - 2.0 * y * x.transpose())).cwiseAbs().maxCoeff(), bound) << m;
+  }
+}
+
+// |L X − B| <= n ε |L| |X| row by row (Higham 2002, theorem 8.5); the entries of L are below 1.1, those of X
+// below 15 times those of B, which are below 1, by the condition of positive_definite().
+TEST(Triangle, IsSolvedFromBothSides) {
+  for (const Eigen::Index n : sizes) {
+    MatrixXd L = positive_definite(n);
+    ASSERT_TRUE(factor(block_of(L), 1));
+    clear_upper(L);
+    const MatrixXd B = spread_matrix(n, 3, 9);
+    const double bound = 17.0 * static_cast<double>(n * n) * eps;
+    MatrixXd X = B;
+    solve_lower(L, X);
+    EXPECT_LE((L * X - B).cwiseAbs().maxCoeff(), bound) << n;
+    X = B;
+    solve_lower_transposed(L, X);
+    EXPECT_LE((L.transpose() * X - B).cwiseAbs().maxCoeff(), bound) << n;
+    const VectorXd x = solve_upper(L.transpose(), B.col(1));
+    EXPECT_LE((L.transpose() * x - B.col(1)).cwiseAbs().maxCoeff(), bound) << n;
+  }
 }
 
 // ‖L Lᵀ − A‖ <= n ε ‖A‖ for any order of the sums (Higham 2002, theorem 10.3), here per entry with ‖A‖ near
@@ -115,6 +153,16 @@ TEST(Kernels, GiveTheSameBitsWithNarrowAndWideVectors) {
   exp_quad(wide.data(), wide.size());
   exp_kernel<Pair>(narrow.data(), narrow.size());
   EXPECT_EQ(wide, narrow);
+
+  for (const Eigen::Index n : {1, 3, 4, 7, 8, 29, 1001}) {
+    EXPECT_EQ(dot_quad(wide.data(), narrow.data(), n), dot_kernel(wide.data(), narrow.data(), n));
+    EXPECT_EQ(weighted_squares_quad(wide.data(), narrow.data(), 0.3, n),
+              weighted_squares_kernel(wide.data(), narrow.data(), 0.3, n));
+    VectorXd more = wide, same = wide;
+    add_scaled_quad(more.data(), -0.7, narrow.data(), n);
+    add_scaled_kernel(same.data(), -0.7, narrow.data(), n);
+    EXPECT_EQ(more, same);
+  }
 
   MatrixXd A = spread_matrix(53, 70, 1), B = spread_matrix(29, 70, 2), C = spread_matrix(53, 29, 3), D = C;
   std::vector<double> a(80 * 70), b(80 * 70);
