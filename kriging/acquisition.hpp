@@ -39,14 +39,6 @@ namespace drawpoint::kriging {
 
 namespace detail {
 
-template <class S>
-constexpr void require_surrogate() {
-  static_assert(
-      Surrogate<S>,
-      "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
-      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
-}
-
 /// +1 to minimise, −1 to maximise.
 inline double sign_of(const char* place, doe::Goal goal) {
   if (!doe::is_objective(goal))
@@ -77,7 +69,7 @@ class SearchModel {
   Prediction predict(const Eigen::MatrixXd& X) const {
     Prediction p = model_.predict(X);
     if constexpr (std::is_same_v<S, Model>)
-      p.variance = (p.variance.array() <= variance_floor(model_)).select(0.0, p.variance);
+      for (double& v : p.variance) v = v <= variance_floor(model_) ? 0.0 : v;
     return p;
   }
 
@@ -98,7 +90,8 @@ class SearchModel {
 inline Eigen::VectorXd fitted_values(const Model& model) {
   const detail::ModelState& s = model.state();
   if (s.X.rows() == 0) return Eigen::VectorXd::Constant(s.observed.size(), s.y_centre);
-  return s.observed - s.y_scale * detail::added_noise(s).cwiseProduct(s.gls.alpha);
+  const Eigen::VectorXd share = detail::entry_products(detail::added_noise(s), s.gls.alpha);
+  return detail::difference(s.observed, detail::affine(share, s.y_scale));
 }
 
 /// σ² of the latent function, unit of y squared.
@@ -141,9 +134,9 @@ doe::Criterion improvement(S model, const ImprovementOn& on) {
 /// By the re-interpolated model, on the best fitted value of `runs`, all of them when empty.
 inline doe::Criterion reinterpolated_improvement(const Model& model, double sign, bool logarithm,
                                                  const std::vector<Eigen::Index>& runs = {}) {
-  Eigen::VectorXd values = sign * fitted_values(model);
-  if (!runs.empty()) values = Eigen::VectorXd(values(runs));
-  return improvement(SearchModel<Model>(model), {sign * values.minCoeff(), sign, logarithm});
+  Eigen::VectorXd values = affine(fitted_values(model), sign);
+  if (!runs.empty()) values = entries_of(values, runs);
+  return improvement(SearchModel<Model>(model), {sign * smallest_entry(values), sign, logarithm});
 }
 
 }  // namespace detail
@@ -185,7 +178,8 @@ inline doe::Criterion cross_validation_error(const Model& model) {
   const detail::ModelState& s = model.state();
   if (s.X.rows() == 0)
     return [](const Eigen::MatrixXd& X) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(X.rows()); };
-  const Eigen::VectorXd error = s.y_scale * s.gls.alpha.cwiseQuotient(detail::diagonal_of_P(s)).cwiseAbs();
+  Eigen::VectorXd error = detail::entry_quotients(s.gls.alpha, detail::diagonal_of_P(s));
+  for (double& e : error) e = s.y_scale * std::abs(e);
   return [input = s.input, runs = s.X, error](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
     const std::vector<int> site = doe::detail::nearest_sites(input.apply(X), runs).site;
     Eigen::VectorXd score(X.rows());

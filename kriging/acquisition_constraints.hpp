@@ -68,7 +68,7 @@ inline doe::Criterion product(std::vector<doe::Criterion> criteria) {
     throw std::invalid_argument("kriging::product: 0 criteria; allowed is 1 or more; name at least one");
   return [criteria = std::move(criteria)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
     Eigen::VectorXd all = criteria[0](X);
-    for (std::size_t k = 1; k < criteria.size(); ++k) all = all.cwiseProduct(criteria[k](X));
+    for (std::size_t k = 1; k < criteria.size(); ++k) all = detail::entry_products(all, criteria[k](X));
     return all;
   };
 }
@@ -91,7 +91,7 @@ namespace detail {
 inline std::vector<Eigen::Index> feasible_runs(const char* place, const doe::Problem& problem,
                                                const std::vector<Model>& models) {
   const Eigen::Index n = models.front().runs();
-  Eigen::ArrayXi kept = Eigen::ArrayXi::Ones(n);
+  std::vector<bool> kept(static_cast<std::size_t>(n), true);
   for (std::size_t j = 0; j < models.size(); ++j) {
     if (models[j].runs() != n)
       throw std::invalid_argument(std::string(place) + ": a model of " + std::to_string(models[j].runs()) +
@@ -100,11 +100,13 @@ inline std::vector<Eigen::Index> feasible_runs(const char* place, const doe::Pro
     const doe::Response& r = problem.responses[j];
     if (!doe::is_constraint(r.goal)) continue;
     const double sign = r.goal == doe::Goal::at_most ? 1.0 : -1.0;
-    kept *= (sign * (fitted_values(models[j]).array() - r.limit) <= 0.0).cast<int>();
+    const Eigen::VectorXd values = fitted_values(models[j]);
+    for (Index i = 0; i < n; ++i)
+      if (!(sign * (values[i] - r.limit) <= 0.0)) kept[static_cast<std::size_t>(i)] = false;
   }
   std::vector<Eigen::Index> runs;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (kept[i]) runs.push_back(i);
+    if (kept[static_cast<std::size_t>(i)]) runs.push_back(i);
   return runs;
 }
 

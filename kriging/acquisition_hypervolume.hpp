@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -67,10 +68,18 @@ inline Boxes packed(const std::vector<std::pair<OpenBox, double>>& closed, Eigen
   Boxes boxes{Eigen::MatrixXd(m, closed.size()), Eigen::MatrixXd(m, closed.size())};
   for (std::size_t b = 0; b < closed.size(); ++b) {
     const auto column = static_cast<Eigen::Index>(b);
-    boxes.lower.col(column) << closed[b].first.lower, closed[b].first.start;
-    boxes.upper.col(column) << closed[b].first.upper, closed[b].second;
+    const auto& [box, end] = closed[b];
+    std::copy(box.lower.begin(), box.lower.end(), &boxes.lower(0, column));
+    std::copy(box.upper.begin(), box.upper.end(), &boxes.upper(0, column));
+    boxes.lower(m - 1, column) = box.start;
+    boxes.upper(m - 1, column) = end;
   }
   return boxes;
+}
+
+/// Every entry of a below that of b.
+inline bool below(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), std::less<>());
 }
 
 inline Boxes non_dominated_boxes(const Eigen::MatrixXd& front, const Eigen::VectorXd& reference) {
@@ -83,12 +92,12 @@ inline Boxes non_dominated_boxes(const Eigen::MatrixXd& front, const Eigen::Vect
   std::vector<OpenBox> open{{Eigen::VectorXd::Constant(first, -infinity), reference.head(first), -infinity}};
   std::vector<std::pair<OpenBox, double>> closed;
   for (const Eigen::Index i : order) {
-    if (!(front.row(i).transpose().array() < reference.array()).all()) continue;
-    const Eigen::VectorXd p = front.row(i).head(first).transpose();
+    const Eigen::VectorXd point = front.row(i), p = point.head(first);
+    if (!below(point, reference)) continue;
     const double height = front(i, first);
     std::vector<OpenBox> next;
     for (const OpenBox& box : open) {
-      if (!(box.upper.array() > p.array()).all()) {
+      if (!below(p, box.upper)) {
         next.push_back(box);
         continue;
       }
@@ -181,7 +190,7 @@ inline void check_front(const FrontView& front, Eigen::Index m) {
   if (front.Y.rows() > 0 && front.Y.cols() != m)
     reject("the front has " + std::to_string(front.Y.cols()) + " columns; the problem has " +
            std::to_string(m) + " objectives; give one column an objective");
-  if (!front.Y.allFinite() || !front.reference.allFinite())
+  if (!all_finite(front.Y) || !all_finite(front.reference))
     reject(
         "the front or the reference point holds a number that is not finite; allowed are finite numbers; "
         "leave failed runs out");
@@ -201,17 +210,20 @@ doe::Criterion expected_hypervolume_improvement(const doe::Problem& problem, con
   detail::check_front(front, m);
   std::vector<detail::SearchModel<S>> searched;
   for (const std::size_t j : objectives.index) searched.emplace_back(models[j]);
-  const Eigen::MatrixXd Y =
-      front.Y.rows() > 0 ? Eigen::MatrixXd(front.Y * objectives.sign.asDiagonal()) : Eigen::MatrixXd(0, m);
-  const Eigen::VectorXd reference = objectives.sign.cwiseProduct(front.reference);
+  Eigen::MatrixXd Y(front.Y.rows(), m);
+  for (Eigen::Index k = 0; k < m; ++k)
+    for (Eigen::Index i = 0; i < Y.rows(); ++i) Y(i, k) = objectives.sign[k] * front.Y(i, k);
+  const Eigen::VectorXd reference = detail::entry_products(objectives.sign, front.reference);
   return [searched = std::move(searched), sign = objectives.sign,
           volume = detail::ExpectedVolume(detail::non_dominated_boxes(Y, reference))](
              const Eigen::MatrixXd& X) -> Eigen::VectorXd {
     Eigen::MatrixXd mean(sign.size(), X.rows()), deviation(sign.size(), X.rows());
     for (Eigen::Index j = 0; j < sign.size(); ++j) {
       const Prediction p = searched[static_cast<std::size_t>(j)].predict(X);
-      mean.row(j) = sign[j] * p.mean.transpose();
-      deviation.row(j) = p.variance.cwiseSqrt().transpose();
+      for (Eigen::Index i = 0; i < X.rows(); ++i) {
+        mean(j, i) = sign[j] * p.mean[i];
+        deviation(j, i) = std::sqrt(p.variance[i]);
+      }
     }
     Eigen::VectorXd score(X.rows());
     for (Eigen::Index i = 0; i < score.size(); ++i) score[i] = volume(mean.col(i), deviation.col(i));
@@ -235,8 +247,9 @@ inline doe::Criterion constrained_hypervolume_improvement(const doe::Problem& pr
   FrontView front{Eigen::MatrixXd(static_cast<Eigen::Index>(runs.size()), m), Eigen::VectorXd(m)};
   for (Eigen::Index k = 0; k < m; ++k) {
     const Eigen::VectorXd values = fitted_values(models[objectives.index[static_cast<std::size_t>(k)]]);
-    front.Y.col(k) = values(runs);
-    front.reference[k] = objectives.sign[k] * (objectives.sign[k] * values).maxCoeff();
+    front.Y.col(k) = detail::entries_of(values, runs);
+    front.reference[k] =
+        objectives.sign[k] > 0 ? detail::largest_entry(values) : detail::smallest_entry(values);
   }
   return product({expected_hypervolume_improvement(problem, models, front), feasible});
 }

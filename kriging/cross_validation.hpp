@@ -17,7 +17,6 @@
 #include <concepts>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/blind.hpp>
-#include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <numeric>
 #include <optional>
@@ -41,9 +40,13 @@ inline Validation leave_one_out(const Model& model) {
     return detail::scored(std::move(v));
   }
   const Eigen::VectorXd P = detail::diagonal_of_P(s);
-  v.predicted = s.observed - s.y_scale * s.gls.alpha.cwiseQuotient(P);
-  v.observation_variance = model.process_variance() * P.cwiseInverse();
-  v.variance = (v.observation_variance - model.process_variance() * detail::added_noise(s)).cwiseMax(0.0);
+  const Eigen::VectorXd error = detail::entry_quotients(s.gls.alpha, P), noise = detail::added_noise(s);
+  v.predicted = v.variance = v.observation_variance = s.observed;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    v.predicted[i] = s.observed[i] - s.y_scale * error[i];
+    v.observation_variance[i] = model.process_variance() / P[i];
+    v.variance[i] = std::max(v.observation_variance[i] - model.process_variance() * noise[i], 0.0);
+  }
   return detail::scored(std::move(v));
 }
 
@@ -64,12 +67,15 @@ void predict_without(const std::vector<Eigen::Index>& out, const Eigen::MatrixXd
   std::vector<Eigen::Index> in;
   for (Eigen::Index i = 0; i < X.rows(); ++i)
     if (!std::binary_search(out.begin(), out.end(), i)) in.push_back(i);
-  const auto model = fitter(Eigen::MatrixXd(X(in, Eigen::all)), Eigen::VectorXd(v.observed(in)));
-  const Eigen::MatrixXd points = X(out, Eigen::all);
-  const Prediction p = model.predict(points);
-  v.predicted(out) = p.mean;
-  v.variance(out) = p.variance;
-  v.observation_variance(out) = model.predict(points, Target::observation).variance;
+  const auto model = fitter(rows_of(X, in), entries_of(v.observed, in));
+  const Eigen::MatrixXd points = rows_of(X, out);
+  const Prediction p = model.predict(points), run = model.predict(points, Target::observation);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    v.predicted[out[i]] = p.mean[row];
+    v.variance[out[i]] = p.variance[row];
+    v.observation_variance[out[i]] = run.variance[row];
+  }
 }
 
 inline Validation blank_validation(const Eigen::VectorXd& y) {
@@ -84,10 +90,7 @@ inline Validation blank_validation(const Eigen::VectorXd& y) {
 template <class F>
 Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds, const F& fitter,
                   doe::Seed seed = 1) {
-  static_assert(Fitter<F>,
-                "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one "
-                "run a row, "
-                "y an Eigen::VectorXd");
+  detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::k_fold: ");
   if (folds < 2 || folds > X.rows())
     throw std::invalid_argument("kriging::k_fold: folds is " + std::to_string(folds) +
@@ -108,10 +111,7 @@ Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds,
 template <class F>
 Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double share, const F& fitter,
                     doe::Seed seed = 1) {
-  static_assert(Fitter<F>,
-                "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one "
-                "run a row, "
-                "y an Eigen::VectorXd");
+  detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::hold_out: ");
   if (!(share > 0 && share < 1) || X.rows() < 2)
     throw std::invalid_argument("kriging::hold_out: share is " + detail::text(share) + " of " +
@@ -124,10 +124,10 @@ Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double s
   std::sort(out.begin(), out.end());
   Validation all = detail::blank_validation(y);
   detail::predict_without(out, X, fitter, all);
-  return detail::scored({.observed = all.observed(out),
-                         .predicted = all.predicted(out),
-                         .variance = all.variance(out),
-                         .observation_variance = all.observation_variance(out)});
+  return detail::scored({.observed = detail::entries_of(all.observed, out),
+                         .predicted = detail::entries_of(all.predicted, out),
+                         .variance = detail::entries_of(all.variance, out),
+                         .observation_variance = detail::entries_of(all.observation_variance, out)});
 }
 
 /// Surrogates whose leave_one_out(s) needs no refits, or says by an empty optional that it would.
@@ -172,10 +172,7 @@ struct Judgement {
 template <class F>
 Judgement judge(const Criterion& criterion, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                 const F& fitter) {
-  static_assert(Fitter<F>,
-                "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one "
-                "run a row, "
-                "y an Eigen::VectorXd");
+  detail::require_fitter<F>();
   Judgement j;
   if (criterion.estimator == Estimator::k_fold)
     j.validation = k_fold(X, y, criterion.folds, fitter, criterion.seed);

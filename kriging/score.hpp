@@ -16,8 +16,10 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/doe/normal_quantile.hpp>
+#include <drawpoint/kriging/dense.hpp>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -43,6 +45,22 @@ namespace detail {
 
 using doe::detail::normal_quantile;
 
+inline double negative_log_density(const Eigen::VectorXd& error, const Eigen::VectorXd& variance) {
+  double sum = 0;
+  for (Index i = 0; i < error.size(); ++i)
+    sum += 0.5 * std::log(2.0 * std::numbers::pi * variance[i]) + 0.5 * error[i] * error[i] / variance[i];
+  return sum / static_cast<double>(error.size());
+}
+
+/// Share of the errors within z deviations.
+inline double covered(const Eigen::VectorXd& error, const Eigen::VectorXd& variance, double level) {
+  const double z = normal_quantile(0.5 + 0.5 * level);
+  Index count = 0;
+  for (Index i = 0; i < error.size(); ++i)
+    if (std::abs(error[i]) <= z * std::sqrt(variance[i])) ++count;
+  return static_cast<double>(count) / static_cast<double>(error.size());
+}
+
 }  // namespace detail
 
 /// `level` is of coverage alone, between 0 and 1. Throws std::invalid_argument for an empty validation and
@@ -54,23 +72,27 @@ inline double score(const Validation& v, ErrorFunction error, double level = 0.9
   if (!(level > 0 && level < 1))
     throw std::invalid_argument("kriging::score: level is " + std::to_string(level) +
                                 "; allowed are numbers between 0 and 1; use 0.95");
-  const Eigen::ArrayXd e = v.observed - v.predicted, s2 = v.observation_variance.array();
-  const double range = v.observed.maxCoeff() - v.observed.minCoeff(), rmse = std::sqrt(e.square().mean());
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXd e = detail::difference(v.observed, v.predicted);
+  const double range = detail::largest_entry(v.observed) - detail::smallest_entry(v.observed);
+  const double n = static_cast<double>(e.size()), rmse = std::sqrt(detail::square(e) / n);
   switch (error) {
     case ErrorFunction::rmse:
       return rmse;
     case ErrorFunction::nrmse:
       return range > 0 ? rmse / range : none;
     case ErrorFunction::mae:
-      return e.abs().mean();
-    case ErrorFunction::q2:
-      return range > 0 ? 1.0 - e.square().sum() / (v.observed.array() - v.observed.mean()).square().sum()
-                       : none;
+      return std::accumulate(e.begin(), e.end(), 0.0,
+                             [](double sum, double x) { return sum + std::abs(x); }) /
+             n;
+    case ErrorFunction::q2: {
+      const Eigen::VectorXd spread = detail::affine(v.observed, 1.0, -detail::mean_of(v.observed));
+      return range > 0 ? 1.0 - detail::square(e) / detail::square(spread) : none;
+    }
     case ErrorFunction::nlpd:
-      return (0.5 * (2.0 * std::numbers::pi * s2).log() + 0.5 * e.square() / s2).mean();
+      return detail::negative_log_density(e, v.observation_variance);
     case ErrorFunction::coverage:
-      return (e.abs() <= detail::normal_quantile(0.5 + 0.5 * level) * s2.sqrt()).cast<double>().mean();
+      return detail::covered(e, v.observation_variance, level);
   }
   return none;
 }

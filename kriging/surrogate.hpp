@@ -28,4 +28,24 @@ concept Fitter = requires(const F& f, const Eigen::MatrixXd& X, const Eigen::Vec
 
 static_assert(Surrogate<Model>);
 
+namespace detail {
+
+template <class S>
+constexpr void require_surrogate() {
+  static_assert(
+      Surrogate<S>,
+      "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
+      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
+}
+
+template <class F>
+constexpr void require_fitter() {
+  static_assert(
+      Fitter<F>,
+      "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one run a "
+      "row, y an Eigen::VectorXd");
+}
+
+}  // namespace detail
+
 }  // namespace drawpoint::kriging

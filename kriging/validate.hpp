@@ -29,7 +29,7 @@ inline void check_validation(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
     reject("X has " + std::to_string(X.rows()) + " rows but y has " + std::to_string(y.size()) +
            " entries; give one response a run");
   if (X.rows() == 0) reject("X has 0 runs; allowed is 1 or more; give runs that the model has not seen");
-  if (!y.allFinite())
+  if (!all_finite(y))
     reject("y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
 }
 
@@ -39,10 +39,7 @@ inline void check_validation(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
 /// are not finite.
 template <class S>
 Validation validate(const S& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
-  static_assert(
-      Surrogate<S>,
-      "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
-      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
+  detail::require_surrogate<S>();
   detail::check_validation(X, y, "kriging::validate: ");
   const Prediction p = model.predict(X);
   return detail::scored({.observed = y,

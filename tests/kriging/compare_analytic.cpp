@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/kriging/compare.hpp>
+#include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>

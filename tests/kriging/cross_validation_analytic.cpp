@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <set>
 

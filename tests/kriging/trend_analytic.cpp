@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
 using namespace drawpoint;
