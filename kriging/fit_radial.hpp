@@ -5,12 +5,15 @@
 /// Fits radial basis functions (radial.hpp) to runs, with shape and ridge by closed-form leave-one-out.
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include <drawpoint/kriging/least_squares.hpp>
 #include <drawpoint/kriging/radial.hpp>
 
 namespace drawpoint::kriging {
@@ -43,7 +46,7 @@ struct RadialSpectrum {
   Eigen::MatrixXd U, squares;  ///< n x (n − q), and its squares
   Eigen::VectorXd values, z;   ///< Λ clipped to 0, Uᵀy
 
-  double largest() const { return values.maxCoeff(); }
+  double largest() const { return largest_entry(values); }
 
   /// λ is never below n times the round-off of the eigenvalues.
   double floor() const {
@@ -51,23 +54,52 @@ struct RadialSpectrum {
   }
 
   double error(double ridge) const {
-    const Eigen::VectorXd inverse = (values.array() + ridge).inverse();
-    const Eigen::ArrayXd w = U * z.cwiseProduct(inverse), B = squares * inverse;
-    return (w / B).square().sum();
+    Eigen::VectorXd inverse = values;
+    for (double& value : inverse) value = 1.0 / (value + ridge);
+    return square(entry_quotients(product(U, entry_products(z, inverse)), product(squares, inverse)));
   }
 };
 
+/// Householder's reflections I − 2vvᵀ that make P triangular, one v a column.
+inline Eigen::MatrixXd reflections(Eigen::MatrixXd P) {
+  const Index n = P.rows();
+  Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, P.cols());
+  for (Index k = 0; k < P.cols(); ++k) {
+    double* v = column(V, k);
+    std::copy_n(column(P, k) + k, n - k, v + k);
+    v[k] += std::copysign(std::sqrt(dot(v, v, n)), v[k]);
+    const double size = std::sqrt(dot(v, v, n));
+    for (Index i = k; i < n; ++i) v[i] /= size;
+    for (Index j = k; j < P.cols(); ++j) add_scaled(column(P, j), -2.0 * dot(v, column(P, j), n), v, n);
+  }
+  return V;
+}
+
+/// X = Qᵀ X, or Q X, with Q the product of the reflections.
+inline void reflect(const Eigen::MatrixXd& V, bool transposed, Eigen::MatrixXd& X) {
+  for (Index j = 0; j < X.cols(); ++j)
+    for (Index i = 0; i < V.cols(); ++i) {
+      const double* v = column(V, transposed ? i : V.cols() - 1 - i);
+      add_scaled(column(X, j), -2.0 * dot(v, column(X, j), X.rows()), v, X.rows());
+    }
+}
+
 inline RadialSpectrum radial_spectrum(const RadialState& s, const Eigen::MatrixXd& X,
                                       const Eigen::VectorXd& y) {
-  const Eigen::MatrixXd P = radial_tail(s, X);
-  const Eigen::Index n = X.rows(), q = P.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(P);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n).rightCols(n - q);
-  const Eigen::MatrixXd inner = Q.transpose() * radial_matrix(s, X, X) * Q;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (inner + inner.transpose()));
-  RadialSpectrum r{Q * eigen.eigenvectors(), {}, eigen.eigenvalues().cwiseMax(0.0), {}};
-  r.squares = r.U.cwiseAbs2();
-  r.z = r.U.transpose() * y;
+  const Eigen::MatrixXd V = reflections(radial_tail(s, X));
+  const Index n = X.rows(), q = V.cols();
+  Eigen::MatrixXd K = radial_matrix(s, X, X);
+  reflect(V, true, K);
+  K.transposeInPlace();
+  reflect(V, true, K);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K.bottomRightCorner(n - q, n - q));
+  RadialSpectrum r{Eigen::MatrixXd::Zero(n, n - q), {}, eigen.eigenvalues(), {}};
+  r.U.bottomRows(n - q) = eigen.eigenvectors();
+  reflect(V, false, r.U);
+  r.squares = r.U;
+  std::for_each(r.squares.data(), r.squares.data() + r.squares.size(), [](double& u) { u *= u; });
+  for (double& value : r.values) value = std::max(value, 0.0);
+  r.z = transposed_product(r.U, y);
   return r;
 }
 
@@ -83,8 +115,8 @@ inline double best_shape(RadialState s, const TrainingData& data, double ridge) 
   const Eigen::Index n = data.X.rows(), count = std::min(n, most);
   std::vector<Eigen::Index> runs;
   for (Eigen::Index i = 0; i < count; ++i) runs.push_back(i * n / count);
-  const Eigen::MatrixXd X = data.X(runs, Eigen::all);
-  const Eigen::VectorXd y = data.y(runs);
+  const Eigen::MatrixXd X = rows_of(data.X, runs);
+  const Eigen::VectorXd y = entries_of(data.y, runs);
   const auto error = [&](double logarithm) {
     s.shape = std::exp(logarithm);
     const RadialSpectrum spectrum = radial_spectrum(s, X, y);
@@ -100,22 +132,22 @@ inline void solve_radial(RadialState& s, const TrainingData& data, double ridge)
   s.X = data.X;
   s.P = radial_tail(s, s.X);
   s.U = spectrum.U;
-  s.values = spectrum.values.array() + s.ridge;
-  s.w = s.U * spectrum.z.cwiseQuotient(s.values);
-  s.diagonal = spectrum.squares * s.values.cwiseInverse();
-  const Eigen::Index q = s.P.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(s.P);
-  const Eigen::MatrixXd Q1 = qr.householderQ() * Eigen::MatrixXd::Identity(s.P.rows(), q);
-  const Eigen::MatrixXd T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
-  Eigen::MatrixXd K = radial_matrix(s, s.X, s.X);
-  K.diagonal().array() += s.ridge;
-  s.c = T.triangularView<Eigen::Upper>().solve(Q1.transpose() * (data.y - K * s.w));
-  s.G = T.triangularView<Eigen::Upper>().solve(Q1.transpose()).transpose();
-  s.H = K * s.G;
-  s.M = s.G.transpose() * s.H;
-  s.process_variance = s.w.cwiseAbs2().cwiseQuotient(s.diagonal).mean();
+  s.values = affine(spectrum.values, 1.0, s.ridge);
+  s.w = product(s.U, entry_quotients(spectrum.z, s.values));
+  s.diagonal = product(spectrum.squares, entry_quotients(Eigen::VectorXd::Ones(s.values.size()), s.values));
+  const Index q = s.P.cols();
+  Eigen::MatrixXd Q = s.P, T = Eigen::MatrixXd::Zero(q, q), K = radial_matrix(s, s.X, s.X);
+  orthonormalize(Q, T);
+  add_to_diagonal(K, s.ridge);
+  s.c = solve_upper(T, transposed_product(Q, difference(data.y, product(K, s.w))));
+  Eigen::MatrixXd inverse = scaled_identity(q, 1.0);  // T⁻ᵀ
+  solve_lower(T.transpose(), inverse);
+  s.G = product(Q, inverse);
+  s.H = product(K, s.G);
+  s.M = transposed_product(s.G, s.H);
+  s.process_variance = mean_of(entry_quotients(entry_products(s.w, s.w), s.diagonal));
   s.message = std::string(to_string(s.function)) + ", shape " + text(s.shape) + ", ridge " + text(s.ridge);
-  if (ridge == 0 && spectrum.values.minCoeff() < spectrum.floor()) {
+  if (ridge == 0 && smallest_entry(spectrum.values) < spectrum.floor()) {
     s.status = Status::ill_conditioned;
     s.message +=
         "; the matrix was singular to round-off, so the ridge is not 0: estimate it, or remove runs that "

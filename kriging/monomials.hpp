@@ -49,7 +49,7 @@ inline Eigen::MatrixXd monomial_matrix(const std::vector<Monomial>& terms, const
   for (Eigen::Index j = 0; j < F.cols(); ++j)
     for (Eigen::Index k = 0; k < X.cols(); ++k)
       for (int a = 0; a < terms[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)]; ++a)
-        F.col(j).array() *= X.col(k).array();
+        for (Eigen::Index i = 0; i < X.rows(); ++i) F(i, j) *= X(i, k);
   return F;
 }
 

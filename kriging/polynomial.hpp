@@ -15,7 +15,7 @@
 /// "Response Surface Methodology", chapter 2; Allen 1974, Technometrics 16 (leave-one-out).
 
 #include <Eigen/Core>
-#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -23,6 +23,8 @@
 #include <utility>
 #include <vector>
 
+#include <drawpoint/kriging/cholesky.hpp>
+#include <drawpoint/kriging/least_squares.hpp>
 #include <drawpoint/kriging/monomials.hpp>
 #include <drawpoint/kriging/runs_of_surrogate.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
@@ -68,10 +70,12 @@ class Polynomial {
     const Eigen::MatrixXd F = terms_at(X);
     Prediction p{means(F), Eigen::VectorXd::Constant(X.rows(), s_.variance)};
     if (s_.T.size() > 0) {
-      const Eigen::MatrixXd v = s_.T.transpose().triangularView<Eigen::Lower>().solve(F.transpose());
-      p.variance = s_.variance * v.colwise().squaredNorm().transpose();
+      const Eigen::MatrixXd lower = s_.T.transpose();
+      Eigen::MatrixXd v = F;
+      detail::solve_right(detail::block_of(lower), detail::block_of(v));
+      p.variance = detail::affine(detail::row_squares(v), s_.variance);
     }
-    if (target == Target::observation) p.variance.array() += s_.variance;
+    if (target == Target::observation) p.variance = detail::affine(p.variance, 1.0, s_.variance);
     return p;
   }
 
@@ -84,7 +88,7 @@ class Polynomial {
   Eigen::Index runs() const { return s_.observed.size(); }
   const std::vector<Monomial>& terms() const { return s_.terms; }
   /// One entry a term, in scaled inputs; unit of y. The constant lacks the mean of the runs.
-  Eigen::VectorXd coefficients() const { return s_.y_scale * s_.beta; }
+  Eigen::VectorXd coefficients() const { return detail::affine(s_.beta, s_.y_scale); }
   double noise_variance() const { return s_.variance; }  ///< s², unit of y squared
   Status status() const { return s_.status; }
   const std::string& message() const { return s_.message; }
@@ -97,7 +101,7 @@ class Polynomial {
   }
 
   Eigen::VectorXd means(const Eigen::MatrixXd& F) const {
-    return (s_.y_scale * (F * s_.beta)).array() + s_.y_centre;
+    return detail::affine(detail::product(F, s_.beta), s_.y_scale, s_.y_centre);
   }
 
   detail::PolynomialState s_;
@@ -108,12 +112,14 @@ static_assert(Surrogate<Polynomial>);
 /// Closed form: the terms as chosen, β estimated anew without each run.
 inline Validation leave_one_out(const Polynomial& model) {
   const detail::PolynomialState& s = model.state();
-  const Eigen::ArrayXd left = 1.0 - s.leverage.array();
   Validation v;
-  v.observed = s.observed;
-  v.predicted = s.observed.array() - s.residual.array() / left;
-  v.observation_variance = s.variance / left;
-  v.variance = v.observation_variance.array() - s.variance;
+  v.observed = v.predicted = v.variance = v.observation_variance = s.observed;
+  for (Eigen::Index i = 0; i < s.observed.size(); ++i) {
+    const double left = 1.0 - s.leverage[i];
+    v.predicted[i] = s.observed[i] - s.residual[i] / left;
+    v.observation_variance[i] = s.variance / left;
+    v.variance[i] = v.observation_variance[i] - s.variance;
+  }
   if (s.T.size() == 0)
     v.variance = v.observation_variance = Eigen::VectorXd::Constant(model.runs(), s.variance);
   return detail::scored(std::move(v));
@@ -125,32 +131,44 @@ namespace detail {
 inline constexpr double largest_leverage = 1.0 - 1e-10;
 
 /// Σ (eᵢ/(1 − hᵢ))²; +∞ where a run decides alone.
-inline double press(const Eigen::ArrayXd& residual, const Eigen::ArrayXd& leverage) {
-  if (leverage.maxCoeff() > largest_leverage) return std::numeric_limits<double>::infinity();
-  return (residual / (1.0 - leverage)).square().sum();
+inline double press(const Eigen::VectorXd& residual, const Eigen::VectorXd& leverage) {
+  if (largest_entry(leverage) > largest_leverage) return std::numeric_limits<double>::infinity();
+  return square(entry_quotients(residual, affine(leverage, -1.0, 1.0)));
+}
+
+/// Adds v, orthogonal to the terms before it and of length 1, to a regression of y.
+inline void add_term(const Eigen::VectorXd& v, Eigen::VectorXd& residual, Eigen::VectorXd& leverage) {
+  add_scaled(residual.data(), -dot(v, residual), v.data(), v.size());
+  for (Index i = 0; i < v.size(); ++i) leverage[i] += v[i] * v[i];
+}
+
+/// v of column j of F, scaled by 1/size.
+inline Eigen::VectorXd scaled_column(const Eigen::MatrixXd& F, Index j, double size) {
+  return affine(F.col(j), 1.0 / size);
 }
 
 /// Which columns of F lower the leave-one-out error of y, in the order of their choice; column 0 first.
 inline std::vector<Eigen::Index> forward_selection(Eigen::MatrixXd F, Eigen::VectorXd y) {
   constexpr double worth = 0.99, independent = 1e-8;
-  const Eigen::VectorXd size = F.colwise().norm();
-  Eigen::ArrayXd leverage = Eigen::ArrayXd::Zero(F.rows());
+  const auto norm = [&](Index j) { return std::sqrt(dot(column(F, j), column(F, j), F.rows())); };
+  std::vector<double> size;
+  for (Index j = 0; j < F.cols(); ++j) size.push_back(norm(j));
+  Eigen::VectorXd leverage = Eigen::VectorXd::Zero(F.rows());
   std::vector<Eigen::Index> chosen;
   Eigen::Index best = 0;
   for (double error = std::numeric_limits<double>::infinity();;) {
     chosen.push_back(best);
-    const Eigen::VectorXd q = F.col(best).normalized();
-    y -= q * q.dot(y);
-    leverage += q.array().square();
-    for (int pass = 0; pass < 2; ++pass) F -= q * (q.transpose() * F);
+    const Eigen::VectorXd q = scaled_column(F, best, norm(best));
+    add_term(q, y, leverage);
+    for (int pass = 0; pass < 2; ++pass) add_outer(F, -1.0, q, transposed_product(F, q));
     error = chosen.size() == 1 ? press(y, leverage) : error;
     if (2 * (chosen.size() + 1) > static_cast<std::size_t>(F.rows())) return chosen;
     double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index j = 0; j < F.cols(); ++j) {
-      const double norm = F.col(j).norm();
-      if (!(norm > independent * size[j])) continue;
-      const Eigen::VectorXd v = F.col(j) / norm;
-      const double with = press(y - v * v.dot(y), leverage + v.array().square());
+      if (!(norm(j) > independent * size[j])) continue;
+      Eigen::VectorXd residual = y, higher = leverage;
+      add_term(scaled_column(F, j, norm(j)), residual, higher);
+      const double with = press(residual, higher);
       if (with < least) least = with, best = j;
     }
     if (!(least < worth * error)) return chosen;
@@ -185,14 +203,14 @@ inline Polynomial constant_polynomial(const TrainingData& data) {
 
 /// β, s² and what leave-one-out needs, for independent columns F.
 inline void regress(PolynomialState& s, const Eigen::MatrixXd& F, const Eigen::VectorXd& y) {
-  const Eigen::Index q = F.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(F);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(F.rows(), q);
-  s.T = qr.matrixQR().topRows(q).triangularView<Eigen::Upper>();
-  s.beta = s.T.triangularView<Eigen::Upper>().solve(Q.transpose() * y);
-  s.residual = s.y_scale * (y - F * s.beta);
-  s.leverage = Q.rowwise().squaredNorm().cwiseMin(largest_leverage);
-  s.variance = s.residual.squaredNorm() / static_cast<double>(F.rows() - q);
+  Eigen::MatrixXd Q = F;
+  s.T.setZero(F.cols(), F.cols());
+  orthonormalize(Q, s.T);
+  s.beta = solve_upper(s.T, transposed_product(Q, y));
+  s.residual = affine(difference(y, product(F, s.beta)), s.y_scale);
+  s.leverage = row_squares(Q);
+  for (double& h : s.leverage) h = std::min(h, largest_leverage);
+  s.variance = square(s.residual) / static_cast<double>(F.rows() - F.cols());
 }
 
 }  // namespace detail
@@ -227,7 +245,7 @@ inline Polynomial fit_polynomial(const Eigen::MatrixXd& X, const Eigen::VectorXd
                                              ? detail::independent_columns(F)
                                              : detail::forward_selection(F, data.y);
   for (const Eigen::Index j : kept) s.terms.push_back(asked[static_cast<std::size_t>(j)]);
-  detail::regress(s, F(Eigen::all, kept), data.y);
+  detail::regress(s, detail::columns_of(F, kept), data.y);
   s.message = std::to_string(kept.size()) + " of " + std::to_string(asked.size()) + " terms";
   if (degree < options.degree) {
     s.status = Status::too_few_runs;

@@ -17,8 +17,6 @@
 /// Mathematics 11; Wahba 1990, "Spline Models for Observational Data".
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +25,7 @@
 #include <string_view>
 #include <utility>
 
+#include <drawpoint/kriging/matrix_product.hpp>
 #include <drawpoint/kriging/runs_of_surrogate.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <drawpoint/kriging/validate.hpp>
@@ -93,21 +92,21 @@ inline Eigen::MatrixXd radial_matrix(const RadialState& s, const Eigen::MatrixXd
                                      const Eigen::MatrixXd& X) {
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(Z.rows(), X.rows());
   for (Eigen::Index j = 0; j < K.cols(); ++j) {
-    for (Eigen::Index k = 0; k < X.cols(); ++k) K.col(j).array() += (Z.col(k).array() - X(j, k)).square();
-    for (double& squared : K.col(j)) squared = radial(s.function, s.shape, squared);
+    for (Eigen::Index k = 0; k < X.cols(); ++k)
+      for (Eigen::Index i = 0; i < Z.rows(); ++i) K(i, j) += (Z(i, k) - X(j, k)) * (Z(i, k) - X(j, k));
+    for (Eigen::Index i = 0; i < Z.rows(); ++i) K(i, j) = radial(s.function, s.shape, K(i, j));
   }
   return K;
 }
 
 /// 1, and the inputs that vary for the functions that need them.
 inline Eigen::MatrixXd radial_tail(const RadialState& s, const Eigen::MatrixXd& Z) {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Ones(Z.rows(), 1);
-  if (has_shape(s.function)) return P;
-  for (Eigen::Index k = 0; k < Z.cols(); ++k) {
-    if (s.input.factor[k] == 0.0) continue;
-    P.conservativeResize(Eigen::NoChange, P.cols() + 1);
-    P.rightCols(1) = Z.col(k);
-  }
+  std::vector<Index> inputs;
+  for (Index k = 0; k < Z.cols(); ++k)
+    if (!has_shape(s.function) && s.input.factor[k] != 0.0) inputs.push_back(k);
+  Eigen::MatrixXd P = Eigen::MatrixXd::Ones(Z.rows(), 1 + static_cast<Index>(inputs.size()));
+  for (Index j = 1; j < P.cols(); ++j)
+    std::copy_n(column(Z, inputs[static_cast<std::size_t>(j - 1)]), Z.rows(), column(P, j));
   return P;
 }
 
@@ -116,7 +115,7 @@ inline Eigen::MatrixXd radial_tail(const RadialState& s, const Eigen::MatrixXd& 
 class Radial {
  public:
   /// Made by fit_radial().
-  explicit Radial(detail::RadialState state) : s_(std::move(state)) {}
+  explicit Radial(detail::RadialState state) : s_(std::move(state)), across_(s_.U.transpose()) {}
 
   /// X: m x d, natural units. Cost a point: n² for the variance. Throws std::invalid_argument for another
   /// number of columns and for numbers that are not finite.
@@ -125,18 +124,21 @@ class Radial {
     Prediction p{Eigen::VectorXd::Constant(X.rows(), s_.y_centre),
                  Eigen::VectorXd::Constant(X.rows(), s_.constant_variance)};
     if (s_.X.rows() == 0) return p;
-    const Eigen::MatrixXd Z = s_.input.apply(X), K = detail::radial_matrix(s_, Z, s_.X),
-                          P = detail::radial_tail(s_, Z);
-    p.mean += s_.y_scale * (K * s_.w + P * s_.c);
-    const Eigen::MatrixXd g = (K - P * s_.H.transpose()) * s_.U;
-    const Eigen::ArrayXd alone = detail::radial(s_.function, s_.shape, 0.0) -
-                                 2.0 * (K * s_.G).cwiseProduct(P).rowwise().sum().array() +
-                                 (P * s_.M).cwiseProduct(P).rowwise().sum().array();
-    const Eigen::ArrayXd explained =
-        (g.array().square().rowwise() / s_.values.transpose().array()).rowwise().sum();
+    const Eigen::MatrixXd Z = s_.input.apply(X);
+    Eigen::MatrixXd K = detail::radial_matrix(s_, Z, s_.X), P = detail::radial_tail(s_, Z);
+    p.mean = means(K, P);
+    const Eigen::MatrixXd KG = detail::product(K, s_.G), PM = detail::product(P, s_.M);
+    detail::add_product(detail::block_of(P), detail::block_of(s_.H), -1.0, detail::block_of(K));
+    Eigen::MatrixXd g = Eigen::MatrixXd::Zero(X.rows(), s_.U.cols());
+    detail::add_product(detail::block_of(K), detail::block_of(across_), 1.0, detail::block_of(g));
     const double unit = s_.y_scale * s_.y_scale * s_.process_variance;
-    p.variance = unit * (alone - explained).max(0.0);
-    if (target == Target::observation) p.variance.array() += noise_variance();
+    const double noise = target == Target::observation ? noise_variance() : 0.0;
+    for (Eigen::Index i = 0; i < X.rows(); ++i) {
+      double left = detail::radial(s_.function, s_.shape, 0.0);
+      for (Eigen::Index j = 0; j < P.cols(); ++j) left += P(i, j) * (PM(i, j) - 2.0 * KG(i, j));
+      for (Eigen::Index j = 0; j < g.cols(); ++j) left -= g(i, j) * g(i, j) / s_.values[j];
+      p.variance[i] = unit * std::max(left, 0.0) + noise;
+    }
     return p;
   }
 
@@ -145,9 +147,7 @@ class Radial {
     detail::check_points("kriging::Radial", X, variables());
     if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.y_centre);
     const Eigen::MatrixXd Z = s_.input.apply(X);
-    return (s_.y_scale * (detail::radial_matrix(s_, Z, s_.X) * s_.w + detail::radial_tail(s_, Z) * s_.c))
-               .array() +
-           s_.y_centre;
+    return means(detail::radial_matrix(s_, Z, s_.X), detail::radial_tail(s_, Z));
   }
 
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
@@ -163,7 +163,14 @@ class Radial {
   const detail::RadialState& state() const { return s_; }
 
  private:
+  Eigen::VectorXd means(const Eigen::MatrixXd& K, const Eigen::MatrixXd& P) const {
+    Eigen::VectorXd mean = detail::product(K, s_.w);
+    detail::add_product(mean.data(), 1.0, P, s_.c.data());
+    return detail::affine(mean, s_.y_scale, s_.y_centre);
+  }
+
   detail::RadialState s_;
+  Eigen::MatrixXd across_;  // Uᵀ
 };
 
 static_assert(Surrogate<Radial>);
@@ -179,9 +186,12 @@ inline Validation leave_one_out(const Radial& model) {
     return detail::scored(std::move(v));
   }
   const double unit = s.y_scale * s.y_scale * s.process_variance;
-  v.predicted = s.observed - s.y_scale * s.w.cwiseQuotient(s.diagonal);
-  v.observation_variance = unit * s.diagonal.cwiseInverse();
-  v.variance = (v.observation_variance.array() - model.noise_variance()).max(0.0);
+  v.predicted = v.variance = v.observation_variance = s.observed;
+  for (Eigen::Index i = 0; i < s.observed.size(); ++i) {
+    v.predicted[i] = s.observed[i] - s.y_scale * s.w[i] / s.diagonal[i];
+    v.observation_variance[i] = unit / s.diagonal[i];
+    v.variance[i] = std::max(v.observation_variance[i] - model.noise_variance(), 0.0);
+  }
   return detail::scored(std::move(v));
 }
 

@@ -28,7 +28,7 @@ inline void check_points(const std::string& place, const Eigen::MatrixXd& X, Eig
   if (X.cols() != variables)
     throw std::invalid_argument(place + ": X has " + std::to_string(X.cols()) + " columns; the model has " +
                                 std::to_string(variables) + " variables; give one point a row");
-  if (!X.allFinite())
+  if (!all_finite(X))
     throw std::invalid_argument(
         place + ": X holds a number that is not finite; allowed are finite numbers; remove the point");
 }
