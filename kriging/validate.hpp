@@ -39,7 +39,10 @@ inline void check_validation(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
 /// are not finite.
 template <class S>
 Validation validate(const S& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
-  detail::require_surrogate<S>();
+  static_assert(
+      Surrogate<S>,
+      "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
+      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
   detail::check_validation(X, y, "kriging::validate: ");
   const Prediction p = model.predict(X);
   return detail::scored({.observed = y,
