@@ -167,8 +167,11 @@ class ScalarProblem : public Ipopt::TNLP {
   }
 
   static Eigen::RowVectorXd combined(const ScaledPoint& p, const Eigen::VectorXd& weights) {
-    return weights.head(p.F.size()).transpose() * p.gradients +
-           weights.tail(p.limits.size()).transpose() * p.limit_gradients;
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(p.u.size());
+    for (Eigen::Index j = 0; j < p.F.size(); ++j) sum += weights[j] * p.gradients.row(j);
+    for (Eigen::Index j = 0; j < p.limits.size(); ++j)
+      sum += weights[p.F.size() + j] * p.limit_gradients.row(j);
+    return sum;
   }
 
   /// The lower triangle of the weighted functions' Hessian.

@@ -13,13 +13,48 @@
 /// Hanson 1974, algorithm 23.10). Cost: a few factorisations of d x (m + active constraints).
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace drawpoint::pareto {
 
 namespace detail {
+
+/// Coefficients of the chosen columns of A whose sum is nearest to b; 0 for a column that those before it
+/// make up to twelve digits. By Gram-Schmidt, twice a column: Eigen's QR costs its users seconds of compile
+/// time.
+inline Eigen::VectorXd nearest_sum(const Eigen::MatrixXd& A, const std::vector<int>& chosen,
+                                   Eigen::VectorXd b) {
+  const auto count = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd Q(A.rows(), count), T = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Eigen::VectorXd v = A.col(chosen[static_cast<std::size_t>(k)]);
+    const double least = 1e-12 * v.norm();
+    for (int pass = 0; pass < 2; ++pass)
+      for (Eigen::Index j = 0; j < k; ++j) {
+        const double part = Q.col(j).dot(v);
+        v -= part * Q.col(j);
+        T(j, k) += part;
+      }
+    T(k, k) = v.norm();
+    Q.col(k) = v;
+    if (!(T(k, k) > least)) {
+      Q.col(k).setZero();
+      T(k, k) = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    Q.col(k) /= T(k, k);
+    z[k] = Q.col(k).dot(b);
+    b -= z[k] * Q.col(k);
+  }
+  for (Eigen::Index k = count - 1; k >= 0; --k) {
+    z[k] /= T(k, k);
+    for (Eigen::Index j = 0; j < k; ++j) z[j] -= T(j, k) * z[k];
+  }
+  return z;
+}
 
 /// min ‖A z - b‖ over z >= 0. Ends when no gradient beyond rounding points inwards, or after 3 n exchanges.
 inline Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
@@ -28,7 +63,7 @@ inline Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, cons
   std::vector<int> passive;
   const double rounding = 1e-14 * A.cwiseAbs().colwise().sum().maxCoeff() * b.cwiseAbs().maxCoeff();
   for (Eigen::Index exchange = 0; exchange < 3 * n; ++exchange) {
-    const Eigen::VectorXd pull = A.transpose() * (b - A * z);
+    const Eigen::VectorXd miss = b - A * z, pull = A.transpose() * miss;
     int entering = -1;
     for (int j = 0; j < n; ++j)
       if (std::find(passive.begin(), passive.end(), j) == passive.end() && pull[j] > rounding &&
@@ -37,7 +72,7 @@ inline Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, cons
     if (entering < 0) break;
     passive.push_back(entering);
     while (!passive.empty()) {
-      const Eigen::VectorXd s = A(Eigen::all, passive).colPivHouseholderQr().solve(b);
+      const Eigen::VectorXd s = nearest_sum(A, passive, b);
       if (s.minCoeff() > 0.0) {
         z.setZero();
         for (std::size_t k = 0; k < passive.size(); ++k) z[passive[k]] = s[static_cast<Eigen::Index>(k)];
