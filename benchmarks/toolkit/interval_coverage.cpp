@@ -12,6 +12,7 @@
 // are no such draws; noisy4 is observed with noise of unit variance. `error` is the median of RMSE over the
 // root of the mean predicted variance: above 1 the model is too sure of itself.
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
