@@ -110,7 +110,8 @@ void put_on_bounds(pareto::Front& front, const SmoothMeans& means, const doe::Pr
   }
 }
 
-/// What no other dominates, in lexicographic order, equal points once.
+/// What no other dominates, in lexicographic order, equal points once. Of one objective the first point:
+/// others that end at the same minimum differ from it by rounding.
 ModelFront best_of(const ModelFront& all, const doe::Problem& problem) {
   Eigen::MatrixXd keys(all.front.X.rows(), all.front.Y.cols() + all.front.X.cols());
   keys << minimised(all.front, problem), all.front.X;
@@ -121,6 +122,7 @@ ModelFront best_of(const ModelFront& all, const doe::Problem& problem) {
   });
   const auto equal = [&](int a, int b) { return keys.row(a) == keys.row(b); };
   rows.erase(std::unique(rows.begin(), rows.end(), equal), rows.end());
+  if (all.front.Y.cols() == 1) rows.resize(1);
   ModelFront best{.front = pareto::part_of(all.front, rows), .polishing = {}};
   best.polishing.residual = all.polishing.residual(rows);
   return best;

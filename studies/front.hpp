@@ -10,8 +10,8 @@
 /// put on it first; their certificates are kept, and off by as little. The gain is measured with the
 /// worst values of the searched front plus a tenth of their ranges as the reference point. Whole and
 /// categorical variables cannot follow a gradient, and the hypervolume of more than most_polished_objectives
-/// objectives takes too long: such fronts stay as searched, and say why. Cost: 10 to 30 iterations of half a
-/// millisecond a point inside Ipopt, beside n d a gradient.
+/// objectives takes too long: such fronts stay as searched, and say why. One objective leaves one point.
+/// Cost: 10 to 30 iterations of half a millisecond a point inside Ipopt, beside n d a gradient.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
