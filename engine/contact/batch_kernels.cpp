@@ -116,7 +116,7 @@ HWY_INLINE TangentInverse invert_tangents(const Symmetric& W) {
           select(regular, a * inverse, inverse_rho), inverse_rho};
 }
 
-HWY_INLINE void prepare_lanes(const BatchArrays& arrays, int batch, int at) {
+HWY_NOINLINE void prepare_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   const auto load_body = [&](const std::int32_t* index, Lanes(&inertia)[6], Lanes& mass) {
     const BodyResponse* r = arrays.responses;
@@ -171,7 +171,7 @@ HWY_INLINE V add_to_totals(const BatchArrays& arrays, PairBatch& pair, int at) {
 }
 
 // Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).
-HWY_INLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) {
+HWY_NOINLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   const V blows = add_to_totals(arrays, pair, at);
   if (all_zero(blows)) return;
@@ -187,15 +187,17 @@ HWY_INLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) {
     corrections.push(load(p.arm, at), carried - end);
     force = force + end.x;
   }
-  const V3 moment = load(pair.moment, at);
-  const V3 correction = select_or_zero(blows > all(0), -blows / force) * moment;
-  store(moment + correction, pair.moment, at);
-  corrections.twist(correction);
+  if (pair.resists) {
+    const V3 moment = load(pair.moment, at);
+    const V3 correction = select_or_zero(blows > all(0), -blows / force) * moment;
+    store(moment + correction, pair.moment, at);
+    corrections.twist(correction);
+  }
   corrections.scatter(arrays.corrections);
 }
 
-// Gaps and targets of a substep, from the velocities when it began.
-HWY_INLINE void aim_lanes(const BatchArrays& arrays, int batch, int at, const Sweep& sweep) {
+// Gaps and targets of a substep, from the velocities at the end of the last one.
+HWY_NOINLINE void aim_lanes(const BatchArrays& arrays, int batch, int at, const Sweep& sweep) {
   const PairBatch& pair = arrays.pairs[batch];
   const V3 n = load(pair.normal, at), offset = load(pair.offset, at);
   const Motion a = gather_motion(arrays.begin, pair.a + at), b = gather_motion(arrays.begin, pair.b + at);
@@ -219,7 +221,7 @@ HWY_INLINE void aim_lanes(const BatchArrays& arrays, int batch, int at, const Sw
   }
 }
 
-HWY_INLINE void start_lanes(const BatchArrays& arrays, int batch, int at) {
+HWY_NOINLINE void start_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
@@ -248,7 +250,7 @@ HWY_INLINE void project_tangents(V& l1, V& l2, V u1, V u2, const TangentStep& in
 
 HWY_INLINE V magnitude(const V3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-HWY_INLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
+HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
@@ -293,7 +295,7 @@ HWY_INLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
 HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
 
 // The natural map of the points' law at the velocities reached: how far each impulse is from its step.
-HWY_INLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
+HWY_NOINLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);

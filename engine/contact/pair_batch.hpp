@@ -58,7 +58,7 @@ struct BatchArrays {
   PairBatch* pairs;
   PointBatch* points;
   BodyRow* bodies;       // velocities
-  const BodyRow* begin;  // velocities when the substep began
+  const BodyRow* begin;  // at the end of the last substep, before push and extrapolation
   BodyRow* corrections;  // of the velocities that the next substep starts from
   const BodyResponse* responses;
   BatchSums* sums;

@@ -29,8 +29,8 @@ class PairBatches {
   /// Writes the impulses of the step and the last substep into the problem.
   void store(ContactProblem& problem, int substeps, const Parallel& parallel) const;
 
-  /// Velocities now, at the beginning of the substep, and what the next one starts from less than it would by
-  /// extrapolation. Rows are in order of place; rows beyond the bodies stand for fixed ones.
+  /// Velocities now, those at the end of the last substep, and what the next one starts from less than it
+  /// would by extrapolation. Rows are in order of place; rows beyond the bodies stand for fixed ones.
   std::vector<BodyRow> bodies, begin, corrections;
   std::vector<int> row_of;  ///< of each body
 

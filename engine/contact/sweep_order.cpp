@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <drawpoint/engine/contact/sweep_order.hpp>
 
 namespace drawpoint::engine::contact::detail {
+
+bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
+
 namespace {
 
-constexpr int slabs = 256;          // among whose borders those of the zones are chosen
-constexpr int pairs_a_zone = 1800;  // at least: a dozen colours of them fill most of their batches
+constexpr int slabs = 256;  // among whose borders those of the zones are chosen
 constexpr int colours_a_group = 64;
 
 // Sorts by a key of 0 .. keys-1, stably, in linear time; numbers whose key is negative are left out.
@@ -25,53 +28,63 @@ std::vector<int> sorted(int count, int keys, const Key& key) {
   return result;
 }
 
-// The slab of each body: those of its contacts' centres, counted along the longest side of the points' box.
+bool in_order(const ContactPair& pair) { return pair.a >= 0 && pair.b >= 0 && pair.count > 0; }
+
+// Calls visit(body, centre) for each moving side of each pair.
+template <class Visit>
+void each_side(const ContactProblem& problem, const Visit& visit) {
+  for (const ContactPair& pair : problem.pairs) {
+    if (!in_order(pair)) continue;
+    const ContactPoint& point = problem.points[pair.first];
+    if (!is_fixed(problem.bodies[pair.a])) visit(pair.a, point.position - point.arm_a);
+    if (!is_fixed(problem.bodies[pair.b])) visit(pair.b, point.position - point.arm_b);
+  }
+}
+
+// The slab of each body along the axis of the largest spread. The slabs fill 2.5 standard deviations on
+// either side of the mean, those at the ends hold what is beyond: a stray rock does not widen them.
 std::vector<int> slabs_of(const ContactProblem& problem) {
   std::vector<int> result(problem.bodies.size(), 0);
-  Eigen::AlignedBox3d box;
-  for (const ContactPoint& point : problem.points) box.extend(point.position);
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
+  double sides = 0;
+  each_side(problem, [&](int, const Eigen::Vector3d& centre) {
+    sum += centre.array(), squares += centre.array().square(), ++sides;
+  });
+  if (sides == 0) return result;
+  const Eigen::Array3d mean = sum / sides;
   int axis = 0;
-  const double length = box.isEmpty() ? 0 : box.diagonal().maxCoeff(&axis);
-  if (length <= 0) return result;
-  const auto at = [&](const Eigen::Vector3d& centre) {
-    return static_cast<int>(std::clamp(slabs * (centre[axis] - box.min()[axis]) / length, 0.0, slabs - 1.0));
-  };
-  for (const ContactPair& pair : problem.pairs) {
-    if (pair.count == 0) continue;
-    const ContactPoint& point = problem.points[pair.first];
-    if (pair.a >= 0) result[pair.a] = at(point.position - point.arm_a);
-    if (pair.b >= 0) result[pair.b] = at(point.position - point.arm_b);
-  }
+  const double variance = (squares / sides - mean.square()).maxCoeff(&axis);
+  if (!(variance > 0)) return result;
+  const double width = 5 * std::sqrt(variance) / slabs, low = mean[axis] - 0.5 * slabs * width;
+  each_side(problem, [&](int body, const Eigen::Vector3d& centre) {
+    const double slab = (centre[axis] - low) / width;
+    result[body] = static_cast<int>(std::min(std::max(0.0, slab), slabs - 1.0));  // NaN: 0
+  });
   return result;
 }
 
-// A power of two, so that two, four or eight threads have as many each.
-int zones_of(std::size_t pairs) {
-  return static_cast<int>(std::bit_floor(std::max<std::size_t>(1, pairs / pairs_a_zone)));
-}
-
-// Which zone each body is in. Zones hold about as many sides of pairs each.
+// Which zone each body is in. Zones hold about as many sides of pairs each; their number is a power of two,
+// so that two, four or eight threads have as many each.
 class Zones {
  public:
-  Zones(const ContactProblem& problem, const std::vector<int>& slab_of)
-      : count(zones_of(problem.pairs.size())), slab_of_(slab_of) {
+  Zones(const ContactProblem& problem, const std::vector<int>& slab_of, int least) : slab_of_(slab_of) {
+    const std::size_t pairs = std::count_if(problem.pairs.begin(), problem.pairs.end(), in_order);
+    count_ = static_cast<int>(std::bit_floor(std::max<std::size_t>(1, pairs / least)));
     std::vector<double> sides(slabs, 0);
-    for (const ContactPair& pair : problem.pairs)
-      for (const int body : {pair.a, pair.b})
-        if (body >= 0 && !is_fixed(problem.bodies[body])) ++sides[slab_of[body]];
+    each_side(problem, [&](int body, const Eigen::Vector3d&) { ++sides[slab_of[body]]; });
     double total = 0, passed = 0;
     for (const double n : sides) total += n;
     for (int slab = 0; slab < slabs; ++slab) {
-      zone_of_slab_[slab] = std::min(count - 1, static_cast<int>(count * passed / std::max(total, 1.0)));
+      zone_of_slab_[slab] = std::min(count_ - 1, static_cast<int>(count_ * passed / std::max(total, 1.0)));
       passed += sides[slab];
     }
   }
 
+  int count() const { return count_; }
   int of(int body) const { return zone_of_slab_[slab_of_[body]]; }
 
-  int count;
-
  private:
+  int count_;
   const std::vector<int>& slab_of_;
   int zone_of_slab_[slabs];
 };
@@ -155,12 +168,10 @@ std::vector<int> groups_of(const ContactProblem& problem, const Zones& zones, co
 
 }  // namespace
 
-bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
-
-SweepOrder sweep_order(const ContactProblem& problem, int most) {
+SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone) {
   const std::vector<int> slab_of = slabs_of(problem);
-  const Zones zones(problem, slab_of);
-  const Parts parts(zones.count);
+  const Zones zones(problem, slab_of, least_a_zone);
+  const Parts parts(zones.count());
   const std::vector<int> group_of = groups_of(problem, zones, parts);
   const Colourer colourer(problem, group_of, 2 * parts.count());
   int points = 0;

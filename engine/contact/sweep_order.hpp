@@ -11,17 +11,17 @@
 /// the order of the pairs: each takes the first colour that neither body has yet; one that finds none among
 /// 64 gets a colour of its own. Pairs with the fixed world come after all others, so that the ground has the
 /// last word. Fixed bodies (zero inverse mass and inertia) never conflict.
-/// Threads: the scene is cut across its longest side into 1, 2, 4, ... zones of at least 1800 pairs. A part
-/// holds the pairs within a zone, or those across the border of two neighbours, with colours of its own; its
-/// batches are solved one after another by one thread. The parts of a stage share no moving body: first the
-/// pairs that reach beyond a neighbour (none unless zones are as thin as rocks), then every other border,
+/// Threads: the scene is cut across its longest side into 1, 2, 4, ... zones, 1800 pairs or more for each. A
+/// part holds the pairs within a zone, or those across the border of two neighbours, with colours of its own;
+/// its batches are solved one after another by one thread. The parts of a stage share no moving body: first
+/// the pairs that reach beyond a neighbour (none unless zones are as thin as rocks), then every other border,
 /// then the other borders, then the zones. A sweep thus waits for all threads at most four times, not once a
 /// colour.
 /// Linear in the pairs; a function of the problem alone. Pairs that touch the machine are left out.
 namespace drawpoint::engine::contact::detail {
 
 struct SweepOrder {
-  std::vector<int> bodies;   ///< all indices, in order of place: the bodies of a zone side by side
+  std::vector<int> bodies;   ///< the body of each row, in order of place: those of a zone side by side
   std::vector<int> pairs;    ///< indices, batch after batch; within one by falling number of points
   std::vector<int> batches;  ///< where each begins in `pairs`, and the end
   std::vector<int> parts;    ///< where each begins in `batches`, and the end
@@ -30,7 +30,10 @@ struct SweepOrder {
 
 bool is_fixed(const SolverBody& body);
 
+/// The least number of pairs for each zone: a dozen colours of them fill most of their batches.
+constexpr int pairs_a_zone = 1800;
+
 /// `most` ≥ 1: pairs a batch.
-SweepOrder sweep_order(const ContactProblem& problem, int most);
+SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone = pairs_a_zone);
 
 }  // namespace drawpoint::engine::contact::detail
