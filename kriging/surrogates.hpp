@@ -49,6 +49,21 @@ class Surrogates {
   std::vector<Model> models_;
 };
 
+/// The means of models of the same d variables at one point: one entry a model. Throws as Model::mean.
+inline Eigen::VectorXd means_at(const std::vector<Model>& models, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y(static_cast<Eigen::Index>(models.size()));
+  for (std::size_t j = 0; j < models.size(); ++j) y[static_cast<Eigen::Index>(j)] = models[j](x);
+  return y;
+}
+
+/// Their derivatives: models x d. Throws as Model::mean_gradient.
+inline Eigen::MatrixXd mean_gradients_at(const std::vector<Model>& models, const Eigen::VectorXd& x) {
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(models.size()), x.size());
+  for (std::size_t j = 0; j < models.size(); ++j)
+    J.row(static_cast<Eigen::Index>(j)) = models[j].mean_gradient(x).transpose();
+  return J;
+}
+
 static_assert(doe::BatchFunction<Surrogates> && doe::PointFunction<Model>);
 
 }  // namespace drawpoint::kriging

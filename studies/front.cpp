@@ -20,14 +20,7 @@ struct SmoothMeans {
   const std::vector<kriging::Model>& models;
 
   pareto::ValueAndJacobian operator()(const Eigen::VectorXd& x) const {
-    const auto r = static_cast<Eigen::Index>(models.size());
-    pareto::ValueAndJacobian y{Eigen::VectorXd(r), Eigen::MatrixXd(r, x.size())};
-    for (Eigen::Index j = 0; j < r; ++j) {
-      const kriging::Model& model = models[static_cast<std::size_t>(j)];
-      y.values[j] = model(x);
-      y.jacobian.row(j) = model.mean_gradient(x).transpose();
-    }
-    return y;
+    return {kriging::means_at(models, x), kriging::mean_gradients_at(models, x)};
   }
 };
 
