@@ -30,36 +30,48 @@ std::vector<int> sorted(int count, int keys, const Key& key) {
 
 bool in_order(const ContactPair& pair) { return pair.a >= 0 && pair.b >= 0 && pair.count > 0; }
 
-// Calls visit(body, centre) for each moving side of each pair.
-template <class Visit>
-void each_side(const ContactProblem& problem, const Visit& visit) {
+// Where a body is, as its first pair has it, and of how many pairs it is a moving side.
+struct Place {
+  bool fixed;
+  int sides = 0;
+  Eigen::Array3d centre = Eigen::Array3d::Zero();
+};
+
+std::vector<Place> places_of(const ContactProblem& problem) {
+  std::vector<Place> places;
+  places.reserve(problem.bodies.size());
+  for (const SolverBody& body : problem.bodies) places.push_back({is_fixed(body)});
+  const auto visit = [&](int body, const ContactPoint& point, const Eigen::Vector3d& arm) {
+    Place& place = places[body];
+    if (!place.fixed && place.sides++ == 0) place.centre = point.position - arm;
+  };
   for (const ContactPair& pair : problem.pairs) {
     if (!in_order(pair)) continue;
     const ContactPoint& point = problem.points[pair.first];
-    if (!is_fixed(problem.bodies[pair.a])) visit(pair.a, point.position - point.arm_a);
-    if (!is_fixed(problem.bodies[pair.b])) visit(pair.b, point.position - point.arm_b);
+    visit(pair.a, point, point.arm_a);
+    visit(pair.b, point, point.arm_b);
   }
+  return places;
 }
 
 // The slab of each body along the axis of the largest spread. The slabs fill 2.5 standard deviations on
 // either side of the mean, those at the ends hold what is beyond: a stray rock does not widen them.
-std::vector<int> slabs_of(const ContactProblem& problem) {
-  std::vector<int> result(problem.bodies.size(), 0);
+std::vector<int> slabs_of(const std::vector<Place>& places) {
+  std::vector<int> result(places.size(), 0);
   Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
   double sides = 0;
-  each_side(problem, [&](int, const Eigen::Vector3d& centre) {
-    sum += centre.array(), squares += centre.array().square(), ++sides;
-  });
+  for (const Place& place : places)
+    sum += place.sides * place.centre, squares += place.sides * place.centre.square(), sides += place.sides;
   if (sides == 0) return result;
   const Eigen::Array3d mean = sum / sides;
   int axis = 0;
   const double variance = (squares / sides - mean.square()).maxCoeff(&axis);
   if (!(variance > 0)) return result;
   const double width = 5 * std::sqrt(variance) / slabs, low = mean[axis] - 0.5 * slabs * width;
-  each_side(problem, [&](int body, const Eigen::Vector3d& centre) {
-    const double slab = (centre[axis] - low) / width;
+  for (std::size_t body = 0; body < places.size(); ++body) {
+    const double slab = (places[body].centre[axis] - low) / width;
     result[body] = static_cast<int>(std::min(std::max(0.0, slab), slabs - 1.0));  // NaN: 0
-  });
+  }
   return result;
 }
 
@@ -67,11 +79,11 @@ std::vector<int> slabs_of(const ContactProblem& problem) {
 // so that two, four or eight threads have as many each.
 class Zones {
  public:
-  Zones(const ContactProblem& problem, const std::vector<int>& slab_of, int least) : slab_of_(slab_of) {
-    const std::size_t pairs = std::count_if(problem.pairs.begin(), problem.pairs.end(), in_order);
+  Zones(std::size_t pairs, const std::vector<Place>& places, const std::vector<int>& slab_of, int least)
+      : slab_of_(slab_of) {
     count_ = static_cast<int>(std::bit_floor(std::max<std::size_t>(1, pairs / least)));
     std::vector<double> sides(slabs, 0);
-    each_side(problem, [&](int body, const Eigen::Vector3d&) { ++sides[slab_of[body]]; });
+    for (std::size_t body = 0; body < places.size(); ++body) sides[slab_of[body]] += places[body].sides;
     double total = 0, passed = 0;
     for (const double n : sides) total += n;
     for (int slab = 0; slab < slabs; ++slab) {
@@ -110,8 +122,9 @@ class Parts {
 // Colours the pairs of one group after another: a part's, first those without and then those with the world.
 class Colourer {
  public:
-  Colourer(const ContactProblem& problem, const std::vector<int>& group_of, int groups)
-      : colour_of(problem.pairs.size(), -1), problem_(problem), taken_(problem.bodies.size(), 0) {
+  Colourer(const ContactProblem& problem, const std::vector<Place>& places, const std::vector<int>& group_of,
+           int groups)
+      : colour_of(problem.pairs.size(), -1), problem_(problem), places_(places), taken_(places.size(), 0) {
     const int pairs = static_cast<int>(problem.pairs.size());
     const std::vector<int> order = sorted(pairs, groups, [&](int k) { return group_of[k]; });
     for (auto group = order.begin(); group != order.end();) {
@@ -133,8 +146,8 @@ class Colourer {
  private:
   void add(int index) {
     const ContactPair& pair = problem_.pairs[index];
-    const bool fixed_a = is_fixed(problem_.bodies[pair.a]), fixed_b = is_fixed(problem_.bodies[pair.b]);
-    const std::uint64_t taken = (fixed_a ? 0 : taken_[pair.a]) | (fixed_b ? 0 : taken_[pair.b]);
+    const std::uint64_t taken =
+        (places_[pair.a].fixed ? 0 : taken_[pair.a]) | (places_[pair.b].fixed ? 0 : taken_[pair.b]);
     const int colour = std::countr_one(taken);
     if (colour == colours_a_group) {
       alone_.push_back(index);
@@ -148,51 +161,44 @@ class Colourer {
   }
 
   const ContactProblem& problem_;
+  const std::vector<Place>& places_;
   std::vector<std::uint64_t> taken_;
   std::vector<int> alone_;
   int base_ = 0;
 };
 
 // Twice the part of each pair, and one for pairs with the world; -1 for the machine's.
-std::vector<int> groups_of(const ContactProblem& problem, const Zones& zones, const Parts& parts) {
+std::vector<int> groups_of(const ContactProblem& problem, const std::vector<Place>& places,
+                           const Zones& zones, const Parts& parts) {
   std::vector<int> result(problem.pairs.size(), -1);
   for (std::size_t k = 0; k < result.size(); ++k) {
     const ContactPair& pair = problem.pairs[k];
     if (pair.a < 0 || pair.b < 0) continue;
-    const bool fixed_a = is_fixed(problem.bodies[pair.a]), fixed_b = is_fixed(problem.bodies[pair.b]);
+    const bool fixed_a = places[pair.a].fixed, fixed_b = places[pair.b].fixed;
     const int part = parts.of(zones.of(fixed_a ? pair.b : pair.a), zones.of(fixed_b ? pair.a : pair.b));
     result[k] = 2 * part + (fixed_a || fixed_b);
   }
   return result;
 }
 
-}  // namespace
-
-SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone) {
-  const std::vector<int> slab_of = slabs_of(problem);
-  const Zones zones(problem, slab_of, least_a_zone);
-  const Parts parts(zones.count());
-  const std::vector<int> group_of = groups_of(problem, zones, parts);
-  const Colourer colourer(problem, group_of, 2 * parts.count());
+// Colour after colour; within one by falling number of points.
+std::vector<int> by_colour(const ContactProblem& problem, const Colourer& colourer) {
   int points = 0;
   for (const ContactPair& pair : problem.pairs) points = std::max(points, pair.count);
-  const std::vector<int> pairs =
-      sorted(static_cast<int>(problem.pairs.size()), colourer.count * (points + 1), [&](int k) {
-        const int colour = colourer.colour_of[k];
-        return colour < 0 ? -1 : colour * (points + 1) + points - problem.pairs[k].count;
-      });
+  return sorted(static_cast<int>(problem.pairs.size()), colourer.count * (points + 1), [&](int k) {
+    const int colour = colourer.colour_of[k];
+    return colour < 0 ? -1 : colour * (points + 1) + points - problem.pairs[k].count;
+  });
+}
 
-  SweepOrder order{.bodies = sorted(static_cast<int>(problem.bodies.size()), slabs,
-                                    [&](int body) { return slab_of[body]; }),
-                   .pairs = pairs,
-                   .batches = {0},
-                   .parts = {0},
-                   .stages = {0}};
-  const auto colour_of = [&](int at) { return colourer.colour_of[pairs[at]]; };
-  const auto part_of = [&](int at) { return group_of[pairs[at]] / 2; };
-  const int size = static_cast<int>(pairs.size());
+// Cuts the pairs of an order into batches of one colour and at most `most` pairs, these into parts and
+// stages.
+template <class Colour, class Part>
+void cut(SweepOrder& order, int most, const std::vector<int>& last_of_stages, const Colour& colour_of,
+         const Part& part_of) {
+  const int size = static_cast<int>(order.pairs.size());
   int at = 0;
-  for (const int last_part : parts.last_of_stages()) {
+  for (const int last_part : last_of_stages) {
     while (at < size && part_of(at) <= last_part) {
       const int part = part_of(at);
       for (int begin = at; at < size && part_of(at) == part; begin = at) {
@@ -203,6 +209,27 @@ SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone
     }
     order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
   }
+}
+
+}  // namespace
+
+SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone) {
+  const std::vector<Place> places = places_of(problem);
+  const std::vector<int> slab_of = slabs_of(places);
+  const Zones zones(std::count_if(problem.pairs.begin(), problem.pairs.end(), in_order), places, slab_of,
+                    least_a_zone);
+  const Parts parts(zones.count());
+  const std::vector<int> group_of = groups_of(problem, places, zones, parts);
+  const Colourer colourer(problem, places, group_of, 2 * parts.count());
+  SweepOrder order{
+      .bodies = sorted(static_cast<int>(places.size()), slabs, [&](int body) { return slab_of[body]; }),
+      .pairs = by_colour(problem, colourer),
+      .batches = {0},
+      .parts = {0},
+      .stages = {0}};
+  cut(
+      order, most, parts.last_of_stages(), [&](int at) { return colourer.colour_of[order.pairs[at]]; },
+      [&](int at) { return group_of[order.pairs[at]] / 2; });
   return order;
 }
 

@@ -62,8 +62,11 @@ void World::fill_contacts() {
 }
 
 unsigned World::joining(const Manifold& m) const {
-  const Side a = side_of(surfaces_[m.collider_a]), b = side_of(surfaces_[m.collider_b]);
   unsigned joins = 0;
+  for (int k = 0; k < m.count; ++k)
+    if (m.points[k].gap <= resting_margin) joins |= 1u << k;
+  if (joins + 1 == 1u << m.count) return joins;  // most: no need to look at the sides
+  const Side a = side_of(surfaces_[m.collider_a]), b = side_of(surfaces_[m.collider_b]);
   for (int k = 0; k < m.count; ++k) {
     const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
     if (m.points[k].gap <= resting_margin + 2 * options_.step * u.norm()) joins |= 1u << k;
