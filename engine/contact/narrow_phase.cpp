@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/contact/fetch.hpp>
 #include <drawpoint/engine/contact/hull_sweeps.hpp>
 #include <drawpoint/engine/contact/narrow_phase.hpp>
 #include <numbers>
@@ -22,6 +23,25 @@ Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
   X_AB.makeAffine();
   return X_AB;
 }
+
+// Writes manifolds over those of the step before: to make them anew costs as much as to fill them.
+class Manifolds {
+ public:
+  explicit Manifolds(std::vector<Manifold>& all) : all_(all) {}
+  ~Manifolds() { all_.resize(count_); }
+  Manifolds(const Manifolds&) = delete;
+  Manifolds& operator=(const Manifolds&) = delete;
+
+  Manifold& add() {
+    if (count_ == all_.size()) all_.emplace_back();
+    return all_[count_++];
+  }
+  void take_back() { --count_; }
+
+ private:
+  std::vector<Manifold>& all_;
+  std::size_t count_ = 0;
+};
 
 // How the smaller shape stands in the frame of the larger.
 struct Stand {
@@ -52,8 +72,23 @@ void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& 
 struct NarrowPhase::Worker {
   explicit Worker(const ContactFinderOptions& o) : options(o) {}
 
+  // Brings the pairs [first, last) up to date and replaces `found` by their manifolds.
+  void process(const Items& items, PairCache& pairs, int first, int last, std::vector<Manifold>& found) {
+    constexpr int ahead = 6;  // pairs
+    const std::vector<PairEntry>& entries = pairs.entries();
+    Manifolds manifolds(found);
+    for (int k = first; k < last; ++k) {
+      if (k + ahead < last) {
+        const PairEntry& soon = entries[k + ahead];
+        fetch(&items.placed[soon.b], sizeof(Placement));
+        if (soon.count > 0) fetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
+      }
+      process(items, pairs.entries()[k], pairs.state(entries[k]), manifolds);
+    }
+  }
+
   // Brings a pair up to date and appends its manifold, if there is one.
-  void process(const Items& items, PairEntry& entry, PairState& state, std::vector<Manifold>& manifolds) {
+  void process(const Items& items, PairEntry& entry, PairState& state, Manifolds& manifolds) {
     const double travelled = items.travelled[entry.a] + items.travelled[entry.b];
     const bool with_plane = !items.placed[entry.a].hull || !items.placed[entry.b].hull;
     if (with_plane) {
@@ -121,10 +156,10 @@ struct NarrowPhase::Worker {
 
   // The remembered contact at the present poses.
   void carry_along(const Items& items, const PairEntry& entry, const ConvexContact& contact,
-                   std::vector<Manifold>& manifolds) {
+                   Manifolds& manifolds) const {
     const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
     const double reported = margin_of(items, entry);
-    Manifold& manifold = manifolds.emplace_back();
+    Manifold& manifold = manifolds.add();
     start_manifold(items, entry, (contact.normal_of_b ? b : a).R * contact.normal, manifold);
     for (int k = 0; k < contact.count; ++k) {
       const Anchors& anchors = contact.points[static_cast<std::size_t>(k)];
@@ -134,11 +169,11 @@ struct NarrowPhase::Worker {
         manifold.points[static_cast<std::size_t>(manifold.count++)] = {0.5 * (on_a + on_b), gap,
                                                                        anchors.feature};
     }
-    if (manifold.count == 0) manifolds.pop_back();
+    if (manifold.count == 0) manifolds.take_back();
   }
 
   // Half-spaces have closed forms; only how long nothing can happen is remembered.
-  void touch_plane(const Items& items, PairEntry& entry, double travelled, std::vector<Manifold>& manifolds) {
+  void touch_plane(const Items& items, PairEntry& entry, double travelled, Manifolds& manifolds) {
     const bool first = !items.placed[entry.a].hull;
     const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
     const Placement& shape = items.placed[shape_id];
@@ -156,7 +191,7 @@ struct NarrowPhase::Worker {
     else
       plane_contact(plane, *shape.hull, X_WC, margin, clip);
     if (clip.empty()) return;
-    Manifold& manifold = manifolds.emplace_back();
+    Manifold& manifold = manifolds.add();
     start_manifold(items, entry, first ? plane.normal : Vector3d(-plane.normal), manifold);
     for (const ClipPoint& p : clip)
       manifold.points[static_cast<std::size_t>(manifold.count++)] = {p.position - 0.5 * p.gap * plane.normal,
@@ -189,23 +224,19 @@ int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>
 }
 
 void NarrowPhase::run_alone(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {
-  manifolds.clear();
-  for (PairEntry& entry : pairs.entries()) workers_[0]->process(items, entry, pairs.state(entry), manifolds);
+  workers_[0]->process(items, pairs, 0, static_cast<int>(pairs.entries().size()), manifolds);
 }
 
 void NarrowPhase::run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
                                 const Parallel& parallel) {
-  auto& entries = pairs.entries();
-  const int count = static_cast<int>(entries.size());
-  const std::size_t blocks = (entries.size() + block_size - 1) / block_size;
+  const int count = static_cast<int>(pairs.entries().size());
+  const std::size_t blocks = static_cast<std::size_t>((count + block_size - 1) / block_size);
   if (found_.size() < blocks) found_.resize(blocks);
   parallel.blocks_by_thread(count, block_size, [&](int begin, int end, int thread) {
     for (int first = begin; first < end; first += block_size) {
       std::vector<Manifold>& found = found_[static_cast<std::size_t>(first / block_size)];
-      found.clear();
-      for (int k = first; k < std::min(end, first + block_size); ++k)
-        workers_[static_cast<std::size_t>(thread)]->process(items, entries[k], pairs.state(entries[k]),
-                                                            found);
+      workers_[static_cast<std::size_t>(thread)]->process(items, pairs, first,
+                                                          std::min(end, first + block_size), found);
     }
   });
   std::size_t total = 0;

@@ -167,6 +167,8 @@ class World {
   void fill_pair(int index, WarmStart::Reader& reader);
   int solver_index(const Surface& surface) const;
   Side side_of(const Surface& surface) const;
+  Eigen::Vector3d origin_of(const Surface& surface) const;
+  void fetch_origins(const Manifold& m) const;
   void move_rocks();
   void move(Rock& rock, const SolverBody& body) const;
 

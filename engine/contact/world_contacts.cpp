@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <drawpoint/engine/contact/contact_law.hpp>
+#include <drawpoint/engine/contact/fetch.hpp>
 #include <drawpoint/engine/contact/world.hpp>
 
 // From manifolds to the contacts of the solve, and from its impulses to what the next step starts from.
@@ -15,12 +16,18 @@ using Eigen::Vector3d;
 // added it covers whatever the solve itself may set moving.
 constexpr double resting_margin = 1e-3;
 constexpr int manifolds_a_block = 64;  // that a thread takes at a time
+constexpr int pairs_ahead = 4;         // whose rocks are fetched
 
 }  // namespace
 
 int World::solver_index(const Surface& surface) const {
   if (surface.owner == Owner::part) return machine_part(surface.index);
   return surface.owner == Owner::rock ? body_of_rock_[surface.index] : world_body;
+}
+
+Vector3d World::origin_of(const Surface& surface) const {
+  if (surface.owner == Owner::rock) return rocks_[surface.index].pose.translation();
+  return surface.owner == Owner::part ? super_->origins[surface.index] : Vector3d(Vector3d::Zero());
 }
 
 World::Side World::side_of(const Surface& surface) const {
@@ -31,6 +38,14 @@ World::Side World::side_of(const Surface& surface) const {
   if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   const Rock& rock = rocks_[surface.index];
   return {rock.pose.translation(), rock.velocity, rock.angular_velocity};
+}
+
+[[gnu::always_inline]] inline void World::fetch_origins(const Manifold& m) const {
+  for (const int collider : {m.collider_a, m.collider_b}) {
+    const Surface& surface = surfaces_[collider];
+    if (surface.owner == Owner::rock)
+      detail::fetch(rocks_[surface.index].pose.translation().data(), sizeof(Vector3d));
+  }
 }
 
 // Points that may come to bear within the step join the solve: each manifold is looked at twice, first to see
@@ -57,7 +72,10 @@ void World::fill_contacts() {
   problem_.points.resize(static_cast<std::size_t>(points));
   parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
     WarmStart::Reader reader(warm_start_);
-    for (int k = first; k < last; ++k) fill_pair(k, reader);
+    for (int k = first; k < last; ++k) {
+      if (k + pairs_ahead < last) fetch_origins((*manifolds_)[pair_manifolds_[k + pairs_ahead]]);
+      fill_pair(k, reader);
+    }
   });
 }
 
@@ -79,7 +97,7 @@ void World::fill_pair(int index, WarmStart::Reader& reader) {
   const Manifold& m = (*manifolds_)[manifold];
   const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
   const Material& material = materials_.of(a.material, b.material);
-  const Vector3d origin_a = side_of(a).origin, origin_b = side_of(b).origin;
+  const Vector3d origin_a = origin_of(a), origin_b = origin_of(b);
   reader.begin_pair(m.collider_a, m.collider_b);
   ContactPair& pair = problem_.pairs[index];
   pair.a = solver_index(a);
