@@ -100,10 +100,11 @@ void ColouredSolver::run_substep(int number) {
 }
 
 void ColouredSolver::start() {
-  for (std::size_t k = 0; k < problem_->bodies.size(); ++k)
+  each_row([this](int row) {
+    const SolverBody& body = problem_->bodies[batches_.order().bodies[row]];
     for (int i = 0; i < 3; ++i)
-      batches_.bodies[batches_.row_of[k]].velocity[i] +=
-          static_cast<float>(problem_->bodies[k].push[i] / options_.substeps);
+      batches_.bodies[row].velocity[i] += static_cast<float>(body.push[i] / options_.substeps);
+  });
   machine_->start(batches_.bodies);
   each_stage(true, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
 }

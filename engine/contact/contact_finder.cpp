@@ -109,6 +109,7 @@ class ContactFinder::Impl {
 
   void move(std::span<const ColliderMove> moves) {
     const int count = static_cast<int>(moves.size());
+    leaves_.resize(moves.size());
     parallel_.blocks(count, moves_a_block, [&](int begin, int end) {
       for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
         require(move.collider);
@@ -121,8 +122,10 @@ class ContactFinder::Impl {
         items_.place(move.collider, move.X_WB);
         items_.extend(move.collider, move.reach);
       }
+      for (int k = begin; k < end; ++k) leaves_[k] = leaves_box(moves[k].collider);
     });
-    for (const ColliderMove& move : moves) check_box(move.collider);
+    for (int k = 0; k < count; ++k)
+      if (leaves_[k]) check_box(moves[k].collider);
   }
 
   void set_moves(int id, bool moves) {
@@ -186,10 +189,14 @@ class ContactFinder::Impl {
              "; use a number that add() gave and remove() has not taken");
   }
 
+  bool leaves_box(int id) const {
+    const auto& item = items_.item[id];
+    return !item.restless && !(item.hull && items_.travelled[id] - item.boxed_at <= options_.slack);
+  }
+
   void check_box(int id) {
-    auto& item = items_.item[id];
-    if (item.restless || (item.hull && items_.travelled[id] - item.boxed_at <= options_.slack)) return;
-    item.restless = true;
+    if (!leaves_box(id)) return;
+    items_.item[id].restless = true;
     restless_.push_back(id);
   }
 
@@ -242,6 +249,7 @@ class ContactFinder::Impl {
   detail::PairCache pairs_;
   detail::Parallel parallel_;
   detail::NarrowPhase narrow_;
+  std::vector<char> leaves_;                    // by move: leaves its box
   std::vector<int> restless_;                   // have left their boxes, or are half-spaces that were moved
   std::vector<Eigen::AlignedBox3d> new_boxes_;  // theirs
   std::vector<Manifold> manifolds_;

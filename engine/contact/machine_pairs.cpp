@@ -23,8 +23,8 @@ ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, cons
     return place[index];
   };
   for (std::size_t k = 0; k < problem.pairs.size(); ++k) {
+    if (problem.pairs[k].a >= 0 && problem.pairs[k].b >= 0) continue;
     ContactPair pair = problem.pairs[k];
-    if (pair.a >= 0 && pair.b >= 0) continue;
     members.push_back(static_cast<int>(k));
     const auto first = problem.points.begin() + pair.first;
     pair.a = placed(pair.a);

@@ -141,6 +141,11 @@ class World {
     }
   };
 
+  // Where the next pair and the next point go in the problem; at first, how many a block of manifolds has.
+  struct ContactPlace {
+    int pair = 0, point = 0;
+  };
+
   struct SceneMarks;
   SceneMarks scene_marks() const;
 
@@ -164,7 +169,9 @@ class World {
   void fill_bodies();
   void fill_contacts();
   unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
-  void fill_pair(int index, WarmStart::Reader& reader);
+  void count_joining(int first, int last);    // of these manifolds
+  void fill_pairs(int first, int last);
+  void fill_pair(const Manifold& m, unsigned joins, ContactPlace place, WarmStart::Reader& reader);
   int solver_index(const Surface& surface) const;
   Side side_of(const Surface& surface) const;
   Eigen::Vector3d origin_of(const Surface& surface) const;
@@ -182,11 +189,11 @@ class World {
   ArticulatedBody* machine_ = nullptr;
   const SuperBody* super_ = nullptr;
   const std::vector<Manifold>* manifolds_ = nullptr;
-  std::vector<int> body_of_rock_;    // in the problem
-  std::vector<unsigned> joins_;      // by manifold
-  std::vector<ColliderMove> moves_;  // of this step
-  std::vector<double> deepest_;      // overlap by block of manifolds [m]
-  std::vector<int> pair_manifolds_;  // by pair of the problem
+  std::vector<int> body_of_rock_;     // in the problem
+  std::vector<unsigned> joins_;       // by manifold
+  std::vector<ColliderMove> moves_;   // of this step
+  std::vector<double> deepest_;       // overlap by block of manifolds [m]
+  std::vector<ContactPlace> places_;  // by block of manifolds
   ContactProblem problem_;
   WarmStart warm_start_;
   StateHash surfaces_mark_;  // of the calls that made them

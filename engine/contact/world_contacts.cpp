@@ -5,6 +5,7 @@
 #include <drawpoint/engine/contact/contact_law.hpp>
 #include <drawpoint/engine/contact/fetch.hpp>
 #include <drawpoint/engine/contact/world.hpp>
+#include <utility>
 
 // From manifolds to the contacts of the solve, and from its impulses to what the next step starts from.
 namespace drawpoint::engine::contact {
@@ -53,30 +54,18 @@ World::Side World::side_of(const Surface& surface) const {
 void World::fill_contacts() {
   const int manifolds = static_cast<int>(manifolds_->size());
   joins_.resize(manifolds_->size());
-  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) {
-    for (int k = first; k < last; ++k) joins_[k] = joining((*manifolds_)[k]);
-  });
-  problem_.step = options_.step;
-  problem_.pairs.clear();
-  int points = 0;
-  pair_manifolds_.clear();
-  for (int k = 0; k < manifolds; ++k) {
-    const int count = std::popcount(joins_[k]);
-    if (count == 0) continue;
-    pair_manifolds_.push_back(k);
-    ContactPair& pair = problem_.pairs.emplace_back();
-    pair.first = points;
-    pair.count = count;
-    points += count;
+  places_.assign(static_cast<std::size_t>(manifolds / manifolds_a_block + 1), ContactPlace());
+  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) { count_joining(first, last); });
+  ContactPlace end;
+  for (ContactPlace& place : places_) {
+    const ContactPlace block = std::exchange(place, end);
+    end.pair += block.pair;
+    end.point += block.point;
   }
-  problem_.points.resize(static_cast<std::size_t>(points));
-  parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
-    WarmStart::Reader reader(warm_start_);
-    for (int k = first; k < last; ++k) {
-      if (k + pairs_ahead < last) fetch_origins((*manifolds_)[pair_manifolds_[k + pairs_ahead]]);
-      fill_pair(k, reader);
-    }
-  });
+  problem_.step = options_.step;
+  problem_.pairs.resize(static_cast<std::size_t>(end.pair));
+  problem_.points.resize(static_cast<std::size_t>(end.point));
+  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) { fill_pairs(first, last); });
 }
 
 unsigned World::joining(const Manifold& m) const {
@@ -92,14 +81,36 @@ unsigned World::joining(const Manifold& m) const {
   return joins;
 }
 
-void World::fill_pair(int index, WarmStart::Reader& reader) {
-  const int manifold = pair_manifolds_[index];
-  const Manifold& m = (*manifolds_)[manifold];
+void World::count_joining(int first, int last) {
+  for (int k = first; k < last; ++k) {
+    joins_[k] = joining((*manifolds_)[k]);
+    ContactPlace& block = places_[k / manifolds_a_block];
+    block.pair += joins_[k] != 0;
+    block.point += std::popcount(joins_[k]);
+  }
+}
+
+void World::fill_pairs(int first, int last) {
+  WarmStart::Reader reader(warm_start_);
+  ContactPlace place = places_[first / manifolds_a_block];
+  for (int k = first; k < last; ++k) {
+    if (k + pairs_ahead < last) fetch_origins((*manifolds_)[k + pairs_ahead]);
+    if (joins_[k] == 0) continue;
+    fill_pair((*manifolds_)[k], joins_[k], place, reader);
+    ++place.pair;
+    place.point += std::popcount(joins_[k]);
+  }
+}
+
+void World::fill_pair(const Manifold& m, unsigned joins, ContactPlace place, WarmStart::Reader& reader) {
   const Surface &a = surfaces_[m.collider_a], &b = surfaces_[m.collider_b];
   const Material& material = materials_.of(a.material, b.material);
   const Vector3d origin_a = origin_of(a), origin_b = origin_of(b);
   reader.begin_pair(m.collider_a, m.collider_b);
-  ContactPair& pair = problem_.pairs[index];
+  ContactPair& pair = problem_.pairs[place.pair];
+  pair = ContactPair();
+  pair.first = place.point;
+  pair.count = std::popcount(joins);
   pair.a = solver_index(a);
   pair.b = solver_index(b);
   pair.collider_a = m.collider_a;
@@ -109,11 +120,10 @@ void World::fill_pair(int index, WarmStart::Reader& reader) {
   pair.start = options_.warm_start * reader.rolling();
   const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
                                                       [](const ManifoldPoint& p) { return p.gap <= 0; }));
-  int place = pair.first;
   for (int k = 0; k < m.count; ++k) {
-    if (!(joins_[manifold] >> k & 1u)) continue;
+    if (!(joins >> k & 1u)) continue;
     const ManifoldPoint& p = m.points[k];
-    ContactPoint& c = problem_.points[place++];
+    ContactPoint& c = problem_.points[place.point++];
     c.feature = p.feature;
     c.position = p.position;
     c.arm_a = p.position - origin_a;
