@@ -1,9 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <thread>
 
 #include "accuracy_run.hpp"
+#include "cycle_run.hpp"
 #include "estimate.hpp"
+#include "setting.hpp"
 
 /// Accuracy against cost: how far step, substeps and sweeps are from a converged run of the same pile. See
 /// --help.
@@ -13,84 +20,159 @@ using namespace drawpoint::benchmarks;
 namespace {
 
 constexpr const char* about =
-    "Accuracy against cost on the pile of pile_scenario. Each seed is settled once; every combination of\n"
-    "--dt, --substeps and --sweeps then goes on from there (0.5 s to take up the loads, 1 s at rest, 1 s of\n"
-    "digging) and is compared with a reference run of a small step and very many sweeps, seed by seed. The\n"
-    "second row is the reference's twin, started a micrometre off: what chaos alone does. Intervals: 95 %,\n"
-    "Student's t over the seeds.\n\n"
-    "  accuracy_study --rocks 200 --seeds 3 --dt 0.005,0.01 --substeps 1,4 --sweeps 5,25\n\n"
-    "Fields of --json: settled overlap (mean, p99; of the smaller rock), drift at rest, drag on the blade "
+    "Accuracy against cost. Each seed's pile is settled once; every setting then goes on from there and is\n"
+    "compared, seed by seed, with a reference of a small step and very many sweeps. The second row is the\n"
+    "reference's twin, started a micrometre off: what chaos alone does. Intervals: 95 %, Student's t over "
+    "the\n"
+    "seeds. A setting is STEPxSUBSTEPSxSWEEPS with the step in milliseconds, and +SPARE for spare work.\n\n"
+    "  accuracy_study --rocks 200 --seeds 3 --settings 10x16x1,10x16x1+20000,5x1x25\n"
+    "                             the pile of pile_scenario: 0.5 s to take up the loads, 1 s at rest, 1 s "
+    "of\n"
+    "                             digging. Settled overlap (of the smaller rock), drift at rest, drag on "
+    "the\n"
+    "                             blade over the last 0.6 s (mean; 95th percentile of 10 ms windows), mass\n"
+    "                             moved (sum of mass times displacement along the blade's way, over that "
+    "way)\n"
+    "  accuracy_study --cycle FOLDER --seeds 8\n"
+    "                             a loading cycle of the LHD on another pile a seed (poured and kept in "
+    "FOLDER\n"
+    "                             when missing): mean force in the bucket's pin, loaded mass, deepest "
+    "overlap\n\n"
+    "Fields of --json: each quantity with its mean and half_width; *_difference: setting minus reference "
     "over\n"
-    "the last 0.6 s (mean; its standard error by blocks of 0.1 s, mean over seeds; 95th percentile of 10 ms\n"
-    "windows), mass moved (sum of mass times displacement along the blade's way, over that way). "
-    "*_difference:\n"
-    "configuration minus reference over the reference's mean.";
+    "the reference's mean.";
 
 struct Settings {
   EngineFlags engine;  // method and threads
-  int rocks = 500, seeds = 5;
-  std::vector<double> steps = {0.0025, 0.005, 0.01};
-  std::vector<int> substeps = {1, 4}, sweeps = {5, 25, 100};
-  double reference_step = 0.0025;
-  int reference_sweeps = 1000;
+  int rocks = 500, seeds = 5, jobs = 1;
+  std::vector<std::string> tried = {"10x16x1+20000", "10x16x1", "10x16x4", "5x1x25", "2.5x4x1"};
+  std::string reference = "2.5x1x1000", reference_method = "sequential";
+  std::string cycle;
   bool json = false;
+};
+
+struct Quantity {
+  const char *key, *title;
+  double scale;
+  int digits;
+  bool compared;  // with the reference
+};
+
+using Sample = std::vector<double>;  // by quantity
+using Run = std::function<Sample(const engine::contact::WorldOptions&, double offset)>;
+
+// What is studied: quantities, and for each seed the run that all settings share.
+struct Subject {
+  std::vector<Quantity> quantities;
+  std::function<Run(int seed)> prepare;
 };
 
 struct Configuration {
   std::string name;
+  Setting setting;
   engine::contact::WorldOptions options;
   double offset = 0;
-  std::vector<AccuracySample> samples;  // by seed
+  std::vector<Sample> samples;  // by seed
 };
 
-std::vector<Configuration> configurations(const Settings& s) {
-  auto options = world_options(s.engine);
+std::vector<Configuration> configurations(const Settings& s, engine::contact::WorldOptions options) {
   std::vector<Configuration> all;
-  const auto add = [&](const std::string& name, double step, int substeps, int sweeps) {
-    options.step = step;
-    options.solver.substeps = substeps;
-    options.solver.sweeps = sweeps;
-    all.push_back({name, options, 0, {}});
+  const auto chosen = world_options(s.engine);
+  options.solver.threads = options.contacts.threads = chosen.solver.threads;
+  const auto add = [&](const std::string& name, const std::string& setting, double offset) {
+    all.push_back({name, setting_of(setting), with(options, setting_of(setting)), offset,
+                   std::vector<Sample>(static_cast<std::size_t>(s.seeds))});
   };
-  options.solver.spare_work = 0;  // as many sweeps as are asked for, as in a pile that is too large for more
-  options.solver.method = engine::contact::Method::sequential;
-  for (const char* name : {"reference", "twin"}) add(name, s.reference_step, 1, s.reference_sweeps);
-  all.back().offset = 1e-6;
-  options.solver.method = world_options(s.engine).solver.method;
-  for (const double step : s.steps)
-    for (const int substeps : s.substeps)
-      for (const int sweeps : s.sweeps) add("", step, substeps, sweeps);
+  options.solver.method = engine::contact::method_named(s.reference_method);
+  add("reference", s.reference, 0);
+  add("twin", s.reference, 1e-6);
+  options.solver.method = chosen.solver.method;
+  for (const std::string& setting : s.tried) add("", setting, 0);
   return all;
 }
 
-// Settles well below the errors in question: every configuration starts from the same pile.
-engine::contact::WorldOptions settling_options() {
-  engine::contact::WorldOptions options;
-  options.step = 0.005;
-  options.solver.method = engine::contact::Method::sequential;
-  options.solver.substeps = 5;
-  options.solver.sweeps = 10;
-  return options;
+// Settles well below the errors in question: every setting starts from the same pile.
+engine::contact::WorldOptions settling_options() { return with({}, setting_of("5x5x10")); }
+
+Subject blade(const Settings& s) {
+  return {{{"ms_rest", "ms rest", 1, 2, false},
+           {"ms_dig", "ms dig", 1, 2, false},
+           {"overlap_mean", "overlap mean %", 100, 5, false},
+           {"overlap_p99", "overlap p99 %", 100, 4, false},
+           {"dig_overlap_p99", "dig p99 %", 100, 2, false},
+           {"drift_m_s", "drift mm/s", 1e3, 4, false},
+           {"drag_n", "drag kN", 1e-3, 1, true},
+           {"drag_p95_n", "drag p95 kN", 1e-3, 1, true},
+           {"mass_moved_kg", "moved t", 1e-3, 2, true}},
+          [&s](int seed) -> Run {
+            Progress progress;
+            const SettledState settled =
+                settled_pile(s.rocks, static_cast<std::uint64_t>(seed), settling_options(), progress);
+            return [settled](const engine::contact::WorldOptions& options, double offset) -> Sample {
+              Progress shown;
+              const AccuracySample a = accuracy_sample(settled, options, offset, shown);
+              return {a.ms_rest, a.ms_dig, a.overlap_mean, a.overlap_p99, a.dig_overlap_p99,
+                      a.drift,   a.drag,   a.drag_p95,     a.mass_moved};
+            };
+          }};
 }
 
-void run_all(const Settings& s, std::vector<Configuration>& all) {
-  for (int seed = 1; seed <= s.seeds; ++seed) {
-    Progress progress;
-    const SettledState settled =
-        settled_pile(s.rocks, static_cast<std::uint64_t>(seed), settling_options(), progress);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      all[k].samples.push_back(accuracy_sample(settled, all[k].options, all[k].offset, progress));
-      std::fprintf(stderr, "seed %d of %d, configuration %zu of %zu: drag %.1f kN\n", seed, s.seeds, k + 1,
-                   all.size(), all[k].samples.back().drag / 1e3);
-    }
+Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
+  return {{{"ms_step", "ms a step", 1, 2, false},
+           {"deepest_overlap_m", "deepest mm", 1e3, 2, false},
+           {"bucket_force_n", "bucket kN", 1e-3, 1, true},
+           {"loaded_mass_kg", "loaded t", 1e-3, 2, true}},
+          [&s, scenario](int seed) -> Run {
+            engine::loading::Scenario of = scenario;
+            const std::string stem = s.cycle + "/pile_" + std::to_string(seed);
+            of.pile.seed = static_cast<std::uint64_t>(seed);
+            of.pile_file = stem + ".h5";
+            const engine::loading::SettledPile pile = prepared_pile(of);
+            return [of, pile, stem](const engine::contact::WorldOptions& options, double offset) -> Sample {
+              engine::loading::Scenario started = of;
+              started.world = options;
+              const CycleSample c = cycle_run(started, displaced(pile, 1, offset), stem + "_started.h5");
+              return {c.ms_step, c.deepest_overlap, c.bucket_force, c.loaded_mass};
+            };
+          }};
+}
+
+void run_seed(const Subject& subject, int seed, std::vector<Configuration>& all) {
+  const Run run = subject.prepare(seed);
+  const Quantity& shown = subject.quantities.back();
+  for (Configuration& c : all) {
+    Sample& sample = c.samples[static_cast<std::size_t>(seed - 1)];
+    sample = run(c.options, c.offset);
+    std::fprintf(stderr, "seed %d, %s %s: %s %.*f\n", seed, c.name.c_str(), name_of(c.setting).c_str(),
+                 shown.title, shown.digits, shown.scale * sample.back());
   }
 }
 
-using Field = double AccuracySample::*;
+// Seeds are claimed one after another; the first error ends the study.
+void run_all(const Settings& s, const Subject& subject, std::vector<Configuration>& all) {
+  std::atomic<int> next{1};
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto work = [&] {
+    try {
+      for (int seed = next++; seed <= s.seeds; seed = next++) run_seed(subject, seed, all);
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      if (!failure) failure = std::current_exception();
+      next = s.seeds + 1;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < s.jobs; ++k) others.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
 
-std::vector<double> values(const Configuration& c, Field field) {
+std::vector<double> values(const Configuration& c, std::size_t quantity) {
   std::vector<double> out;
-  for (const AccuracySample& sample : c.samples) out.push_back(sample.*field);
+  for (const Sample& sample : c.samples) out.push_back(sample[quantity]);
   return out;
 }
 
@@ -103,29 +185,22 @@ nlohmann::json as_json(const Estimate& e) {
   return out;
 }
 
-// (configuration − reference) / mean of the reference
-Estimate relative_difference(const Configuration& c, const Configuration& reference, Field field) {
-  const double scale = mean_of(values(reference, field));
-  const Estimate d = paired_difference(values(c, field), values(reference, field));
+// (setting − reference) / mean of the reference
+Estimate relative_difference(const Configuration& c, const Configuration& reference, std::size_t quantity) {
+  const double scale = mean_of(values(reference, quantity));
+  const Estimate d = paired_difference(values(c, quantity), values(reference, quantity));
   return {d.mean / scale, d.half_width / std::abs(scale)};
 }
 
-nlohmann::json described(const Configuration& c, const Configuration& reference) {
+nlohmann::json described(const Subject& subject, const Configuration& c, const Configuration& reference) {
   nlohmann::json out = benchmarks::described(c.options);
   out["name"] = c.name;
-  out["ms_rest"] = percentile(values(c, &AccuracySample::ms_rest), 0.5);
-  out["ms_dig"] = percentile(values(c, &AccuracySample::ms_dig), 0.5);
-  out["overlap_mean"] = as_json(estimate(values(c, &AccuracySample::overlap_mean)));
-  out["overlap_p99"] = as_json(estimate(values(c, &AccuracySample::overlap_p99)));
-  out["dig_overlap_p99"] = as_json(estimate(values(c, &AccuracySample::dig_overlap_p99)));
-  out["drift_m_s"] = as_json(estimate(values(c, &AccuracySample::drift)));
-  out["drag_n"] = as_json(estimate(values(c, &AccuracySample::drag)));
-  out["drag_block_error_n"] = mean_of(values(c, &AccuracySample::drag_error));
-  out["drag_p95_n"] = as_json(estimate(values(c, &AccuracySample::drag_p95)));
-  out["mass_moved_kg"] = as_json(estimate(values(c, &AccuracySample::mass_moved)));
-  out["drag_difference"] = as_json(relative_difference(c, reference, &AccuracySample::drag));
-  out["drag_p95_difference"] = as_json(relative_difference(c, reference, &AccuracySample::drag_p95));
-  out["mass_moved_difference"] = as_json(relative_difference(c, reference, &AccuracySample::mass_moved));
+  out["setting"] = name_of(c.setting);
+  for (std::size_t k = 0; k < subject.quantities.size(); ++k) {
+    const Quantity& q = subject.quantities[k];
+    out[q.key] = as_json(estimate(values(c, k)));
+    if (q.compared) out[std::string(q.key) + "_difference"] = as_json(relative_difference(c, reference, k));
+  }
   return out;
 }
 
@@ -140,40 +215,52 @@ std::string plus_minus(const nlohmann::json& e, double scale, int digits) {
   return text;
 }
 
-void print_table(const nlohmann::json& j) {
-  std::printf("%d rocks, %d seeds; means with 95 %% intervals over seeds; differences from the reference\n",
-              j.at("rocks").get<int>(), j.at("seeds").get<int>());
-  std::printf("%-9s %6s %4s %6s %8s %8s %18s %18s %18s %18s %18s %18s %18s\n", "", "dt ms", "sub", "sweeps",
-              "ms rest", "ms dig", "overlap mean %", "overlap p99 %", "drift mm/s", "drag kN", "drag diff %",
-              "p95 diff %", "moved diff %");
+void print_table(const Subject& subject, const nlohmann::json& j) {
+  std::printf("%d seeds; means with 95 %% intervals over seeds; differences from the reference\n%-9s %-16s",
+              j.at("seeds").get<int>(), "", "setting");
+  for (const Quantity& q : subject.quantities) {
+    std::printf(" %18s", q.title);
+    if (q.compared) std::printf(" %18s", "difference %");
+  }
+  std::printf("\n");
   for (const nlohmann::json& c : j.at("configurations")) {
-    std::printf("%-9s %6g %4d %6d %8.3f %8.3f", c.at("name").get<std::string>().c_str(),
-                1e3 * c.at("dt_s").get<double>(), c.at("substeps").get<int>(), c.at("sweeps").get<int>(),
-                c.at("ms_rest").get<double>(), c.at("ms_dig").get<double>());
-    const auto column = [&](const char* key, double scale, int digits) {
-      std::printf(" %19s", plus_minus(c.at(key), scale, digits).c_str());  // ± takes two bytes
-    };
-    column("overlap_mean", 100, 5);
-    column("overlap_p99", 100, 4);
-    column("drift_m_s", 1e3, 4);
-    column("drag_n", 1e-3, 1);
-    column("drag_difference", 100, 1);
-    column("drag_p95_difference", 100, 1);
-    column("mass_moved_difference", 100, 1);
+    std::printf("%-9s %-16s", c.at("name").get<std::string>().c_str(),
+                c.at("setting").get<std::string>().c_str());
+    for (const Quantity& q : subject.quantities) {  // ± takes two bytes
+      std::printf(" %19s", plus_minus(c.at(q.key), q.scale, q.digits).c_str());
+      if (q.compared)
+        std::printf(" %19s", plus_minus(c.at(std::string(q.key) + "_difference"), 100, 1).c_str());
+    }
     std::printf("\n");
   }
 }
 
 int run(const Settings& s) {
-  std::vector<Configuration> all = configurations(s);
-  run_all(s, all);
-  nlohmann::json out{{"rocks", s.rocks}, {"seeds", s.seeds}, {"configurations", nlohmann::json::array()}};
-  for (const Configuration& c : all) out["configurations"].push_back(described(c, all.front()));
+  engine::loading::Scenario scenario;
+  if (!s.cycle.empty()) {
+    scenario = engine::loading::lh621_in_a_drift();
+    std::filesystem::create_directories(s.cycle);
+  }
+  const Subject subject = s.cycle.empty() ? blade(s) : cycle(s, scenario);
+  std::vector<Configuration> all = configurations(s, scenario.world);
+  run_all(s, subject, all);
+  nlohmann::json out{{"seeds", s.seeds}, {"configurations", nlohmann::json::array()}};
+  if (s.cycle.empty()) out["rocks"] = s.rocks;
+  for (const Configuration& c : all) out["configurations"].push_back(described(subject, c, all.front()));
   if (s.json)
     std::printf("%s\n", out.dump().c_str());
   else
-    print_table(out);
+    print_table(subject, out);
   return 0;
+}
+
+std::string wrong_setting(const std::string& text) {
+  try {
+    setting_of(text);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
 }
 
 }  // namespace
@@ -184,26 +271,23 @@ int main(int argc, char** argv) {
   app.add_option("--rocks", s.rocks, "number of rocks")
       ->check(between(1, 100'000, "", "200 to 500 are usual"))
       ->capture_default_str();
+  app.add_option("--cycle", s.cycle, "study loading cycles instead; where their piles are kept");
   app.add_option("--seeds", s.seeds, "number of piles, seeds 1, 2, ...")
       ->check(between(1, 1000, "", "2 and more give intervals"))
       ->capture_default_str();
-  app.add_option("--dt", s.steps, "time steps [s], with commas between")
+  app.add_option("--settings", s.tried, "settings to try, with commas between")
       ->delimiter(',')
-      ->check(between(1e-5, 0.01, "s", "0.0025,0.005,0.01 are usual; the drag is taken in windows of 0.01 s"))
+      ->check(wrong_setting)
       ->capture_default_str();
-  app.add_option("--substeps", s.substeps, "substeps, with commas between")
-      ->delimiter(',')
-      ->check(between(1, 1000, "", "1 to 16 are usual"))
+  app.add_option("--reference", s.reference, "setting of the reference")
+      ->check(wrong_setting)
       ->capture_default_str();
-  app.add_option("--sweeps", s.sweeps, "sweeps a substep, with commas between")
-      ->delimiter(',')
-      ->check(between(1, 1e6, "", "1 to 150 are usual"))
+  app.add_option("--reference-method", s.reference_method,
+                 "sequential: double precision; coloured: a tenth of the time, to 1e-6 of the load")
+      ->check(CLI::IsMember({"sequential", "coloured"}))
       ->capture_default_str();
-  app.add_option("--reference-dt", s.reference_step, "time step of the reference [s]")
-      ->check(between(1e-5, 0.01, "s", "half the smallest --dt or less is best"))
-      ->capture_default_str();
-  app.add_option("--reference-sweeps", s.reference_sweeps, "sweeps of the reference, one substep")
-      ->check(between(1, 1e6, "", "1000 and more"))
+  app.add_option("--jobs", s.jobs, "seeds at a time; more than one makes the times less sure")
+      ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
   add_method_flags(app, s.engine);
   app.add_flag("--json", s.json, "print one JSON object");

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
-#include <drawpoint/engine/random.hpp>
-#include <filesystem>
 
 #include "accuracy_run.hpp"
+#include "cycle_run.hpp"
 #include "estimate.hpp"
 #include "freezing_cost.hpp"
 
@@ -112,53 +110,28 @@ int study_blade(const Settings& s) {
   return 0;
 }
 
-double mean_bucket_force(const engine::loading::LoadingLog& log) {
-  const auto& x = log.signals.column("hinge_G_force_x");
-  const auto &y = log.signals.column("hinge_G_force_y"), &z = log.signals.column("hinge_G_force_z");
-  double sum = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) sum += std::hypot(x[k], y[k], z[k]);
-  return sum / static_cast<double>(x.size());
-}
-
-engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed) {
-  constexpr double most = 1e-3;  // [m], upwards: what lies there is not pressed into each other
-  engine::CounterRandom random(seed);
-  for (auto& rock : pile.rocks) rock.pose.translation().z() += most * random.uniform();
-  return pile;
-}
-
 int study_cycle(const Settings& s) {
   using namespace engine::loading;
   Scenario off = lh621_in_a_drift();
-  off.cycles = 1;
   off.pile_file = s.pile;
   off.world.freezing.on = false;
   const SettledPile pile = prepared_pile(off);
   Scenario on = off;
   on.world.freezing.on = true;
-  const std::filesystem::path started = s.pile + ".displaced";
   Paired force, mass, ms;
   for (int seed = 1; seed <= s.seeds; ++seed) {
     const SettledPile start = displaced(pile, static_cast<std::uint64_t>(seed));
-    const auto run = [&](std::vector<double> Paired::*which, Scenario scenario) {
-      scenario.pile_file = started;
-      write_pile(started, start, scenario);  // one pile, whatever it was poured with
-      double solve = 0;
-      SimulationHooks hooks;
-      hooks.on_step = [&](const auto& r) { solve += 1e3 * (r.broad_s + r.narrow_s + r.solver_s + r.rest_s); };
-      const LoadingLog log = simulate(scenario, hooks);
-      if (!log.completed) throw std::runtime_error("seed " + std::to_string(seed) + ": " + log.message);
-      (force.*which).push_back(mean_bucket_force(log));
-      (mass.*which).push_back(log.cycles.front().loaded_mass);
-      (ms.*which).push_back(solve);
+    const auto run = [&](std::vector<double> Paired::*which, const Scenario& scenario) {
+      const CycleSample sample = cycle_run(scenario, start, s.pile + ".displaced");
+      (force.*which).push_back(sample.bucket_force);
+      (mass.*which).push_back(sample.loaded_mass);
+      (ms.*which).push_back(sample.contact_ms);
       std::fprintf(stderr, "seed %d, freezing %s: %.1f kN, %.0f kg\n", seed,
-                   scenario.world.freezing.on ? "on" : "off", (force.*which).back() / 1e3,
-                   (mass.*which).back());
+                   scenario.world.freezing.on ? "on" : "off", sample.bucket_force / 1e3, sample.loaded_mass);
     };
     run(&Paired::off, off);
     run(&Paired::on, on);
   }
-  std::filesystem::remove(started);
   std::printf("loading cycle, %d displaced starts\n", s.seeds);
   print_change("force in the bucket pin [N]", force);
   print_change("loaded mass [kg]", mass);

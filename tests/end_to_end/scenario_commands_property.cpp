@@ -90,16 +90,17 @@ TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
 }
 
 TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
-  const Ended run = this->run(study +
-                              " --rocks 6 --seeds 2 --dt 0.01 --substeps 1 --sweeps 5 --reference-dt 0.01"
-                              " --reference-sweeps 20 --json");
+  const Ended run =
+      this->run(study + " --rocks 6 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json rows = run.json().at("configurations");
-  ASSERT_EQ(rows.size(), 3u);
+  ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].at("name"), "reference");
-  EXPECT_EQ(rows[0].at("mass_moved_difference").at("mean"), 0);
+  EXPECT_EQ(rows[0].at("mass_moved_kg_difference").at("mean"), 0);
   EXPECT_EQ(rows[1].at("name"), "twin");
   EXPECT_EQ(rows[2].at("sweeps"), 5);
+  EXPECT_EQ(rows[3].at("setting"), "10x4x1+50");
+  EXPECT_EQ(rows[3].at("spare_work"), 50);
   EXPECT_TRUE(rows[2].at("drag_n").at("half_width").is_number());
 }
 
@@ -122,7 +123,9 @@ TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
   refused(pile + " --freeze maybe", "maybe", "on,off");
   refused(pile + " --rock 5", "--rock", "--help");
   refused(table + " --ratio 0", "--ratio: \"0\"", "0.001 to 1e+06");
-  refused(study + " --dt 0.005,1", "--dt: \"1\"", "1e-05 to 0.01 s");
+  refused(study + " --settings 10x16x1,20x1x1", "\"20x1x1\"", "0.01 to 10 ms");
+  refused(study + " --settings 10x16", "\"10x16\"", "STEPxSUBSTEPSxSWEEPS");
+  refused(study + " --reference 10x1x0", "\"10x1x0\"", "1 to 1000000 sweeps");
 }
 
 TEST_F(ScenarioCommands, HelpTeaches) {

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/loading/scenario.hpp>
+
+/// One loading cycle from a given pile: what the bucket feels and loads.
+///
+/// Cycles are chaotic: a rock at the toe decides where the loader stalls. Two choices of the engine are
+/// compared over many starts that differ by displacements of the rocks, pair by pair.
+namespace drawpoint::benchmarks {
+
+struct CycleSample {
+  double bucket_force = 0;     ///< mean magnitude of the force in the bucket's pin [N]
+  double loaded_mass = 0;      ///< [kg]
+  double contact_ms = 0;       ///< wall time of contacts, all steps together
+  double ms_step = 0;          ///< the same a step
+  double deepest_overlap = 0;  ///< mean over the steps of the deepest overlap of a rock [m]
+};
+
+/// Raises each rock by up to `most` [m], by the draws of `seed`; what lies there is not pressed together.
+engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed,
+                                       double most = 1e-3);
+
+/// Runs the scenario's first cycle from the pile. `scratch`: a file that is written and removed. Throws
+/// std::runtime_error with the run's message when it does not come to its end.
+CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile,
+                      const std::filesystem::path& scratch);
+
+}  // namespace drawpoint::benchmarks
