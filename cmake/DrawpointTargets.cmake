@@ -14,7 +14,7 @@ function(drawpoint_header_module name)
 endfunction()
 
 # drawpoint_test(MODULE FILE_STEM LIBRARY...): one executable and one ctest entry a file; the label is the stem's suffix,
-# so that `ctest -L analytic` runs every *_analytic.cpp.
+# so that `ctest -L analytic` runs every *_analytic.cpp. The target tests_of_MODULE builds all of a module.
 function(drawpoint_test module stem)
   set(target test_${module}_${stem})
   add_executable(${target} ${stem}.cpp)
@@ -22,6 +22,10 @@ function(drawpoint_test module stem)
   target_compile_definitions(${target} PRIVATE DRAWPOINT_TEST_REFERENCE="${PROJECT_SOURCE_DIR}/tests/reference")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${module}.${stem} COMMAND ${target})
+  if(NOT TARGET tests_of_${module})
+    add_custom_target(tests_of_${module})
+  endif()
+  add_dependencies(tests_of_${module} ${target})
   string(REGEX MATCH "[a-z]+$" label ${stem})
   set(limit 600)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug") # the sanitizers' presets
