@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <mutex>
 #include <thread>
 
@@ -123,17 +122,16 @@ Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
            {"bucket_force_n", "bucket kN", 1e-3, 1, true},
            {"loaded_mass_kg", "loaded t", 1e-3, 2, true}},
           [&s, scenario](int seed) -> Run {
-            engine::loading::Scenario of = scenario;
-            const std::string stem = s.cycle + "/pile_" + std::to_string(seed);
-            of.pile.seed = static_cast<std::uint64_t>(seed);
-            of.pile_file = stem + ".h5";
+            const engine::loading::Scenario of = with_pile(scenario, s.cycle, seed);
             const engine::loading::SettledPile pile = prepared_pile(of);
-            return [of, pile, stem](const engine::contact::WorldOptions& options, double offset) -> Sample {
-              engine::loading::Scenario started = of;
-              started.world = options;
-              const CycleSample c = cycle_run(started, displaced(pile, 1, offset), stem + "_started.h5");
-              return {c.ms_step, c.deepest_overlap, c.bucket_force, c.loaded_mass};
-            };
+            const std::string scratch = of.pile_file.string() + ".started";
+            return
+                [of, pile, scratch](const engine::contact::WorldOptions& options, double offset) -> Sample {
+                  engine::loading::Scenario started = of;
+                  started.world = options;
+                  const CycleSample c = cycle_run(started, displaced(pile, 1, offset), scratch);
+                  return {c.ms_step, c.deepest_overlap, c.bucket_force, c.loaded_mass};
+                };
           }};
 }
 
@@ -237,10 +235,7 @@ void print_table(const Subject& subject, const nlohmann::json& j) {
 
 int run(const Settings& s) {
   engine::loading::Scenario scenario;
-  if (!s.cycle.empty()) {
-    scenario = engine::loading::lh621_in_a_drift();
-    std::filesystem::create_directories(s.cycle);
-  }
+  if (!s.cycle.empty()) scenario = engine::loading::lh621_in_a_drift();
   const Subject subject = s.cycle.empty() ? blade(s) : cycle(s, scenario);
   std::vector<Configuration> all = configurations(s, scenario.world);
   run_all(s, subject, all);

@@ -20,6 +20,14 @@ double mean_bucket_force(const engine::loading::LoadingLog& log) {
 
 }  // namespace
 
+engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const std::filesystem::path& folder,
+                                    int seed) {
+  std::filesystem::create_directories(folder);
+  scenario.pile.seed = static_cast<std::uint64_t>(seed);
+  scenario.pile_file = folder / ("pile_" + std::to_string(seed) + ".h5");
+  return scenario;
+}
+
 engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed, double most) {
   engine::CounterRandom random(seed);
   for (auto& rock : pile.rocks) rock.pose.translation().z() += most * random.uniform();

@@ -8,7 +8,7 @@
 /// One loading cycle from a given pile: what the bucket feels and loads.
 ///
 /// Cycles are chaotic: a rock at the toe decides where the loader stalls. Two choices of the engine are
-/// compared over many starts that differ by displacements of the rocks, pair by pair.
+/// compared over many piles, pair by pair.
 namespace drawpoint::benchmarks {
 
 struct CycleSample {
@@ -19,9 +19,12 @@ struct CycleSample {
   double deepest_overlap = 0;  ///< mean over the steps of the deepest overlap of a rock [m]
 };
 
+/// The scenario with the pile of another seed, kept as pile_SEED.h5 in the folder and poured when missing.
+engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const std::filesystem::path& folder,
+                                    int seed);
+
 /// Raises each rock by up to `most` [m], by the draws of `seed`; what lies there is not pressed together.
-engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed,
-                                       double most = 1e-3);
+engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed, double most);
 
 /// Runs the scenario's first cycle from the pile. `scratch`: a file that is written and removed. Throws
 /// std::runtime_error with the run's message when it does not come to its end.

@@ -18,19 +18,20 @@ constexpr const char* about =
     "Runs the same scenes with freezing on and off.\n\n"
     "  freezing_study --cost                  3000 rocks of which 300 move, against the 300 alone\n"
     "  freezing_study --blade --seeds 10      the blade of pile_scenario, pile by pile\n"
-    "  freezing_study --cycle PILE --seeds 5  a loading cycle from one pile (poured and kept in PILE when\n"
-    "                                         missing), each seed with other displacements of its rocks by\n"
-    "                                         up to a millimetre\n\n"
+    "  freezing_study --cycle FOLDER --seeds 5  a loading cycle of the LHD on another pile a seed (poured "
+    "and\n"
+    "                                         kept in FOLDER when missing)\n\n"
     "Blade and cycle print the mean of on minus off over the seeds, relative to the mean of off, with its 95 "
     "%\n"
-    "interval (Student's t on the paired differences). Row \"twin\" of the blade is a second run without\n"
-    "freezing that starts a micrometre off: what chaos alone does. A change is resolved only when its "
-    "interval\n"
-    "is narrower than the change that is asked about.";
+    "interval (Student's t on the paired differences). Rows \"twin\": a second run without freezing that "
+    "starts\n"
+    "a micrometre off: what chaos alone does. A change is resolved only when its interval is narrower than "
+    "the\n"
+    "change that is asked about.";
 
 struct Settings {
   bool cost = false, blade = false;
-  std::string pile;
+  std::string folder;
   int rocks = 300, seeds = 5, repeats = 3;
 };
 
@@ -112,27 +113,26 @@ int study_blade(const Settings& s) {
 
 int study_cycle(const Settings& s) {
   using namespace engine::loading;
-  Scenario off = lh621_in_a_drift();
-  off.pile_file = s.pile;
-  off.world.freezing.on = false;
-  const SettledPile pile = prepared_pile(off);
-  Scenario on = off;
-  on.world.freezing.on = true;
   Paired force, mass, ms;
   for (int seed = 1; seed <= s.seeds; ++seed) {
-    const SettledPile start = displaced(pile, static_cast<std::uint64_t>(seed));
-    const auto run = [&](std::vector<double> Paired::*which, const Scenario& scenario) {
-      const CycleSample sample = cycle_run(scenario, start, s.pile + ".displaced");
+    const Scenario scenario = with_pile(lh621_in_a_drift(), s.folder, seed);
+    const SettledPile pile = prepared_pile(scenario);
+    const auto run = [&](std::vector<double> Paired::*which, bool freeze, double offset) {
+      Scenario chosen = scenario;
+      chosen.world.freezing.on = freeze;
+      const CycleSample sample =
+          cycle_run(chosen, displaced(pile, 1, offset), scenario.pile_file.string() + ".started");
       (force.*which).push_back(sample.bucket_force);
       (mass.*which).push_back(sample.loaded_mass);
       (ms.*which).push_back(sample.contact_ms);
-      std::fprintf(stderr, "seed %d, freezing %s: %.1f kN, %.0f kg\n", seed,
-                   scenario.world.freezing.on ? "on" : "off", sample.bucket_force / 1e3, sample.loaded_mass);
+      std::fprintf(stderr, "seed %d, freezing %s: %.1f kN, %.0f kg\n", seed, freeze ? "on" : "off",
+                   sample.bucket_force / 1e3, sample.loaded_mass);
     };
-    run(&Paired::off, off);
-    run(&Paired::on, on);
+    run(&Paired::off, false, 0);
+    run(&Paired::on, true, 0);
+    run(&Paired::twin, false, 1e-6);
   }
-  std::printf("loading cycle, %d displaced starts\n", s.seeds);
+  std::printf("loading cycle, %d piles\n", s.seeds);
   print_change("force in the bucket pin [N]", force);
   print_change("loaded mass [kg]", mass);
   print_change("time in contacts [ms]", ms);
@@ -147,7 +147,7 @@ int main(int argc, char** argv) {
   auto* what = app.add_option_group("what", "one of these");
   what->add_flag("--cost", s.cost, "time of rocks that stand beside rocks that move");
   what->add_flag("--blade", s.blade, "change of the force on a blade");
-  what->add_option("--cycle", s.pile, "change of bucket force and loaded mass; where the pile is kept");
+  what->add_option("--cycle", s.folder, "change of bucket force and loaded mass; where the piles are kept");
   what->require_option(1);
   app.add_option("--rocks", s.rocks, "of the blade's piles")
       ->check(between(1, 100'000, "", "200 to 500 are usual"))
