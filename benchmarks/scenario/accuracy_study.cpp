@@ -135,14 +135,24 @@ Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
           }};
 }
 
+void report(const Subject& subject, int seed, const Configuration& c) {
+  std::string line = "seed " + std::to_string(seed) + ", " + c.name + " " + name_of(c.setting) + ":";
+  for (std::size_t k = 0; k < subject.quantities.size(); ++k) {
+    const Quantity& q = subject.quantities[k];
+    if (!q.compared) continue;
+    char text[64];
+    std::snprintf(text, sizeof text, " %s %.*f", q.title, q.digits,
+                  q.scale * c.samples[static_cast<std::size_t>(seed - 1)][k]);
+    line += text;
+  }
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 void run_seed(const Subject& subject, int seed, std::vector<Configuration>& all) {
   const Run run = subject.prepare(seed);
-  const Quantity& shown = subject.quantities.back();
   for (Configuration& c : all) {
-    Sample& sample = c.samples[static_cast<std::size_t>(seed - 1)];
-    sample = run(c.options, c.offset);
-    std::fprintf(stderr, "seed %d, %s %s: %s %.*f\n", seed, c.name.c_str(), name_of(c.setting).c_str(),
-                 shown.title, shown.digits, shown.scale * sample.back());
+    c.samples[static_cast<std::size_t>(seed - 1)] = run(c.options, c.offset);
+    report(subject, seed, c);
   }
 }
 
