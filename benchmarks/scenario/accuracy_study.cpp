@@ -135,24 +135,27 @@ Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
           }};
 }
 
-void report(const Subject& subject, int seed, const Configuration& c) {
-  std::string line = "seed " + std::to_string(seed) + ", " + c.name + " " + name_of(c.setting) + ":";
+// "drag kN 84.1, moved t 3.07"
+std::string compared(const Subject& subject, const Sample& sample) {
+  std::string line;
   for (std::size_t k = 0; k < subject.quantities.size(); ++k) {
     const Quantity& q = subject.quantities[k];
     if (!q.compared) continue;
     char text[64];
-    std::snprintf(text, sizeof text, " %s %.*f", q.title, q.digits,
-                  q.scale * c.samples[static_cast<std::size_t>(seed - 1)][k]);
+    std::snprintf(text, sizeof text, "%s%s %.*f", line.empty() ? "" : ", ", q.title, q.digits,
+                  q.scale * sample[k]);
     line += text;
   }
-  std::fprintf(stderr, "%s\n", line.c_str());
+  return line;
 }
 
 void run_seed(const Subject& subject, int seed, std::vector<Configuration>& all) {
   const Run run = subject.prepare(seed);
   for (Configuration& c : all) {
-    c.samples[static_cast<std::size_t>(seed - 1)] = run(c.options, c.offset);
-    report(subject, seed, c);
+    Sample& sample = c.samples[static_cast<std::size_t>(seed - 1)];
+    sample = run(c.options, c.offset);
+    std::fprintf(stderr, "seed %d, %s %s: %s\n", seed, c.name.c_str(), name_of(c.setting).c_str(),
+                 compared(subject, sample).c_str());
   }
 }
 
