@@ -337,12 +337,12 @@ void hand_over(const BatchArrays& arrays, BatchRange range) {
 void judge(const BatchArrays& arrays, BatchRange range) {
   over(range, [&](int batch, int at) { judge_lanes(arrays, batch, at); });
 }
-void sweep(const BatchArrays& arrays, BatchRange range, const Sweep& of) {
+void sweep(const BatchArrays& arrays, BatchRange range, const Sweep& this_sweep) {
   over(range, [&](int batch, int at) {
     if (at == 0) arrays.sums[batch] = BatchSums();
-    if (of.first) aim_lanes(arrays, batch, at, of);
+    if (this_sweep.first) aim_lanes(arrays, batch, at, this_sweep);
     sweep_lanes(arrays, batch, at);
-    if (of.last) hand_over_lanes(arrays, batch, at);
+    if (this_sweep.last) hand_over_lanes(arrays, batch, at);
   });
 }
 
@@ -364,8 +364,8 @@ void prepare_batches(const BatchArrays& arrays, BatchRange range) {
 void start_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(start)(arrays, range);
 }
-void sweep_batches(const BatchArrays& arrays, BatchRange range, const Sweep& of) {
-  HWY_DYNAMIC_DISPATCH(sweep)(arrays, range, of);
+void sweep_batches(const BatchArrays& arrays, BatchRange range, const Sweep& this_sweep) {
+  HWY_DYNAMIC_DISPATCH(sweep)(arrays, range, this_sweep);
 }
 void hand_over_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(hand_over)(arrays, range);

@@ -87,14 +87,14 @@ void ColouredSolver::run_substep(int number) {
     extrapolate();
   const int most = most_sweeps(options_, problem_->points.size());
   const bool hands_over = number + 1 < options_.substeps;
-  Sweep of{substep(), true, false, number == 0};
-  for (int k = 0; k < most; ++k, of.first = false) {
+  Sweep this_sweep{substep(), true, false, number == 0};
+  for (int k = 0; k < most; ++k, this_sweep.first = false) {
     const bool converged = k >= options_.sweeps && change() <= options_.tolerance * normal_load();
     if (converged) break;
-    of.last = hands_over && k + 1 == most;
-    sweep(k % 2 == 0, of);
+    this_sweep.last = hands_over && k + 1 == most;
+    sweep(k % 2 == 0, this_sweep);
   }
-  if (hands_over && !of.last)
+  if (hands_over && !this_sweep.last)
     each_stage(true, [this](BatchRange range) { hand_over_batches(batches_.arrays(), range); });
   machine_->finish();
 }
@@ -128,9 +128,9 @@ void ColouredSolver::extrapolate() {
   machine_->correct(batches_.bodies);
 }
 
-void ColouredSolver::sweep(bool forward, const Sweep& of) {
+void ColouredSolver::sweep(bool forward, const Sweep& this_sweep) {
   machine_change_ = machine_->sweep(batches_.bodies, forward);
-  each_stage(forward, [&](BatchRange range) { sweep_batches(batches_.arrays(), range, of); });
+  each_stage(forward, [&](BatchRange range) { sweep_batches(batches_.arrays(), range, this_sweep); });
 }
 
 // The way of the substep that has ended.

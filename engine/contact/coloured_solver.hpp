@@ -34,7 +34,7 @@ class ColouredSolver {
   void run_substep(int number);
   void start();
   void extrapolate();
-  void sweep(bool forward, const Sweep& of);
+  void sweep(bool forward, const Sweep& this_sweep);
   void travel(int row);
   void store_bodies();
   void store_body(int index);
