@@ -17,9 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Faces beat edge pairs that are better by less: where they tie, a face gives the richer manifold. Below the
 // 1e-6 m to which depths are promised.
 constexpr double face_preference = 1e-7;
-// Round-off of a height over a plane, for coordinates up to some 100 m. Bounds are eased by it, so that it
-// costs at most a candidate too many.
-constexpr double round_off = 1e-12;
 // Squared sine below which two edges are parallel and some face normal stands in for their axis.
 constexpr double parallel = 1e-14;
 // Nearer centres than this give no direction [m].
@@ -34,18 +31,6 @@ Vector3d within(const CollisionHull& hull, int face, const Vector3d& p) {
     if (across * share > room) share = room / across;
   }
   return middle + share * out;
-}
-
-// The most that a point lies over an edge, along directions between the normals of its two faces; `left` and
-// `right`: its heights over these. The height over the edge is a cosine of the direction: it is largest at an
-// end, or inside when it is positive and the point lies beyond both faces.
-double most_over(const HullEdge& edge, const Vector3d& start, const Vector3d& p, double left, double right) {
-  const double end = std::max(left, right);
-  if (end <= 0) return end;
-  const Vector3d from = p - start;
-  if (edge.beyond_left.dot(from) <= -round_off || edge.beyond_right.dot(from) <= -round_off) return end;
-  const double along = edge.along.dot(from);
-  return std::sqrt(std::max(0.0, from.squaredNorm() - along * along / edge.along.squaredNorm()));
 }
 
 // Descending by `most`; short lists.
@@ -172,67 +157,22 @@ bool AxisSearch::sweep_faces(const HullPair& pair, const Witness& witness) {
   const auto see_a = [&](int f) {
     const bool known = best_.feature.kind == FeatureKind::face_a && best_.feature.a == f;
     const Axis axis = known ? best_ : face_of_a(pair, f);
-    side_a_.see(f, axis.separation, pair.vertex_b(axis.support));
+    bounds_a_.see(f, axis.separation, pair.vertex_b(axis.support));
     return note(axis);
   };
   const auto see_b = [&](int f) {
     const bool known = best_.feature.kind == FeatureKind::face_b && best_.feature.b == f;
     const Axis axis = known ? best_ : face_of_b(pair, f);
-    side_b_.see(f, axis.separation, pair.in_b(pair.a.vertices[axis.support]));
+    bounds_b_.see(f, axis.separation, pair.in_b(pair.a.vertices[axis.support]));
     return note(axis);
   };
-  side_a_.measure(pair.a, witness.on_b);
-  side_b_.measure(pair.b, pair.in_b(witness.on_a));
+  bounds_a_.measure(pair.a, witness.on_b);
+  bounds_b_.measure(pair.b, pair.in_b(witness.on_a));
   for (int f = 0; f < pair.a.face_count(); ++f)
-    if (side_a_.over[f] > floor_ - round_off && !see_a(f)) return false;
+    if (bounds_a_.over(f) > floor_ - height_round_off && !see_a(f)) return false;
   for (int f = 0; f < pair.b.face_count(); ++f)
-    if (side_b_.over[f] > floor_ - round_off && !see_b(f)) return false;
+    if (bounds_b_.over(f) > floor_ - height_round_off && !see_b(f)) return false;
   return true;
-}
-
-void AxisSearch::Side::measure(const CollisionHull& hull, const Vector3d& p) {
-  over.resize(std::max<std::size_t>(over.size(), hull.nx.size()));
-  heights(hull, p, over.data());
-  point = p;
-  seen.clear();
-  seen_at.assign(static_cast<std::size_t>(hull.face_count()), -1);
-}
-
-void AxisSearch::Side::see(int face, double separation, const Vector3d& lowest) {
-  seen_at[face] = static_cast<int>(seen.size());
-  seen.push_back({separation, lowest});
-}
-
-// Calls `keep(e, most)` once for each edge of the hull that may separate by more than `least`, and by no more
-// than `most`. Three points of the other shape can rule an edge out: the witness, and the lowest ones over
-// its two faces where those were looked at.
-template <class Keep>
-void AxisSearch::Side::for_edges(const CollisionHull& hull, double least, const Keep& keep) const {
-  const auto most = [&](const HullEdge& edge) {
-    const Vector3d& start = hull.vertices[edge.start];
-    double bound = most_over(edge, start, point, over[edge.left], over[edge.right]);
-    for (const bool left : {true, false}) {
-      const int at = seen_at[left ? edge.left : edge.right];
-      if (at < 0 || bound <= least) continue;
-      const SeenFace& face = seen[at];
-      const int other = left ? edge.right : edge.left;
-      const double across = hull.normals[other].dot(face.lowest) - hull.offsets[other];
-      bound = std::min(bound, most_over(edge, start, face.lowest, left ? face.separation : across,
-                                        left ? across : face.separation));
-    }
-    return bound;
-  };
-  // Over no other face is the witness high enough.
-  const double high = std::min(least, 0.0);
-  for (int f = 0; f < hull.face_count(); ++f) {
-    if (over[f] <= high) continue;
-    for (int e : hull.edges_of(f)) {
-      const HullEdge& edge = hull.edges[e];
-      const int other = edge.left == f ? edge.right : edge.left;
-      if (other < f && over[other] > high) continue;  // seen from there
-      if (const double bound = most(edge); bound > least) keep(e, bound);
-    }
-  }
 }
 
 // The best pair of edges, if one separates by more than `best_edges` already does.
@@ -241,11 +181,11 @@ void AxisSearch::sweep_edges(const HullPair& pair, Axis& best_edges) {
   const double least = best_edges.separation;
   edges_a_.clear();
   edges_b_.clear();
-  side_a_.for_edges(pair.a, least, [&](int e, double most) {
+  bounds_a_.for_edges(pair.a, least, [&](int e, double most) {
     edges_a_.push_back({e, most, R.transpose() * pair.a.edges[e].along});
   });
   if (edges_a_.empty()) return;
-  side_b_.for_edges(pair.b, least, [&](int e, double most) {
+  bounds_b_.for_edges(pair.b, least, [&](int e, double most) {
     edges_b_.push_back({e, most, R * pair.b.edges[e].along, pair.vertex_b(pair.b.edges[e].start)});
   });
   sort_by_most(edges_a_);
@@ -283,10 +223,10 @@ bool AxisSearch::nearest_edges(const HullPair& pair, const Axis& axis, double ma
   const Vector3d n_b = pair.X_AB.linear().transpose() * axis.normal;
   const double over = axis.normal.dot(pair.X_AB.translation());
   const auto high = [&](int v) {
-    return axis.normal.dot(pair.a.vertices[v]) >= axis.reach + axis.separation - margin - round_off;
+    return axis.normal.dot(pair.a.vertices[v]) >= axis.reach + axis.separation - margin - height_round_off;
   };
   const auto low = [&](int v) {
-    return n_b.dot(pair.b.vertices[v]) + over <= axis.reach + margin + round_off;
+    return n_b.dot(pair.b.vertices[v]) + over <= axis.reach + margin + height_round_off;
   };
   edges_b_.clear();
   for (std::size_t e = 0; e < pair.b.edges.size(); ++e) {

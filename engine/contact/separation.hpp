@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
-#include <drawpoint/engine/contact/collision_hull.hpp>
+#include <drawpoint/engine/contact/separation_bounds.hpp>
 #include <limits>
 #include <vector>
 
@@ -15,12 +15,11 @@
 /// 2013). Overlapping shapes: −s is the exact penetration depth. Separated: s > 0 is a lower bound on the
 /// distance.
 ///
-/// Pruned without loss. For a normal n that a face or an edge of A allows, with p on that face or edge, and
-/// any point q of B: s(n) <= n·(q − p). So with a good first guess s₀ and q next to the contact a face is
-/// looked at only when q lies higher than s₀ over it, and an edge only when that holds between its two faces:
-/// of a pair that rests on a face one plane and no edge is left. The first guess is last time's axis, or the
-/// line of centres. All in A's frame, metres. Cost: about 1 µs for rocks of a dozen vertices without a guess,
-/// less with one.
+/// Pruned without loss (separation_bounds.hpp). With a good first guess s₀ and a point q of the other shape
+/// next to the contact a face is looked at only when q lies higher than s₀ over it, and an edge only when
+/// that holds between its two faces: of a pair that rests on a face one plane and no edge is left. The first
+/// guess is last time's axis, or the line of centres. All in A's frame, metres. Cost: about 1 µs for rocks of
+/// a dozen vertices without a guess, less with one.
 namespace drawpoint::engine::contact::detail {
 
 enum class FeatureKind : std::uint8_t { none, face_a, face_b, edges };
@@ -82,22 +81,6 @@ class AxisSearch {
   struct Witness {
     Eigen::Vector3d on_a, on_b;  ///< a point of each shape, in A's frame, near where they touch
   };
-  // What is known of the faces of one shape; points in its frame.
-  struct SeenFace {
-    double separation;
-    Eigen::Vector3d lowest;  // point of the other shape over it
-  };
-  struct Side {
-    void measure(const CollisionHull& hull, const Eigen::Vector3d& p);
-    void see(int face, double separation, const Eigen::Vector3d& lowest);
-    template <class Keep>
-    void for_edges(const CollisionHull& hull, double least, const Keep& keep) const;
-
-    Eigen::Vector3d point;     // witness on the other shape
-    std::vector<double> over;  // its heights over the planes
-    std::vector<SeenFace> seen;
-    std::vector<int> seen_at;  // by face: its place in `seen`, or -1
-  };
   struct EdgeOfA {
     int edge;
     double most;  // no axis of this edge separates by more
@@ -118,7 +101,7 @@ class AxisSearch {
   bool sweep_faces(const HullPair& pair, const Witness& witness);
   void sweep_edges(const HullPair& pair, Axis& best_edges);
 
-  Side side_a_, side_b_;
+  SeparationBounds bounds_a_, bounds_b_;
   std::vector<EdgeOfA> edges_a_;
   std::vector<EdgeOfB> edges_b_;
   Axis best_;
