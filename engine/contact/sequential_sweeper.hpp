@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/contact_law.hpp>
+#include <drawpoint/engine/contact/contact_block.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/contact/super_body_motion.hpp>
 #include <vector>
 
 /// Gauss-Seidel sweeps over the points, pairs and machine rows of a ContactProblem, in double precision.
@@ -13,33 +14,6 @@
 /// finish(). Extrapolating, v = 2 v_end − v_begin of the last substep, adds the outer forces' share and last
 /// substep's contact impulses to every body at once, because that is what changed it.
 namespace drawpoint::engine::contact::detail {
-
-using PartRows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
-/// A 3 x 3 block W = J M⁻¹ Jᵀ in the frame (n, t1, t2), with its inverse pieces.
-struct ContactBlock {
-  Eigen::Matrix3d frame, W;
-  double inverse_nn = 0;      ///< 1 / (W_nn + Σ)
-  double inverse_tt[3] = {};  ///< of the tangents' 2 x 2 block: xx, xy, yy
-  double inverse_rho = 0;     ///< 1 / λ_max of that block
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), total = Eigen::Vector3d::Zero();  ///< in the frame
-  Eigen::Vector3d correction = Eigen::Vector3d::Zero();  ///< of the start impulse, for a blow
-  int rows_a = -1, rows_b = -1;                          ///< index of a side's rows, if it is a machine part
-};
-
-struct PointBlock : ContactBlock {
-  int a, b;
-  Eigen::Vector3d arm_a, arm_b;
-  double friction, gap, target;
-  double begun;  ///< the normal impulse that the substep began with
-  SpookTerms law;
-};
-
-/// The moment between a pair, in the frame of its normal.
-struct PairBlock : ContactBlock {
-  int a, b, first, count;
-  double rolling_arm, spinning_arm;
-};
 
 /// Sums over points of the natural map of their law (residual.hpp) [N s].
 struct Misfit {
@@ -64,7 +38,7 @@ class SequentialSweeper {
   /// First substep: the machine's outer forces, and the start impulses on bodies and machine.
   void start();
   /// Other substeps: the machine's w; the bodies are the caller's.
-  void extrapolate();
+  void extrapolate() { machine_.extrapolate(); }
   /// After extrapolating: takes back the blows that it repeated.
   void correct();
   /// Returns Σ|Δλ| over the points.
@@ -79,16 +53,11 @@ class SequentialSweeper {
   SuperBodySolution store();
 
  private:
-  int add_rows(int part, const Eigen::Vector3d& arm, const Eigen::Matrix3d& axes);
-  int add_angular_rows(int part, const Eigen::Matrix3d& axes);
   Eigen::Matrix3d response(int index, const Eigen::Vector3d& arm, const Eigen::Matrix3d& frame) const;
-  void prepare_machine(const SuperBody& machine);
   void add_pair(const ContactPair& pair);
   void add_point(const ContactPair& pair, const ContactPoint& point);
   void add_part_response(ContactBlock& block) const;
-  double row_target(const SuperBodyRow& row) const;
   void carry_over();
-  void solve_machine_rows();
   void solve_point(PointBlock& p);
   void solve_pair(PairBlock& r);
   Eigen::Vector3d velocity(const PointBlock& p) const;
@@ -100,11 +69,9 @@ class SequentialSweeper {
   int substeps_;
   double h_;
   bool fresh_ = true;
-  Eigen::VectorXd w_, w_begin_, w_push_, w_travel_;
-  std::vector<double> inverse_rows_, row_impulses_, row_totals_, row_targets_;
+  SuperBodyMotion machine_;
   std::vector<PointBlock> points_;
   std::vector<PairBlock> pairs_;
-  std::vector<PartRows> part_rows_;
   double change_ = 0;
 };
 
