@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <Simbody.h>
+#include <drawpoint/engine/machine/reactions.h>
 
 #include <algorithm>
 #include <drawpoint/engine/machine/constrained_response.hpp>
-#include <drawpoint/engine/machine/joint_forces.hpp>
 #include <drawpoint/engine/machine/machine.hpp>
 #include <drawpoint/engine/machine/machine_rows.hpp>
 #include <stdexcept>
@@ -12,70 +11,15 @@
 namespace drawpoint::engine::machine {
 namespace {
 
-// A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one
-// it is in.
-constexpr double coordinate_step = 0.05;
-constexpr double fastest_motor = 1e3;     // [m/s] or [rad/s]
-constexpr double fastest_speed = 1e5;     // norm of all joint speeds; beyond, a step has broken down
-constexpr double farthest = 1e7;          // norm of all coordinates
-constexpr double restored_error = 1e-6;   // [m], and of unit quaternions: what a saved state may have at most
-constexpr double loop_tolerance = 1e-11;  // [m], what projection aims at; the promise is 1e-9
-
-SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Eigen::Vector3d to_eigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
-SimTK::SpatialVec to_simbody(const Wrench& w) { return {to_simbody(w.moment), to_simbody(w.force)}; }
-
-Eigen::Map<const Eigen::VectorXd> view(const SimTK::Vector& v) {
-  return {v.size() ? &v[0] : nullptr, v.size()};
-}
-Eigen::MatrixXd to_eigen(const SimTK::Matrix& m) {
-  Eigen::MatrixXd out(m.nrow(), m.ncol());
-  for (int j = 0; j < m.ncol(); ++j)
-    for (int i = 0; i < m.nrow(); ++i) out(i, j) = m(i, j);
-  return out;
-}
-SimTK::Vector to_simbody(const Eigen::VectorXd& v) {
-  return SimTK::Vector(static_cast<int>(v.size()), v.data());
-}
-
-Eigen::Matrix3d to_eigen(const SimTK::Rotation& R) {
-  Eigen::Matrix3d out;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out(i, j) = R[i][j];
-  return out;
-}
-Eigen::Isometry3d to_eigen(const SimTK::Transform& X) {
-  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-  out.linear() = to_eigen(X.R());
-  out.translation() = to_eigen(X.p());
-  return out;
-}
-SimTK::Transform to_simbody(const Eigen::Isometry3d& X) {
-  SimTK::Mat33 R;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) R(i, j) = X.linear()(i, j);
-  return {SimTK::Rotation(R), to_simbody(Eigen::Vector3d(X.translation()))};
-}
-
-SimTK::MassProperties mass_properties(const BodySpec& body) {
-  const Eigen::Matrix3d& I = body.inertia;
-  return {body.mass, SimTK::Vec3(0), SimTK::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))};
-}
+constexpr double fastest_motor = 1e3;  // [m/s] or [rad/s]
 
 }  // namespace
 
 struct Machine::Simbody {
-  MachineSpec spec;
-  SimTK::MultibodySystem system;
-  SimTK::SimbodyMatterSubsystem matter{system};
-  std::vector<SimTK::MobilizedBody> bodies;  // in the order of the spec
-  std::vector<SimTK::Constraint::PointOnLine> loops;
-  SimTK::State state;
-
+  SimbodyTree tree;
   std::vector<double> motor_targets, motor_forces, row_starts;
-  std::vector<Wrench> extra;      // by add_force, for the next step
-  std::vector<Wrench> reactions;  // of the last step, in the body's axes
-  std::vector<Eigen::Vector3d> loop_forces;
+  std::vector<Wrench> extra;  // by add_force, for the next step
+  Reactions reactions;        // of the last step
 
   // The linearisation of the present step.
   double h = 0;
@@ -84,205 +28,77 @@ struct Machine::Simbody {
   SimTK::Vector bias;          // C(q, u) − f
   contact::SuperBody super;
 
-  explicit Simbody(const MachineSpec& s) : spec(s) {
-    for (const BodySpec& body : spec.bodies) add_body(body);
-    for (const LoopPinSpec& loop : spec.loops) add_loop(loop);
-    state = system.realizeTopology();
-    motor_targets.assign(spec.motors.size(), 0.0);
-    motor_forces.assign(spec.motors.size(), 0.0);
-    row_starts.assign(spec.motors.size() + spec.stops.size(), 0.0);
-    extra.assign(spec.bodies.size(), Wrench());
-    reactions.assign(spec.bodies.size(), Wrench());
-    loop_forces.assign(spec.loops.size(), Eigen::Vector3d::Zero());
-    settle_state();
-  }
+  explicit Simbody(const MachineSpec& spec)
+      : tree(spec),
+        motor_targets(spec.motors.size()),
+        motor_forces(spec.motors.size()),
+        row_starts(spec.motors.size() + spec.stops.size()),
+        extra(spec.bodies.size()),
+        reactions{std::vector<Wrench>(spec.bodies.size()),
+                  std::vector<Eigen::Vector3d>(spec.loops.size(), Eigen::Vector3d::Zero())} {}
 
-  void add_body(const BodySpec& body) {
-    SimTK::MobilizedBody& parent =
-        body.parent < 0 ? static_cast<SimTK::MobilizedBody&>(matter.updGround()) : bodies[body.parent];
-    const Eigen::Vector3d parent_origin =
-        body.parent < 0 ? Eigen::Vector3d::Zero().eval() : spec.bodies[body.parent].centre;
-    const SimTK::Body::Rigid rigid(mass_properties(body));
-    if (body.joint == JointKind::free) {
-      bodies.push_back(SimTK::MobilizedBody::Free(
-          parent, SimTK::Transform(to_simbody(Eigen::Vector3d(body.centre - parent_origin))), rigid,
-          SimTK::Transform()));
-      return;
-    }
-    const bool hinge = body.joint == JointKind::hinge;
-    const SimTK::CoordinateAxis along =
-        hinge ? SimTK::CoordinateAxis(SimTK::ZAxis) : SimTK::CoordinateAxis(SimTK::XAxis);
-    const SimTK::Rotation R(SimTK::UnitVec3(to_simbody(body.joint_axis)), along);
-    const SimTK::Transform X_PF(R, to_simbody(Eigen::Vector3d(body.joint_point - parent_origin)));
-    const SimTK::Transform X_BM(R, to_simbody(Eigen::Vector3d(body.joint_point - body.centre)));
-    if (hinge)
-      bodies.push_back(SimTK::MobilizedBody::Pin(parent, X_PF, rigid, X_BM));
-    else
-      bodies.push_back(SimTK::MobilizedBody::Slider(parent, X_PF, rigid, X_BM));
-  }
-
-  void add_loop(const LoopPinSpec& loop) {
-    loops.emplace_back(bodies[loop.line_body], SimTK::UnitVec3(to_simbody(loop.axis)),
-                       to_simbody(Eigen::Vector3d(loop.point - spec.bodies[loop.line_body].centre)),
-                       bodies[loop.point_body],
-                       to_simbody(Eigen::Vector3d(loop.point - spec.bodies[loop.point_body].centre)));
-  }
-
-  // Closes the loops in q and u.
-  void settle_state() {
-    system.realize(state, SimTK::Stage::Position);
-    try {
-      system.project(state, loop_tolerance);
-    } catch (const std::exception& error) {
-      throw std::runtime_error(std::string("machine::Machine: the loops cannot be closed at this pose (") +
-                               error.what() +
-                               "); move the joints closer to a pose that the linkage can reach");
-    }
-    system.realize(state, SimTK::Stage::Velocity);
-  }
-
-  void put_back(const SimTK::Vector& q, const SimTK::Vector& u) {
-    state.updQ() = q;
-    state.updU() = u;
-    system.realize(state, SimTK::Stage::Velocity);
-  }
-
-  // Coordinates and speeds as they once were, not projected: the same bits. They must close the loops.
-  void set_motion(const Eigen::VectorXd& q, const Eigen::VectorXd& u) {
-    const SimTK::Vector q_before = state.getQ(), u_before = state.getU();
-    const auto refuse = [&](const std::string& what) {
-      put_back(q_before, u_before);
-      throw std::runtime_error("machine::Machine::set_state: " + what +
-                               "; give the state of the same machine");
-    };
-    if (!(q.norm() <= farthest && u.norm() <= fastest_speed)) refuse("the coordinates or speeds are absurd");
-    try {
-      put_back(to_simbody(q), to_simbody(u));
-    } catch (const std::exception& error) {
-      refuse(std::string("the coordinates are no pose (") + error.what() + ")");
-    }
-    const SimTK::Vector errors = state.getQErr();
-    for (int k = 0; k < errors.size(); ++k)
-      if (!(std::abs(errors[k]) <= restored_error)) refuse("the coordinates do not close the loops");
-  }
-
-  Eigen::Vector3d local(int body, const Eigen::Vector3d& p_M) const { return p_M - spec.bodies[body].centre; }
-  Eigen::Index speed_index(int body) const { return bodies[body].getFirstUIndex(state); }
-
-  StopSide side_of(const StopSpec& stop) const {
-    return nearer_stop(stop, bodies[stop.body].getOneQ(state, 0));
-  }
+  StopSide side_of(const StopSpec& stop) const { return nearer_stop(stop, tree.coordinate(stop.body)); }
 
   void linearise_dynamics();
   void build_rows();
-  SimTK::Vector_<SimTK::SpatialVec> loads(const std::vector<contact::SpatialVector>* part_impulses) const;
-  SimTK::Vector_<SimTK::SpatialVec> recover_loops(const Eigen::VectorXd& generalised);
-  void recover_forces(const contact::SuperBodySolution& solution, const Eigen::VectorXd& acceleration);
+  BodyForces loads(const std::vector<contact::SpatialVector>* part_impulses) const;
+  SimTK::Vector row_forces(const std::vector<double>& row_impulses) const;
 };
 
 void Machine::Simbody::linearise_dynamics() {
   SimTK::Matrix matrix;
-  matter.calcM(state, matrix);
+  tree.matter.calcM(tree.state, matrix);
   M = to_eigen(matrix);
-  matter.calcG(state, matrix);
+  tree.matter.calcG(tree.state, matrix);
   G = to_eigen(matrix);
-  matter.calcSystemJacobian(state, matrix);
+  tree.matter.calcSystemJacobian(tree.state, matrix);
   J = to_eigen(matrix);
   N = constrained_response(M, G);
-  const SimTK::Vector none(state.getNU(), 0.0);
-  matter.calcResidualForceIgnoringConstraints(state, none, loads(nullptr), none, bias);
+  const SimTK::Vector none(tree.state.getNU(), 0.0);
+  tree.matter.calcResidualForceIgnoringConstraints(tree.state, none, loads(nullptr), none, bias);
 }
 
 // Gravity and added forces on every body, with the contact impulses over the step when they are known.
-SimTK::Vector_<SimTK::SpatialVec> Machine::Simbody::loads(
-    const std::vector<contact::SpatialVector>* part_impulses) const {
-  SimTK::Vector_<SimTK::SpatialVec> forces(matter.getNumBodies(),
-                                           SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
+BodyForces Machine::Simbody::loads(const std::vector<contact::SpatialVector>* part_impulses) const {
+  BodyForces forces(tree.matter.getNumBodies(), SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
+  for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
     Wrench total = extra[b];
-    total.force += spec.bodies[b].mass * gravity;
+    total.force += tree.spec.bodies[b].mass * gravity;
     if (part_impulses) {
       total.moment += (*part_impulses)[b].head<3>() / h;
       total.force += (*part_impulses)[b].tail<3>() / h;
     }
-    forces[bodies[b].getMobilizedBodyIndex()] += to_simbody(total);
+    forces[tree.bodies[b].getMobilizedBodyIndex()] += to_simbody(total);
   }
   return forces;
 }
 
 void Machine::Simbody::build_rows() {
+  const MachineSpec& spec = tree.spec;
   super.rows.clear();
   const std::size_t n_motors = spec.motors.size();
   for (std::size_t m = 0; m < n_motors; ++m) {
     Eigen::RowVectorXd joints = Eigen::RowVectorXd::Zero(N.cols());
-    for (int body : spec.motors[m].bodies) joints += N.row(speed_index(body));
+    for (int body : spec.motors[m].bodies) joints += N.row(tree.speed_index(body));
     super.rows.push_back(motor_row(spec.motors[m], joints, motor_targets[m], h, row_starts[m]));
   }
   for (std::size_t s = 0; s < spec.stops.size(); ++s)
-    super.rows.push_back(stop_row(side_of(spec.stops[s]), N.row(speed_index(spec.stops[s].body)), h,
+    super.rows.push_back(stop_row(side_of(spec.stops[s]), N.row(tree.speed_index(spec.stops[s].body)), h,
                                   row_starts[n_motors + s]));
 }
 
-// Loop forces on every body from the generalised force that they must add up to; each pin owns two rows of G.
-SimTK::Vector_<SimTK::SpatialVec> Machine::Simbody::recover_loops(const Eigen::VectorXd& generalised) {
-  const SimTK::SpatialVec zero(SimTK::Vec3(0), SimTK::Vec3(0));
-  SimTK::Vector_<SimTK::SpatialVec> total(matter.getNumBodies(), zero);
-  if (loops.empty()) return total;
-  const Eigen::VectorXd lambda = G.transpose().colPivHouseholderQr().solve(generalised);
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    const Eigen::Index row = 2 * static_cast<Eigen::Index>(l);
-    Eigen::VectorXd own = Eigen::VectorXd::Zero(lambda.size());
-    own.segment<2>(row) = lambda.segment<2>(row);
-    SimTK::Vector_<SimTK::SpatialVec> forces;
-    SimTK::Vector unused;
-    matter.calcConstraintForcesFromMultipliers(state, to_simbody(own), forces, unused);
-    loop_forces[l] = to_eigen(forces[bodies[spec.loops[l].point_body].getMobilizedBodyIndex()][1]);
-    total += forces;
-  }
-  return total;
-}
-
-void Machine::Simbody::recover_forces(const contact::SuperBodySolution& solution,
-                                      const Eigen::VectorXd& acceleration) {
+// Of motors and stops on the joints, means over the step.
+SimTK::Vector Machine::Simbody::row_forces(const std::vector<double>& row_impulses) const {
+  const MachineSpec& spec = tree.spec;
   const std::size_t n_motors = spec.motors.size();
-  SimTK::Vector mobility(state.getNU(), 0.0);
-  for (std::size_t m = 0; m < n_motors; ++m) {
-    motor_forces[m] = solution.row_impulses[m] / h;
-    for (int body : spec.motors[m].bodies) mobility[static_cast<int>(speed_index(body))] += motor_forces[m];
-  }
+  SimTK::Vector forces(tree.state.getNU(), 0.0);
+  for (std::size_t m = 0; m < n_motors; ++m)
+    for (int body : spec.motors[m].bodies)
+      forces[static_cast<int>(tree.speed_index(body))] += row_impulses[m] / h;
   for (std::size_t s = 0; s < spec.stops.size(); ++s)
-    mobility[static_cast<int>(speed_index(spec.stops[s].body))] +=
-        side_of(spec.stops[s]).sign * solution.row_impulses[n_motors + s] / h;
-  SimTK::Vector residual, udot = to_simbody(acceleration);
-  const auto applied = loads(&solution.part_impulses);
-  matter.calcResidualForceIgnoringConstraints(state, mobility, applied, udot, residual);  // = −Gᵀλ
-
-  const auto loop_loads = recover_loops(view(residual));
-  SimTK::Vector_<SimTK::SpatialVec> A;
-  matter.calcBodyAccelerationFromUDot(state, udot, A);
-  std::vector<BodyMotion> motion(bodies.size());
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const int i = bodies[b].getMobilizedBodyIndex();
-    const Eigen::Matrix3d R = to_eigen(bodies[b].getBodyRotation(state));
-    const BodySpec& body = spec.bodies[b];
-    motion[b] = {body.parent,
-                 body.mass,
-                 R * body.inertia * R.transpose(),
-                 to_eigen(bodies[b].getBodyOriginLocation(state)),
-                 to_eigen(bodies[b].findStationLocationInGround(
-                     state, to_simbody(local(static_cast<int>(b), body.joint_point)))),
-                 to_eigen(bodies[b].getBodyAngularVelocity(state)),
-                 to_eigen(A[i][0]),
-                 to_eigen(A[i][1]),
-                 to_eigen(applied[i][0] + loop_loads[i][0]),
-                 to_eigen(applied[i][1] + loop_loads[i][1])};
-  }
-  const auto joints = joint_forces(motion);
-  for (std::size_t b = 0; b < bodies.size();
-       ++b) {  // at the pose that they belong to, not the one after the step
-    const Eigen::Matrix3d R_BW = to_eigen(bodies[b].getBodyRotation(state)).transpose();
-    reactions[b] = {R_BW * joints[b].moment, R_BW * joints[b].force};
-  }
+    forces[static_cast<int>(tree.speed_index(spec.stops[s].body))] +=
+        side_of(spec.stops[s]).sign * row_impulses[n_motors + s] / h;
+  return forces;
 }
 
 Machine::Machine(const MachineSpec& spec) {
@@ -291,43 +107,23 @@ Machine::Machine(const MachineSpec& spec) {
 }
 Machine::~Machine() = default;
 
-const MachineSpec& Machine::spec() const { return simbody_->spec; }
-int Machine::parts() const { return static_cast<int>(simbody_->bodies.size()); }
+const MachineSpec& Machine::spec() const { return simbody_->tree.spec; }
+int Machine::parts() const { return static_cast<int>(simbody_->tree.bodies.size()); }
 
 void Machine::place(const Eigen::Isometry3d& X_WM) {
-  Simbody& s = *simbody_;
-  s.state = s.system.getDefaultState();
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    if (s.spec.bodies[b].joint != JointKind::free || s.spec.bodies[b].parent >= 0) continue;
-    // At zero coordinates the body stands at its centre in the machine frame; the joint's frame is there too.
-    Eigen::Isometry3d X_FM = X_WM;
-    X_FM.translation() = X_WM * s.spec.bodies[b].centre - s.spec.bodies[b].centre;
-    s.bodies[b].setQToFitTransform(s.state, to_simbody(X_FM));
-  }
-  std::fill(s.row_starts.begin(), s.row_starts.end(), 0.0);
-  s.settle_state();
+  std::fill(simbody_->row_starts.begin(), simbody_->row_starts.end(), 0.0);
+  simbody_->tree.place(X_WM);
 }
 
-void Machine::set_coordinate(int body, double value) {
-  Simbody& s = *simbody_;
-  const double start = coordinate(body);
-  const int steps = 1 + static_cast<int>(std::abs(value - start) / coordinate_step);
-  for (int k = 1; k <= steps; ++k) {
-    s.bodies[body].lockAt(s.state,
-                          start + (value - start) * k / steps);  // held while the rest of its loops follow
-    s.settle_state();
-  }
-  s.bodies[body].unlock(s.state);
-  s.system.realize(s.state, SimTK::Stage::Velocity);
-}
+void Machine::set_coordinate(int body, double value) { simbody_->tree.set_coordinate(body, value); }
 
-double Machine::coordinate(int body) const { return simbody_->bodies[body].getOneQ(simbody_->state, 0); }
-double Machine::speed(int body) const { return simbody_->bodies[body].getOneU(simbody_->state, 0); }
+double Machine::coordinate(int body) const { return simbody_->tree.coordinate(body); }
+double Machine::speed(int body) const { return simbody_->tree.bodies[body].getOneU(simbody_->tree.state, 0); }
 
 double Machine::loop_error() const {
   const Simbody& s = *simbody_;
   double worst = 0;
-  for (const LoopPinSpec& loop : s.spec.loops) {
+  for (const LoopPinSpec& loop : s.tree.spec.loops) {
     const Eigen::Vector3d gap = point(loop.point_body, loop.point) - point(loop.line_body, loop.point);
     const Eigen::Vector3d axis = pose(loop.line_body).linear() * loop.axis;
     worst = std::max(worst, (gap - axis * axis.dot(gap)).norm());
@@ -337,24 +133,24 @@ double Machine::loop_error() const {
 
 double Machine::energy(const Eigen::Vector3d& gravity) const {
   const Simbody& s = *simbody_;
-  double total = s.matter.calcKineticEnergy(s.state);
-  for (std::size_t b = 0; b < s.bodies.size(); ++b)
-    total -= s.spec.bodies[b].mass * gravity.dot(pose(static_cast<int>(b)).translation());
+  double total = s.tree.matter.calcKineticEnergy(s.tree.state);
+  for (std::size_t b = 0; b < s.tree.bodies.size(); ++b)
+    total -= s.tree.spec.bodies[b].mass * gravity.dot(pose(static_cast<int>(b)).translation());
   return total;
 }
 
 Eigen::Isometry3d Machine::pose(int body) const {
-  return to_eigen(simbody_->bodies[body].getBodyTransform(simbody_->state));
+  return to_eigen(simbody_->tree.bodies[body].getBodyTransform(simbody_->tree.state));
 }
 Eigen::Isometry3d Machine::part_pose(int part) const { return pose(part); }
 
 Eigen::Vector3d Machine::point(int body, const Eigen::Vector3d& p_M) const {
-  return pose(body) * simbody_->local(body, p_M);
+  return pose(body) * (p_M - spec().bodies[body].centre);
 }
 
 Eigen::Vector3d Machine::point_velocity(int body, const Eigen::Vector3d& p_M) const {
-  return to_eigen(simbody_->bodies[body].findStationVelocityInGround(simbody_->state,
-                                                                     to_simbody(simbody_->local(body, p_M))));
+  const SimbodyTree& tree = simbody_->tree;
+  return to_eigen(tree.bodies[body].findStationVelocityInGround(tree.state, tree.station(body, p_M)));
 }
 
 void Machine::set_motor(int motor, double speed) {
@@ -370,25 +166,25 @@ Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std:
                                       const std::vector<int>& held) const {
   const Simbody& s = *simbody_;
   SimTK::Matrix matrix;
-  s.matter.calcG(s.state, matrix);
+  s.tree.matter.calcG(s.tree.state, matrix);
   std::vector<Eigen::Index> still, driving;
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    const bool base = s.spec.bodies[b].joint == JointKind::free;
+  for (std::size_t b = 0; b < s.tree.bodies.size(); ++b) {
+    const bool base = s.tree.spec.bodies[b].joint == JointKind::free;
     const bool hold = std::find(held.begin(), held.end(), static_cast<int>(b)) != held.end();
-    for (int k = 0; (base || hold) && k < s.bodies[b].getNumU(s.state); ++k)
-      still.push_back(s.speed_index(static_cast<int>(b)) + k);
+    for (int k = 0; (base || hold) && k < s.tree.bodies[b].getNumU(s.tree.state); ++k)
+      still.push_back(s.tree.speed_index(static_cast<int>(b)) + k);
   }
-  for (int joint : drivers) driving.push_back(s.speed_index(joint));
+  for (int joint : drivers) driving.push_back(s.tree.speed_index(joint));
   const Eigen::MatrixXd speeds = driven_speeds(to_eigen(matrix), still, driving);
   Eigen::MatrixXd factors(static_cast<Eigen::Index>(driven.size()), speeds.cols());
   for (std::size_t k = 0; k < driven.size(); ++k)
-    factors.row(static_cast<Eigen::Index>(k)) = speeds.row(s.speed_index(driven[k]));
+    factors.row(static_cast<Eigen::Index>(k)) = speeds.row(s.tree.speed_index(driven[k]));
   return factors;
 }
 
-Wrench Machine::joint_wrench(int body) const { return simbody_->reactions[body]; }
+Wrench Machine::joint_wrench(int body) const { return simbody_->reactions.joints[body]; }
 
-Eigen::Vector3d Machine::loop_force(int loop) const { return simbody_->loop_forces.at(loop); }
+Eigen::Vector3d Machine::loop_force(int loop) const { return simbody_->reactions.loops.at(loop); }
 
 void Machine::add_force(int body, const Wrench& wrench) {
   if (!wrench.moment.allFinite() || !wrench.force.allFinite())
@@ -403,14 +199,14 @@ const contact::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gr
   s.h = h;
   s.gravity = gravity;
   s.linearise_dynamics();
-  const Eigen::VectorXd u = view(s.state.getU());
+  const Eigen::VectorXd u = view(s.tree.state.getU());
   s.super.velocity_before = s.N.transpose() * (s.M * u);
   s.super.velocity = s.super.velocity_before - h * (s.N.transpose() * view(s.bias));
-  s.super.part_maps.resize(s.bodies.size());
-  s.super.origins.resize(s.bodies.size());
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    s.super.part_maps[b] = s.J.middleRows<6>(6 * s.bodies[b].getMobilizedBodyIndex()) * s.N;
-    s.super.origins[b] = to_eigen(s.bodies[b].getBodyOriginLocation(s.state));
+  s.super.part_maps.resize(s.tree.bodies.size());
+  s.super.origins.resize(s.tree.bodies.size());
+  for (std::size_t b = 0; b < s.tree.bodies.size(); ++b) {
+    s.super.part_maps[b] = s.J.middleRows<6>(6 * s.tree.bodies[b].getMobilizedBodyIndex()) * s.N;
+    s.super.origins[b] = to_eigen(s.tree.bodies[b].getBodyOriginLocation(s.tree.state));
   }
   s.build_rows();
   return s.super;
@@ -419,29 +215,16 @@ const contact::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gr
 void Machine::advance(const contact::SuperBodySolution& solution) {
   Simbody& s = *simbody_;
   const Eigen::VectorXd u = s.N * solution.velocity;
-  if (!(u.norm() <= fastest_speed))
+  if (!(u.norm() <= SimbodyTree::fastest))
     throw std::runtime_error("machine::Machine::advance: the joint speeds come out with norm " +
                              std::to_string(u.norm()) + " m/s or rad/s; use a smaller step");
-  s.recover_forces(solution, (u - view(s.state.getU())) / s.h);
+  const Eigen::VectorXd acceleration = (u - view(s.tree.state.getU())) / s.h;
+  s.reactions = reactions(
+      s.tree, s.G, {s.row_forces(solution.row_impulses), s.loads(&solution.part_impulses)}, acceleration);
+  for (std::size_t m = 0; m < s.motor_forces.size(); ++m) s.motor_forces[m] = solution.row_impulses[m] / s.h;
   s.row_starts = solution.row_starts;
   std::fill(s.extra.begin(), s.extra.end(), Wrench());
-
-  const SimTK::Vector q_before = s.state.getQ(), u_before = s.state.getU();
-  SimTK::Vector qdot;
-  s.matter.multiplyByN(s.state, false, to_simbody(Eigen::VectorXd(s.N * solution.mean_velocity)), qdot);
-  s.state.updQ() += s.h * qdot;
-  s.state.updU() = to_simbody(u);
-  // Speeds are not projected here: the next w = NᵀMu is their mass-weighted projection, which keeps momentum.
-  try {
-    s.system.realize(s.state, SimTK::Stage::Position);
-    s.system.projectQ(s.state, loop_tolerance);
-    s.system.realize(s.state, SimTK::Stage::Velocity);
-  } catch (const std::exception& error) {
-    s.put_back(q_before, u_before);
-    throw std::runtime_error(
-        std::string("machine::Machine::advance: the loops cannot be closed after the step (") + error.what() +
-        "); use a smaller step");
-  }
+  s.tree.move(u, s.N * solution.mean_velocity, s.h);
 }
 
 std::vector<double> Machine::state() const {
@@ -450,14 +233,14 @@ std::vector<double> Machine::state() const {
   const auto add = [&out](const auto& values) {
     out.insert(out.end(), values.data(), values.data() + values.size());
   };
-  add(view(s.state.getQ()));
-  add(view(s.state.getU()));
+  add(view(s.tree.state.getQ()));
+  add(view(s.tree.state.getU()));
   add(s.motor_targets);
   add(s.motor_forces);
   add(s.row_starts);
-  for (const std::vector<Wrench>* wrenches : {&s.extra, &s.reactions})
+  for (const std::vector<Wrench>* wrenches : {&s.extra, &s.reactions.joints})
     for (const Wrench& w : *wrenches) add(w.moment), add(w.force);
-  for (const Eigen::Vector3d& force : s.loop_forces) add(force);
+  for (const Eigen::Vector3d& force : s.reactions.loops) add(force);
   return out;
 }
 
@@ -472,15 +255,15 @@ void Machine::set_state(const std::vector<double>& state) {
     std::copy_n(next, count, to);
     next += count;
   };
-  Eigen::VectorXd q(s.state.getNQ()), u(s.state.getNU());
+  Eigen::VectorXd q(s.tree.state.getNQ()), u(s.tree.state.getNU());
   take(q.data(), static_cast<std::size_t>(q.size()));
   take(u.data(), static_cast<std::size_t>(u.size()));
-  s.set_motion(q, u);
+  s.tree.set_motion(q, u);
   for (std::vector<double>* values : {&s.motor_targets, &s.motor_forces, &s.row_starts})
     take(values->data(), values->size());
-  for (std::vector<Wrench>* wrenches : {&s.extra, &s.reactions})
+  for (std::vector<Wrench>* wrenches : {&s.extra, &s.reactions.joints})
     for (Wrench& w : *wrenches) take(w.moment.data(), 3), take(w.force.data(), 3);
-  for (Eigen::Vector3d& force : s.loop_forces) take(force.data(), 3);
+  for (Eigen::Vector3d& force : s.reactions.loops) take(force.data(), 3);
 }
 
 }  // namespace drawpoint::engine::machine

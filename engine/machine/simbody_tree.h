@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/machine/simbody_types.h>
+
+/// A MachineSpec as a Simbody system with its state: the tree of bodies, and the pins that close its loops.
+///
+/// Joints turn about z and slide along x of their own frames, as Simbody's do, which are turned to the
+/// joint's axis; at zero coordinates all bodies stand in the reference pose. Whatever moves the tree projects
+/// q on to the loops (Simbody's projection, aimed at 1e-11 m), but for set_motion(), which gives a state its
+/// very bits back. Throws std::runtime_error where the loops cannot be closed. Internal, as simbody_types.h.
+namespace drawpoint::engine::machine {
+
+struct SimbodyTree {
+  static constexpr double fastest = 1e5;  ///< norm of all joint speeds; beyond, a step has broken down
+
+  explicit SimbodyTree(const MachineSpec& spec);
+  SimbodyTree(const SimbodyTree&) = delete;
+  SimbodyTree& operator=(const SimbodyTree&) = delete;
+
+  /// At rest in the reference pose, the machine frame at X_WM.
+  void place(const Eigen::Isometry3d& X_WM);
+  /// One joint's coordinate; the others of its loops follow.
+  void set_coordinate(int body, double value);
+  /// One step of h: `u` at its end, `mean` over it, both speeds of all joints. Not moved if this throws.
+  void move(const Eigen::VectorXd& u, const Eigen::VectorXd& mean, double h);
+  /// Coordinates and speeds as they once were, not projected. They must close the loops; not moved if not.
+  void set_motion(const Eigen::VectorXd& q, const Eigen::VectorXd& u);
+
+  Eigen::Index speed_index(int body) const { return bodies[body].getFirstUIndex(state); }
+  double coordinate(int body) const { return bodies[body].getOneQ(state, 0); }
+  /// In the body's frame: its point that stands at p_M in the reference pose.
+  SimTK::Vec3 station(int body, const Eigen::Vector3d& p_M) const {
+    return to_simbody(Eigen::Vector3d(p_M - spec.bodies[body].centre));
+  }
+
+  const MachineSpec spec;
+  SimTK::MultibodySystem system;
+  SimTK::SimbodyMatterSubsystem matter{system};
+  std::vector<SimTK::MobilizedBody> bodies;  ///< in the order of the spec
+  SimTK::State state;                        ///< realised to velocities
+
+ private:
+  void add_body(const BodySpec& body);
+  void add_loop(const LoopPinSpec& loop);
+  void close_loops();
+  void put_back(const SimTK::Vector& q, const SimTK::Vector& u);
+};
+
+}  // namespace drawpoint::engine::machine
