@@ -67,6 +67,20 @@ TEST(Dependencies, ABreachIsNamed) {
             "doe/a.hpp:1: <problem.hpp>: write it as <drawpoint/...>");
 }
 
+TEST(Dependencies, AnInternalHeaderStaysWithinItsFolder) {
+  const std::string include = "#include <drawpoint/engine/machine/a.h>";
+  const std::string why =
+      ":1: <drawpoint/engine/machine/a.h>: an internal header; only *.cpp of its folder include it";
+  EXPECT_EQ(first_breach("engine/machine/a.hpp", include), "engine/machine/a.hpp" + why);
+  EXPECT_EQ(first_breach("engine/loading/a.cpp", include), "engine/loading/a.cpp" + why);
+  EXPECT_EQ(first_breach("studies/a.cpp", include), "studies/a.cpp" + why);
+  EXPECT_EQ(first_breach("engine/machine/b.cpp", include), "");
+  EXPECT_EQ(first_breach("engine/machine/b.h", include), "");
+  EXPECT_EQ(first_breach("engine/machine/a.h", "#include <Simbody.h>\nSimTK::State s;"), "");
+  EXPECT_EQ(first_breach("engine/loading/a.h", "#include <Simbody.h>"),
+            "engine/loading/a.h:1: <Simbody.h>: engine/loading/ may not use Simbody");
+}
+
 TEST(Dependencies, AForwardDeclarationLeaksToo) {
   EXPECT_EQ(first_breach("engine/machine/a.hpp", "namespace SimTK { class State; }"),
             "engine/machine/a.hpp: names Simbody");

@@ -12,16 +12,17 @@
 ///
 /// A file belongs to the row with the longest folder that its path starts with. It may include the standard
 /// library and POSIX, the project folders of its row, and the packages of its row; a package of `in_cpp_only`
-/// never in a header, and its names do not appear in other rows at all, so that users of the module never
-/// need it. Headers of no known package are refused: a new dependency starts as a line here and as a decision
-/// note.
+/// never in a *.hpp, and its names do not appear in other rows at all, so that users of the module never
+/// need it. A *.h is an internal header, a piece of the *.cpp of its folder: it may use what they may, is not
+/// installed, and only they include it. Headers of no known package are refused: a new dependency starts as a
+/// line here and as a decision note.
 namespace drawpoint::house {
 
 struct Row {
   std::string folder;
   std::vector<std::string> modules;      ///< folders of the project, itself included
   std::vector<std::string> packages;     ///< in any file
-  std::vector<std::string> in_cpp_only;  ///< in *.cpp
+  std::vector<std::string> in_cpp_only;  ///< in *.cpp and internal headers
 };
 
 inline const std::vector<Row>& dependency_table() {
@@ -81,11 +82,16 @@ inline const Row* row_of(const std::string& path) {
   return best;
 }
 
+/// Whether no user of the row's module ever sees the file.
+inline bool internal(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".h"); }
+
 /// Why `header` may not be included by the file `path` of `row`; empty when it may.
 inline std::string objection(const Row& row, const std::string& path, const std::string& header) {
   static const std::string own = "drawpoint/";
   if (header.starts_with(own)) {
     const std::string target = header.substr(own.size());
+    if (target.ends_with(".h") && !(internal(path) && target.starts_with(row.folder)))
+      return "an internal header; only *.cpp of its folder include it";
     for (const std::string& module : row.modules) {
       if (target.starts_with(module)) return "";
     }
@@ -95,7 +101,7 @@ inline std::string objection(const Row& row, const std::string& path, const std:
   if (!package) return "no known package has it; name it in the dependency table";
   if (*package == "standard" || contains(row.packages, *package)) return "";
   if (!contains(row.in_cpp_only, *package)) return row.folder + " may not use " + *package;
-  return path.ends_with(".cpp") ? "" : *package + " may not be in a header";
+  return internal(path) ? "" : *package + " may not be in a header";
 }
 
 /// Names of the engine's packages where their row does not allow them: a forward declaration leaks as an
@@ -109,7 +115,7 @@ inline std::vector<std::string> leaked_names(const Row& row, const Source& sourc
   const std::string code = std::regex_replace(source.text, std::regex("//[^\n]*"), "");
   std::vector<std::string> found;
   for (const auto& [pattern, package] : names) {
-    const bool allowed = contains(row.in_cpp_only, package) && source.path.ends_with(".cpp");
+    const bool allowed = contains(row.in_cpp_only, package) && internal(source.path);
     if (!allowed && std::regex_search(code, pattern)) found.push_back(source.path + ": names " + package);
   }
   return found;

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// The repository's sources as text, for the tests that read them: paths are relative to the root and in
-/// order. Only *.hpp and *.cpp count; folders that start with a dot and node_modules are skipped.
+/// order. Only *.hpp, *.cpp and *.h count; folders that start with a dot and node_modules are skipped.
 namespace drawpoint::house {
 
 struct Source {
@@ -38,7 +38,8 @@ inline std::vector<Source> sources(const std::filesystem::path& root,
       const std::filesystem::path& path = entry->path();
       if (entry->is_directory() && skipped(path)) entry.disable_recursion_pending();
       const std::string extension = path.extension().string();
-      if (!entry->is_regular_file() || (extension != ".hpp" && extension != ".cpp")) continue;
+      if (!entry->is_regular_file() || (extension != ".hpp" && extension != ".cpp" && extension != ".h"))
+        continue;
       found.push_back({path.lexically_relative(root).generic_string(), read_text(path)});
     }
   }
