@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/scene_recorder.hpp>
 #include <drawpoint/engine/loading/signals.hpp>
@@ -30,6 +31,8 @@ class LoadingRun {
     for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = attempt(cycle);
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
+    log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
+    log_.numbers["sweeps_a_substep"] = contact::most_sweeps(scenario_.world.solver, most_points_);
     log_.signals = signals_.take();
     log_.scene = scene_.take();
     return std::move(log_);
@@ -58,6 +61,7 @@ class LoadingRun {
   LoadingLog log_;
   double cleared_ = 0;
   long steps_ = 0;
+  std::size_t most_points_ = 0;
 };
 
 void LoadingRun::describe() {
@@ -139,6 +143,7 @@ Plan LoadingRun::plan(CycleRecord& record) const {
 bool LoadingRun::step(const std::function<void(const contact::StepReport&)>& record) {
   const contact::StepReport report = site_.world().step();
   if (hooks_.on_step) hooks_.on_step(report);
+  most_points_ = std::max(most_points_, static_cast<std::size_t>(report.points));
   if (record) record(report);
   if (++steps_ % trouble_interval != 0) return true;
   const std::string trouble = site_.trouble();

@@ -53,8 +53,10 @@ struct SceneRecord {
 
 struct LoadingLog {
   bool completed = false;
-  std::string message;                       ///< why not, or empty
-  std::map<std::string, double> numbers;     ///< the scenario's parameters
+  std::string message;  ///< why not, or empty
+  /// The scenario's parameters, and of the run: mass cleared away for the machine [kg], the most contact
+  /// points of a step and the sweeps a substep that `spare_work` left for these.
+  std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;  ///< its choices, versions
   record::Table signals;
   std::vector<CycleRecord> cycles;

@@ -42,6 +42,9 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
   for (double mass : cycle.loaded_rock_masses) sum += mass;
   EXPECT_DOUBLE_EQ(sum, cycle.loaded_mass);
   EXPECT_LE(cycle.loaded_mass + cycle.spilled_mass, log.numbers.at("pile_mass"));
+  EXPECT_GT(log.numbers.at("most_contact_points"), 0);
+  EXPECT_EQ(log.numbers.at("sweeps_a_substep"),
+            contact::most_sweeps(small_case().world.solver, log.numbers.at("most_contact_points")));
   EXPECT_EQ(cycle.stages.size(), 4u);
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
 }
