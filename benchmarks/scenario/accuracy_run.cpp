@@ -8,7 +8,6 @@ namespace drawpoint::benchmarks {
 namespace {
 
 constexpr double take_up = 0.5, hold = 1.0, window = 0.01, judged = 0.6;  // [s]
-constexpr std::size_t windows_a_block = 10;
 
 support::RockPile moved_to(const SettledState& settled, double offset) {
   support::RockPile pile = settled.pile;
@@ -36,7 +35,6 @@ void sample_rest(AccuracySample& sample, support::PileWorld& world, Progress& pr
   const support::OverlapStatistics overlap = support::rock_overlaps(world.pile(), states);
   sample.overlap_mean = overlap.mean;
   sample.overlap_p99 = overlap.p99;
-  sample.overlap_max = overlap.max;
   sample.drift = support::drift(before, states, steps * h).mean;
 }
 
@@ -52,7 +50,6 @@ void sample_dig(AccuracySample& sample, support::PileWorld& world, Progress& pro
                   }).mean();
   const std::vector<double> windows = block_means(drag, steps_in(window, h));
   sample.drag = mean_of(windows);
-  sample.drag_error = standard_error(block_means(windows, windows_a_block));
   sample.drag_p95 = percentile(windows, 0.95);
   sample.mass_moved = (mass_moment(world) - moment) / (world.pile().blade.speed * steps * h);
   sample.dig_overlap_p99 = support::rock_overlaps(world.pile(), world.states()).p99;

@@ -22,13 +22,13 @@ SettledState settled_pile(int rocks, std::uint64_t seed, const engine::contact::
                           Progress& progress);
 
 struct AccuracySample {
-  double ms_rest = 0, ms_dig = 0;                             ///< wall time a step, median and mean
-  double overlap_mean = 0, overlap_p99 = 0, overlap_max = 0;  ///< at rest
-  double dig_overlap_p99 = 0;                                 ///< at the end of digging
-  double drift = 0;                                           ///< mean over rocks [m/s]
-  double drag = 0, drag_error = 0;  ///< mean [N] and its standard error over six blocks of 0.1 s
-  double drag_p95 = 0;              ///< [N]
-  double mass_moved = 0;            ///< Σ m Δx / travel of the blade, over the whole dig [kg]
+  double ms_rest = 0, ms_dig = 0;            ///< wall time a step, median and mean
+  double overlap_mean = 0, overlap_p99 = 0;  ///< at rest
+  double dig_overlap_p99 = 0;                ///< at the end of digging
+  double drift = 0;                          ///< mean over rocks [m/s]
+  double drag = 0;                           ///< mean [N]
+  double drag_p95 = 0;                       ///< [N]
+  double mass_moved = 0;                     ///< Σ m Δx / travel of the blade, over the whole dig [kg]
 };
 
 /// Goes on from the settled pile. `offset` [m] displaces every other rock upwards: a run and its twin with an

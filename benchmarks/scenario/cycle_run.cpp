@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cycle_run.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/random.hpp>
@@ -10,13 +13,34 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-double mean_bucket_force(const engine::loading::LoadingLog& log) {
+constexpr double window = 0.01;  // [s]
+
+double mean_bucket_force(const engine::loading::LoadingLog& log, double step) {
   const auto& x = log.signals.column("hinge_G_force_x");
   const auto &y = log.signals.column("hinge_G_force_y"), &z = log.signals.column("hinge_G_force_z");
+  const std::size_t rows = static_cast<std::size_t>(std::max(1L, std::lround(window / step)));
   double sum = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) sum += std::hypot(x[k], y[k], z[k]);
-  return sum / static_cast<double>(x.size());
+  std::size_t windows = 0;
+  for (std::size_t first = 0; first + rows <= x.size(); first += rows, ++windows) {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (std::size_t k = first; k < first + rows; ++k) force += Eigen::Vector3d(x[k], y[k], z[k]);
+    sum += force.norm() / static_cast<double>(rows);
+  }
+  return sum / static_cast<double>(windows);
 }
+
+// A file's name of this process, removed at the end.
+struct Scratch {
+  explicit Scratch(const std::filesystem::path& beside)
+      : path(beside.string() + "." + std::to_string(getpid()) + ".started") {}
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  std::filesystem::path path;
+};
 
 }  // namespace
 
@@ -34,25 +58,24 @@ engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::u
   return pile;
 }
 
-CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile,
-                      const std::filesystem::path& scratch) {
+CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile) {
+  const Scratch scratch(scenario.pile_file);
   scenario.cycles = 1;
-  scenario.pile_file = scratch;
-  write_pile(scratch, pile, scenario);  // the same pile, whatever it was poured with
+  scenario.pile_file = scratch.path;
+  write_pile(scratch.path, pile, scenario);  // the same pile, whatever it was poured with
   CycleSample sample;
   int steps = 0;
   engine::loading::SimulationHooks hooks;
   hooks.on_step = [&](const engine::contact::StepReport& r) {
     sample.contact_ms += 1e3 * (r.broad_s + r.narrow_s + r.solver_s + r.rest_s);
-    sample.deepest_overlap += r.max_overlap;
+    sample.mean_deepest_overlap += r.max_overlap;
     ++steps;
   };
   const engine::loading::LoadingLog log = simulate(scenario, hooks);
-  std::filesystem::remove(scratch);
   if (!log.completed) throw std::runtime_error(log.message);
   sample.ms_step = sample.contact_ms / steps;
-  sample.deepest_overlap /= steps;
-  sample.bucket_force = mean_bucket_force(log);
+  sample.mean_deepest_overlap /= steps;
+  sample.bucket_force = mean_bucket_force(log, scenario.world.step);
   sample.loaded_mass = log.cycles.front().loaded_mass;
   return sample;
 }

@@ -12,11 +12,13 @@
 namespace drawpoint::benchmarks {
 
 struct CycleSample {
-  double bucket_force = 0;     ///< mean magnitude of the force in the bucket's pin [N]
-  double loaded_mass = 0;      ///< [kg]
-  double contact_ms = 0;       ///< wall time of contacts, all steps together
-  double ms_step = 0;          ///< the same a step
-  double deepest_overlap = 0;  ///< mean over the steps of the deepest overlap of a rock [m]
+  /// Mean magnitude of the force in the bucket's pin, of its means over 10 ms, so that steps of any length
+  /// compare [N].
+  double bucket_force = 0;
+  double loaded_mass = 0;           ///< [kg]
+  double contact_ms = 0;            ///< wall time of contacts, all steps together
+  double ms_step = 0;               ///< the same a step
+  double mean_deepest_overlap = 0;  ///< over the steps, of the deepest overlap of a rock [m]
 };
 
 /// The scenario with the pile of another seed, kept as pile_SEED.h5 in the folder and poured when missing.
@@ -26,9 +28,8 @@ engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const st
 /// Raises each rock by up to `most` [m], by the draws of `seed`; what lies there is not pressed together.
 engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed, double most);
 
-/// Runs the scenario's first cycle from the pile. `scratch`: a file that is written and removed. Throws
-/// std::runtime_error with the run's message when it does not come to its end.
-CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile,
-                      const std::filesystem::path& scratch);
+/// Runs the scenario's first cycle from the pile, through a file beside the scenario's pile file that is
+/// removed again. Throws std::runtime_error with the run's message when it does not come to its end.
+CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile);
 
 }  // namespace drawpoint::benchmarks

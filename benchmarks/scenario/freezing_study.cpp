@@ -120,8 +120,7 @@ int study_cycle(const Settings& s) {
     const auto run = [&](std::vector<double> Paired::*which, bool freeze, double offset) {
       Scenario chosen = scenario;
       chosen.world.freezing.on = freeze;
-      const CycleSample sample =
-          cycle_run(chosen, displaced(pile, 1, offset), scenario.pile_file.string() + ".started");
+      const CycleSample sample = cycle_run(chosen, displaced(pile, 1, offset));
       (force.*which).push_back(sample.bucket_force);
       (mass.*which).push_back(sample.loaded_mass);
       (ms.*which).push_back(sample.contact_ms);

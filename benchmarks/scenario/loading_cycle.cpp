@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
       "  at most %.0f contact points, with up to %.0f sweeps a substep while rocks move\n",
       log.numbers.at("rocks"), cycle.t_end - cycle.t_start, cycle.loaded_mass, production(log),
       joint_damage(log), rock_spill(log), log.numbers.at("most_contact_points"),
-      log.numbers.at("sweeps_a_substep"));
+      log.numbers.at("most_sweeps_a_substep"));
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "loading_cycle: %s\n", error.what());

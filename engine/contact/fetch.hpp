@@ -13,7 +13,9 @@ namespace drawpoint::engine::contact::detail {
 
 [[gnu::always_inline]] inline void fetch(const void* data, std::size_t bytes) {
   constexpr std::size_t line = 64;
-  for (std::size_t k = 0; k < bytes; k += line) __builtin_prefetch(static_cast<const char*>(data) + k);
+  const char* const first = static_cast<const char*>(data);
+  for (std::size_t k = 0; k < bytes; k += line) __builtin_prefetch(first + k);
+  __builtin_prefetch(first + bytes - 1);  // the end may lie in a line of its own
 }
 
 }  // namespace drawpoint::engine::contact::detail

@@ -45,7 +45,7 @@ class PairBatches {
   int own_rows(const ContactProblem& problem, const int* members, int pairs) const;
   void fill_bodies(const ContactProblem& problem, const Parallel& parallel);
   void fill_row(int row, const SolverBody& body);
-  void fetch_ahead(const ContactProblem& problem, int index, int lane) const;
+  inline void fetch_ahead(const ContactProblem& problem, int index, int lane) const;
   void fill_batch(const ContactProblem& problem, int batch, int substeps);
   void fill_lane(const ContactProblem& problem, PairBatch& batch, int lane, const ContactPair& pair,
                  int substeps);

@@ -175,7 +175,7 @@ class World {
   int solver_index(const Surface& surface) const;
   Side side_of(const Surface& surface) const;
   Eigen::Vector3d origin_of(const Surface& surface) const;
-  void fetch_origins(const Manifold& m) const;
+  inline void fetch_origins(const Manifold& m) const;
   void move_rocks();
   void move(Rock& rock, const SolverBody& body) const;
 

@@ -32,7 +32,7 @@ class LoadingRun {
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
     log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
-    log_.numbers["sweeps_a_substep"] = contact::most_sweeps(scenario_.world.solver, most_points_);
+    log_.numbers["most_sweeps_a_substep"] = contact::most_sweeps(scenario_.world.solver, most_points_);
     log_.signals = signals_.take();
     log_.scene = scene_.take();
     return std::move(log_);

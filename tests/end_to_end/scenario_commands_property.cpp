@@ -90,8 +90,9 @@ TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
 }
 
 TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
-  const Ended run =
-      this->run(study + " --rocks 6 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json");
+  const Ended run = this->run(study +
+                              " --rocks 6 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json"
+                              " --reference-method coloured --freeze on --jobs 2");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json rows = run.json().at("configurations");
   ASSERT_EQ(rows.size(), 4u);
@@ -101,6 +102,10 @@ TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
   EXPECT_EQ(rows[2].at("sweeps"), 5);
   EXPECT_EQ(rows[3].at("setting"), "10x4x1+50");
   EXPECT_EQ(rows[3].at("spare_work"), 50);
+  for (const nlohmann::json& row : rows) {
+    EXPECT_EQ(row.at("method"), "coloured");
+    EXPECT_EQ(row.at("freeze"), "on");
+  }
   EXPECT_TRUE(rows[2].at("drag_n").at("half_width").is_number());
 }
 
