@@ -35,8 +35,8 @@ constexpr const char* about =
     "  accuracy_study --cycle FOLDER --seeds 8\n"
     "                             a loading cycle of the LHD on another pile a seed (poured and kept in "
     "FOLDER\n"
-    "                             when missing): mean force in the bucket's pin, loaded mass, deepest "
-    "overlap\n\n"
+    "                             when missing): mean force in the bucket's pin, loaded mass, mean over the\n"
+    "                             steps of the deepest overlap of a rock\n\n"
     "Fields of --json: each quantity with its mean and half_width; *_difference: setting minus reference "
     "over\n"
     "the reference's mean.";
@@ -79,8 +79,9 @@ std::vector<Configuration> configurations(const Settings& s, engine::contact::Wo
   const auto chosen = world_options(s.engine);
   options.solver.threads = options.contacts.threads = chosen.solver.threads;
   options.freezing.on = chosen.freezing.on;
-  const auto add = [&](const std::string& name, const std::string& setting, double offset) {
-    all.push_back({name, setting_of(setting), with(options, setting_of(setting)), offset,
+  const auto add = [&](const std::string& name, const std::string& text, double offset) {
+    const Setting setting = setting_of(text);
+    all.push_back({name, setting, with(options, setting), offset,
                    std::vector<Sample>(static_cast<std::size_t>(s.seeds))});
   };
   options.solver.method = engine::contact::method_named(s.reference_method);

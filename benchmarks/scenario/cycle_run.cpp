@@ -10,23 +10,24 @@
 #include <drawpoint/engine/random.hpp>
 #include <stdexcept>
 
+#include "estimate.hpp"
+#include "pile_run.hpp"
+
 namespace drawpoint::benchmarks {
 namespace {
 
 constexpr double window = 0.01;  // [s]
 
 double mean_bucket_force(const engine::loading::LoadingLog& log, double step) {
-  const auto& x = log.signals.column("hinge_G_force_x");
-  const auto &y = log.signals.column("hinge_G_force_y"), &z = log.signals.column("hinge_G_force_z");
-  const std::size_t rows = static_cast<std::size_t>(std::max(1L, std::lround(window / step)));
-  double sum = 0;
-  std::size_t windows = 0;
-  for (std::size_t first = 0; first + rows <= x.size(); first += rows, ++windows) {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (std::size_t k = first; k < first + rows; ++k) force += Eigen::Vector3d(x[k], y[k], z[k]);
-    sum += force.norm() / static_cast<double>(rows);
-  }
-  return sum / static_cast<double>(windows);
+  const auto component = [&](const char* name) {
+    return block_means(log.signals.column(name),
+                       static_cast<std::size_t>(std::max(1, steps_in(window, step))));
+  };
+  const auto x = component("hinge_G_force_x"), y = component("hinge_G_force_y"),
+             z = component("hinge_G_force_z");
+  std::vector<double> force;
+  for (std::size_t k = 0; k < x.size(); ++k) force.push_back(std::hypot(x[k], y[k], z[k]));
+  return mean_of(force);
 }
 
 // A file's name of this process, removed at the end.
