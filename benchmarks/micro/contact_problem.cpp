@@ -22,7 +22,7 @@ namespace {
 struct Arguments {
   std::string file, method = "sequential", scene;
   SolverOptions options = fixed_work(1, 25);
-  int repeats = 5;
+  int repeats = 40;
   bool as_json = false;
 };
 

@@ -145,7 +145,11 @@ HWY_INLINE void project_tangents(V& l1, V& l2, V u1, V u2, const TangentStep& in
 
 HWY_INLINE V magnitude(const V3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
+struct alignas(64) LaneSums {
+  Lanes change, normal_load;
+};
+
+HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, LaneSums& sums) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
@@ -183,8 +187,8 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at) {
     pairs.twist(m - before);
   }
   pairs.scatter(arrays.bodies);
-  BatchSums& sums = arrays.sums[batch];
-  sums = {plus_lanes(sums.change, change), plus_lanes(sums.normal_load, force)};
+  store(change, sums.change, at);
+  store(force, sums.normal_load, at);
 }
 
 HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
@@ -215,29 +219,36 @@ HWY_NOINLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
 
 template <class Kernel>
 HWY_INLINE void over(BatchRange range, const Kernel& kernel) {
-  for (int k = range.begin; k < range.end; ++k)
-    for (int at = 0; at < batch_lanes; at += width)
-      kernel(range.forward ? k : range.begin + range.end - 1 - k, at);
+  for (int k = range.begin; k < range.end; ++k) kernel(range.forward ? k : range.begin + range.end - 1 - k);
+}
+template <class Kernel>
+HWY_INLINE void over_lanes(BatchRange range, const Kernel& kernel) {
+  over(range, [&](int batch) {
+    for (int at = 0; at < batch_lanes; at += width) kernel(batch, at);
+  });
 }
 
 void prepare(const BatchArrays& arrays, BatchRange range) {
-  over(range, [&](int batch, int at) { prepare_lanes(arrays, batch, at); });
+  over_lanes(range, [&](int batch, int at) { prepare_lanes(arrays, batch, at); });
 }
 void start(const BatchArrays& arrays, BatchRange range) {
-  over(range, [&](int batch, int at) { start_lanes(arrays, batch, at); });
+  over_lanes(range, [&](int batch, int at) { start_lanes(arrays, batch, at); });
 }
 void hand_over(const BatchArrays& arrays, BatchRange range) {
-  over(range, [&](int batch, int at) { hand_over_lanes(arrays, batch, at); });
+  over_lanes(range, [&](int batch, int at) { hand_over_lanes(arrays, batch, at); });
 }
 void judge(const BatchArrays& arrays, BatchRange range) {
-  over(range, [&](int batch, int at) { judge_lanes(arrays, batch, at); });
+  over_lanes(range, [&](int batch, int at) { judge_lanes(arrays, batch, at); });
 }
 void sweep(const BatchArrays& arrays, BatchRange range, const Sweep& this_sweep) {
-  over(range, [&](int batch, int at) {
-    if (at == 0) arrays.sums[batch] = BatchSums();
-    if (this_sweep.first) aim_lanes(arrays, batch, at, this_sweep);
-    sweep_lanes(arrays, batch, at);
-    if (this_sweep.last) hand_over_lanes(arrays, batch, at);
+  LaneSums sums;
+  over(range, [&](int batch) {
+    for (int at = 0; at < batch_lanes; at += width) {
+      if (this_sweep.first) aim_lanes(arrays, batch, at, this_sweep);
+      sweep_lanes(arrays, batch, at, sums);
+      if (this_sweep.last) hand_over_lanes(arrays, batch, at);
+    }
+    arrays.sums[batch] = {sum_of(sums.change), sum_of(sums.normal_load)};
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <drawpoint/engine/contact/broad_phase.hpp>
+#include <functional>
 
 namespace drawpoint::engine::contact::detail {
 namespace {
@@ -15,7 +16,7 @@ using Eigen::Vector3d;
 // FCL takes boxes that differ by round-off for equal and keeps the older one. Its boxes are larger by this
 // [m], and what it finds is checked against the true ones.
 constexpr double round_off = 1e-6;
-// Above this share of changed boxes a thread one sweep of the trees is cheaper than single look-ups.
+// Where one box in so many has changed, a sweep of the trees is cheaper than single look-ups.
 constexpr int sweep_share = 3;
 constexpr int look_ups_a_block = 64;  // that a thread takes at a time
 // Fewer pairs than this are sorted by comparing.
@@ -36,6 +37,9 @@ class BoxObject : public fcl::CollisionObjectd {
  private:
   int id_;
 };
+
+using Tree = fcl::DynamicAABBTreeCollisionManagerd;
+using Objects = std::vector<fcl::CollisionObjectd*>;
 
 struct Entry {
   std::unique_ptr<BoxObject> object;  // none for a half-space
@@ -92,7 +96,16 @@ bool reaches(const AlignedBox3d& box, const Plane& plane) {
 
 class BroadPhase::Impl {
  public:
-  fcl::DynamicAABBTreeCollisionManagerd& tree(bool moves) { return moves ? moving_ : fixed_; }
+  explicit Impl(int threads) : moving_(static_cast<std::size_t>(threads)), moved_(moving_.size()) {
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) sweeps_.emplace_back(&moving_[i], &moving_[j]);
+      sweeps_.emplace_back(&moving_[i], &fixed_);
+    }
+  }
+
+  Tree& tree(int id, bool moves) {
+    return moves ? moving_[static_cast<std::size_t>(id) % moving_.size()] : fixed_;
+  }
   Entry& at(int id) { return entries_[static_cast<std::size_t>(id)]; }
 
   void mark(int id) {
@@ -116,7 +129,7 @@ class BroadPhase::Impl {
     entry.object = std::make_unique<BoxObject>(geometry_, id);
     entry.object->set_box(box);
     boxes_[id] = box;
-    tree(moves).registerObject(entry.object.get());
+    tree(id, moves).registerObject(entry.object.get());
   }
 
   void add(int id, const Plane& plane, bool moves) {
@@ -128,7 +141,7 @@ class BroadPhase::Impl {
   void remove(int id) {
     Entry& entry = at(id);
     mark(id);
-    if (entry.object) tree(entry.moves).unregisterObject(entry.object.get());
+    if (entry.object) tree(id, entry.moves).unregisterObject(entry.object.get());
     entry.object.reset();
     entry.plane = false;
     std::erase(plane_ids_, id);
@@ -149,10 +162,10 @@ class BroadPhase::Impl {
   void set_moves(int id, bool moves) {
     Entry& entry = at(id);
     if (entry.moves == moves) return;
-    if (entry.object) tree(entry.moves).unregisterObject(entry.object.get());
+    if (entry.object) tree(id, entry.moves).unregisterObject(entry.object.get());
     entry.moves = moves;
     entry.dirty = false;
-    if (entry.object) tree(moves).registerObject(entry.object.get());
+    if (entry.object) tree(id, moves).registerObject(entry.object.get());
     mark(id);
   }
 
@@ -161,16 +174,20 @@ class BroadPhase::Impl {
     before_.swap(changed_);
     changed_.clear();
     std::sort(before_.begin(), before_.end());
-    moved_.clear();
+    for (Objects& moved : moved_) moved.clear();
     fixed_moved_.clear();
     for (int id : before_) {
       Entry& entry = at(id);
       entry.changed = false;
       entry.changed_before = true;
-      if (entry.object && entry.dirty) (entry.moves ? moved_ : fixed_moved_).push_back(entry.object.get());
+      if (entry.object && entry.dirty)
+        (entry.moves ? moved_[static_cast<std::size_t>(id) % moved_.size()] : fixed_moved_)
+            .push_back(entry.object.get());
       entry.dirty = false;
     }
-    refresh(moving_, moved_);
+    parallel.blocks(static_cast<int>(moving_.size()), 1, [this](int begin, int end) {
+      for (int k = begin; k < end; ++k) refresh(moving_[k], moved_[k]);
+    });
     refresh(fixed_, fixed_moved_);
     return look_up(parallel);
   }
@@ -186,8 +203,7 @@ class BroadPhase::Impl {
   }
 
  private:
-  void refresh(fcl::DynamicAABBTreeCollisionManagerd& tree,
-               const std::vector<fcl::CollisionObjectd*>& moved) {
+  static void refresh(Tree& tree, const Objects& moved) {
     if (!moved.empty())
       tree.update(moved);
     else
@@ -205,43 +221,62 @@ class BroadPhase::Impl {
     for (std::size_t id = 0; id < entries_.size(); ++id) meet_plane(plane, static_cast<int>(id), pairs);
   }
 
-  int sweep() {
-    Collector collector{boxes_, pairs_};
-    moving_.collide(&collector, collect);
-    if (moving_.size() > 0 && fixed_.size() > 0) moving_.collide(&fixed_, &collector, collect);
-    for (int plane : plane_ids_) meet_all(plane, pairs_);
-    return 2;
+  // FCL's trees do not change while they are asked.
+  int sweep(const Parallel& parallel) {
+    const std::size_t sweeps = sweeps_.size(), count = sweeps + plane_ids_.size();
+    collect_blocks(parallel, count, 1, [&](std::size_t k, std::vector<Pair>& found) {
+      if (k < sweeps)
+        sweep(*sweeps_[k].first, *sweeps_[k].second, found);
+      else
+        meet_all(plane_ids_[k - sweeps], found);
+    });
+    return static_cast<int>(sweeps);
   }
 
-  // FCL's trees do not change while they are asked.
+  void sweep(Tree& first, Tree& second, std::vector<Pair>& found) const {
+    Collector collector{boxes_, found};
+    if (&first == &second)
+      first.collide(&collector, collect);
+    else if (!first.empty() && !second.empty())
+      first.collide(&second, &collector, collect);
+  }
+
   void look_up_one(int id, std::vector<Pair>& pairs) const {
     const Entry& entry = entries_[static_cast<std::size_t>(id)];
     if (entry.plane) meet_all(id, pairs);
     if (!entry.object) return;
     Collector collector{boxes_, pairs};
-    moving_.collide(entry.object.get(), &collector, collect);
+    for (const Tree& tree : moving_) tree.collide(entry.object.get(), &collector, collect);
     if (entry.moves) fixed_.collide(entry.object.get(), &collector, collect);
     for (int plane : plane_ids_) meet_plane(plane, id, pairs);
   }
 
   int look_up_changed(const Parallel& parallel) {
-    const std::size_t blocks = (before_.size() + look_ups_a_block - 1) / look_ups_a_block;
+    collect_blocks(parallel, before_.size(), look_ups_a_block,
+                   [&](std::size_t k, std::vector<Pair>& found) { look_up_one(before_[k], found); });
+    return static_cast<int>(before_.size());
+  }
+
+  // What `find(k, found)` adds for each k, block by block in their order.
+  template <class Find>
+  void collect_blocks(const Parallel& parallel, std::size_t count, int block, const Find& find) {
+    const std::size_t blocks = (count + block - 1) / block;
     if (found_.size() < blocks) found_.resize(blocks);
     for (std::vector<Pair>& found : found_) found.clear();
-    parallel.blocks(static_cast<int>(before_.size()), look_ups_a_block, [&](int begin, int end) {
-      std::vector<Pair>& found = found_[static_cast<std::size_t>(begin / look_ups_a_block)];
-      for (int k = begin; k < end; ++k) look_up_one(before_[static_cast<std::size_t>(k)], found);
-    });
+    const auto find_all = [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) find(static_cast<std::size_t>(k), found_[begin / block]);
+    };
+    parallel.blocks(static_cast<int>(count), block, std::ref(find_all));  // by reference: no memory
     for (const std::vector<Pair>& found : found_) pairs_.insert(pairs_.end(), found.begin(), found.end());
-    return static_cast<int>(before_.size());
   }
 
   Changes look_up(const Parallel& parallel) {
     pairs_.clear();
     if (before_.empty()) return {false, false, pairs_, 0};
-    const std::size_t share = before_.size() * sweep_share / static_cast<std::size_t>(parallel.threads());
-    const bool everything = share > moving_.size() + fixed_.size();
-    const int look_ups = everything ? sweep() : look_up_changed(parallel);
+    std::size_t size = fixed_.size();
+    for (const Tree& tree : moving_) size += tree.size();
+    const bool everything = before_.size() * sweep_share > size;
+    const int look_ups = everything ? sweep(parallel) : look_up_changed(parallel);
     sorter_.sort(pairs_, entries_.size());
     return {true, everything, pairs_, look_ups};
   }
@@ -251,15 +286,18 @@ class BroadPhase::Impl {
   std::vector<AlignedBox3d> boxes_;
   std::vector<Plane> planes_;
   std::vector<int> plane_ids_;
-  fcl::DynamicAABBTreeCollisionManagerd moving_, fixed_;
+  std::vector<Tree> moving_;  // each thread's share, so that they are brought up to date side by side
+  Tree fixed_;
+  std::vector<std::pair<Tree*, Tree*>> sweeps_;  // of a tree with itself or another, that find all pairs
   std::vector<int> changed_, before_;
-  std::vector<fcl::CollisionObjectd*> moved_, fixed_moved_;
+  std::vector<Objects> moved_;
+  Objects fixed_moved_;
   std::vector<Pair> pairs_;
-  std::vector<std::vector<Pair>> found_;  // by block of look-ups
+  std::vector<std::vector<Pair>> found_;  // by block
   PairSorter sorter_;
 };
 
-BroadPhase::BroadPhase() : impl_(std::make_unique<Impl>()) {}
+BroadPhase::BroadPhase(int threads) : impl_(std::make_unique<Impl>(threads)) {}
 BroadPhase::~BroadPhase() = default;
 BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;

@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
-/// Pairs of boxes that overlap, and of boxes with half-spaces, kept up to date: FCL's dynamic box trees, one
-/// for what moves and one for what does not.
+/// Pairs of boxes that overlap, and of boxes with half-spaces, kept up to date: FCL's dynamic box trees, one a
+/// thread for what moves and one for what does not.
 ///
-/// Only what changed is looked up again, by several threads; when much has, one thread sweeps the trees as a
-/// whole, with the same result.
+/// Only what changed is looked up again; when much has, the trees are swept as wholes, with the same result.
 /// A pair has at least one member that moves. Which pairs there are is a function of the present boxes alone,
 /// and they are sorted: the shape of the trees, which depends on history, never shows. Cost: nothing where
 /// nothing changes, some µs a changed box.
@@ -23,7 +22,7 @@ class BroadPhase {
  public:
   using Pair = std::pair<int, int>;  ///< first < second
 
-  BroadPhase();
+  explicit BroadPhase(int threads);
   ~BroadPhase();
   BroadPhase(BroadPhase&&) noexcept;
   BroadPhase& operator=(BroadPhase&&) noexcept;
@@ -42,6 +41,7 @@ class BroadPhase {
     int look_ups;
   };
   /// The pairs of all that was added or changed since the last call.
+  /// `parallel` may have any number of threads.
   Changes update(const Parallel& parallel);
   /// Whether something was added, changed or removed before the last update().
   bool changed(int id) const;

@@ -23,7 +23,7 @@ SolverReport ColouredSolver::solve(ContactProblem& problem) {
   problem_ = &problem;
   batches_.fill(problem, sweep_order(problem, batch_lanes), options_.substeps, parallel_);
   machine_.emplace(problem, batches_.row_of, options_.substeps);
-  team_.emplace(options_.threads);
+  team_.emplace(std::min(options_.threads, most_parts()));
   travel_.assign(problem.bodies.size(), BodyRow());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   for (int s = 0; s < options_.substeps; ++s) run_substep(s);
@@ -68,6 +68,14 @@ void ColouredSolver::each_stage(bool forward, const Kernel& kernel) {
       kernel(BatchRange{order.parts[first + part], order.parts[first + part + 1], forward});
     });
   }
+}
+
+// Of a stage: more threads than that would wait.
+int ColouredSolver::most_parts() const {
+  const std::vector<int>& stages = batches_.order().stages;
+  int most = 1;
+  for (std::size_t k = 0; k + 1 < stages.size(); ++k) most = std::max(most, stages[k + 1] - stages[k]);
+  return most;
 }
 
 template <class Work>

@@ -29,6 +29,7 @@ class ColouredSolver {
   void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
   template <class Kernel>
   void each_stage(bool forward, const Kernel& kernel);  // for kernels that do
+  int most_parts() const;
   template <class Work>
   void each_row(const Work& work);  // of the bodies
   void run_substep(int number);

@@ -68,7 +68,8 @@ class ContactFinder::Impl {
   explicit Impl(const ContactFinderOptions& options)
       : options_(options),
         growth_(0.5 * (options.margin + options.reuse_distance)),
-        parallel_((check(options), options.threads)),
+        boxes_((check(options), options.threads)),
+        parallel_(options.threads),
         narrow_(options) {}
 
   int add(const Collider& collider) {

@@ -3,9 +3,10 @@
 
 /// Arithmetic on the lanes of a batch, for the kernels (batch_kernels.cpp), compiled once an instruction set.
 ///
-/// A `V` holds `width` pairs: two vectors side by side, so that two chains of dependent operations run at a
-/// time. Products and sums are separate operations on every target (no fused multiply-add), so the bits do
-/// not depend on the target. Highway includes this file once a target; hence the toggle instead of a guard.
+/// A `V` holds `width` pairs: one vector of sixteen where there is one, else two parts side by side, so that
+/// two chains of dependent operations run at a time. Products and sums are separate operations on every
+/// target (no fused multiply-add), so the bits do not depend on the target. Highway includes this file once a
+/// target; hence the toggle instead of a guard.
 #if defined(DRAWPOINT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef DRAWPOINT_LANES_INL
 #undef DRAWPOINT_LANES_INL
@@ -22,64 +23,89 @@ namespace drawpoint::engine::contact::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, batch_lanes / 2>;
-using Half = hn::Vec<D>;
+using D = hn::CappedTag<float, HWY_MAX_BYTES == 64 ? batch_lanes : batch_lanes / 2>;
+using Part = hn::Vec<D>;
 constexpr D d;
-constexpr int half_width = static_cast<int>(hn::MaxLanes(D()));
-constexpr int width = 2 * half_width;
+constexpr int parts = HWY_MAX_BYTES == 64 ? 1 : 2;
+constexpr int part_width = static_cast<int>(hn::MaxLanes(D()));
+constexpr int width = parts * part_width;
 
 struct V {
-  Half v[2];
+  Part v[parts];
 };
 struct Mask {
-  hn::Mask<D> m[2];
+  hn::Mask<D> m[parts];
 };
 
-HWY_INLINE V all(float x) { return {{hn::Set(d, x), hn::Set(d, x)}}; }
-HWY_INLINE V load(const Lanes& lanes, int at) {
-  return {{hn::Load(d, lanes + at), hn::Load(d, lanes + at + half_width)}};
-}
-HWY_INLINE void store(const V& x, Lanes& lanes, int at) {
-  hn::Store(x.v[0], d, lanes + at);
-  hn::Store(x.v[1], d, lanes + at + half_width);
-}
-HWY_INLINE V operator+(const V& x, const V& y) {
-  return {{hn::Add(x.v[0], y.v[0]), hn::Add(x.v[1], y.v[1])}};
-}
-HWY_INLINE V operator-(const V& x, const V& y) {
-  return {{hn::Sub(x.v[0], y.v[0]), hn::Sub(x.v[1], y.v[1])}};
-}
-HWY_INLINE V operator*(const V& x, const V& y) {
-  return {{hn::Mul(x.v[0], y.v[0]), hn::Mul(x.v[1], y.v[1])}};
-}
-HWY_INLINE V operator/(const V& x, const V& y) {
-  return {{hn::Div(x.v[0], y.v[0]), hn::Div(x.v[1], y.v[1])}};
-}
-HWY_INLINE V operator-(const V& x) { return {{hn::Neg(x.v[0]), hn::Neg(x.v[1])}}; }
-HWY_INLINE Mask operator>(const V& x, const V& y) {
-  return {{hn::Gt(x.v[0], y.v[0]), hn::Gt(x.v[1], y.v[1])}};
-}
-HWY_INLINE Mask operator<(const V& x, const V& y) { return y > x; }
-HWY_INLINE V abs(const V& x) { return {{hn::Abs(x.v[0]), hn::Abs(x.v[1])}}; }
-HWY_INLINE V sqrt(const V& x) { return {{hn::Sqrt(x.v[0]), hn::Sqrt(x.v[1])}}; }
-HWY_INLINE V min(const V& x, const V& y) { return {{hn::Min(x.v[0], y.v[0]), hn::Min(x.v[1], y.v[1])}}; }
-HWY_INLINE V max(const V& x, const V& y) { return {{hn::Max(x.v[0], y.v[0]), hn::Max(x.v[1], y.v[1])}}; }
-HWY_INLINE V select(const Mask& m, const V& yes, const V& no) {
-  return {{hn::IfThenElse(m.m[0], yes.v[0], no.v[0]), hn::IfThenElse(m.m[1], yes.v[1], no.v[1])}};
-}
-HWY_INLINE V select_or_zero(const Mask& m, const V& yes) {
-  return {{hn::IfThenElseZero(m.m[0], yes.v[0]), hn::IfThenElseZero(m.m[1], yes.v[1])}};
-}
-HWY_INLINE bool all_zero(const V& x) {
-  return hn::AllTrue(d, hn::Eq(hn::Max(hn::Abs(x.v[0]), hn::Abs(x.v[1])), hn::Zero(d)));
+// What `operation` makes of the parts of each argument.
+template <class Operation>
+HWY_INLINE V each(const Operation& operation) {
+  V result;
+  for (int k = 0; k < parts; ++k) result.v[k] = operation(k);
+  return result;
 }
 
-/// `total` and the lanes, added in their order whatever the target.
-HWY_INLINE float plus_lanes(float total, const V& x) {
-  alignas(32) Lanes lanes;
-  store(x, lanes, 0);
-  for (int k = 0; k < width; ++k) total += lanes[k];
-  return total;
+HWY_INLINE V all(float x) {
+  return each([x](int) HWY_ATTR { return hn::Set(d, x); });
+}
+HWY_INLINE V load(const Lanes& lanes, int at) {
+  return each([&](int k) HWY_ATTR { return hn::Load(d, lanes + at + k * part_width); });
+}
+HWY_INLINE void store(const V& x, Lanes& lanes, int at) {
+  for (int k = 0; k < parts; ++k) hn::Store(x.v[k], d, lanes + at + k * part_width);
+}
+HWY_INLINE V operator+(const V& x, const V& y) {
+  return each([&](int k) HWY_ATTR { return hn::Add(x.v[k], y.v[k]); });
+}
+HWY_INLINE V operator-(const V& x, const V& y) {
+  return each([&](int k) HWY_ATTR { return hn::Sub(x.v[k], y.v[k]); });
+}
+HWY_INLINE V operator*(const V& x, const V& y) {
+  return each([&](int k) HWY_ATTR { return hn::Mul(x.v[k], y.v[k]); });
+}
+HWY_INLINE V operator/(const V& x, const V& y) {
+  return each([&](int k) HWY_ATTR { return hn::Div(x.v[k], y.v[k]); });
+}
+HWY_INLINE V min(const V& x, const V& y) {
+  return each([&](int k) HWY_ATTR { return hn::Min(x.v[k], y.v[k]); });
+}
+HWY_INLINE V max(const V& x, const V& y) {
+  return each([&](int k) HWY_ATTR { return hn::Max(x.v[k], y.v[k]); });
+}
+HWY_INLINE V operator-(const V& x) {
+  return each([&](int k) HWY_ATTR { return hn::Neg(x.v[k]); });
+}
+HWY_INLINE V abs(const V& x) {
+  return each([&](int k) HWY_ATTR { return hn::Abs(x.v[k]); });
+}
+HWY_INLINE V sqrt(const V& x) {
+  return each([&](int k) HWY_ATTR { return hn::Sqrt(x.v[k]); });
+}
+HWY_INLINE Mask operator>(const V& x, const V& y) {
+  Mask result;
+  for (int k = 0; k < parts; ++k) result.m[k] = hn::Gt(x.v[k], y.v[k]);
+  return result;
+}
+HWY_INLINE Mask operator<(const V& x, const V& y) { return y > x; }
+HWY_INLINE V select(const Mask& m, const V& yes, const V& no) {
+  return each([&](int k) HWY_ATTR { return hn::IfThenElse(m.m[k], yes.v[k], no.v[k]); });
+}
+HWY_INLINE V select_or_zero(const Mask& m, const V& yes) {
+  return each([&](int k) HWY_ATTR { return hn::IfThenElseZero(m.m[k], yes.v[k]); });
+}
+HWY_INLINE bool all_zero(const V& x) {
+  bool zero = true;
+  for (int k = 0; k < parts; ++k) zero = zero && hn::AllTrue(d, hn::Eq(x.v[k], hn::Zero(d)));
+  return zero;
+}
+
+/// All lanes of a batch, halves folded upon halves: in the same order whatever the target.
+HWY_INLINE float sum_of(const Lanes& lanes) {
+  float folded[batch_lanes / 2];
+  for (int k = 0; k < batch_lanes / 2; ++k) folded[k] = lanes[k] + lanes[k + batch_lanes / 2];
+  for (int left = batch_lanes / 4; left > 0; left /= 2)
+    for (int k = 0; k < left; ++k) folded[k] += folded[k + left];
+  return folded[0];
 }
 
 struct V3 {
@@ -114,21 +140,21 @@ HWY_INLINE Symmetric load(const Lanes (&lanes)[6], int at) {
            load(lanes[5], at)}};
 }
 
-// Four floats of as many rows as a vector has lanes, as four vectors, one a column.
+// Four floats of as many rows as a part has lanes, as four parts, one a column.
 struct Columns {
-  Half c[4];
+  Part c[4];
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
 template <class Row>
-HWY_INLINE Columns gather_half(const Row& row, const std::int32_t* index) {
+HWY_INLINE Columns gather_part(const Row& row, const std::int32_t* index) {
   const float* r = row(*index);
   return {{hn::Set(d, r[0]), hn::Set(d, r[1]), hn::Set(d, r[2]), hn::Set(d, r[3])}};
 }
 
 template <class Row>
-HWY_INLINE void scatter_half(Half x, Half y, Half z, const Row& row, const std::int32_t* index) {
+HWY_INLINE void scatter_part(Part x, Part y, Part z, const Row& row, const std::int32_t* index) {
   float* r = row(*index);
   r[0] = hn::GetLane(x);
   r[1] = hn::GetLane(y);
@@ -137,46 +163,46 @@ HWY_INLINE void scatter_half(Half x, Half y, Half z, const Row& row, const std::
 
 #else
 
-// Within blocks of four lanes; the second block holds rows 4 to 7.
-template <class Row>
-HWY_INLINE Half row_pair(const Row& row, const std::int32_t* index, int k) {
-  const hn::FixedTag<float, 4> quarter;
-  if constexpr (half_width == 8)
-    return hn::Combine(d, hn::Load(quarter, row(index[k + 4])), hn::Load(quarter, row(index[k])));
+// Rows k, k + 4, k + 8 ... below `N`, one a block of four lanes.
+template <int N, class Row>
+HWY_INLINE auto rows(const Row& row, const std::int32_t* index, int k) {
+  if constexpr (N == 4)
+    return hn::Load(hn::FixedTag<float, 4>(), row(index[k]));
   else
-    return hn::Load(quarter, row(index[k]));
+    return hn::Combine(hn::FixedTag<float, N>(), rows<N / 2>(row, index + N / 2, k),
+                       rows<N / 2>(row, index, k));
 }
 
 template <class Row>
-HWY_INLINE Columns gather_half(const Row& row, const std::int32_t* index) {
-  const Half r0 = row_pair(row, index, 0), r1 = row_pair(row, index, 1), r2 = row_pair(row, index, 2),
-             r3 = row_pair(row, index, 3);
-  const Half t0 = hn::InterleaveLower(d, r0, r2), t1 = hn::InterleaveLower(d, r1, r3);
-  const Half t2 = hn::InterleaveUpper(d, r0, r2), t3 = hn::InterleaveUpper(d, r1, r3);
+HWY_INLINE Columns gather_part(const Row& row, const std::int32_t* index) {
+  const Part r0 = rows<part_width>(row, index, 0), r1 = rows<part_width>(row, index, 1),
+             r2 = rows<part_width>(row, index, 2), r3 = rows<part_width>(row, index, 3);
+  const Part t0 = hn::InterleaveLower(d, r0, r2), t1 = hn::InterleaveLower(d, r1, r3);
+  const Part t2 = hn::InterleaveUpper(d, r0, r2), t3 = hn::InterleaveUpper(d, r1, r3);
   return {{hn::InterleaveLower(d, t0, t1), hn::InterleaveUpper(d, t0, t1), hn::InterleaveLower(d, t2, t3),
            hn::InterleaveUpper(d, t2, t3)}};
 }
 
-template <class Vector, class Row>
-HWY_INLINE void put_row(Vector v, const Row& row, const std::int32_t* index, int k) {
-  const hn::FixedTag<float, 4> quarter;
-  if constexpr (half_width == 8) {
-    hn::Store(hn::LowerHalf(quarter, v), quarter, row(index[k]));
-    hn::Store(hn::UpperHalf(quarter, v), quarter, row(index[k + 4]));
+template <int N, class Vector, class Row>
+HWY_INLINE void put_rows(Vector v, const Row& row, const std::int32_t* index, int k) {
+  if constexpr (N == 4) {
+    hn::Store(v, hn::FixedTag<float, 4>(), row(index[k]));
   } else {
-    hn::Store(v, quarter, row(index[k]));
+    const hn::FixedTag<float, N / 2> half;
+    put_rows<N / 2>(hn::LowerHalf(half, v), row, index, k);
+    put_rows<N / 2>(hn::UpperHalf(half, v), row, index + N / 2, k);
   }
 }
 
 template <class Row>
-HWY_INLINE void scatter_half(Half x, Half y, Half z, const Row& row, const std::int32_t* index) {
-  const Half zero = hn::Zero(d);
-  const Half a0 = hn::InterleaveLower(d, x, z), a1 = hn::InterleaveLower(d, y, zero);
-  const Half a2 = hn::InterleaveUpper(d, x, z), a3 = hn::InterleaveUpper(d, y, zero);
-  put_row(hn::InterleaveLower(d, a0, a1), row, index, 0);
-  put_row(hn::InterleaveUpper(d, a0, a1), row, index, 1);
-  put_row(hn::InterleaveLower(d, a2, a3), row, index, 2);
-  put_row(hn::InterleaveUpper(d, a2, a3), row, index, 3);
+HWY_INLINE void scatter_part(Part x, Part y, Part z, const Row& row, const std::int32_t* index) {
+  const Part zero = hn::Zero(d);
+  const Part a0 = hn::InterleaveLower(d, x, z), a1 = hn::InterleaveLower(d, y, zero);
+  const Part a2 = hn::InterleaveUpper(d, x, z), a3 = hn::InterleaveUpper(d, y, zero);
+  put_rows<part_width>(hn::InterleaveLower(d, a0, a1), row, index, 0);
+  put_rows<part_width>(hn::InterleaveUpper(d, a0, a1), row, index, 1);
+  put_rows<part_width>(hn::InterleaveLower(d, a2, a3), row, index, 2);
+  put_rows<part_width>(hn::InterleaveUpper(d, a2, a3), row, index, 3);
 }
 
 #endif
@@ -188,18 +214,18 @@ struct V4 {
 
 template <class Row>
 HWY_INLINE V4 gather(const Row& row, const std::int32_t* index) {
-  const Columns lower = gather_half(row, index), upper = gather_half(row, index + half_width);
-  return {{{{lower.c[0], upper.c[0]}},
-           {{lower.c[1], upper.c[1]}},
-           {{lower.c[2], upper.c[2]}},
-           {{lower.c[3], upper.c[3]}}}};
+  V4 result;
+  for (int k = 0; k < parts; ++k) {
+    const Columns columns = gather_part(row, index + k * part_width);
+    for (int i = 0; i < 4; ++i) result.c[i].v[k] = columns.c[i];
+  }
+  return result;
 }
 
 /// Writes three numbers and a zero or nothing; no two lanes may have the same row.
 template <class Row>
 HWY_INLINE void scatter(const V3& a, const Row& row, const std::int32_t* index) {
-  scatter_half(a.x.v[0], a.y.v[0], a.z.v[0], row, index);
-  scatter_half(a.x.v[1], a.y.v[1], a.z.v[1], row, index + half_width);
+  for (int k = 0; k < parts; ++k) scatter_part(a.x.v[k], a.y.v[k], a.z.v[k], row, index + k * part_width);
 }
 
 }  // namespace drawpoint::engine::contact::detail::HWY_NAMESPACE

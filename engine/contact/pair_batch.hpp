@@ -26,7 +26,7 @@ struct alignas(32) BodyResponse {
   float inertia[4] = {}, rest[4] = {};
 };
 
-struct alignas(32) PointBatch {
+struct alignas(64) PointBatch {
   Lanes arm[3];  // from A's centre
   Lanes gap, upsilon, sigma, target;
   Lanes inverse_nn, inverse_tt[3], inverse_rho, w10, w20;
@@ -34,7 +34,7 @@ struct alignas(32) PointBatch {
   Lanes begun;                 // the normal impulse that the substep began with
 };
 
-struct alignas(32) PairBatch {
+struct alignas(64) PairBatch {
   std::int32_t a[batch_lanes], b[batch_lanes];       // body rows
   Lanes normal[3], tangent[3];                       // the second tangent is their cross product
   Lanes offset[3];                                   // arm from B's centre − arm from A's centre

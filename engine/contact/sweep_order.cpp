@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <drawpoint/engine/contact/sweep_order.hpp>
+#include <ranges>
 
 namespace drawpoint::engine::contact::detail {
 
@@ -13,22 +14,34 @@ bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.in
 namespace {
 
 constexpr int slabs = 256;  // among whose borders those of the zones are chosen
-constexpr int colours_a_group = 64;
 
 // Sorts by a key of 0 .. keys-1, stably, in linear time; numbers whose key is negative are left out.
-template <class Key>
-std::vector<int> sorted(int count, int keys, const Key& key) {
+template <class Numbers, class Key>
+std::vector<int> sorted(const Numbers& numbers, int keys, const Key& key) {
   std::vector<int> starts(keys + 1, 0);
-  for (int k = 0; k < count; ++k)
+  for (const int k : numbers)
     if (key(k) >= 0) ++starts[key(k) + 1];
   for (int k = 0; k < keys; ++k) starts[k + 1] += starts[k];
   std::vector<int> result(starts[keys]);
-  for (int k = 0; k < count; ++k)
+  for (const int k : numbers)
     if (key(k) >= 0) result[starts[key(k)]++] = k;
   return result;
 }
 
-bool in_order(const ContactPair& pair) { return pair.a >= 0 && pair.b >= 0 && pair.count > 0; }
+auto below(std::size_t count) { return std::views::iota(0, static_cast<int>(count)); }
+
+// What the order needs to know of a pair, close together: it is gone through several times.
+struct Ends {
+  int a, b, points;
+  bool in_order() const { return a >= 0 && b >= 0 && points > 0; }  // not the machine's
+};
+
+std::vector<Ends> ends_of(const ContactProblem& problem) {
+  std::vector<Ends> ends;
+  ends.reserve(problem.pairs.size());
+  for (const ContactPair& pair : problem.pairs) ends.push_back({pair.a, pair.b, pair.count});
+  return ends;
+}
 
 // Where a body is, as its first pair has it, and of how many pairs it is a moving side.
 struct Place {
@@ -37,7 +50,7 @@ struct Place {
   Eigen::Array3d centre = Eigen::Array3d::Zero();
 };
 
-std::vector<Place> places_of(const ContactProblem& problem) {
+std::vector<Place> places_of(const ContactProblem& problem, const std::vector<Ends>& ends) {
   std::vector<Place> places;
   places.reserve(problem.bodies.size());
   for (const SolverBody& body : problem.bodies) places.push_back({is_fixed(body)});
@@ -45,11 +58,11 @@ std::vector<Place> places_of(const ContactProblem& problem) {
     Place& place = places[body];
     if (!place.fixed && place.sides++ == 0) place.centre = point.position - arm;
   };
-  for (const ContactPair& pair : problem.pairs) {
-    if (!in_order(pair)) continue;
-    const ContactPoint& point = problem.points[pair.first];
-    visit(pair.a, point, point.arm_a);
-    visit(pair.b, point, point.arm_b);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    if (!ends[k].in_order()) continue;
+    const ContactPoint& point = problem.points[problem.pairs[k].first];
+    visit(ends[k].a, point, point.arm_a);
+    visit(ends[k].b, point, point.arm_b);
   }
   return places;
 }
@@ -119,117 +132,125 @@ class Parts {
   int zones_;
 };
 
-// Colours the pairs of one group after another: a part's, first those without and then those with the world.
-class Colourer {
+// Deals pairs to batches: each to the first open batch that none of its moving bodies is in. Full batches are
+// closed and make room for others.
+class Dealer {
  public:
-  Colourer(const ContactProblem& problem, const std::vector<Place>& places, const std::vector<int>& group_of,
-           int groups)
-      : colour_of(problem.pairs.size(), -1), problem_(problem), places_(places), taken_(places.size(), 0) {
-    const int pairs = static_cast<int>(problem.pairs.size());
-    const std::vector<int> order = sorted(pairs, groups, [&](int k) { return group_of[k]; });
-    for (auto group = order.begin(); group != order.end();) {
-      const auto end =
-          std::find_if(group, order.end(), [&](int k) { return group_of[k] != group_of[*group]; });
-      for (auto pair = group; pair != end; ++pair) add(*pair);
-      for (const int pair : alone_) colour_of[pair] = count++;
-      alone_.clear();
-      for (auto pair = group; pair != end; ++pair)
-        taken_[problem.pairs[*pair].a] = taken_[problem.pairs[*pair].b] = 0;
-      base_ = count;
-      group = end;
-    }
+  Dealer(const std::vector<Ends>& ends, const std::vector<Place>& places, int most)
+      : batch_of(ends.size(), -1), ends_(ends), places_(places), most_(most), open_in_(places.size(), 0) {}
+
+  std::vector<int> batch_of;  // of each pair; -1 for those that were not dealt
+  std::vector<int> sizes;     // of the batches, in the order in which they were opened
+
+  void deal(int index) {
+    const Ends& pair = ends_[index];
+    const int slot = std::countr_one(batches_of(pair.a) | batches_of(pair.b));
+    if (slot == slots) return put(index, open_batch());  // alone
+    if (members_[slot].empty()) batch_in_[slot] = open_batch();
+    put(index, batch_in_[slot]);
+    members_[slot].push_back(index);
+    open_in_[pair.a] |= bit(slot);
+    open_in_[pair.b] |= bit(slot);
+    if (static_cast<int>(members_[slot].size()) == most_) close(slot);
   }
 
-  std::vector<int> colour_of;  // of each pair, numbered on from group to group; -1 for the machine's
-  int count = 0;
+  void close_all() {
+    for (int slot = 0; slot < slots; ++slot) close(slot);
+  }
 
  private:
-  void add(int index) {
-    const ContactPair& pair = problem_.pairs[index];
-    const std::uint64_t taken =
-        (places_[pair.a].fixed ? 0 : taken_[pair.a]) | (places_[pair.b].fixed ? 0 : taken_[pair.b]);
-    const int colour = std::countr_one(taken);
-    if (colour == colours_a_group) {
-      alone_.push_back(index);
-      return;
-    }
-    const std::uint64_t bit = std::uint64_t{1} << colour;
-    taken_[pair.a] |= bit;
-    taken_[pair.b] |= bit;
-    colour_of[index] = base_ + colour;
-    count = std::max(count, base_ + colour + 1);
+  static constexpr int slots = 64;  // for open batches
+  static std::uint64_t bit(int slot) { return std::uint64_t{1} << slot; }
+  std::uint64_t batches_of(int body) const { return places_[body].fixed ? 0 : open_in_[body]; }
+
+  int open_batch() {
+    sizes.push_back(0);
+    return static_cast<int>(sizes.size()) - 1;
   }
 
-  const ContactProblem& problem_;
+  void put(int index, int batch) {
+    batch_of[index] = batch;
+    ++sizes[batch];
+  }
+
+  void close(int slot) {
+    for (const int index : members_[slot]) {
+      open_in_[ends_[index].a] &= ~bit(slot);
+      open_in_[ends_[index].b] &= ~bit(slot);
+    }
+    members_[slot].clear();
+  }
+
+  const std::vector<Ends>& ends_;
   const std::vector<Place>& places_;
-  std::vector<std::uint64_t> taken_;
-  std::vector<int> alone_;
-  int base_ = 0;
+  int most_;
+  std::vector<std::uint64_t> open_in_;  // of each body: the slots whose batches it is in
+  std::vector<int> members_[slots];
+  int batch_in_[slots] = {};
 };
 
 // Twice the part of each pair, and one for pairs with the world; -1 for the machine's.
-std::vector<int> groups_of(const ContactProblem& problem, const std::vector<Place>& places,
+std::vector<int> groups_of(const std::vector<Ends>& ends, const std::vector<Place>& places,
                            const Zones& zones, const Parts& parts) {
-  std::vector<int> result(problem.pairs.size(), -1);
+  std::vector<int> result(ends.size(), -1);
   for (std::size_t k = 0; k < result.size(); ++k) {
-    const ContactPair& pair = problem.pairs[k];
-    if (pair.a < 0 || pair.b < 0) continue;
-    const bool fixed_a = places[pair.a].fixed, fixed_b = places[pair.b].fixed;
-    const int part = parts.of(zones.of(fixed_a ? pair.b : pair.a), zones.of(fixed_b ? pair.a : pair.b));
+    const auto& [a, b, points] = ends[k];
+    if (!ends[k].in_order()) continue;
+    const bool fixed_a = places[a].fixed, fixed_b = places[b].fixed;
+    const int part = parts.of(zones.of(fixed_a ? b : a), zones.of(fixed_b ? a : b));
     result[k] = 2 * part + (fixed_a || fixed_b);
   }
   return result;
 }
 
-// Colour after colour; within one by falling number of points.
-std::vector<int> by_colour(const ContactProblem& problem, const Colourer& colourer) {
-  int points = 0;
-  for (const ContactPair& pair : problem.pairs) points = std::max(points, pair.count);
-  return sorted(static_cast<int>(problem.pairs.size()), colourer.count * (points + 1), [&](int k) {
-    const int colour = colourer.colour_of[k];
-    return colour < 0 ? -1 : colour * (points + 1) + points - problem.pairs[k].count;
+// The pairs in the order in which they are dealt: group after group, in each by falling number of points.
+std::vector<int> queue_of(const std::vector<Ends>& ends, const std::vector<int>& group_of, int groups) {
+  int most = 0;
+  for (const Ends& pair : ends) most = std::max(most, pair.points);
+  return sorted(below(ends.size()), groups * (most + 1), [&](int k) {
+    return group_of[k] < 0 ? -1 : group_of[k] * (most + 1) + most - ends[k].points;
   });
 }
 
-// Cuts the pairs of an order into batches of one colour and at most `most` pairs, these into parts and
-// stages.
-template <class Colour, class Part>
-void cut(SweepOrder& order, int most, const std::vector<int>& last_of_stages, const Colour& colour_of,
-         const Part& part_of) {
-  const int size = static_cast<int>(order.pairs.size());
-  int at = 0;
-  for (const int last_part : last_of_stages) {
-    while (at < size && part_of(at) <= last_part) {
-      const int part = part_of(at);
-      for (int begin = at; at < size && part_of(at) == part; begin = at) {
-        while (at < size && at - begin < most && colour_of(at) == colour_of(begin)) ++at;
-        order.batches.push_back(at);
-      }
-      order.parts.push_back(static_cast<int>(order.batches.size()) - 1);
-    }
-    order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
+// The end of each part among the batches.
+std::vector<int> deal_parts(const std::vector<int>& queue, const std::vector<int>& group_of, int parts,
+                            Dealer& dealer) {
+  std::vector<int> ends;
+  auto next = queue.begin();
+  for (int group = 0; group < 2 * parts; ++group) {
+    for (; next != queue.end() && group_of[*next] == group; ++next) dealer.deal(*next);
+    dealer.close_all();
+    if (group % 2 == 1) ends.push_back(static_cast<int>(dealer.sizes.size()));
   }
+  return ends;
 }
 
 }  // namespace
 
 SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone) {
-  const std::vector<Place> places = places_of(problem);
+  const std::vector<Ends> ends = ends_of(problem);
+  const std::vector<Place> places = places_of(problem, ends);
   const std::vector<int> slab_of = slabs_of(places);
-  const Zones zones(std::count_if(problem.pairs.begin(), problem.pairs.end(), in_order), places, slab_of,
-                    least_a_zone);
+  const Zones zones(std::ranges::count_if(ends, &Ends::in_order), places, slab_of, least_a_zone);
   const Parts parts(zones.count());
-  const std::vector<int> group_of = groups_of(problem, places, zones, parts);
-  const Colourer colourer(problem, places, group_of, 2 * parts.count());
-  SweepOrder order{
-      .bodies = sorted(static_cast<int>(places.size()), slabs, [&](int body) { return slab_of[body]; }),
-      .pairs = by_colour(problem, colourer),
-      .batches = {0},
-      .parts = {0},
-      .stages = {0}};
-  cut(
-      order, most, parts.last_of_stages(), [&](int at) { return colourer.colour_of[order.pairs[at]]; },
-      [&](int at) { return group_of[order.pairs[at]] / 2; });
+  const std::vector<int> group_of = groups_of(ends, places, zones, parts);
+  const std::vector<int> queue = queue_of(ends, group_of, 2 * parts.count());
+  Dealer dealer(ends, places, most);
+  const std::vector<int> part_ends = deal_parts(queue, group_of, parts.count(), dealer);
+
+  SweepOrder order;
+  order.bodies = sorted(below(places.size()), slabs, [&](int body) { return slab_of[body]; });
+  order.pairs =
+      sorted(queue, static_cast<int>(dealer.sizes.size()), [&](int k) { return dealer.batch_of[k]; });
+  order.batches = {0};
+  for (const int size : dealer.sizes) order.batches.push_back(order.batches.back() + size);
+  order.parts = order.stages = {0};
+  int part = 0;
+  for (const int last : parts.last_of_stages()) {
+    for (; part <= last; ++part)
+      if (part_ends[part] > order.parts.back()) order.parts.push_back(part_ends[part]);
+    order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
+  }
   return order;
 }
 

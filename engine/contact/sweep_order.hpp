@@ -7,22 +7,22 @@
 
 /// The order in which a sweep visits the pairs: what is solved side by side, and what on several threads.
 ///
-/// Lanes: pairs of one colour share no moving body, so up to a batch of them is solved at a time. Greedy, in
-/// the order of the pairs: each takes the first colour that neither body has yet; one that finds none among
-/// 64 gets a colour of its own. Pairs with the fixed world come after all others, so that the ground has the
-/// last word. Fixed bodies (zero inverse mass and inertia) never conflict.
-/// Threads: the scene is cut across its longest side into 1, 2, 4, ... zones, 1800 pairs or more for each. A
-/// part holds the pairs within a zone, or those across the border of two neighbours, with colours of its own;
-/// its batches are solved one after another by one thread. The parts of a stage share no moving body: first
+/// Lanes: the pairs of a batch share no moving body. Greedy, as a colouring whose colours hold a batch each:
+/// pairs with the most points first, each goes to the first batch that has room and neither body yet; one that
+/// finds none among 64 gets a batch of its own. Pairs with the fixed world come after all others, so that the
+/// ground has the last word. Fixed bodies (zero inverse mass and inertia) never conflict.
+/// Threads: the scene is cut across its longest side into 1, 2, 4, ... zones, 900 pairs or more for each. A
+/// part holds the pairs within a zone, or those across the border of two neighbours, in batches of its own;
+/// these are solved one after another by one thread. The parts of a stage share no moving body: first
 /// the pairs that reach beyond a neighbour (none unless zones are as thin as rocks), then every other border,
 /// then the other borders, then the zones. A sweep thus waits for all threads at most four times, not once a
-/// colour.
+/// batch.
 /// Linear in the pairs; a function of the problem alone. Pairs that touch the machine are left out.
 namespace drawpoint::engine::contact::detail {
 
 struct SweepOrder {
   std::vector<int> bodies;   ///< the body of each row, in order of place: those of a zone side by side
-  std::vector<int> pairs;    ///< indices, batch after batch; within one by falling number of points
+  std::vector<int> pairs;    ///< indices, batch after batch, within one by falling number of points
   std::vector<int> batches;  ///< where each begins in `pairs`, and the end
   std::vector<int> parts;    ///< where each begins in `batches`, and the end
   std::vector<int> stages;   ///< where each begins in `parts`, and the end
@@ -30,8 +30,8 @@ struct SweepOrder {
 
 bool is_fixed(const SolverBody& body);
 
-/// The least number of pairs for each zone: a dozen colours of them fill most of their batches.
-constexpr int pairs_a_zone = 1800;
+/// The least number of pairs for each zone.
+constexpr int pairs_a_zone = 900;
 
 /// `most` ≥ 1: pairs a batch.
 SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone = pairs_a_zone);
