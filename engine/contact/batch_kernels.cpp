@@ -145,6 +145,7 @@ HWY_INLINE void project_tangents(V& l1, V& l2, V u1, V u2, const TangentStep& in
 
 HWY_INLINE V magnitude(const V3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
+// What a sweep changes and carries, lane by lane.
 struct alignas(64) LaneSums {
   Lanes change, normal_load;
 };

@@ -103,9 +103,8 @@ class BroadPhase::Impl {
     }
   }
 
-  Tree& tree(int id, bool moves) {
-    return moves ? moving_[static_cast<std::size_t>(id) % moving_.size()] : fixed_;
-  }
+  std::size_t share_of(int id) const { return static_cast<std::size_t>(id) % moving_.size(); }
+  Tree& tree(int id, bool moves) { return moves ? moving_[share_of(id)] : fixed_; }
   Entry& at(int id) { return entries_[static_cast<std::size_t>(id)]; }
 
   void mark(int id) {
@@ -181,8 +180,7 @@ class BroadPhase::Impl {
       entry.changed = false;
       entry.changed_before = true;
       if (entry.object && entry.dirty)
-        (entry.moves ? moved_[static_cast<std::size_t>(id) % moved_.size()] : fixed_moved_)
-            .push_back(entry.object.get());
+        (entry.moves ? moved_[share_of(id)] : fixed_moved_).push_back(entry.object.get());
       entry.dirty = false;
     }
     parallel.blocks(static_cast<int>(moving_.size()), 1, [this](int begin, int end) {
@@ -222,9 +220,9 @@ class BroadPhase::Impl {
   }
 
   // FCL's trees do not change while they are asked.
-  int sweep(const Parallel& parallel) {
-    const std::size_t sweeps = sweeps_.size(), count = sweeps + plane_ids_.size();
-    collect_blocks(parallel, count, 1, [&](std::size_t k, std::vector<Pair>& found) {
+  int sweep_all(const Parallel& parallel) {
+    const std::size_t sweeps = sweeps_.size();
+    collect_blocks(parallel, sweeps + plane_ids_.size(), 1, [&](std::size_t k, std::vector<Pair>& found) {
       if (k < sweeps)
         sweep(*sweeps_[k].first, *sweeps_[k].second, found);
       else
@@ -276,7 +274,7 @@ class BroadPhase::Impl {
     std::size_t size = fixed_.size();
     for (const Tree& tree : moving_) size += tree.size();
     const bool everything = before_.size() * sweep_share > size;
-    const int look_ups = everything ? sweep(parallel) : look_up_changed(parallel);
+    const int look_ups = everything ? sweep_all(parallel) : look_up_changed(parallel);
     sorter_.sort(pairs_, entries_.size());
     return {true, everything, pairs_, look_ups};
   }
@@ -286,7 +284,7 @@ class BroadPhase::Impl {
   std::vector<AlignedBox3d> boxes_;
   std::vector<Plane> planes_;
   std::vector<int> plane_ids_;
-  std::vector<Tree> moving_;  // each thread's share, so that they are brought up to date side by side
+  std::vector<Tree> moving_;  // each a thread's share, brought up to date side by side
   Tree fixed_;
   std::vector<std::pair<Tree*, Tree*>> sweeps_;  // of a tree with itself or another, that find all pairs
   std::vector<int> changed_, before_;
