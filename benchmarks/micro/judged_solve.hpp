@@ -9,10 +9,10 @@
 /// One method on one problem: how true, how far from the converged solution, how long.
 ///
 /// The converged solution is the sequential method's after up to 10 000 sweeps of the whole step (S = 1), or
-/// when a sweep changes less than 1e-14 of the load. Times are the least of some repeats: of
-/// the processor for one thread, of the clock for several. The time a contact
-/// point a sweep is the difference between a long and a short solve, so that making the problem ready, which
-/// `milliseconds` contains, is not in it.
+/// when a sweep changes less than 1e-14 of the load. Times are of the processor for one thread, of the clock
+/// for several; repeats are at least as many as asked for, short ones go on for 0.4 s. The time of a solve is
+/// the least. The time a contact point a sweep is the median difference between a long solve and a short one
+/// just before, so that making the problem ready, which `milliseconds` contains, is not in it.
 namespace drawpoint::benchmarks {
 
 struct Solved {

@@ -50,8 +50,9 @@ engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const st
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw std::runtime_error("--cycle " + folder.string() + ": no folder for piles can be made here (" +
-                             error.message() + "); name one that is there or that can be made");
+    throw std::runtime_error(std::string("--cycle ") + folder.string() +
+                             ": no folder for piles can be made here (" + error.message() +
+                             "); name one that is there or that can be made");
   scenario.pile.seed = static_cast<std::uint64_t>(seed);
   scenario.pile_file = folder / ("pile_" + std::to_string(seed) + ".h5");
   return scenario;

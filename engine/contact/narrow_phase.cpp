@@ -74,17 +74,37 @@ struct NarrowPhase::Worker {
 
   // Brings the pairs [first, last) up to date and replaces `found` by their manifolds.
   void process(const Items& items, PairCache& pairs, int first, int last, std::vector<Manifold>& found) {
-    constexpr int ahead = 6;  // pairs
-    const std::vector<PairEntry>& entries = pairs.entries();
     Manifolds manifolds(found);
     for (int k = first; k < last; ++k) {
-      if (k + ahead < last) {
-        const PairEntry& soon = entries[k + ahead];
-        fetch(&items.placed[soon.b], sizeof(Placement));
-        if (soon.count > 0) fetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
-      }
-      process(items, pairs.entries()[k], pairs.state(entries[k]), manifolds);
+      fetch_ahead(items, pairs, k, last);
+      process(items, pairs.entries()[k], pairs.state(pairs.entries()[k]), manifolds);
     }
+  }
+
+  // What the pairs after this one need: where they are and their contacts, then the hulls of those that have
+  // moved, each step from what the one before it has brought.
+  [[gnu::always_inline]] static void fetch_ahead(const Items& items, const PairCache& pairs, int k,
+                                                 int last) {
+    const std::vector<PairEntry>& entries = pairs.entries();
+    if (k + 6 < last) {
+      const PairEntry& soon = entries[k + 6];
+      fetch(&items.placed[soon.b], sizeof(Placement));
+      if (soon.count > 0) fetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
+    }
+    if (k + 3 < last && moved(items, entries[k + 3])) {
+      fetch(items.placed[entries[k + 3].b].hull, sizeof(CollisionHull));
+      fetch(&pairs.state(entries[k + 3]), sizeof(PairState));
+    }
+    if (k + 1 < last && moved(items, entries[k + 1])) {
+      const CollisionHull& hull = *items.placed[entries[k + 1].b].hull;
+      for (const auto* numbers : {&hull.x, &hull.y, &hull.z, &hull.nx, &hull.ny, &hull.nz, &hull.no})
+        fetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
+    }
+  }
+
+  // Whether a pair of two hulls has to be looked at again.
+  static bool moved(const Items& items, const PairEntry& entry) {
+    return items.placed[entry.b].hull && items.travelled[entry.a] + items.travelled[entry.b] > entry.limit;
   }
 
   // Brings a pair up to date and appends its manifold, if there is one.
