@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// Pairs of boxes that overlap, and of boxes with half-spaces, kept up to date: FCL's dynamic box trees, one a
-/// thread for what moves and one for what does not.
+/// Pairs of boxes that overlap, and of boxes with half-spaces, kept up to date: FCL's dynamic box trees, one
+/// a thread for what moves and one for what does not.
 ///
 /// Only what changed is looked up again; when much has, the trees are swept as wholes, with the same result.
 /// A pair has at least one member that moves. Which pairs there are is a function of the present boxes alone,

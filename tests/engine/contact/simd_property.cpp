@@ -34,8 +34,8 @@ std::vector<Eigen::Vector3d> with_target(std::int64_t target) {
 
 }  // namespace
 
-// Every instruction set that this machine has gives the same bits: kernels use the same eight logical lanes
-// and no fused multiply-add, and division and square root are correctly rounded everywhere.
+// Every instruction set that this machine has gives the same bits: kernels use the same sixteen logical
+// lanes and no fused multiply-add, and division and square root are correctly rounded everywhere.
 TEST(Simd, EveryInstructionSetGivesTheSameBits) {
   const std::vector<Eigen::Vector3d> expected = falls_together();
   std::int64_t left = hwy::SupportedTargets();
