@@ -132,7 +132,8 @@ int main(int argc, char** argv) {
     sub->add_option("file", arguments.file, "contact problem")->required();
   for (CLI::App* sub : {solve_command, compare_command}) {
     sub->add_option("--threads", arguments.options.threads);
-    sub->add_option("--repeats", arguments.repeats, "solves that are timed, or as many as fit into 0.4 s")
+    sub->add_option("--repeats", arguments.repeats,
+                    "solves that are timed at least; more until 0.4 s have passed")
         ->capture_default_str();
   }
   solve_command->add_option("--method", arguments.method);

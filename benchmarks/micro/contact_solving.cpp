@@ -63,7 +63,7 @@ double bytes_of_a_sequential_sweep(const ContactProblem& problem) {
                              problem.pairs.size() * sizeof(detail::PairBlock));
 }
 
-// So many pairs of a colour a batch; a batch has as many point batches as its largest pair has points.
+// A batch has as many point batches as its largest pair has points.
 double bytes_of_a_coloured_sweep(const ContactProblem& problem) {
   const detail::SweepOrder order = detail::sweep_order(problem, detail::batch_lanes);
   double bytes = 0;

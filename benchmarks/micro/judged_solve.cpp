@@ -6,6 +6,7 @@
 #include <drawpoint/benchmarks/micro/judged_solve.hpp>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace drawpoint::benchmarks {
 namespace {
@@ -77,17 +78,17 @@ double nanoseconds_a_point_a_sweep(const ContactProblem& problem, const ContactM
   SolverOptions more = options;
   more.sweeps += std::max(50, options.sweeps);
   Solved solved;
-  std::vector<double>
-      extra;  // each of two solves one after the other, at about the same speed of the machine
+  // Of a long solve and a short one just before, at about the same speed of the machine.
+  std::vector<double> differences;
   double spent = 0;
   for (int k = 0; k < repeats || spent < least_time; ++k) {
-    const double less = time_of(problem, method, options, solved),
+    const double brief = time_of(problem, method, options, solved),
                  longer = time_of(problem, method, more, solved);
-    extra.push_back(longer - less);
-    spent += less + longer;
+    differences.push_back(longer - brief);
+    spent += brief + longer;
   }
-  const auto median = extra.begin() + static_cast<std::ptrdiff_t>(extra.size() / 2);
-  std::nth_element(extra.begin(), median, extra.end());
+  const auto median = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), median, differences.end());
   const double work =
       static_cast<double>(problem.points.size()) * options.substeps * (more.sweeps - options.sweeps);
   return 1e9 * std::max(0.0, *median) / work;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <drawpoint/engine/contact/broad_phase.hpp>
+#include <drawpoint/engine/contact/pair_sorter.hpp>
 #include <functional>
 
 namespace drawpoint::engine::contact::detail {
@@ -18,9 +19,8 @@ using Eigen::Vector3d;
 constexpr double round_off = 1e-6;
 // Where one box in so many has changed, a sweep of the trees is cheaper than single look-ups.
 constexpr int sweep_share = 3;
+constexpr int most_trees = 8;         // a look-up asks each of them
 constexpr int look_ups_a_block = 64;  // that a thread takes at a time
-// Fewer pairs than this are sorted by comparing.
-constexpr std::size_t few = 512;
 
 // An FCL object that is nothing but its box: FCL would compute the box of a turned shape from its bounding
 // sphere.
@@ -59,34 +59,6 @@ bool collect(fcl::CollisionObjectd* first, fcl::CollisionObjectd* second, void* 
   return false;  // go on
 }
 
-// Sorts pairs of numbers below `end` by counting, the second member first; then removes repeats.
-class PairSorter {
- public:
-  void sort(std::vector<BroadPhase::Pair>& pairs, std::size_t end) {
-    if (pairs.size() < few) {
-      std::sort(pairs.begin(), pairs.end());
-    } else {
-      spare_.resize(pairs.size());
-      distribute(pairs, spare_, end, [](const BroadPhase::Pair& p) { return p.second; });
-      distribute(spare_, pairs, end, [](const BroadPhase::Pair& p) { return p.first; });
-    }
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  }
-
- private:
-  template <class Key>
-  void distribute(const std::vector<BroadPhase::Pair>& from, std::vector<BroadPhase::Pair>& to,
-                  std::size_t end, const Key& key) {
-    place_.assign(end + 1, 0);
-    for (const auto& pair : from) ++place_[static_cast<std::size_t>(key(pair)) + 1];
-    for (std::size_t k = 1; k <= end; ++k) place_[k] += place_[k - 1];
-    for (const auto& pair : from) to[place_[static_cast<std::size_t>(key(pair))]++] = pair;
-  }
-
-  std::vector<BroadPhase::Pair> spare_;
-  std::vector<std::size_t> place_;
-};
-
 bool reaches(const AlignedBox3d& box, const Plane& plane) {
   const Vector3d lowest = (plane.normal.array() > 0).select(box.min(), box.max());
   return plane.normal.dot(lowest) <= plane.offset;
@@ -96,7 +68,8 @@ bool reaches(const AlignedBox3d& box, const Plane& plane) {
 
 class BroadPhase::Impl {
  public:
-  explicit Impl(int threads) : moving_(static_cast<std::size_t>(threads)), moved_(moving_.size()) {
+  explicit Impl(int threads)
+      : moving_(static_cast<std::size_t>(std::min(threads, most_trees))), moved_(moving_.size()) {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       for (std::size_t j = 0; j <= i; ++j) sweeps_.emplace_back(&moving_[i], &moving_[j]);
       sweeps_.emplace_back(&moving_[i], &fixed_);
@@ -220,7 +193,7 @@ class BroadPhase::Impl {
   }
 
   // FCL's trees do not change while they are asked.
-  int sweep_all(const Parallel& parallel) {
+  void sweep_all(const Parallel& parallel) {
     const std::size_t sweeps = sweeps_.size();
     collect_blocks(parallel, sweeps + plane_ids_.size(), 1, [&](std::size_t k, std::vector<Pair>& found) {
       if (k < sweeps)
@@ -228,7 +201,6 @@ class BroadPhase::Impl {
       else
         meet_all(plane_ids_[k - sweeps], found);
     });
-    return static_cast<int>(sweeps);
   }
 
   void sweep(Tree& first, Tree& second, std::vector<Pair>& found) const {
@@ -249,10 +221,9 @@ class BroadPhase::Impl {
     for (int plane : plane_ids_) meet_plane(plane, id, pairs);
   }
 
-  int look_up_changed(const Parallel& parallel) {
+  void look_up_changed(const Parallel& parallel) {
     collect_blocks(parallel, before_.size(), look_ups_a_block,
                    [&](std::size_t k, std::vector<Pair>& found) { look_up_one(before_[k], found); });
-    return static_cast<int>(before_.size());
   }
 
   // What `find(k, found)` adds for each k, block by block in their order.
@@ -260,23 +231,26 @@ class BroadPhase::Impl {
   void collect_blocks(const Parallel& parallel, std::size_t count, int block, const Find& find) {
     const std::size_t blocks = (count + block - 1) / block;
     if (found_.size() < blocks) found_.resize(blocks);
-    for (std::vector<Pair>& found : found_) found.clear();
+    for (std::size_t k = 0; k < blocks; ++k) found_[k].clear();
     const auto find_all = [&](int begin, int end) {
       for (int k = begin; k < end; ++k) find(static_cast<std::size_t>(k), found_[begin / block]);
     };
     parallel.blocks(static_cast<int>(count), block, std::ref(find_all));  // by reference: no memory
-    for (const std::vector<Pair>& found : found_) pairs_.insert(pairs_.end(), found.begin(), found.end());
+    for (std::size_t k = 0; k < blocks; ++k) pairs_.insert(pairs_.end(), found_[k].begin(), found_[k].end());
   }
 
   Changes look_up(const Parallel& parallel) {
     pairs_.clear();
-    if (before_.empty()) return {false, false, pairs_, 0};
+    if (before_.empty()) return {false, false, pairs_};
     std::size_t size = fixed_.size();
     for (const Tree& tree : moving_) size += tree.size();
     const bool everything = before_.size() * sweep_share > size;
-    const int look_ups = everything ? sweep_all(parallel) : look_up_changed(parallel);
+    if (everything)
+      sweep_all(parallel);
+    else
+      look_up_changed(parallel);
     sorter_.sort(pairs_, entries_.size());
-    return {true, everything, pairs_, look_ups};
+    return {true, everything, pairs_};
   }
 
   std::shared_ptr<fcl::CollisionGeometryd> geometry_ = std::make_shared<fcl::Sphered>(1.0);

@@ -22,6 +22,7 @@ class BroadPhase {
  public:
   using Pair = std::pair<int, int>;  ///< first < second
 
+  /// `threads`: how many trees, at most eight, are brought up to date side by side.
   explicit BroadPhase(int threads);
   ~BroadPhase();
   BroadPhase(BroadPhase&&) noexcept;
@@ -38,7 +39,6 @@ class BroadPhase {
     bool any = false;                ///< whether anything was added, changed or removed
     bool everything = false;         ///< `pairs` are all pairs; otherwise those of what changed
     const std::vector<Pair>& pairs;  ///< sorted, without repeats
-    int look_ups;
   };
   /// The pairs of all that was added or changed since the last call.
   /// `parallel` may have any number of threads.

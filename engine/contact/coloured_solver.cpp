@@ -70,7 +70,7 @@ void ColouredSolver::each_stage(bool forward, const Kernel& kernel) {
   }
 }
 
-// Of a stage: more threads than that would wait.
+// Of a stage: more threads than that would wait in the sweeps, which are most of the work.
 int ColouredSolver::most_parts() const {
   const std::vector<int>& stages = batches_.order().stages;
   int most = 1;

@@ -234,7 +234,6 @@ class ContactFinder::Impl {
     }
     restless_.clear();
     const auto changes = boxes_.update(parallel_);
-    times_.fcl_calls = changes.look_ups;
     if (changes.any)
       pairs_.update(
           boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); },

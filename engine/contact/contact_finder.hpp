@@ -61,7 +61,6 @@ struct FinderTimes {
   double broad = 0, narrow = 0;  ///< [s]
   int pairs = 0;                 ///< pairs with overlapping boxes
   int computed = 0;              ///< of these, not answered from the cache
-  int fcl_calls = 0;             ///< look-ups in the trees, or 2 for a sweep of both
 };
 
 class ContactFinder {

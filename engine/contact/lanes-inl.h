@@ -37,7 +37,7 @@ struct Mask {
   hn::Mask<D> m[parts];
 };
 
-// What `operation` makes of the parts of each argument.
+// operation(k) for each part k.
 template <class Operation>
 HWY_INLINE V each(const Operation& operation) {
   V result;

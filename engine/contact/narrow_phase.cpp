@@ -82,21 +82,22 @@ struct NarrowPhase::Worker {
   }
 
   // What the pairs after this one need: where they are and their contacts, then the hulls of those that have
-  // moved, each step from what the one before it has brought.
+  // moved. Each of the three reads what the one before it has brought.
   [[gnu::always_inline]] static void fetch_ahead(const Items& items, const PairCache& pairs, int k,
                                                  int last) {
     const std::vector<PairEntry>& entries = pairs.entries();
-    if (k + 6 < last) {
-      const PairEntry& soon = entries[k + 6];
+    constexpr int first = 6, second = 3, third = 1;  // pairs ahead
+    if (k + first < last) {
+      const PairEntry& soon = entries[k + first];
       fetch(&items.placed[soon.b], sizeof(Placement));
       if (soon.count > 0) fetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
     }
-    if (k + 3 < last && moved(items, entries[k + 3])) {
-      fetch(items.placed[entries[k + 3].b].hull, sizeof(CollisionHull));
-      fetch(&pairs.state(entries[k + 3]), sizeof(PairState));
+    if (k + second < last && moved(items, entries[k + second])) {
+      fetch(items.placed[entries[k + second].b].hull, sizeof(CollisionHull));
+      fetch(&pairs.state(entries[k + second]), sizeof(PairState));
     }
-    if (k + 1 < last && moved(items, entries[k + 1])) {
-      const CollisionHull& hull = *items.placed[entries[k + 1].b].hull;
+    if (k + third < last && moved(items, entries[k + third])) {
+      const CollisionHull& hull = *items.placed[entries[k + third].b].hull;
       for (const auto* numbers : {&hull.x, &hull.y, &hull.z, &hull.nx, &hull.ny, &hull.nz, &hull.no})
         fetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
     }
@@ -104,7 +105,8 @@ struct NarrowPhase::Worker {
 
   // Whether a pair of two hulls has to be looked at again.
   static bool moved(const Items& items, const PairEntry& entry) {
-    return items.placed[entry.b].hull && items.travelled[entry.a] + items.travelled[entry.b] > entry.limit;
+    return items.placed[entry.a].hull && items.placed[entry.b].hull &&
+           items.travelled[entry.a] + items.travelled[entry.b] > entry.limit;
   }
 
   // Brings a pair up to date and appends its manifold, if there is one.

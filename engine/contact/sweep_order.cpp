@@ -33,7 +33,7 @@ auto below(std::size_t count) { return std::views::iota(0, static_cast<int>(coun
 // What the order needs to know of a pair, close together: it is gone through several times.
 struct Ends {
   int a, b, points;
-  bool in_order() const { return a >= 0 && b >= 0 && points > 0; }  // not the machine's
+  bool in_order() const { return a >= 0 && b >= 0 && points > 0; }  // has points, and none of the machine's
 };
 
 std::vector<Ends> ends_of(const ContactProblem& problem) {
@@ -132,8 +132,8 @@ class Parts {
   int zones_;
 };
 
-// Deals pairs to batches: each to the first open batch that none of its moving bodies is in. Full batches are
-// closed and make room for others.
+// Deals pairs to batches: each to the first open batch that none of its moving bodies is in, or to a new one.
+// Full batches are closed.
 class Dealer {
  public:
   Dealer(const std::vector<Ends>& ends, const std::vector<Place>& places, int most)
@@ -144,9 +144,10 @@ class Dealer {
 
   void deal(int index) {
     const Ends& pair = ends_[index];
-    const int slot = std::countr_one(batches_of(pair.a) | batches_of(pair.b));
-    if (slot == slots) return put(index, open_batch());  // alone
-    if (members_[slot].empty()) batch_in_[slot] = open_batch();
+    const std::uint64_t room = open_ & ~(batches_of(pair.a) | batches_of(pair.b));
+    if (room == 0 && ~open_ == 0) return put(index, open_batch());  // alone
+    const int slot = room != 0 ? std::countr_zero(room) : std::countr_one(open_);
+    if (room == 0) batch_in_[slot] = open_batch(), open_ |= bit(slot);
     put(index, batch_in_[slot]);
     members_[slot].push_back(index);
     open_in_[pair.a] |= bit(slot);
@@ -179,17 +180,19 @@ class Dealer {
       open_in_[ends_[index].b] &= ~bit(slot);
     }
     members_[slot].clear();
+    open_ &= ~bit(slot);
   }
 
   const std::vector<Ends>& ends_;
   const std::vector<Place>& places_;
   int most_;
   std::vector<std::uint64_t> open_in_;  // of each body: the slots whose batches it is in
+  std::uint64_t open_ = 0;              // the slots that hold a batch
   std::vector<int> members_[slots];
   int batch_in_[slots] = {};
 };
 
-// Twice the part of each pair, and one for pairs with the world; -1 for the machine's.
+// Twice the part of each pair, and one for pairs with the world; -1 for those that are not in the order.
 std::vector<int> groups_of(const std::vector<Ends>& ends, const std::vector<Place>& places,
                            const Zones& zones, const Parts& parts) {
   std::vector<int> result(ends.size(), -1);

@@ -7,16 +7,19 @@
 
 /// The order in which a sweep visits the pairs: what is solved side by side, and what on several threads.
 ///
-/// Lanes: the pairs of a batch share no moving body. Greedy, as a colouring whose colours hold a batch each:
-/// pairs with the most points first, each goes to the first batch that has room and neither body yet; one
-/// that finds none among 64 gets a batch of its own. Pairs with the fixed world come after all others, so
-/// that the ground has the last word. Fixed bodies (zero inverse mass and inertia) never conflict. Threads:
-/// the scene is cut across its longest side into 1, 2, 4, ... zones, 900 pairs or more for each. A part holds
-/// the pairs within a zone, or those across the border of two neighbours, in batches of its own; these are
-/// solved one after another by one thread. The parts of a stage share no moving body: first the pairs that
-/// reach beyond a neighbour (none unless zones are as thin as rocks), then every other border, then the other
-/// borders, then the zones. A sweep thus waits for all threads at most four times. Linear in the pairs; a
-/// function of the problem alone. Pairs that touch the machine are left out.
+/// Lanes: the pairs of a batch share no moving body. Greedy: each pair goes to the first of up to 64 open
+/// batches that has neither body yet, or to a new one. In each part, below, pairs with the fixed world come
+/// after all others, so that the ground has the last word; before that, those with more points come first.
+/// Fixed bodies (zero inverse mass and inertia) never conflict.
+///
+/// Threads: the scene is cut across its longest side into 1, 2, 4, ... zones, 900 pairs or more for each. A
+/// part holds the pairs within a zone, or those across the border of two neighbours, in batches of its own;
+/// these are solved one after another by one thread. The parts of a stage share no moving body: first the
+/// pairs that reach beyond a neighbour (none unless zones are as thin as rocks), then every other border,
+/// then the other borders, then the zones. A sweep thus waits for all threads at most four times.
+///
+/// Linear in the pairs; a function of the problem alone. Pairs that touch the machine, or without points, are
+/// left out.
 namespace drawpoint::engine::contact::detail {
 
 struct SweepOrder {

@@ -33,7 +33,9 @@ double checked_depth(const FclFailure& pair) {
   const support::Placed first{support::share(a), X_WA}, second{support::share(b), X_WB};
   for (const auto& found : {support::contact_of(first, second), support::contact_of(second, first)}) {
     EXPECT_EQ(found.size(), 1u);
-    if (!found.empty()) EXPECT_NEAR(support::least_gap(found[0]), -depth, 1e-6);
+    if (!found.empty()) {
+      EXPECT_NEAR(support::least_gap(found[0]), -depth, 1e-6);
+    }
   }
   return depth;
 }

@@ -126,7 +126,7 @@ TEST(SweepOrder, PartsAndBatchesShareNoMovingBody) {
   const int ordinary = static_cast<int>(beam.problem.pairs.size());
   beam.add_pair(machine_part(0), body_at(5, 5, 9), Vector3d(5, 5, 10), Vector3d(5, 5, 9));
   const ContactProblem& problem = beam.problem;
-  for (const int least : {100, 1800, 100000}) {  // zones thinner than a body, eight, one
+  for (const int least : {100, 900, 1800, 100000}) {  // zones thinner than a body, sixteen, eight, one
     const SweepOrder order = detail::sweep_order(problem, batch, least);
     check(problem, order);
     EXPECT_TRUE(is_permutation(order.pairs, ordinary));
@@ -142,7 +142,7 @@ TEST(SweepOrder, NumbersThatAreNoneStayInBounds) {
   check(beam.problem, detail::sweep_order(beam.problem, batch));
 }
 
-// Eight zones on 1, 2, 3 and 8 threads, without and with sweeps added while the beam is not solved.
+// Sixteen zones on 1, 2, 3 and 8 threads, without and with sweeps added while the beam is not solved.
 TEST(SweepOrder, ThreadsChangeNoBit) {
   for (const int spare_work : {0, 100000}) {
     ContactProblem alone = Beam().problem;
