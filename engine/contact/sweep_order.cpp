@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <drawpoint/engine/contact/sweep_order.hpp>
-#include <ranges>
+#include <functional>
+#include <numeric>
 
 namespace drawpoint::engine::contact::detail {
 
@@ -16,8 +17,8 @@ namespace {
 constexpr int slabs = 256;  // among whose borders those of the zones are chosen
 
 // Sorts by a key of 0 .. keys-1, stably, in linear time; numbers whose key is negative are left out.
-template <class Numbers, class Key>
-std::vector<int> sorted(const Numbers& numbers, int keys, const Key& key) {
+template <class Key>
+std::vector<int> sorted(const std::vector<int>& numbers, int keys, const Key& key) {
   std::vector<int> starts(keys + 1, 0);
   for (const int k : numbers)
     if (key(k) >= 0) ++starts[key(k) + 1];
@@ -28,7 +29,11 @@ std::vector<int> sorted(const Numbers& numbers, int keys, const Key& key) {
   return result;
 }
 
-auto below(std::size_t count) { return std::views::iota(0, static_cast<int>(count)); }
+std::vector<int> below(std::size_t count) {
+  std::vector<int> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
 
 // What the order needs to know of a pair, close together: it is gone through several times.
 struct Ends {
@@ -234,7 +239,8 @@ SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone
   const std::vector<Ends> ends = ends_of(problem);
   const std::vector<Place> places = places_of(problem, ends);
   const std::vector<int> slab_of = slabs_of(places);
-  const Zones zones(std::ranges::count_if(ends, &Ends::in_order), places, slab_of, least_a_zone);
+  const Zones zones(std::count_if(ends.begin(), ends.end(), std::mem_fn(&Ends::in_order)), places, slab_of,
+                    least_a_zone);
   const Parts parts(zones.count());
   const std::vector<int> group_of = groups_of(ends, places, zones, parts);
   const std::vector<int> queue = queue_of(ends, group_of, 2 * parts.count());
