@@ -29,8 +29,14 @@ double time_of(const ContactProblem& problem, const ContactMethod& method, const
   return now(options.threads) - start;
 }
 
-// Short solves are repeated until this has passed [s]: a shared machine changes its speed meanwhile.
-constexpr double least_time = 0.4;
+// Calls run(), which returns the time it took, so often or more: short solves go on for a while, since a
+// shared machine changes its speed meanwhile.
+template <class Run>
+void repeat(int least, const Run& run) {
+  constexpr double least_time = 0.4;  // [s]
+  double spent = 0;
+  for (int k = 0; k < least || spent < least_time; ++k) spent += run();
+}
 
 void check(const ContactMethod& method, const SolverOptions& options, int repeats) {
   if (options.sweeps < 1 || options.substeps < 1 || options.threads < 1 || repeats < 1)
@@ -59,12 +65,11 @@ Judgement judge(const ContactProblem& problem, const ContactMethod& method, cons
   Solved solved;
   Judgement j;
   j.milliseconds = std::numeric_limits<double>::infinity();
-  double spent = 0;
-  for (int k = 0; k < repeats || spent < least_time; ++k) {
+  repeat(repeats, [&] {
     const double time = time_of(problem, method, options, solved);
     j.milliseconds = std::min(j.milliseconds, 1e3 * time);
-    spent += time;
-  }
+    return time;
+  });
   j.residual = residual(solved.problem, solved.report.machine, options.substeps);
   j.distance = distance(solved.problem, solved.report.machine, converged.problem, converged.report.machine);
   j.momentum_defect = momentum_defect(problem, solved.problem, solved.report.machine);
@@ -80,13 +85,12 @@ double nanoseconds_a_point_a_sweep(const ContactProblem& problem, const ContactM
   Solved solved;
   // Of a long solve and a short one just before, at about the same speed of the machine.
   std::vector<double> differences;
-  double spent = 0;
-  for (int k = 0; k < repeats || spent < least_time; ++k) {
+  repeat(repeats, [&] {
     const double brief = time_of(problem, method, options, solved),
                  longer = time_of(problem, method, more, solved);
     differences.push_back(longer - brief);
-    spent += brief + longer;
-  }
+    return brief + longer;
+  });
   const auto median = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), median, differences.end());
   const double work =
