@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <drawpoint/engine/contact/fat_boxes.hpp>
 #include <drawpoint/engine/contact/finder_state.hpp>
 #include <drawpoint/engine/contact/narrow_phase.hpp>
 #include <limits>
@@ -67,7 +68,7 @@ class ContactFinder::Impl {
  public:
   explicit Impl(const ContactFinderOptions& options)
       : options_(options),
-        growth_(0.5 * (options.margin + options.reuse_distance)),
+        fat_(0.5 * (options.margin + options.reuse_distance), options.slack),
         boxes_((check(options), options.threads)),
         parallel_(options.threads),
         narrow_(options) {}
@@ -76,9 +77,9 @@ class ContactFinder::Impl {
     const int id = items_.size();
     items_.add(hulls_.make_item(collider));
     if (items_.item[id].hull)
-      boxes_.add(id, fat_box(id), collider.moves);
+      boxes_.add(id, fat_.first(items_, id), collider.moves);
     else
-      boxes_.add(id, fat_plane(id), collider.moves);
+      boxes_.add(id, fat_.plane(items_, id), collider.moves);
     return id;
   }
 
@@ -151,7 +152,7 @@ class ContactFinder::Impl {
     pairs_.forget();
     for (int id = 0; id < items_.size(); ++id) {
       items_.travelled[id] = 0;
-      if (items_.item[id].hull) boxes_.set_box(id, fat_box(id));
+      if (items_.item[id].hull) boxes_.set_box(id, fat_.first(items_, id));
     }
   }
 
@@ -175,7 +176,7 @@ class ContactFinder::Impl {
       if (items_.item[id].hull)
         boxes_.set_box(id, saved.box);
       else
-        boxes_.set_plane(id, fat_plane(id));
+        boxes_.set_plane(id, fat_.plane(items_, id));
     }
     boxes_.set_pending(state.pending);
     pairs_.assign(state.entries, state.parked, state.pairs);
@@ -190,10 +191,7 @@ class ContactFinder::Impl {
              "; use a number that add() gave and remove() has not taken");
   }
 
-  bool leaves_box(int id) const {
-    const auto& item = items_.item[id];
-    return !item.restless && !(item.hull && items_.travelled[id] - item.boxed_at <= options_.slack);
-  }
+  bool leaves_box(int id) { return !items_.item[id].restless && fat_.left(items_, id, boxes_.box(id)); }
 
   void check_box(int id) {
     if (!leaves_box(id)) return;
@@ -201,25 +199,12 @@ class ContactFinder::Impl {
     restless_.push_back(id);
   }
 
-  Eigen::AlignedBox3d fat_box(int id) {
-    Eigen::AlignedBox3d box = items_.box(id);
-    const Vector3d growth = Vector3d::Constant(growth_ + options_.slack + items_.reach[id]);
-    box.min() -= growth, box.max() += growth;
-    items_.item[id].boxed_at = items_.travelled[id];
-    return box;
-  }
-
-  detail::Plane fat_plane(int id) const {
-    detail::Plane plane = items_.plane(id);
-    plane.offset += growth_;
-    return plane;
-  }
-
   void broad_phase() {
     new_boxes_.resize(restless_.size());
     parallel_.blocks(static_cast<int>(restless_.size()), boxes_a_block, [&](int begin, int end) {
       for (int k = begin; k < end; ++k)
-        if (items_.item[restless_[k]].hull) new_boxes_[k] = fat_box(restless_[k]);
+        if (items_.item[restless_[k]].hull)
+          new_boxes_[k] = fat_.next(items_, restless_[k], boxes_.box(restless_[k]));
     });
     for (std::size_t k = 0; k < restless_.size(); ++k) {
       const int id = restless_[k];
@@ -228,7 +213,7 @@ class ContactFinder::Impl {
       if (items_.item[id].hull) {
         boxes_.set_box(id, new_boxes_[k]);
       } else {
-        boxes_.set_plane(id, fat_plane(id));
+        boxes_.set_plane(id, fat_.plane(items_, id));
         pairs_.forget(id);
       }
     }
@@ -242,7 +227,7 @@ class ContactFinder::Impl {
   }
 
   ContactFinderOptions options_;
-  double growth_;  // half of how near shapes must come to be searched
+  detail::FatBoxes fat_;
   detail::Items items_;
   detail::HullLibrary hulls_;
   detail::BroadPhase boxes_;
