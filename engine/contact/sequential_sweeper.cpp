@@ -80,23 +80,21 @@ Vector3d SequentialSweeper::velocity(const PointBlock& p) const {
     const SolverBody& body = problem_.bodies[p.a];
     u -= p.frame * (body.velocity + body.angular_velocity.cross(p.arm_a));
   } else {
-    u.noalias() -= machine_.rows(p.rows_a) * machine_.w();
+    u -= machine_.velocity(p.rows_a);
   }
   if (p.b >= 0) {
     const SolverBody& body = problem_.bodies[p.b];
     u += p.frame * (body.velocity + body.angular_velocity.cross(p.arm_b));
   } else {
-    u.noalias() += machine_.rows(p.rows_b) * machine_.w();
+    u += machine_.velocity(p.rows_b);
   }
   return u;
 }
 
 Vector3d SequentialSweeper::spin(const PairBlock& r) const {
   Vector3d u = Vector3d::Zero();
-  u -= r.a >= 0 ? Vector3d(r.frame * problem_.bodies[r.a].angular_velocity)
-                : Vector3d(machine_.rows(r.rows_a) * machine_.w());
-  u += r.b >= 0 ? Vector3d(r.frame * problem_.bodies[r.b].angular_velocity)
-                : Vector3d(machine_.rows(r.rows_b) * machine_.w());
+  u -= r.a >= 0 ? Vector3d(r.frame * problem_.bodies[r.a].angular_velocity) : machine_.velocity(r.rows_a);
+  u += r.b >= 0 ? Vector3d(r.frame * problem_.bodies[r.b].angular_velocity) : machine_.velocity(r.rows_b);
   return u;
 }
 
@@ -107,14 +105,14 @@ void SequentialSweeper::apply(const PointBlock& p, const Vector3d& delta) {
     body.velocity -= body.inverse_mass * impulse;
     body.angular_velocity -= body.inverse_inertia * p.arm_a.cross(impulse);
   } else {
-    machine_.w().noalias() -= machine_.rows(p.rows_a).transpose() * delta;
+    machine_.push(p.rows_a, -delta);
   }
   if (p.b >= 0) {
     SolverBody& body = problem_.bodies[p.b];
     body.velocity += body.inverse_mass * impulse;
     body.angular_velocity += body.inverse_inertia * p.arm_b.cross(impulse);
   } else {
-    machine_.w().noalias() += machine_.rows(p.rows_b).transpose() * delta;
+    machine_.push(p.rows_b, delta);
   }
 }
 
@@ -123,12 +121,12 @@ void SequentialSweeper::apply(const PairBlock& r, const Vector3d& delta) {
     problem_.bodies[r.a].angular_velocity -=
         problem_.bodies[r.a].inverse_inertia * (r.frame.transpose() * delta);
   else
-    machine_.w().noalias() -= machine_.rows(r.rows_a).transpose() * delta;
+    machine_.push(r.rows_a, -delta);
   if (r.b >= 0)
     problem_.bodies[r.b].angular_velocity +=
         problem_.bodies[r.b].inverse_inertia * (r.frame.transpose() * delta);
   else
-    machine_.w().noalias() += machine_.rows(r.rows_b).transpose() * delta;
+    machine_.push(r.rows_b, delta);
 }
 
 // Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).

@@ -21,13 +21,17 @@ SuperBodyMotion::SuperBodyMotion(const SuperBody* machine, double step, int subs
 
 int SuperBodyMotion::add_rows(int part, const Eigen::Vector3d& arm, const Eigen::Matrix3d& axes) {
   const SpatialMap& map = machine_->part_maps[part];
-  part_rows_.push_back(axes * (map.bottomRows<3>() - cross_matrix(arm) * map.topRows<3>()));
-  return static_cast<int>(part_rows_.size()) - 1;
+  return add(axes * (map.bottomRows<3>() - cross_matrix(arm) * map.topRows<3>()));
 }
 
 int SuperBodyMotion::add_angular_rows(int part, const Eigen::Matrix3d& axes) {
-  part_rows_.push_back(axes * machine_->part_maps[part].topRows<3>());
-  return static_cast<int>(part_rows_.size()) - 1;
+  return add(axes * machine_->part_maps[part].topRows<3>());
+}
+
+int SuperBodyMotion::add(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& rows) {
+  const auto index = part_rows_.size() / static_cast<std::size_t>(std::max<Eigen::Index>(1, rows.size()));
+  part_rows_.insert(part_rows_.end(), rows.data(), rows.data() + rows.size());
+  return static_cast<int>(index);
 }
 
 double SuperBodyMotion::target(const SuperBodyRow& row) const {

@@ -14,7 +14,7 @@
 /// of the rows' lengths.
 namespace drawpoint::engine::contact::detail {
 
-using PartRows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+using PartRows = Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>>;
 
 class SuperBodyMotion {
  public:
@@ -26,10 +26,11 @@ class SuperBodyMotion {
   int add_rows(int part, const Eigen::Vector3d& arm, const Eigen::Matrix3d& axes);
   /// The same for a part's angular velocity.
   int add_angular_rows(int part, const Eigen::Matrix3d& axes);
-  const PartRows& rows(int index) const { return part_rows_[index]; }
+  PartRows rows(int index) const { return {part_rows_.data() + 3 * w_.size() * index, 3, w_.size()}; }
 
-  const Eigen::VectorXd& w() const { return w_; }
-  Eigen::VectorXd& w() { return w_; }
+  /// R w, and w ← w + Rᵀ λ. Coefficient by coefficient: there are some ten coordinates at most.
+  Eigen::Vector3d velocity(int index) const { return rows(index).lazyProduct(w_); }
+  void push(int index, const Eigen::Vector3d& impulse) { w_ += rows(index).transpose().lazyProduct(impulse); }
 
   /// Velocities that motors and stops must reach in this substep.
   void aim();
@@ -57,7 +58,9 @@ class SuperBodyMotion {
   int substeps_;
   Eigen::VectorXd w_, begin_, push_, travel_;
   std::vector<Row> rows_;  // in the order of SuperBody::rows
-  std::vector<PartRows> part_rows_;
+  int add(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& rows);
+
+  std::vector<double> part_rows_;  // 3 x r each, column by column
 };
 
 }  // namespace drawpoint::engine::contact::detail
