@@ -20,18 +20,18 @@ void fly(SolverBody& body, double h, int substeps) {
 }  // namespace
 
 SolverReport ColouredSolver::solve(ContactProblem& problem) {
+  const Parallel::Shift shift(*parallel_);
   problem_ = &problem;
-  batches_.fill(problem, sweep_order(problem, batch_lanes), options_.substeps, parallel_);
+  batches_.fill(problem, sweep_order(problem, batch_lanes), options_.substeps, *parallel_);
   machine_.emplace(problem, batches_.row_of, options_.substeps);
-  team_.emplace(std::min(options_.threads, most_parts()));
+  threads_ = std::min(parallel_->threads(), most_parts());
   travel_.assign(problem.bodies.size(), BodyRow());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   for (int s = 0; s < options_.substeps; ++s) run_substep(s);
   each_row([this](int row) { travel(row); });
   SolverReport solved = report();
-  team_.reset();
   store_bodies();
-  batches_.store(problem, options_.substeps, parallel_);
+  batches_.store(problem, options_.substeps, *parallel_);
   solved.machine = machine_->store(problem);
   return solved;
 }
@@ -53,7 +53,7 @@ SolverReport ColouredSolver::report() {
 template <class Kernel>
 void ColouredSolver::everywhere(const Kernel& kernel) {
   const int batches = batches_.count();
-  team_->run((batches + batches_a_block - 1) / batches_a_block, [&](int block) {
+  parallel_->run((batches + batches_a_block - 1) / batches_a_block, threads_, [&](int block) {
     kernel(BatchRange{block * batches_a_block, std::min((block + 1) * batches_a_block, batches)});
   });
 }
@@ -64,7 +64,7 @@ void ColouredSolver::each_stage(bool forward, const Kernel& kernel) {
   const int stages = static_cast<int>(order.stages.size()) - 1;
   for (int k = 0; k < stages; ++k) {
     const int stage = forward ? k : stages - 1 - k, first = order.stages[stage];
-    team_->run(order.stages[stage + 1] - first, [&](int part) {
+    parallel_->run(order.stages[stage + 1] - first, threads_, [&](int part) {
       kernel(BatchRange{order.parts[first + part], order.parts[first + part + 1], forward});
     });
   }
@@ -81,7 +81,7 @@ int ColouredSolver::most_parts() const {
 template <class Work>
 void ColouredSolver::each_row(const Work& work) {
   const int bodies = static_cast<int>(problem_->bodies.size());
-  team_->run((bodies + bodies_a_block - 1) / bodies_a_block, [&](int block) {
+  parallel_->run((bodies + bodies_a_block - 1) / bodies_a_block, threads_, [&](int block) {
     const int last = std::min(bodies, (block + 1) * bodies_a_block);
     for (int k = block * bodies_a_block; k < last; ++k) work(k);
   });
@@ -155,7 +155,7 @@ void ColouredSolver::store_bodies() {
   for (const ContactPair& pair : problem_->pairs)
     for (const int body : {pair.a, pair.b})
       if (body >= 0) touched_[body] = 1;
-  parallel_.blocks(static_cast<int>(problem_->bodies.size()), bodies_a_block, [this](int first, int last) {
+  parallel_->blocks(static_cast<int>(problem_->bodies.size()), bodies_a_block, [this](int first, int last) {
     for (int body = first; body < last; ++body) store_body(body);
   });
 }

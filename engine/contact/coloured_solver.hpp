@@ -4,8 +4,9 @@
 
 #include <drawpoint/engine/contact/machine_pairs.hpp>
 #include <drawpoint/engine/contact/pair_batches.hpp>
+#include <drawpoint/engine/contact/parallel.hpp>
 #include <drawpoint/engine/contact/solver.hpp>
-#include <drawpoint/engine/contact/stage_team.hpp>
+#include <memory>
 #include <optional>
 
 /// The fast method: sixteen pairs at a time that share no body, zones of the scene on threads, single
@@ -20,7 +21,8 @@ namespace drawpoint::engine::contact::detail {
 
 class ColouredSolver {
  public:
-  explicit ColouredSolver(const SolverOptions& options) : options_(options), parallel_(options.threads) {}
+  ColouredSolver(const SolverOptions& options, std::shared_ptr<const Parallel> parallel)
+      : options_(options), parallel_(std::move(parallel)) {}
 
   SolverReport solve(ContactProblem& problem);
 
@@ -45,7 +47,7 @@ class ColouredSolver {
   double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
 
   SolverOptions options_;
-  Parallel parallel_;
+  std::shared_ptr<const Parallel> parallel_;
   PairBatches batches_;
   std::vector<BodyRow> travel_;  // by row: ∫ v dt, ∫ ω dt
   std::vector<char> touched_;    // by body: in a pair
@@ -53,7 +55,7 @@ class ColouredSolver {
   // During a solve.
   ContactProblem* problem_ = nullptr;
   std::optional<MachinePairs> machine_;
-  std::optional<StageTeam> team_;
+  int threads_ = 1;
   double machine_change_ = 0;  // of the machine's pairs in the last sweep
 };
 

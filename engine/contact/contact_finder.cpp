@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace drawpoint::engine::contact {
 namespace {
@@ -66,12 +67,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 class ContactFinder::Impl {
  public:
-  explicit Impl(const ContactFinderOptions& options)
-      : options_(options),
+  Impl(const ContactFinderOptions& options, std::shared_ptr<const detail::Parallel> parallel)
+      : options_((check(options), options)),
         fat_(0.5 * (options.margin + options.reuse_distance), options.slack),
-        boxes_((check(options), options.threads)),
-        parallel_(options.threads),
-        narrow_(options) {}
+        parallel_(parallel ? std::move(parallel) : std::make_shared<const detail::Parallel>(options.threads)),
+        boxes_(parallel_->threads()),
+        narrow_(options, parallel_->threads()) {}
 
   int add(const Collider& collider) {
     const int id = items_.size();
@@ -110,16 +111,17 @@ class ContactFinder::Impl {
   }
 
   void move(std::span<const ColliderMove> moves) {
+    const detail::Parallel::Shift shift(*parallel_);
     const int count = static_cast<int>(moves.size());
     leaves_.resize(moves.size());
-    parallel_.blocks(count, moves_a_block, [&](int begin, int end) {
+    parallel_->blocks(count, moves_a_block, [&](int begin, int end) {
       for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
         require(move.collider);
         check(move.collider, move.X_WB);
         check_reach(move.collider, move.reach);
       }
     });
-    parallel_.blocks(count, moves_a_block, [&](int begin, int end) {
+    parallel_->blocks(count, moves_a_block, [&](int begin, int end) {
       for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
         items_.place(move.collider, move.X_WB);
         items_.extend(move.collider, move.reach);
@@ -138,12 +140,13 @@ class ContactFinder::Impl {
   }
 
   const std::vector<Manifold>& find() {
+    const detail::Parallel::Shift shift(*parallel_);
     times_ = {};
     const auto start = std::chrono::steady_clock::now();
     broad_phase();
     times_.broad = seconds_since(start);
     const auto middle = std::chrono::steady_clock::now();
-    times_.computed = narrow_.run(items_, pairs_, manifolds_, parallel_);
+    times_.computed = narrow_.run(items_, pairs_, manifolds_, *parallel_);
     times_.narrow = seconds_since(middle);
     return manifolds_;
   }
@@ -201,7 +204,7 @@ class ContactFinder::Impl {
 
   void broad_phase() {
     new_boxes_.resize(restless_.size());
-    parallel_.blocks(static_cast<int>(restless_.size()), boxes_a_block, [&](int begin, int end) {
+    parallel_->blocks(static_cast<int>(restless_.size()), boxes_a_block, [&](int begin, int end) {
       for (int k = begin; k < end; ++k)
         if (items_.item[restless_[k]].hull)
           new_boxes_[k] = fat_.next(items_, restless_[k], boxes_.box(restless_[k]));
@@ -218,7 +221,7 @@ class ContactFinder::Impl {
       }
     }
     restless_.clear();
-    const auto changes = boxes_.update(parallel_);
+    const auto changes = boxes_.update(*parallel_);
     if (changes.any)
       pairs_.update(
           boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); },
@@ -230,9 +233,9 @@ class ContactFinder::Impl {
   detail::FatBoxes fat_;
   detail::Items items_;
   detail::HullLibrary hulls_;
+  std::shared_ptr<const detail::Parallel> parallel_;
   detail::BroadPhase boxes_;
   detail::PairCache pairs_;
-  detail::Parallel parallel_;
   detail::NarrowPhase narrow_;
   std::vector<char> leaves_;                    // by move: leaves its box
   std::vector<int> restless_;                   // have left their boxes, or are half-spaces that were moved
@@ -241,7 +244,10 @@ class ContactFinder::Impl {
   FinderTimes times_;
 };
 
-ContactFinder::ContactFinder(const ContactFinderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+ContactFinder::ContactFinder(const ContactFinderOptions& options) : ContactFinder(options, nullptr) {}
+ContactFinder::ContactFinder(const ContactFinderOptions& options,
+                             std::shared_ptr<const detail::Parallel> parallel)
+    : impl_(std::make_unique<Impl>(options, std::move(parallel))) {}
 ContactFinder::~ContactFinder() = default;
 ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
 ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;

@@ -31,6 +31,10 @@
 /// about 0.07 µs a pair at rest and 0.9 µs a pair computed (benchmarks/micro/collision, find_in_pile).
 namespace drawpoint::engine::contact {
 
+namespace detail {
+class Parallel;
+}
+
 struct Collider {
   std::shared_ptr<const Shape> shape;
   int body = 0;                                            ///< colliders of one body never touch
@@ -66,6 +70,8 @@ struct FinderTimes {
 class ContactFinder {
  public:
   explicit ContactFinder(const ContactFinderOptions& options = {});
+  /// On threads that it shares with others, in place of the options' own.
+  ContactFinder(const ContactFinderOptions& options, std::shared_ptr<const detail::Parallel> parallel);
   ~ContactFinder();
   ContactFinder(ContactFinder&&) noexcept;
   ContactFinder& operator=(ContactFinder&&) noexcept;

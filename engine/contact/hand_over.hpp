@@ -29,13 +29,6 @@ class HandOver {
     release(end_);
   }
 
-  template <class Work>
-  void in_turn(const Work& work) {
-    acquire(end_);
-    work();
-    release(end_);
-  }
-
  private:
   static void acquire(char& place) {
     if (__tsan_acquire) __tsan_acquire(&place);

@@ -227,8 +227,8 @@ struct NarrowPhase::Worker {
   int computed = 0;
 };
 
-NarrowPhase::NarrowPhase(const ContactFinderOptions& options) {
-  for (int k = 0; k < options.threads; ++k) workers_.push_back(std::make_unique<Worker>(options));
+NarrowPhase::NarrowPhase(const ContactFinderOptions& options, int threads) {
+  for (int k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>(options));
 }
 
 NarrowPhase::~NarrowPhase() = default;

@@ -22,7 +22,7 @@ namespace drawpoint::engine::contact::detail {
 
 class NarrowPhase {
  public:
-  explicit NarrowPhase(const ContactFinderOptions& options);
+  NarrowPhase(const ContactFinderOptions& options, int threads);
   ~NarrowPhase();
 
   /// Updates the pairs and replaces `manifolds` by their contacts, in the order of the pairs. Returns how

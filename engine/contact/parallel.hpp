@@ -5,32 +5,54 @@
 #include <functional>
 #include <memory>
 
-/// Independent blocks of work on a fixed number of threads.
+/// Loops over independent blocks on a fixed number of threads, one loop after another.
 ///
-/// Which thread does a block is left to chance, so blocks must not depend on each other; then the result does
-/// not depend on the number of threads. With one thread, or one block, the caller does all of them in order.
-/// There are as many threads as asked for, on machines with fewer cores as well.
+/// A step has hundreds of short loops: the zones of a sweep take some hundred microseconds, the bodies of a
+/// substep ten. To wake a thread for each takes as long. During a Shift the helpers stay awake and wait at
+/// the end of a loop for the next one; a loop outside a shift is a shift of its own. Of T threads the k-th
+/// begins with the blocks from k/T to (k+1)/T of a loop, so that in loop after loop it works on the same part
+/// of the data, which stays in its core's cache; then it does what others have not begun. The calling thread
+/// can do all the work alone, so a helper that the system does not run delays nothing but its own share. Who
+/// does a block is thus left to chance, which is why the blocks of a loop must be independent: then the
+/// result does not depend on it.
+///
+/// With one thread, or one block, the caller does all of them in order. There are as many threads as asked
+/// for, on machines with fewer cores as well. Not for concurrent use.
 namespace drawpoint::engine::contact::detail {
 
 class Parallel {
  public:
-  explicit Parallel(int threads);
+  explicit Parallel(int threads);  ///< ≥ 1, the caller among them
   ~Parallel();
-  Parallel(Parallel&&) noexcept;
-  Parallel& operator=(Parallel&&) noexcept;
+  Parallel(const Parallel&) = delete;
+  Parallel& operator=(const Parallel&) = delete;
 
   int threads() const { return threads_; }
 
-  /// Calls work(begin, end) for blocks of at most `block` numbers out of 0 .. count-1. What a block throws
-  /// comes out here.
+  /// Keeps the helpers awake while it lives; one within another does nothing.
+  class Shift {
+   public:
+    explicit Shift(const Parallel& parallel);
+    ~Shift();
+    Shift(const Shift&) = delete;
+    Shift& operator=(const Shift&) = delete;
+
+   private:
+    const Parallel& parallel_;
+  };
+
+  /// Calls work(block) for every block in 0 .. blocks-1 on at most so many threads, and returns when all are
+  /// done. What a block throws comes out here, once the others are done.
+  void run(int blocks, int threads, const std::function<void(int)>& work) const;
+  /// Calls work(begin, end) for blocks of at most `block` numbers out of 0 .. count-1.
   void blocks(int count, int block, const std::function<void(int, int)>& work) const;
   /// The same with the number of the thread, 0 .. threads()-1, for buffers that a thread keeps to itself.
   void blocks_by_thread(int count, int block, const std::function<void(int, int, int)>& work) const;
 
  private:
-  struct Arena;
+  struct Team;
   int threads_;
-  std::unique_ptr<Arena> arena_;  // none with one thread
+  std::unique_ptr<Team> team_;  // none with one thread
 };
 
 }  // namespace drawpoint::engine::contact::detail

@@ -19,8 +19,11 @@ Method method_named(std::string_view name) {
 }
 
 ContactSolver::ContactSolver(const SolverOptions& options)
+    : ContactSolver(options, std::make_shared<const detail::Parallel>(options.threads)) {}
+
+ContactSolver::ContactSolver(const SolverOptions& options, std::shared_ptr<const detail::Parallel> parallel)
     : options_(options),
-      coloured_(std::make_unique<detail::ColouredSolver>(options)),
+      coloured_(std::make_unique<detail::ColouredSolver>(options, std::move(parallel))),
       impacts_(std::make_unique<detail::ImpactStage>()) {}
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;

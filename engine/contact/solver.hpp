@@ -27,6 +27,7 @@ namespace drawpoint::engine::contact {
 namespace detail {
 class ColouredSolver;
 class ImpactStage;
+class Parallel;
 }  // namespace detail
 
 enum class Method { sequential, coloured };
@@ -65,6 +66,8 @@ struct SolverReport {
 class ContactSolver {
  public:
   explicit ContactSolver(const SolverOptions& options = {});
+  /// On threads that it shares with others, in place of the options' own.
+  ContactSolver(const SolverOptions& options, std::shared_ptr<const detail::Parallel> parallel);
   ~ContactSolver();
   ContactSolver(ContactSolver&&) noexcept;
   ContactSolver& operator=(ContactSolver&&) noexcept;

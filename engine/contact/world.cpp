@@ -30,10 +30,15 @@ Matrix3d turned(const Matrix3d& R, const Vector3d& principal) {
 World::World(const WorldOptions& options, const MaterialTable& materials)
     : options_((detail::check(options), options)),
       materials_((detail::check(materials), materials)),
-      finder_(options.contacts),
-      solver_(options.solver),
-      parallel_(options.solver.threads),
+      parallel_(std::make_shared<const detail::Parallel>(options.solver.threads)),
+      finder_(empty_finder()),
+      solver_(options.solver, parallel_),
       freezing_(options.freezing, options.step, options.gravity) {}
+
+ContactFinder World::empty_finder() const {
+  return options_.contacts.threads == parallel_->threads() ? ContactFinder(options_.contacts, parallel_)
+                                                           : ContactFinder(options_.contacts);
+}
 
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its reaches
 // and the margin, so no contact is missed at any speed. In steps of `reach_step`, so that a speed that
@@ -56,7 +61,7 @@ double World::reach_of(const Surface& surface) const {
 void World::place_colliders() {
   const std::vector<int>& awake = freezing_.awake();
   moves_.resize(awake.size());
-  parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+  parallel_->blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) {
       const Rock& rock = rocks_[awake[k]];
       moves_[k] = {rock.collider, rock.pose, reach_of(surfaces_[rock.collider])};
@@ -74,7 +79,7 @@ void World::fill_bodies() {
   problem_.bodies.resize(awake.size() + 1);
   problem_.bodies[world_body] = SolverBody();
   body_of_rock_.assign(rocks_.size(), world_body);
-  parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+  parallel_->blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) {
       const Rock& rock = rocks_[awake[k]];
       SolverBody& body = problem_.bodies[k + 1];
@@ -90,7 +95,7 @@ void World::fill_bodies() {
 
 void World::move_rocks() {
   const std::vector<int>& awake = freezing_.awake();
-  parallel_.blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+  parallel_->blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) move(rocks_[awake[k]], problem_.bodies[k + 1]);
   });
 }
@@ -185,6 +190,7 @@ void World::settle_frozen() {
 }
 
 StepReport World::step() {
+  const detail::Parallel::Shift shift(*parallel_);
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
   super_ = machine_ ? &machine_->linearise(options_.step, options_.gravity) : nullptr;

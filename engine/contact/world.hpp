@@ -150,6 +150,7 @@ class World {
   SceneMarks scene_marks() const;
 
   static Collider rock_collider(const RockBody& body, int rock);
+  ContactFinder empty_finder() const;
   ContactFinder finder_for(const std::vector<Rock>& rocks) const;
 
   int add_surface(const Surface& surface, const Collider& collider);
@@ -181,9 +182,9 @@ class World {
 
   WorldOptions options_;
   MaterialTable materials_;
+  std::shared_ptr<const detail::Parallel> parallel_;  // that the finder and the solver work on as well
   ContactFinder finder_;
   ContactSolver solver_;
-  detail::Parallel parallel_;
   std::vector<Surface> surfaces_;  // by collider
   std::vector<Rock> rocks_;
   ArticulatedBody* machine_ = nullptr;

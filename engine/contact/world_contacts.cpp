@@ -55,7 +55,7 @@ void World::fill_contacts() {
   const int manifolds = static_cast<int>(manifolds_->size());
   joins_.resize(manifolds_->size());
   places_.assign(static_cast<std::size_t>(manifolds / manifolds_a_block + 1), ContactPlace());
-  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) { count_joining(first, last); });
+  parallel_->blocks(manifolds, manifolds_a_block, [&](int first, int last) { count_joining(first, last); });
   ContactPlace end;
   for (ContactPlace& place : places_) {
     const ContactPlace block = std::exchange(place, end);
@@ -65,7 +65,7 @@ void World::fill_contacts() {
   problem_.step = options_.step;
   problem_.pairs.resize(static_cast<std::size_t>(end.pair));
   problem_.points.resize(static_cast<std::size_t>(end.point));
-  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) { fill_pairs(first, last); });
+  parallel_->blocks(manifolds, manifolds_a_block, [&](int first, int last) { fill_pairs(first, last); });
 }
 
 unsigned World::joining(const Manifold& m) const {
@@ -143,7 +143,7 @@ void World::fill_pair(const Manifold& m, unsigned joins, ContactPlace place, War
 
 void World::keep_impulses() {
   warm_start_.begin_store(problem_.pairs.size(), problem_.points.size());
-  parallel_.blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
+  parallel_->blocks(static_cast<int>(problem_.pairs.size()), manifolds_a_block, [&](int first, int last) {
     for (int index = first; index < last; ++index) {
       const ContactPair& pair = problem_.pairs[index];
       warm_start_.store_pair(
@@ -162,7 +162,7 @@ void World::keep_impulses() {
 double World::deepest_overlap() {
   const int manifolds = static_cast<int>(manifolds_->size());
   deepest_.assign(static_cast<std::size_t>(manifolds / manifolds_a_block + 1), 0.0);
-  parallel_.blocks(manifolds, manifolds_a_block, [&](int first, int last) {
+  parallel_->blocks(manifolds, manifolds_a_block, [&](int first, int last) {
     double& deepest = deepest_[static_cast<std::size_t>(first / manifolds_a_block)];
     for (int i = first; i < last; ++i) {
       const Manifold& m = (*manifolds_)[i];
