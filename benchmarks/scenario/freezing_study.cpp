@@ -118,13 +118,14 @@ int study_blade(const Settings& s) {
 
 int study_cycle(const Settings& s) {
   using namespace engine::loading;
+  const Setting setting = setting_of(s.setting);
   Paired force, mass, ms;
   for (int seed = 1; seed <= s.seeds; ++seed) {
     const Scenario scenario = with_pile(lh621_in_a_drift(), s.folder, seed);
     const SettledPile pile = prepared_pile(scenario);
     const auto run = [&](std::vector<double> Paired::*which, bool freeze, double offset) {
       Scenario chosen = scenario;
-      chosen.world = with(scenario.world, setting_of(s.setting));
+      chosen.world = with(scenario.world, setting);
       chosen.world.freezing.on = freeze;
       const CycleSample sample = cycle_run(chosen, displaced(pile, 1, offset));
       (force.*which).push_back(sample.bucket_force);
@@ -150,7 +151,7 @@ int main(int argc, char** argv) {
   Settings s;
   CLI::App app(about, "freezing_study");
   auto* what = app.add_option_group("what", "one of these");
-  what->add_flag("--cost", s.cost, "time of rocks that stand beside rocks that move");
+  auto* cost = what->add_flag("--cost", s.cost, "time of rocks that stand beside rocks that move");
   what->add_flag("--blade", s.blade, "change of the force on a blade");
   what->add_option("--cycle", s.folder, "change of bucket force and loaded mass; where the piles are kept");
   what->require_option(1);
@@ -160,7 +161,9 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", s.seeds, "pairs of runs")
       ->check(between(1, 10'000, "", "2 and more give intervals"))
       ->capture_default_str();
-  app.add_option("--setting", s.setting, "step and work of blade and cycle")->capture_default_str();
+  app.add_option("--setting", s.setting, "step and work of blade and cycle")
+      ->capture_default_str()
+      ->excludes(cost);
   app.add_option("--repeats", s.repeats, "of the cost; the least counts")
       ->check(between(1, 100, "", "3 and more on a busy machine"))
       ->capture_default_str();

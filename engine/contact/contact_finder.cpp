@@ -70,7 +70,7 @@ class ContactFinder::Impl {
   Impl(const ContactFinderOptions& options, std::shared_ptr<const detail::Parallel> parallel)
       : options_((check(options), options)),
         fat_(0.5 * (options.margin + options.reuse_distance), options.slack),
-        parallel_(parallel ? std::move(parallel) : std::make_shared<const detail::Parallel>(options.threads)),
+        parallel_(std::move(parallel)),
         boxes_(parallel_->threads()),
         narrow_(options, parallel_->threads()) {}
 
@@ -129,7 +129,7 @@ class ContactFinder::Impl {
       for (int k = begin; k < end; ++k) leaves_[k] = leaves_box(moves[k].collider);
     });
     for (int k = 0; k < count; ++k)
-      if (leaves_[k]) check_box(moves[k].collider);
+      if (leaves_[k]) renew_box(moves[k].collider);
   }
 
   void set_moves(int id, bool moves) {
@@ -194,10 +194,13 @@ class ContactFinder::Impl {
              "; use a number that add() gave and remove() has not taken");
   }
 
-  bool leaves_box(int id) { return !items_.item[id].restless && fat_.left(items_, id, boxes_.box(id)); }
+  bool leaves_box(int id) { return !items_.item[id].restless && fat_.has_left(items_, id, boxes_.box(id)); }
 
   void check_box(int id) {
-    if (!leaves_box(id)) return;
+    if (leaves_box(id)) renew_box(id);
+  }
+
+  void renew_box(int id) {
     items_.item[id].restless = true;
     restless_.push_back(id);
   }
@@ -244,7 +247,8 @@ class ContactFinder::Impl {
   FinderTimes times_;
 };
 
-ContactFinder::ContactFinder(const ContactFinderOptions& options) : ContactFinder(options, nullptr) {}
+ContactFinder::ContactFinder(const ContactFinderOptions& options)
+    : ContactFinder(options, std::make_shared<const detail::Parallel>((check(options), options.threads))) {}
 ContactFinder::ContactFinder(const ContactFinderOptions& options,
                              std::shared_ptr<const detail::Parallel> parallel)
     : impl_(std::make_unique<Impl>(options, std::move(parallel))) {}

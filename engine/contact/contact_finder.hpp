@@ -70,7 +70,7 @@ struct FinderTimes {
 class ContactFinder {
  public:
   explicit ContactFinder(const ContactFinderOptions& options = {});
-  /// On threads that it shares with others, in place of the options' own.
+  /// On threads that it shares with others, in place of the options' own; one of them at a time.
   ContactFinder(const ContactFinderOptions& options, std::shared_ptr<const detail::Parallel> parallel);
   ~ContactFinder();
   ContactFinder(ContactFinder&&) noexcept;
@@ -89,7 +89,7 @@ class ContactFinder {
   /// How much farther than the margin the collider looks [m], ≥ 0 and 0 until set: a pair is searched as far
   /// as the margin and both reaches. For what moves fast: the way that it may go in the coming step.
   void set_reach(int collider, double reach);
-  /// Both for many colliders, with the threads of the options; each collider at most once. Throws as those
+  /// Both for many colliders, on all threads; each collider at most once. Throws as those
   /// do, and then has moved nothing.
   void move(std::span<const ColliderMove> moves);
   /// Freezes or wakes a collider; between two frozen ones nothing is searched.

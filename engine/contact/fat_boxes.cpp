@@ -19,7 +19,7 @@ AlignedBox3d FatBoxes::needed(const Items& items, int id) const {
   return grown(items.box(id), growth_ + items.reach[id]);
 }
 
-bool FatBoxes::left(Items& items, int id, const AlignedBox3d& last) const {
+bool FatBoxes::has_left(Items& items, int id, const AlignedBox3d& last) const {
   Item& item = items.item[id];
   if (!item.hull) return true;
   if (items.travelled[id] - item.boxed_at <= slack_) return false;
@@ -39,6 +39,7 @@ AlignedBox3d FatBoxes::next(Items& items, int id, const AlignedBox3d& last) cons
   items.item[id].boxed_at = items.travelled[id];
   const AlignedBox3d box = needed(items, id);
   AlignedBox3d result = grown(box, slack_);
+  if (!box.intersects(last)) return result;  // it was put elsewhere
   for (int i = 0; i < 3; ++i) {
     if (box.min()[i] < last.min()[i]) result.min()[i] -= slack_;
     if (box.max()[i] > last.max()[i]) result.max()[i] += slack_;
@@ -48,7 +49,7 @@ AlignedBox3d FatBoxes::next(Items& items, int id, const AlignedBox3d& last) cons
 
 Plane FatBoxes::plane(const Items& items, int id) const {
   Plane plane = items.plane(id);
-  plane.offset += growth_;
+  plane.offset += growth_ + items.reach[id];
   return plane;
 }
 

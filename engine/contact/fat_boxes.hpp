@@ -12,7 +12,8 @@
 /// The odometer rules out that a collider has left its box; it counts turns and detours in full, so those
 /// that it lets through are measured, and go on from the room that they have. A box that has been left gets
 /// twice the slack on the sides that were crossed: there the collider will go on. Larger boxes give more
-/// pairs to look at, never other contacts. Metres, world frame.
+/// pairs to look at and lose no contact; a pair that is remembered for longer may keep another axis within
+/// the finder's hysteresis. Metres, world frame.
 namespace drawpoint::engine::contact::detail {
 
 class FatBoxes {
@@ -20,7 +21,7 @@ class FatBoxes {
   FatBoxes(double growth, double slack) : growth_(growth), slack_(slack) {}
 
   /// Whether a collider needs another box than `last`; half-spaces always do. May move its odometer's mark.
-  bool left(Items& items, int id, const Eigen::AlignedBox3d& last) const;
+  bool has_left(Items& items, int id, const Eigen::AlignedBox3d& last) const;
 
   /// A box around a hull where it is now; marks its odometer.
   Eigen::AlignedBox3d first(Items& items, int id) const;

@@ -35,7 +35,7 @@ struct Item {
   std::shared_ptr<const CollisionHull> hull;
   const Cylinder* cylinder = nullptr;  ///< set for cylinders, beside the hull
   const HalfSpace* plane = nullptr;    ///< set for half-spaces
-  double boxed_at = 0;                 ///< odometer when the box of the broad phase was made [m]
+  double boxed_at = 0;                 ///< odometer from which the slack of its box counts [m]
   bool restless = false;               ///< has left that box
 };
 

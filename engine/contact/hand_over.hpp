@@ -13,8 +13,7 @@ void __tsan_release(void* address) __attribute__((weak));
 /// oneTBB's library is not instrumented, so the sanitizer does not see that a task starts after it was given
 /// and that the caller goes on after it ended. begin() on the caller, task() around each task and end() on
 /// the caller say so, and no more than that: two tasks of one loop stay unordered, and what they do to each
-/// other is still reported. in_turn() is for what never runs twice at a time. Elsewhere all of it does
-/// nothing.
+/// other is still reported. Elsewhere all of it does nothing.
 namespace drawpoint::engine::contact::detail {
 
 class HandOver {

@@ -10,6 +10,7 @@
 #include <drawpoint/engine/contact/hand_over.hpp>
 #include <drawpoint/engine/contact/parallel.hpp>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -63,8 +64,13 @@ struct Parallel::Team {
     stop.store(false, std::memory_order_relaxed);
     const std::uint32_t now = loop.load(std::memory_order_relaxed);
     hand_over.begin();
-    for (int k = 1; k < static_cast<int>(shares.size()); ++k)
-      arena.execute([this, k, now] { start_helper(k, now); });
+    try {
+      for (int k = 1; k < static_cast<int>(shares.size()); ++k)
+        arena.execute([this, k, now] { start_helper(k, now); });
+    } catch (...) {
+      dismiss();
+      throw;
+    }
   }
 
   void dismiss() {
@@ -109,8 +115,13 @@ struct Parallel::Team {
     try {
       (*work.load(std::memory_order_relaxed))(block, thread);
     } catch (...) {
-      if (!failed.exchange(true, std::memory_order_relaxed)) error = std::current_exception();
+      const std::scoped_lock lock(failing);
+      if (!error || block < failed) failed = block, error = std::current_exception();
     }
+  }
+
+  static int share_of(int thread, int threads, int blocks) {
+    return static_cast<int>(std::int64_t{blocks} * thread / threads);
   }
 
   void run(int blocks, int threads, const Work& f) {
@@ -119,12 +130,13 @@ struct Parallel::Team {
     work.store(&f, std::memory_order_relaxed);
     members.store(threads, std::memory_order_relaxed);
     for (int k = 0; k < threads; ++k)
-      shares[static_cast<std::size_t>(k)].offer(number, blocks * k / threads, blocks * (k + 1) / threads);
+      shares[static_cast<std::size_t>(k)].offer(number, share_of(k, threads, blocks),
+                                                share_of(k + 1, threads, blocks));
     loop.store(number, std::memory_order_release);
     work_on(0, number);
     for (int spins = 0; done.load(std::memory_order_acquire) < blocks;)
       if (++spins > spins_before_yield) std::this_thread::yield();
-    if (failed.exchange(false, std::memory_order_relaxed)) std::rethrow_exception(std::exchange(error, {}));
+    if (error) std::rethrow_exception(std::exchange(error, {}));
   }
 
   tbb::global_control allowed;
@@ -133,11 +145,13 @@ struct Parallel::Team {
   HandOver hand_over;
   int shifts = 0;
   std::vector<Share> shares;  // by thread
-  std::atomic<bool> stop{false}, failed{false};
+  std::atomic<bool> stop{false};
   std::atomic<std::uint32_t> loop{0};
   std::atomic<int> done{0}, members{0};  // blocks; threads that take part
   std::atomic<const Work*> work{nullptr};
-  std::exception_ptr error;  // of the first block that failed
+  std::mutex failing;
+  int failed = 0;            // the first block of those that have thrown
+  std::exception_ptr error;  // what it threw
 };
 
 Parallel::Parallel(int threads) : threads_(threads) {

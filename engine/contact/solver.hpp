@@ -66,7 +66,7 @@ struct SolverReport {
 class ContactSolver {
  public:
   explicit ContactSolver(const SolverOptions& options = {});
-  /// On threads that it shares with others, in place of the options' own.
+  /// On threads that it shares with others, in place of the options' own; one of them at a time.
   ContactSolver(const SolverOptions& options, std::shared_ptr<const detail::Parallel> parallel);
   ~ContactSolver();
   ContactSolver(ContactSolver&&) noexcept;

@@ -28,7 +28,7 @@ int SuperBodyMotion::add_angular_rows(int part, const Eigen::Matrix3d& axes) {
   return add(axes * machine_->part_maps[part].topRows<3>());
 }
 
-int SuperBodyMotion::add(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& rows) {
+int SuperBodyMotion::add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows) {
   const auto index = part_rows_.size() / static_cast<std::size_t>(std::max<Eigen::Index>(1, rows.size()));
   part_rows_.insert(part_rows_.end(), rows.data(), rows.data() + rows.size());
   return static_cast<int>(index);

@@ -52,14 +52,13 @@ class SuperBodyMotion {
     double total = 0, target = 0;
   };
   double target(const SuperBodyRow& row) const;
+  int add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows);
 
   const SuperBody* machine_;
   double step_, h_;
   int substeps_;
   Eigen::VectorXd w_, begin_, push_, travel_;
-  std::vector<Row> rows_;  // in the order of SuperBody::rows
-  int add(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& rows);
-
+  std::vector<Row> rows_;          // in the order of SuperBody::rows
   std::vector<double> part_rows_;  // 3 x r each, column by column
 };
 

@@ -31,14 +31,9 @@ World::World(const WorldOptions& options, const MaterialTable& materials)
     : options_((detail::check(options), options)),
       materials_((detail::check(materials), materials)),
       parallel_(std::make_shared<const detail::Parallel>(options.solver.threads)),
-      finder_(empty_finder()),
+      finder_(options.contacts, parallel_),
       solver_(options.solver, parallel_),
       freezing_(options.freezing, options.step, options.gravity) {}
-
-ContactFinder World::empty_finder() const {
-  return options_.contacts.threads == parallel_->threads() ? ContactFinder(options_.contacts, parallel_)
-                                                           : ContactFinder(options_.contacts);
-}
 
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its reaches
 // and the margin, so no contact is missed at any speed. In steps of `reach_step`, so that a speed that

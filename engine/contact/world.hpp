@@ -33,7 +33,7 @@ struct WorldOptions {
   /// Share of last step's impulses to start from, 0 to 1. Less than 1 forgets load that the sweeps must then
   /// find again each step: a pile creeps.
   double warm_start = 1;
-  ContactFinderOptions contacts;
+  ContactFinderOptions contacts;  ///< its threads are those of the solver
   FreezingOptions freezing;
 };
 
@@ -150,7 +150,6 @@ class World {
   SceneMarks scene_marks() const;
 
   static Collider rock_collider(const RockBody& body, int rock);
-  ContactFinder empty_finder() const;
   ContactFinder finder_for(const std::vector<Rock>& rocks) const;
 
   int add_surface(const Surface& surface, const Collider& collider);

@@ -180,7 +180,7 @@ World::SceneMarks World::scene_marks() const {
 
 // A new finder with this world's colliders, numbered as here, for these rocks.
 ContactFinder World::finder_for(const std::vector<Rock>& rocks) const {
-  ContactFinder finder = empty_finder();
+  ContactFinder finder(options_.contacts, parallel_);
   for (std::size_t id = 0; id < surfaces_.size(); ++id) {
     const Surface& surface = surfaces_[id];
     const bool rock = surface.owner == Owner::rock;

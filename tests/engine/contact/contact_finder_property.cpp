@@ -112,6 +112,24 @@ TEST(ContactFinder, CarriesAManifoldWithACommonMotionExactly) {
   }
 }
 
+// A cube 60 mm over the ground, or over another cube: the margin of 10 mm does not see it, a reach of 55 mm
+// of either side does.
+TEST(ContactFinder, LooksAsFarAsTheReachOfEitherSide) {
+  for (const bool over_plane : {true, false})
+    for (const bool upper : {true, false}) {
+      ContactFinder finder;
+      const int below = over_plane
+                            ? finder.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0.5}), -1, false))
+                            : finder.add(collider_of(share(box(0.5 * Vector3d::Ones())), 1, false));
+      const int above = finder.add(collider_of(share(box(0.5 * Vector3d::Ones())), 0));
+      finder.set_pose(above, Isometry3d(Eigen::Translation3d(0, 0, 1.06)));
+      EXPECT_TRUE(finder.find().empty());
+      finder.set_reach(upper ? above : below, 0.055);
+      ASSERT_EQ(finder.find().size(), 1u) << "over a plane " << over_plane << ", upper " << upper;
+      EXPECT_NEAR(finder.find()[0].points[0].gap, 0.06, 1e-12);
+    }
+}
+
 TEST(ContactFinder, SameCallsGiveSameBits) {
   Heap first(60, 12), second(60, 12);
   for (int step = 0; step < 40; ++step) {

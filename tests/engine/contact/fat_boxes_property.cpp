@@ -35,7 +35,7 @@ class Walker {
 
   // Whether it took another box.
   bool renewed() {
-    if (!boxes.left(items, 0, box)) return false;
+    if (!boxes.has_left(items, 0, box)) return false;
     box = boxes.next(items, 0, box);
     return true;
   }

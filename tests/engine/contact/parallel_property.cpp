@@ -92,6 +92,34 @@ TEST(Parallel, HandsOnWhatABlockThrowsAndGoesOn) {
   }
 }
 
+// Whoever comes to it first: of two blocks that throw, what the earlier one throws comes out.
+TEST(Parallel, HandsOnWhatTheFirstBlockThrows) {
+  for (const int threads : thread_counts) {
+    const Parallel parallel(threads);
+    for (int loop = 0; loop < 100; ++loop) {
+      std::string seen;
+      try {
+        parallel.run(20, threads, [](int k) {
+          if (k == 5 || k == 17) throw std::runtime_error("block " + std::to_string(k));
+        });
+      } catch (const std::runtime_error& error) {
+        seen = error.what();
+      }
+      ASSERT_EQ(seen, "block 5") << threads << " threads";
+    }
+  }
+}
+
+// The second may find no helpers while the first is on shift.
+TEST(Parallel, TeamsMayBeOnShiftTogether) {
+  const Parallel one(3), other(2);
+  const Parallel::Shift first(one), second(other);
+  for (int k = 0; k < 100; ++k) {
+    expect_each_once(one, 50, 2);
+    expect_each_once(other, 50, 2);
+  }
+}
+
 TEST(Parallel, ShiftsMayLieWithinOneAnother) {
   const Parallel parallel(3);
   const Parallel::Shift outer(parallel);
