@@ -22,7 +22,8 @@ void fly(SolverBody& body, double h, int substeps) {
 SolverReport ColouredSolver::solve(ContactProblem& problem) {
   const Parallel::Shift shift(*parallel_);
   problem_ = &problem;
-  batches_.fill(problem, sweep_order(problem, batch_lanes), options_.substeps, *parallel_);
+  batches_.fill(problem, sweep_order(problem, batch_lanes, pairs_a_zone, *parallel_), options_.substeps,
+                *parallel_);
   machine_.emplace(problem, batches_.row_of, options_.substeps);
   threads_ = std::min(parallel_->threads(), most_parts());
   travel_.assign(problem.bodies.size(), BodyRow());

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <drawpoint/engine/contact/contact_law.hpp>
 #include <drawpoint/engine/contact/impact_stage.hpp>
 #include <drawpoint/engine/contact/sequential_sweeper.hpp>
@@ -7,6 +8,7 @@
 namespace drawpoint::engine::contact::detail {
 namespace {
 
+constexpr int pairs_a_block = 256;  // that a thread takes at a time
 constexpr int most_sweeps = 10000;
 constexpr double small_change = 1e-12;  // of a sweep, relative to the load
 constexpr double rigid = 1e300;         // [N/m]
@@ -24,15 +26,24 @@ double ImpactStage::normal_speed(const ContactProblem& problem, const ContactPai
   return point.normal.dot(at(pair.b, point.arm_b) - at(pair.a, point.arm_a));
 }
 
-bool ImpactStage::needed(const ContactProblem& problem) {
-  for (const ContactPair& pair : problem.pairs)
-    for (int k = pair.first; k < pair.first + pair.count; ++k) {
-      const ContactPoint& point = problem.points[k];
-      if (point.restitution <= 0) continue;
-      const double speed = normal_speed(problem, pair, point);
-      if (speed < -impact_speed && point.gap + problem.step * speed <= 0) return true;
-    }
+// Whether a point of the pair strikes within the step and springs back.
+bool ImpactStage::rebounds(const ContactProblem& problem, const ContactPair& pair) const {
+  for (int k = pair.first; k < pair.first + pair.count; ++k) {
+    const ContactPoint& point = problem.points[k];
+    if (point.restitution <= 0) continue;
+    const double speed = normal_speed(problem, pair, point);
+    if (speed < -impact_speed && point.gap + problem.step * speed <= 0) return true;
+  }
   return false;
+}
+
+bool ImpactStage::needed(const ContactProblem& problem, const Parallel& parallel) const {
+  std::atomic<bool> found{false};
+  parallel.blocks(static_cast<int>(problem.pairs.size()), pairs_a_block, [&](int first, int last) {
+    for (int k = first; k < last && !found.load(std::memory_order_relaxed); ++k)
+      if (rebounds(problem, problem.pairs[k])) found.store(true, std::memory_order_relaxed);
+  });
+  return found;
 }
 
 // The points that touch or close within the step.
@@ -61,9 +72,9 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
   }
 }
 
-void ImpactStage::run(ContactProblem& problem) {
+void ImpactStage::run(ContactProblem& problem, const Parallel& parallel) {
   machine_ = problem.machine;
-  ran_ = needed(problem);
+  ran_ = needed(problem, parallel);
   if (!ran_) return;
   choose_points(problem);
   stage_.step = problem.step;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/contact/contact_problem.hpp>
+#include <drawpoint/engine/contact/parallel.hpp>
 
 /// The impulse stage of a step: restitution, before anything else acts.
 ///
@@ -19,13 +20,14 @@ class ImpactStage {
  public:
   /// Changes the velocities of the problem's bodies, and its machine for one that has taken the blows; this
   /// stage must outlive the solve.
-  void run(ContactProblem& problem);
+  void run(ContactProblem& problem, const Parallel& parallel);
 
   /// After the solve: adds the stage's impulses to those of the step, and gives back the machine.
   void finish(ContactProblem& problem, SuperBodySolution& solution) const;
 
  private:
-  bool needed(const ContactProblem& problem);
+  bool needed(const ContactProblem& problem, const Parallel& parallel) const;
+  bool rebounds(const ContactProblem& problem, const ContactPair& pair) const;
   double normal_speed(const ContactProblem& problem, const ContactPair& pair,
                       const ContactPoint& point) const;
   void choose_points(const ContactProblem& problem);

@@ -43,7 +43,7 @@ int PairBatches::own_rows(const ContactProblem& problem, const int* members, int
   int rows = 2 * (batch_lanes - pairs);
   for (int k = 0; k < pairs; ++k) {
     const ContactPair& pair = problem.pairs[members[k]];
-    rows += is_fixed(problem.bodies[pair.a]) + is_fixed(problem.bodies[pair.b]);
+    rows += order_.fixed[pair.a] + order_.fixed[pair.b];
   }
   return rows;
 }
@@ -113,7 +113,7 @@ void PairBatches::fill_batch(const ContactProblem& problem, int index, int subst
   }
   int own_row = plan.first_row;
   const auto place = [&](int body) {
-    if (!is_fixed(problem.bodies[body])) return row_of[body];
+    if (!order_.fixed[body]) return row_of[body];
     fill_row(own_row, problem.bodies[body]);
     return own_row++;
   };

@@ -23,14 +23,15 @@ ContactSolver::ContactSolver(const SolverOptions& options)
 
 ContactSolver::ContactSolver(const SolverOptions& options, std::shared_ptr<const detail::Parallel> parallel)
     : options_(options),
-      coloured_(std::make_unique<detail::ColouredSolver>(options, std::move(parallel))),
+      parallel_(std::move(parallel)),
+      coloured_(std::make_unique<detail::ColouredSolver>(options, parallel_)),
       impacts_(std::make_unique<detail::ImpactStage>()) {}
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 
 SolverReport ContactSolver::solve(ContactProblem& problem) {
-  impacts_->run(problem);
+  impacts_->run(problem, *parallel_);
   SolverReport report =
       options_.method == Method::coloured ? coloured_->solve(problem) : solve_sequentially(problem, options_);
   impacts_->finish(problem, report.machine);

@@ -76,6 +76,7 @@ class ContactSolver {
 
  private:
   SolverOptions options_;
+  std::shared_ptr<const detail::Parallel> parallel_;
   std::unique_ptr<detail::ColouredSolver> coloured_;
   std::unique_ptr<detail::ImpactStage> impacts_;
 };

@@ -7,14 +7,16 @@
 #include <drawpoint/engine/contact/sweep_order.hpp>
 #include <functional>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace drawpoint::engine::contact::detail {
-
-bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
 
 namespace {
 
 constexpr int slabs = 256;  // among whose borders those of the zones are chosen
+
+bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
 
 // Sorts by a key of 0 .. keys-1, stably, in linear time; numbers whose key is negative are left out.
 template <class Key>
@@ -142,22 +144,23 @@ class Parts {
 class Dealer {
  public:
   Dealer(const std::vector<Ends>& ends, const std::vector<Place>& places, int most)
-      : batch_of(ends.size(), -1), ends_(ends), places_(places), most_(most), open_in_(places.size(), 0) {}
+      : ends_(ends), places_(places), most_(most), open_in_(places.size(), 0) {}
 
-  std::vector<int> batch_of;  // of each pair; -1 for those that were not dealt
-  std::vector<int> sizes;     // of the batches, in the order in which they were opened
+  std::vector<int> sizes;  // of the batches, in the order in which they were opened
 
-  void deal(int index) {
+  // Returns the batch.
+  int deal(int index) {
     const Ends& pair = ends_[index];
     const std::uint64_t room = open_ & ~(batches_of(pair.a) | batches_of(pair.b));
-    if (room == 0 && ~open_ == 0) return put(index, open_batch());  // alone
+    if (room == 0 && ~open_ == 0) return put(open_batch());  // alone
     const int slot = room != 0 ? std::countr_zero(room) : std::countr_one(open_);
     if (room == 0) batch_in_[slot] = open_batch(), open_ |= bit(slot);
-    put(index, batch_in_[slot]);
+    const int batch = put(batch_in_[slot]);
     members_[slot].push_back(index);
     open_in_[pair.a] |= bit(slot);
     open_in_[pair.b] |= bit(slot);
     if (static_cast<int>(members_[slot].size()) == most_) close(slot);
+    return batch;
   }
 
   void close_all() {
@@ -174,9 +177,9 @@ class Dealer {
     return static_cast<int>(sizes.size()) - 1;
   }
 
-  void put(int index, int batch) {
-    batch_of[index] = batch;
+  int put(int batch) {
     ++sizes[batch];
+    return batch;
   }
 
   void close(int slot) {
@@ -220,22 +223,42 @@ std::vector<int> queue_of(const std::vector<Ends>& ends, const std::vector<int>&
   });
 }
 
-// The end of each part among the batches.
-std::vector<int> deal_parts(const std::vector<int>& queue, const std::vector<int>& group_of, int parts,
-                            Dealer& dealer) {
-  std::vector<int> ends;
-  auto next = queue.begin();
-  for (int group = 0; group < 2 * parts; ++group) {
-    for (; next != queue.end() && group_of[*next] == group; ++next) dealer.deal(*next);
-    dealer.close_all();
-    if (group % 2 == 1) ends.push_back(static_cast<int>(dealer.sizes.size()));
+// The pairs of a part, batch after batch, and how many each batch has.
+struct DealtPart {
+  std::vector<int> pairs, sizes;
+};
+
+DealtPart deal_part(std::span<const int> queue, const std::vector<int>& group_of, Dealer dealer) {
+  std::vector<int> batch_of(queue.size());
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    if (k > 0 && group_of[queue[k]] != group_of[queue[k - 1]]) dealer.close_all();
+    batch_of[k] = dealer.deal(queue[k]);
   }
-  return ends;
+  DealtPart part;
+  part.sizes = std::move(dealer.sizes);
+  part.pairs =
+      sorted(below(queue.size()), static_cast<int>(part.sizes.size()), [&](int k) { return batch_of[k]; });
+  for (int& place : part.pairs) place = queue[place];
+  return part;
+}
+
+// Parts share nothing: threads deal them side by side.
+std::vector<DealtPart> deal_parts(const std::vector<int>& queue, const std::vector<int>& group_of,
+                                  const Dealer& dealer, int parts, const Parallel& parallel) {
+  const auto first_of = [&](int part) {
+    return std::partition_point(queue.begin(), queue.end(), [&](int k) { return group_of[k] < 2 * part; });
+  };
+  std::vector<DealtPart> dealt(static_cast<std::size_t>(parts));
+  parallel.run(parts, parallel.threads(), [&](int part) {
+    const std::span<const int> own(first_of(part), first_of(part + 1));
+    if (!own.empty()) dealt[part] = deal_part(own, group_of, dealer);
+  });
+  return dealt;
 }
 
 }  // namespace
 
-SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone) {
+SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone, const Parallel& parallel) {
   const std::vector<Ends> ends = ends_of(problem);
   const std::vector<Place> places = places_of(problem, ends);
   const std::vector<int> slab_of = slabs_of(places);
@@ -244,21 +267,22 @@ SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone
   const Parts parts(zones.count());
   const std::vector<int> group_of = groups_of(ends, places, zones, parts);
   const std::vector<int> queue = queue_of(ends, group_of, 2 * parts.count());
-  Dealer dealer(ends, places, most);
-  const std::vector<int> part_ends = deal_parts(queue, group_of, parts.count(), dealer);
 
   SweepOrder order;
   order.bodies = sorted(below(places.size()), slabs, [&](int body) { return slab_of[body]; });
-  order.pairs =
-      sorted(queue, static_cast<int>(dealer.sizes.size()), [&](int k) { return dealer.batch_of[k]; });
-  order.batches = {0};
-  for (const int size : dealer.sizes) order.batches.push_back(order.batches.back() + size);
-  order.parts = order.stages = {0};
+  for (const Place& place : places) order.fixed.push_back(place.fixed);
+  order.pairs.reserve(queue.size());
+  order.batches = order.parts = order.stages = {0};
   int part = 0;
-  for (const int last : parts.last_of_stages()) {
-    for (; part <= last; ++part)
-      if (part_ends[part] > order.parts.back()) order.parts.push_back(part_ends[part]);
-    order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
+  const std::vector<int> last_of_stages = parts.last_of_stages();
+  auto last = last_of_stages.begin();
+  for (const DealtPart& dealt : deal_parts(queue, group_of, {ends, places, most}, parts.count(), parallel)) {
+    order.pairs.insert(order.pairs.end(), dealt.pairs.begin(), dealt.pairs.end());
+    for (const int size : dealt.sizes) order.batches.push_back(order.batches.back() + size);
+    if (!dealt.sizes.empty()) order.parts.push_back(static_cast<int>(order.batches.size()) - 1);
+    for (; last != last_of_stages.end() && *last == part; ++last)
+      order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
+    ++part;
   }
   return order;
 }

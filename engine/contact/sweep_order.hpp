@@ -3,6 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/contact/contact_problem.hpp>
+#include <drawpoint/engine/contact/parallel.hpp>
 #include <vector>
 
 /// The order in which a sweep visits the pairs: what is solved side by side, and what on several threads.
@@ -23,6 +24,7 @@
 namespace drawpoint::engine::contact::detail {
 
 struct SweepOrder {
+  std::vector<char> fixed;   ///< by body: nothing moves it
   std::vector<int> bodies;   ///< the body of each row, in order of place: those of a zone side by side
   std::vector<int> pairs;    ///< indices, batch after batch, within one by falling number of points
   std::vector<int> batches;  ///< where each begins in `pairs`, and the end
@@ -30,12 +32,11 @@ struct SweepOrder {
   std::vector<int> stages;   ///< where each begins in `parts`, and the end
 };
 
-bool is_fixed(const SolverBody& body);
-
 /// The least number of pairs for each zone.
 constexpr int pairs_a_zone = 900;
 
-/// `most` ≥ 1: pairs a batch.
-SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone = pairs_a_zone);
+/// `most` ≥ 1: pairs a batch. The threads change nothing but the time.
+SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone = pairs_a_zone,
+                       const Parallel& parallel = Parallel(1));
 
 }  // namespace drawpoint::engine::contact::detail

@@ -6,6 +6,7 @@
 #include <drawpoint/engine/contact/free_turn.hpp>
 #include <drawpoint/engine/contact/world.hpp>
 #include <drawpoint/engine/contact/world_checks.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -105,24 +106,29 @@ void World::move(Rock& rock, const SolverBody& body) const {
   rock.pose.linear() = q.toRotationMatrix();
 }
 
+[[noreturn]] void World::fail(const std::string& what) const {
+  throw SolutionBroken("contact::World::step: step " + std::to_string(steps_ + 1) + " at t = " +
+                       std::to_string(time_) + " s: " + what + "; use a smaller step or more sweeps");
+}
+
+void World::check_solution(int rock, const SolverBody& body) const {
+  const double speed = body.velocity.norm(), spin = body.angular_velocity.norm();
+  const double way = body.travel.norm() + body.turn.norm();
+  if (speed <= detail::fastest_solution && spin <= 10 * detail::fastest_solution && std::isfinite(way))
+    return;
+  std::ostringstream what;
+  what << "rock " << rock << " comes out with " << speed << " m/s and " << spin << " rad/s";
+  fail(what.str());
+}
+
 // The solution as it is before anything has moved.
 void World::check_solution(const SuperBodySolution& machine) const {
-  const auto broken = [this](const std::string& what) {
-    throw SolutionBroken("contact::World::step: step " + std::to_string(steps_ + 1) + " at t = " +
-                         std::to_string(time_) + " s: " + what + "; use a smaller step or more sweeps");
-  };
   const std::vector<int>& awake = freezing_.awake();
-  for (std::size_t k = 0; k < awake.size(); ++k) {
-    const SolverBody& body = problem_.bodies[k + 1];
-    const double speed = body.velocity.norm(), spin = body.angular_velocity.norm();
-    const double way = body.travel.norm() + body.turn.norm();
-    if (!(speed <= detail::fastest_solution) || !(spin <= 10 * detail::fastest_solution) ||
-        !std::isfinite(way))
-      broken("rock " + std::to_string(awake[k]) + " comes out with " + std::to_string(speed) + " m/s and " +
-             std::to_string(spin) + " rad/s");
-  }
+  parallel_->blocks(static_cast<int>(awake.size()), bodies_a_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) check_solution(awake[k], problem_.bodies[k + 1]);
+  });
   if (machine_ && !(machine.velocity.allFinite() && machine.mean_velocity.allFinite()))
-    broken("the machine's speeds come out not finite");
+    fail("the machine's speeds come out not finite");
 }
 
 void World::find_contacts(StepReport& report) {

@@ -166,6 +166,8 @@ class World {
   void settle_frozen();
   double reach_of(const Surface& surface) const;
   void check_solution(const SuperBodySolution& machine) const;
+  void check_solution(int rock, const SolverBody& body) const;
+  [[noreturn]] void fail(const std::string& what) const;
   void fill_bodies();
   void fill_contacts();
   unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear

@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
+
 constexpr int batch = 16;
 constexpr int lattice[3] = {64, 10, 10};
 
@@ -79,7 +81,7 @@ std::vector<int> moving_bodies(const ContactProblem& problem, const SweepOrder& 
   std::vector<int> bodies;
   for (int k = first; k < last; ++k)
     for (const int body : {problem.pairs[order.pairs[k]].a, problem.pairs[order.pairs[k]].b})
-      if (!detail::is_fixed(problem.bodies[body])) bodies.push_back(body);
+      if (!is_fixed(problem.bodies[body])) bodies.push_back(body);
   return bodies;
 }
 
