@@ -165,6 +165,22 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<Run>& 
   }
 }
 
+/// Of the runs that are done and whose log is there.
+std::vector<Headline> headlines_of(const Study& study, const std::vector<Run>& runs, const Folder& folder,
+                                   std::vector<std::string>& warnings) {
+  if (!study.headlines) return {};
+  std::vector<std::filesystem::path> logs;
+  for (const auto& run : runs)
+    if (run.status == Status::done && std::filesystem::exists(folder.log(run.id)))
+      logs.push_back(folder.log(run.id));
+  try {
+    return study.headlines(logs);
+  } catch (const std::exception& e) {
+    warnings.push_back(std::string("What the study says first could not be told: ") + e.what());
+    return {};
+  }
+}
+
 Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
@@ -190,6 +206,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.problem = study.problem;
   input.training = table_of(runs, study.problem, Kind::training);
   input.validation = table_of(runs, study.problem, Kind::validation);
+  input.headlines = summary.headlines = headlines_of(study, runs, folder, input.warnings);
   std::vector<std::string> chosen;
   try {
     chosen = fit_models(input);

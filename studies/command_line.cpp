@@ -80,6 +80,24 @@ void add_run_options(CLI::App& command, Settings& settings, const Defaults& defa
   command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
 }
 
+/// Those that the study declares; what is given goes to `values`.
+void add_study_options(CLI::App& command, const Study& study, OptionValues& values, bool kept) {
+  for (const auto& option : study.options) {
+    std::string help = option.help;
+    if (!option.choices.empty()) {
+      help += ":";
+      for (const auto& choice : option.choices) help += " " + choice;
+    }
+    help += " (default " + option.value + (kept ? ", or what the folder was made with)" : ")");
+    command
+        .add_option_function<std::string>(
+            "--" + option.name,
+            [&values, name = option.name](const std::string& text) { values[name] = text; }, help)
+        ->check([option](const std::string& text) { return complaint(option, text); })
+        ->group("Options of " + study.name);
+  }
+}
+
 void add_point_options(CLI::App& command, PointSettings& settings) {
   command.add_option("--shared", settings.shared, "folder common to all runs");
   command
@@ -100,6 +118,7 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
       app.add_subcommand("run", "make the runs that are missing, then the report (also without a command)");
   add_folder_options(*run, parsed.settings);
   add_run_options(*run, parsed.settings, study.defaults);
+  add_study_options(*run, study, parsed.settings.options, true);
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
   auto* status = app.add_subcommand("status", "say how many runs are planned, done and failed, and why");
   add_folder_options(*status, parsed.settings);
@@ -120,9 +139,11 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   evaluate->add_option("--log", parsed.point.log, "file for the run log (default: not kept)");
   evaluate->add_flag("--json", parsed.point.json, "print one JSON object");
   add_point_options(*evaluate, parsed.point);
+  add_study_options(*evaluate, study, parsed.point.options, false);
   evaluate->callback([&] { parsed.action = [&] { return evaluate_command(study, parsed.point); }; });
   auto* prepare = app.add_subcommand("prepare", "fill the folder common to all runs")->group("");
   add_point_options(*prepare, parsed.point);
+  add_study_options(*prepare, study, parsed.point.options, false);
   prepare->callback([&] { parsed.action = [&] { return prepare_command(study, parsed.point); }; });
 }
 
@@ -165,6 +186,7 @@ void check_study(const Study& study) {
   if (!study.black_box)
     throw std::invalid_argument("studies::Study: no black_box; give the function that makes one run");
   doe::check(study.problem);
+  check(study.options);
 }
 
 }  // namespace

@@ -108,6 +108,12 @@ int hand_over(const Study& study, const PointSettings& settings, const doe::Outc
   return outcome.failed() ? 1 : 0;
 }
 
+/// What a run by hand or the preparation is told.
+RunContext context_of(const Study& study, const PointSettings& settings, const fs::path& log,
+                      const fs::path& shared) {
+  return {.log = log, .shared = shared, .options = with_defaults(study.options, settings.options)};
+}
+
 /// The shared folder for a run by hand: that of the study if it is there, else one that is made for this run.
 fs::path shared_folder(const Study& study, const PointSettings& settings,
                        std::optional<TemporaryFolder>& temporary) {
@@ -115,7 +121,7 @@ fs::path shared_folder(const Study& study, const PointSettings& settings,
   if (!temporary) temporary.emplace();
   const fs::path made = temporary->path() / "shared";
   fs::create_directory(made);
-  if (study.prepare) study.prepare(made);
+  if (study.prepare) study.prepare(context_of(study, settings, {}, made));
   return made;
 }
 
@@ -126,8 +132,9 @@ int evaluate_command(const Study& study, const PointSettings& settings) {
   keep_private(settings.result_descriptor);
   std::optional<TemporaryFolder> temporary;
   if (settings.log.empty()) temporary.emplace();
-  const RunContext context = {.log = settings.log.empty() ? temporary->path() / "run.h5" : settings.log,
-                              .shared = shared_folder(study, settings, temporary)};
+  const RunContext context =
+      context_of(study, settings, settings.log.empty() ? temporary->path() / "run.h5" : settings.log,
+                 shared_folder(study, settings, temporary));
   if (context.log.has_parent_path()) fs::create_directories(context.log.parent_path());
   const auto black_box = [&](const Eigen::VectorXd& point, doe::Seed seed) {
     return study.black_box(point, seed, context);
@@ -138,7 +145,7 @@ int evaluate_command(const Study& study, const PointSettings& settings) {
 int prepare_command(const Study& study, const PointSettings& settings) {
   keep_private(settings.result_descriptor);
   const doe::Outcome outcome = doe::detail::guarded<doe::Outcome>([&]() -> doe::Outcome {
-    if (study.prepare) study.prepare(settings.shared);
+    if (study.prepare) study.prepare(context_of(study, settings, {}, settings.shared));
     return Eigen::VectorXd(0);
   });
   return hand_over(study, settings, outcome);

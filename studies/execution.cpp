@@ -43,14 +43,21 @@ std::string joined(const Eigen::VectorXd& x) {
   return text;
 }
 
-Job job_for(const Run& run, const Folder& folder, double time_limit) {
+/// The words of a child's command line, with the study's options.
+std::vector<std::string> with_options(std::vector<std::string> words, const OptionValues& options) {
+  for (const auto& [name, value] : options) words.push_back("--" + name + "=" + value);
+  return words;
+}
+
+Job job_for(const Run& run, const Folder& folder, const OptionValues& options, double time_limit) {
   std::error_code ignored;
   fs::remove(folder.unfinished_log(run.id), ignored);
   return {.id = run.id,
           .executable = own_executable(),
-          .arguments = {"evaluate", "--x=" + joined(run.x), "--seed=" + std::to_string(run.seed),
-                        "--log=" + folder.unfinished_log(run.id).string(),
-                        "--shared=" + folder.shared().string(), "--result-descriptor=3"},
+          .arguments = with_options({"evaluate", "--x=" + joined(run.x), "--seed=" + std::to_string(run.seed),
+                                     "--log=" + folder.unfinished_log(run.id).string(),
+                                     "--shared=" + folder.shared().string(), "--result-descriptor=3"},
+                                    options),
           .output = folder.printed(run.id),
           .time_limit = time_limit};
 }
@@ -100,7 +107,8 @@ ProgressState state_of(const std::vector<Run>& runs) {
 
 }  // namespace
 
-void prepare_shared(const Study& study, const Folder& folder, int message_descriptor) {
+void prepare_shared(const Study& study, const OptionValues& options, const Folder& folder,
+                    int message_descriptor) {
   if (!study.prepare || fs::exists(folder.shared())) return;
   dprintf(message_descriptor, "preparing what all runs share ...\n");
   const fs::path draft = folder.path / "shared.unfinished";
@@ -108,9 +116,10 @@ void prepare_shared(const Study& study, const Folder& folder, int message_descri
   fs::remove_all(draft);
   fs::create_directory(draft);
   ProcessPool pool(1);
-  pool.start({.executable = own_executable(),
-              .arguments = {"prepare", "--shared=" + draft.string(), "--result-descriptor=3"},
-              .output = printed});
+  pool.start(
+      {.executable = own_executable(),
+       .arguments = with_options({"prepare", "--shared=" + draft.string(), "--result-descriptor=3"}, options),
+       .output = printed});
   std::vector<JobEnd> ends;
   while (ends.empty()) {
     if (InterruptGuard::requested()) {
@@ -147,7 +156,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
     if (full && pool.running() == 0) stop_for_full_disk(folder);
     while (!full && !waiting.empty() && !pool.full()) {
       store.mark_running(waiting.front()->id);
-      pool.start(job_for(*waiting.front(), folder, settings.time_limit));
+      pool.start(job_for(*waiting.front(), folder, store.identity().options, settings.time_limit));
       waiting.pop_front();
     }
     for (const auto& end : pool.wait(patience)) progress.finished_one(store_end(store, folder, end));

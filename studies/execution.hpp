@@ -22,7 +22,8 @@ namespace drawpoint::studies {
 /// Fills folder.shared() in a child process, if the study asks for it and it is not there yet. The folder
 /// appears complete or not at all. Throws std::runtime_error with the child's reason, Interrupted after a
 /// signal.
-void prepare_shared(const Study& study, const Folder& folder, int message_descriptor);
+void prepare_shared(const Study& study, const OptionValues& options, const Folder& folder,
+                    int message_descriptor);
 
 /// Until no run is planned. Requires an InterruptGuard. Throws Interrupted after a signal, with all children
 /// ended.

@@ -58,7 +58,7 @@ std::string time_in_runs(const std::vector<Run>& runs) {
     if (!run.finished.empty()) ++finished;
   }
   if (finished == 0) return "none";
-  return duration_text(seconds) + " in all, " + duration_text(seconds / finished) + " a run";
+  return duration_text(seconds) + " in all, " + duration_text(seconds / finished) + " per run";
 }
 
 std::string design(const Identity& identity, const std::vector<Run>& runs) {
@@ -72,13 +72,16 @@ std::string design(const Identity& identity, const std::vector<Run>& runs) {
 
 std::vector<std::pair<std::string, std::string>> facts(const Identity& identity,
                                                        const std::vector<Run>& runs) {
-  return {{"Design", design(identity, runs)},
-          {"Seed", std::to_string(identity.seed)},
-          {"Runs made", time_span(runs)},
-          {"Time in runs", time_in_runs(runs)},
-          {"Machine", machine()},
-          {"System", system_name()},
-          {"Program", std::string("Drawpoint ") + DRAWPOINT_VERSION + ", compiler " + __VERSION__}};
+  std::vector<std::pair<std::string, std::string>> all = {{"Design", design(identity, runs)},
+                                                          {"Seed", std::to_string(identity.seed)}};
+  for (const auto& [name, value] : identity.options) all.emplace_back("Option " + name, value);
+  all.insert(all.end(),
+             {{"Runs made", time_span(runs)},
+              {"Time in runs", time_in_runs(runs)},
+              {"Machine", machine()},
+              {"System", system_name()},
+              {"Program", std::string("Drawpoint ") + DRAWPOINT_VERSION + ", compiler " + __VERSION__}});
+  return all;
 }
 
 }  // namespace drawpoint::studies

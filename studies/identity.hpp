@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What makes two invocations the same study: its name, its problem, its seed and how its points were
-/// planned. It is kept in the store, so that runs of two different studies never end up in one table.
+/// What makes two invocations the same study: its name, its problem, its options, its seed and how its points
+/// were planned. It is kept in the store, so that runs of two different studies never end up in one table.
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/options.hpp>
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -16,8 +17,9 @@ struct Identity {
   std::string study;
   doe::Problem problem;
   doe::Seed seed = 1;
-  int replicates = 1;    ///< runs a training point
-  bool corners = false;  ///< the first 2^d training points are the corners of the box
+  int replicates = 1;         ///< runs a training point
+  bool corners = false;       ///< the first 2^d training points are the corners of the box
+  OptionValues options = {};  ///< a value of every option of the study
 };
 
 nlohmann::json to_json(const doe::Problem& problem);

@@ -4,6 +4,7 @@
 
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/studies/loading_figures.hpp>
+#include <drawpoint/studies/loading_headlines.hpp>
 #include <drawpoint/studies/study.hpp>
 
 using namespace drawpoint;
@@ -16,11 +17,18 @@ const doe::Problem problem{.variables = {{"alpha", "1", 0.2, 2.0},
                                          {"joint_damage", "s", doe::Goal::minimize},
                                          {"rock_spill", "1", doe::Goal::minimize}}};
 
-doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
+engine::loading::Scenario scenario_of(const studies::RunContext& run) {
   engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
+  scenario.materials = engine::loading::materials_named(run.options.at("materials"));
+  scenario.cycles = std::stoi(run.options.at("cycles"));
+  scenario.pile_file = run.shared / "pile.h5";
+  return scenario;
+}
+
+doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
+  engine::loading::Scenario scenario = scenario_of(run);
   scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
   scenario.seed = seed;
-  scenario.pile_file = run.shared / "pile.h5";
   scenario.log_file = run.log;
   const auto log = engine::loading::simulate(scenario);
   if (!log.completed) return doe::Failure{log.message};
@@ -28,12 +36,17 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
 }
 
 int main(int argc, char** argv) {
-  return studies::run(argc, argv,
-                      {.name = "lhd_loading",
-                       .problem = problem,
-                       .black_box = load,
-                       .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
-                       .defaults = {.runs = 40, .validation = 12},
-                       .prepare = studies::settle_pile,
-                       .illustrate = studies::loading_figures});
+  return studies::run(
+      argc, argv,
+      {.name = "lhd_loading",
+       .problem = problem,
+       .black_box = load,
+       .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
+       .defaults = {.runs = 40, .validation = 12},
+       .options =
+           {{"materials", "contact coefficients", "calibrated", {"calibrated", "lindmark2016"}},
+            {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000}},
+       .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
+       .illustrate = studies::loading_figures,
+       .headlines = studies::loading_headlines});
 }

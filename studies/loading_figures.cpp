@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/engine/loading/loading_cycle.hpp>
-#include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/loading/pile_shape.hpp>
 #include <drawpoint/studies/loading_figures.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 namespace drawpoint::studies {
 namespace {
@@ -16,7 +17,7 @@ using engine::loading::CycleRecord;
 using engine::loading::LoadingLog;
 using nlohmann::json;
 
-constexpr int values_a_pose = 7;
+constexpr int values_per_pose = 7;
 constexpr double picture_interval = 0.5;  // of the replay [s]; keeps the page light
 
 // Three decimals: millimetres, and the text of a number stays short.
@@ -98,13 +99,13 @@ json shape_of(const engine::contact::ConvexPolyhedron& shape) {
 
 json poses_of(const engine::loading::SceneFrame& frame) {
   json poses = json::array();
-  for (std::size_t b = 0; b + values_a_pose <= frame.poses.size(); b += values_a_pose) {
+  for (std::size_t b = 0; b + values_per_pose <= frame.poses.size(); b += values_per_pose) {
     if (std::isnan(frame.poses[b])) {
       poses.push_back(nullptr);
       continue;
     }
     json pose = json::array();
-    for (int k = 0; k < values_a_pose; ++k) pose.push_back(rounded(frame.poses[b + k]));
+    for (int k = 0; k < values_per_pose; ++k) pose.push_back(rounded(frame.poses[b + k]));
     poses.push_back(pose);
   }
   return poses;
@@ -193,9 +194,9 @@ json cycles_panel(const LoadingLog& log) {
 
 }  // namespace
 
-void settle_pile(const std::filesystem::path& shared) {
-  engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
-  scenario.pile_file = shared / "pile.h5";
+void settle_pile(engine::loading::Scenario scenario) {
+  scenario.world.solver.threads = scenario.world.contacts.threads =
+      static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
   int told = -1;
   const auto pile = engine::loading::prepared_pile(scenario, [&](double share) {
     const int percent = static_cast<int>(100 * share) / 10 * 10;
@@ -206,8 +207,10 @@ void settle_pile(const std::filesystem::path& shared) {
     else
       std::fprintf(stderr, "pouring the pile: done, settling\n");
   });
-  std::fprintf(stderr, "the pile: %zu rocks, %s after %.0f s\n", pile.rocks.size(),
-               pile.timed_out ? "still creeping" : "at rest", pile.poured_s);
+  const engine::loading::PileShape shape = engine::loading::pile_shape(pile, scenario);
+  std::fprintf(stderr, "the pile: %zu rocks, %.0f t, %s after %.0f s; crest %.2f m, surface at %.1f deg\n",
+               pile.rocks.size(), shape.mass / 1e3, pile.timed_out ? "still creeping" : "at rest",
+               pile.poured_s, shape.crest, shape.angle * 180 / M_PI);
 }
 
 json loading_figures(const std::filesystem::path& log_file) {

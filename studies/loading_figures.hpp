@@ -7,14 +7,15 @@
 /// drive forces and the torque that twists hinge G over time, and a table of the cycles. Read from the run
 /// log alone.
 
+#include <drawpoint/engine/loading/scenario.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace drawpoint::studies {
 
-/// Pours the pile of the default scenario into `shared`/pile.h5 and tells on standard error how far it is.
-/// About a minute.
-void settle_pile(const std::filesystem::path& shared);
+/// Heaps up the scenario's pile into its pile file, on all cores, and tells on standard error how far it is
+/// and how the pile lies. About a minute.
+void settle_pile(engine::loading::Scenario scenario);
 
 /// Panels for the report from a run log. Throws std::runtime_error if the log cannot be read.
 nlohmann::json loading_figures(const std::filesystem::path& log);

@@ -43,7 +43,7 @@ int run_command(const Study& study, const Settings& settings) {
   InterruptGuard guard(resume_message(folder));
   try {
     Store store = plan_study(study, folder, settings);
-    prepare_shared(study, folder, message_descriptor(settings));
+    prepare_shared(study, store.identity().options, folder, message_descriptor(settings));
     carry_out_runs(store, folder, settings, message_descriptor(settings));
     guard.end_at_once();
     return conclude(study, store, folder, settings);

@@ -23,6 +23,8 @@ void require_same_options(const Identity& stored, const Settings& settings, cons
     refuse(folder, "replicates " + std::to_string(stored.replicates) + " there, " +
                        std::to_string(*settings.replicates) + " here");
   }
+  const std::string other = difference(stored.options, settings.options, true);
+  if (!other.empty()) refuse(folder, other);
 }
 
 Store new_store(const Study& study, const Folder& folder, const Settings& settings) {
@@ -31,7 +33,8 @@ Store new_store(const Study& study, const Folder& folder, const Settings& settin
                                         .problem = study.problem,
                                         .seed = settings.seed.value_or(1),
                                         .replicates = settings.replicates.value_or(1),
-                                        .corners = has_corners(study.problem, runs)});
+                                        .corners = has_corners(study.problem, runs),
+                                        .options = with_defaults(study.options, settings.options)});
 }
 
 }  // namespace
@@ -48,6 +51,9 @@ Store open_store(const Study& study, const Folder& folder) {
     refuse(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");
   const std::string text = difference(stored.problem, study.problem);
   if (!text.empty()) refuse(folder, text);
+  // Values are the folder's own; only what options there are is the program's.
+  const std::string other = difference(stored.options, with_defaults(study.options, stored.options), false);
+  if (!other.empty()) refuse(folder, other);
   return store;
 }
 

@@ -5,6 +5,7 @@
 /// the study's default", so that a study resumes without repeating its options.
 
 #include <drawpoint/doe/outcome.hpp>
+#include <drawpoint/studies/options.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -26,6 +27,7 @@ struct Settings {
   std::optional<int> validation = {};  ///< validation points, 0 or more
   std::optional<int> replicates = {};  ///< runs a training point, each with a seed of its own, 1 or more
   std::optional<doe::Seed> seed = {};  ///< study seed
+  OptionValues options = {};           ///< of the study, those given
   int jobs = 1;                        ///< processes at a time, 1 or more
   double time_limit = 0.0;             ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;
@@ -39,6 +41,7 @@ struct PointSettings {
   doe::Seed seed = 1;
   std::filesystem::path log = {};     ///< empty: a temporary file
   std::filesystem::path shared = {};  ///< folder that Study::prepare fills
+  OptionValues options = {};          ///< of the study, those given
   int result_descriptor = -1;         ///< open file descriptor that takes the outcome as JSON; -1: print it
   bool json = false;
 };

@@ -19,7 +19,7 @@ using detail::refuse;
 using detail::with_context;
 
 constexpr int application_id = 0x44727770;
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 constexpr int patience = 30000;  // [ms] for another program that reads the file
 
 std::string now() {
@@ -59,6 +59,7 @@ void write_identity(SQLite::Database& database, const Identity& identity) {
   put("seed", std::to_string(identity.seed));
   put("replicates", std::to_string(identity.replicates));
   put("corners", identity.corners ? "1" : "0");
+  put("options", nlohmann::json(identity.options).dump());
   put("created", now());
 }
 
@@ -173,12 +174,16 @@ void Store::read_identity() {
     return query.getColumn(0).getString();
   };
   try {
-    identity_ = {get("name"), problem_from_json(nlohmann::json::parse(get("problem"))),
-                 std::stoull(get("seed")), std::stoi(get("replicates")), get("corners") == "1"};
+    identity_ = {get("name"),
+                 problem_from_json(nlohmann::json::parse(get("problem"))),
+                 std::stoull(get("seed")),
+                 std::stoi(get("replicates")),
+                 get("corners") == "1",
+                 nlohmann::json::parse(get("options")).get<OptionValues>()};
   } catch (const std::logic_error&) {
     refuse(file_, "is damaged (a number in table study is not one)");
   } catch (const nlohmann::json::exception&) {
-    refuse(file_, "is damaged (the problem in table study is not readable)");
+    refuse(file_, "is damaged (problem or options in table study are not readable)");
   }
   const Columns columns = columns_of(identity_.problem);
   x_columns_ = columns.x;

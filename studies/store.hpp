@@ -3,7 +3,7 @@
 #pragma once
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
-///     study(key, value)  name, problem (JSON), seed, replicates, corners, created
+///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), created
 ///     runs               one row a run: id, kind, point, replicate, seed, status, reason, seconds, started,
 ///     finished,
 ///                        then one REAL column for each variable and each response, named as in the problem

@@ -14,6 +14,8 @@
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/headline.hpp>
+#include <drawpoint/studies/options.hpp>
 
 #include <Eigen/Core>
 #include <concepts>
@@ -23,14 +25,16 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace drawpoint::studies {
 
-/// Where one run may write and read.
+/// Where one run may write and read, and what holds for all runs of its study.
 struct RunContext {
   std::filesystem::path log;  ///< run log that this run may write; its folder exists, the file does not
   std::filesystem::path
-      shared;  ///< folder common to all runs of the study, filled by Study::prepare; read only
+      shared;                 ///< folder common to all runs of the study, filled by Study::prepare; read only
+  OptionValues options = {};  ///< a value of every Study::options
 };
 
 /// How many runs a study makes when the command line does not say.
@@ -85,12 +89,15 @@ struct Study {
   StudyFunction black_box = {};
   std::string about = {};  ///< one or two sentences for the report's head
   Defaults defaults = {};
-  /// Called once, before the first run, with an empty folder; may take long. Everything it writes is kept or
-  /// nothing.
-  std::function<void(const std::filesystem::path& shared)> prepare = {};
+  std::vector<StudyOption> options = {};
+  /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
+  /// writes is kept or nothing.
+  std::function<void(const RunContext& context)> prepare = {};
   /// Figures of one run for the report, from its log: a JSON array of panels (report/report.hpp lists the
   /// kinds).
   std::function<nlohmann::json(const std::filesystem::path& log)> illustrate = {};
+  /// Figures from the logs of all runs that succeeded, said first in summary and report.
+  std::function<std::vector<Headline>(const std::vector<std::filesystem::path>& logs)> headlines = {};
 };
 
 /// The whole command line. Returns the exit code: 0 success, 1 failure, 2 wrong usage, 130 interrupted.

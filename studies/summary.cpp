@@ -20,6 +20,13 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
+std::string headline_text(const Headline& headline) {
+  const std::string unit = headline.unit == "1" ? "" : " " + headline.unit;
+  const std::string value =
+      std::isfinite(headline.value) ? formatted("%.3g", headline.value) + unit : "unknown";
+  return "  " + headline.name + " " + value + ": " + headline.note + "\n";
+}
+
 std::string front_text(const Summary& summary) {
   const Polishing& polishing = summary.polishing;
   std::string line = "Pareto front: " + std::to_string(summary.front) + " points";
@@ -39,6 +46,9 @@ std::string json_line(const Summary& summary) {
                                  {"training", summary.training},
                                  {"validation", summary.validation},
                                  {"failed", summary.failed}};
+  line["headlines"] = nlohmann::ordered_json::object();
+  for (const Headline& headline : summary.headlines)
+    line["headlines"][headline.name] = number_or_null(headline.value);
   line["nrmse"] = nlohmann::ordered_json::object();
   for (const auto& [response, value] : summary.nrmse) {
     line["nrmse"][response] = number_or_null(value);
@@ -59,6 +69,7 @@ std::string text(const Summary& summary) {
   std::string result = summary.study + ": " + std::to_string(summary.training) + " training and " +
                        std::to_string(summary.validation) + " validation runs, " +
                        std::to_string(summary.failed) + " failed\n";
+  for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) {
     const std::string number = std::isfinite(value) ? formatted("%.4f", value) : "unknown";
     result += "  NRMSE of " + response + ": " + number + "\n";

@@ -3,6 +3,7 @@
 #pragma once
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
+#include <drawpoint/studies/headline.hpp>
 #include <drawpoint/studies/polishing.hpp>
 
 #include <filesystem>
@@ -16,6 +17,7 @@ struct Summary {
   std::string study = {};
   int training = 0, validation = 0;                        ///< runs in the store, failed ones among them
   int failed = 0;                                          ///< of both kinds
+  std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
   Polishing polishing = {};                                ///< of the front
@@ -23,10 +25,10 @@ struct Summary {
   std::string error = {};                                  ///< why there is none
 };
 
-/// {"study", "runs", "training", "validation", "failed", "nrmse": {response: number or null}, "front",
-/// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and
-/// "not_polished" and "error", which say why, if there is something to say. `runs` counts the rows of the
-/// store's table.
+/// {"study", "runs", "training", "validation", "failed", "headlines": {name: number or null}, "nrmse":
+/// {response: number or null}, "front", "certified": number or null, "polishing_gain_percent": number or
+/// null, "report": path or null}, and "not_polished" and "error", which say why, if there is something to
+/// say. `runs` counts the rows of the store's table.
 std::string json_line(const Summary& summary);
 
 /// Several lines, each with its end.

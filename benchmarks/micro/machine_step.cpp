@@ -19,7 +19,7 @@ void machine_linearise(benchmark::State& state) {
 void machine_on_its_tyres(benchmark::State& state) {
   const loading::Lhd lhd = loading::sandvik_lh621();
   machine::Machine machine(lhd.spec);
-  contact::World world({}, loading::mine_materials());
+  contact::World world({}, loading::material_table(loading::calibrated_materials()));
   loading::LhdDriver driver(lhd, machine);
   driver.place(0, 0);
   world.attach(&machine);

@@ -35,7 +35,7 @@ void fill_box(World& world, int rocks) {
 
 void record_settled_pile(const std::filesystem::path& file) {
   constexpr int rocks = 600;
-  World world({}, loading::mine_materials());
+  World world({}, loading::material_table(loading::calibrated_materials()));
   fill_box(world, rocks);
   for (double fall = 0; fall < 5; fall += world.options().step) world.step();
   granular::RestWatch watch;

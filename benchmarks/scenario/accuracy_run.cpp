@@ -57,9 +57,9 @@ void sample_dig(AccuracySample& sample, support::PileWorld& world, Progress& pro
 
 }  // namespace
 
-SettledState settled_pile(int rocks, std::uint64_t seed, const engine::contact::WorldOptions& options,
-                          Progress& progress) {
-  support::PileWorld world(support::rock_pile(rocks, seed), options);
+SettledState settled(support::RockPile pile, const engine::contact::WorldOptions& options,
+                     Progress& progress) {
+  support::PileWorld world(std::move(pile), options);
   run_phase(world, "settle", steps_in(support::RockPile::settle_time, options.step), progress);
   return {world.pile(), world.states()};
 }

@@ -17,9 +17,9 @@ struct SettledState {
   std::vector<support::RockState> states;
 };
 
-/// Drops and settles the pile of `seed` for RockPile::settle_time.
-SettledState settled_pile(int rocks, std::uint64_t seed, const engine::contact::WorldOptions& options,
-                          Progress& progress);
+/// Settles the pile, whose rocks are at their start poses, for RockPile::settle_time.
+SettledState settled(support::RockPile pile, const engine::contact::WorldOptions& options,
+                     Progress& progress);
 
 struct AccuracySample {
   double ms_rest = 0, ms_dig = 0;            ///< wall time a step, median and mean

@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
 #include <cstdio>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "accuracy_run.hpp"
 #include "cycle_run.hpp"
+#include "each_seed.hpp"
 #include "estimate.hpp"
 #include "setting.hpp"
 
@@ -43,6 +40,7 @@ constexpr const char* about =
 
 struct Settings {
   EngineFlags engine;  // method and threads
+  MaterialFlags material;
   int rocks = 500, seeds = 5, jobs = 1;
   std::vector<std::string> tried = {"10x16x1+20000", "10x16x1", "10x16x4", "5x1x25", "2.5x4x1"};
   std::string reference = "2.5x1x1000", reference_method = "sequential";
@@ -107,11 +105,12 @@ Subject blade(const Settings& s) {
            {"mass_moved_kg", "moved t", 1e-3, 2, true}},
           [&s](int seed) -> Run {
             Progress progress;
-            const SettledState settled =
-                settled_pile(s.rocks, static_cast<std::uint64_t>(seed), settling_options(), progress);
-            return [settled](const engine::contact::WorldOptions& options, double offset) -> Sample {
+            const SettledState start =
+                settled(support::rock_pile(s.rocks, static_cast<std::uint64_t>(seed), s.material.pile()),
+                        settling_options(), progress);
+            return [start](const engine::contact::WorldOptions& options, double offset) -> Sample {
               Progress shown;
-              const AccuracySample a = accuracy_sample(settled, options, offset, shown);
+              const AccuracySample a = accuracy_sample(start, options, offset, shown);
               return {a.ms_rest, a.ms_dig, a.overlap_mean, a.overlap_p99, a.dig_overlap_p99,
                       a.drift,   a.drag,   a.drag_p95,     a.mass_moved};
             };
@@ -157,28 +156,6 @@ void run_seed(const Subject& subject, int seed, std::vector<Configuration>& all)
     std::fprintf(stderr, "seed %d, %s %s: %s\n", seed, c.name.c_str(), name_of(c.setting).c_str(),
                  compared(subject, sample).c_str());
   }
-}
-
-// Seeds are claimed one after another; after an error no other is begun.
-void run_all(const Settings& s, const Subject& subject, std::vector<Configuration>& all) {
-  std::atomic<int> next{1};
-  std::exception_ptr failure;
-  std::mutex failing;
-  const auto work = [&] {
-    try {
-      for (int seed = next++; seed <= s.seeds; seed = next++) run_seed(subject, seed, all);
-    } catch (...) {
-      const std::lock_guard lock(failing);
-      if (!failure) failure = std::current_exception();
-      next = s.seeds + 1;
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int k = 1; k < s.jobs; ++k) others.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
 }
 
 std::vector<double> values(const Configuration& c, std::size_t quantity) {
@@ -227,8 +204,10 @@ std::string plus_minus(const nlohmann::json& e, double scale, int digits) {
 }
 
 void print_table(const Subject& subject, const nlohmann::json& j) {
-  std::printf("%d seeds; means with 95 %% intervals over seeds; differences from the reference\n%-9s %-16s",
-              j.at("seeds").get<int>(), "", "setting");
+  std::printf(
+      "rolling resistance %g, spinning %g; %d seeds; means with 95 %% intervals over seeds; differences from "
+      "the reference\n%-9s %-16s",
+      j.at("rolling").get<double>(), j.at("spinning").get<double>(), j.at("seeds").get<int>(), "", "setting");
   for (const Quantity& q : subject.quantities) {
     std::printf(" %18s", q.title);
     if (q.compared) std::printf(" %18s", "difference %");
@@ -248,11 +227,17 @@ void print_table(const Subject& subject, const nlohmann::json& j) {
 
 int run(const Settings& s) {
   engine::loading::Scenario scenario;
-  if (!s.cycle.empty()) scenario = engine::loading::lh621_in_a_drift();
+  if (!s.cycle.empty()) {
+    scenario = engine::loading::lh621_in_a_drift();
+    scenario.materials = with_resistance(scenario.materials, s.material.rolling, s.material.spinning);
+  }
   const Subject subject = s.cycle.empty() ? blade(s) : cycle(s, scenario);
   std::vector<Configuration> all = configurations(s, scenario.world);
-  run_all(s, subject, all);
-  nlohmann::json out{{"seeds", s.seeds}, {"configurations", nlohmann::json::array()}};
+  each_seed(s.seeds, s.jobs, [&](int seed) { run_seed(subject, seed, all); });
+  nlohmann::json out{{"seeds", s.seeds},
+                     {"rolling", s.material.rolling},
+                     {"spinning", s.material.spinning},
+                     {"configurations", nlohmann::json::array()}};
   if (s.cycle.empty()) out["rocks"] = s.rocks;
   for (const Configuration& c : all) out["configurations"].push_back(described(subject, c, all.front()));
   if (s.json)
@@ -299,6 +284,7 @@ int main(int argc, char** argv) {
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
   add_method_flags(app, s.engine);
+  add_material_flags(app, s.material);
   app.add_flag("--json", s.json, "print one JSON object");
   return run_command(app, argc, argv, [&] { return run(s); });
 }

@@ -83,6 +83,15 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags) {
   add_method_flags(app, flags);
 }
 
+void add_material_flags(CLI::App& app, MaterialFlags& flags) {
+  app.add_option("--rolling", flags.rolling, "rolling resistance of the rocks [1]")
+      ->check(between(0, 2, "", "0 to 0.1 is calibrated ore, 0.5 what spheres need to lie like it"))
+      ->capture_default_str();
+  app.add_option("--spinning", flags.spinning, "spinning resistance of the rocks [1]")
+      ->check(between(0, 2, "", "0 is usual"))
+      ->capture_default_str();
+}
+
 engine::contact::WorldOptions world_options(const EngineFlags& flags) {
   engine::contact::WorldOptions options = flags.world;
   options.solver.method = engine::contact::method_named(flags.method);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/tests/support/rock_pile.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,6 +31,22 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags);
 void add_method_flags(CLI::App& app, EngineFlags& flags);
 /// The world's options as the flags choose them; --threads holds for contact finding and solving.
 engine::contact::WorldOptions world_options(const EngineFlags& flags);
+/// The two coefficients of rocks on everything that studies of materials vary.
+struct MaterialFlags {
+  double rolling = support::PileMaterial{}.rolling, spinning = support::PileMaterial{}.spinning;  ///< [1]
+
+  /// The material of the pile scene with them.
+  support::PileMaterial pile() const {
+    support::PileMaterial material;
+    material.rolling = rolling;
+    material.spinning = spinning;
+    return material;
+  }
+};
+
+/// --rolling and --spinning; the defaults are what `flags` holds.
+void add_material_flags(CLI::App& app, MaterialFlags& flags);
+
 /// The options as they go into the results.
 nlohmann::json described(const engine::contact::WorldOptions& options);
 /// "dt 5 ms, sequential, 1 x 25 sweeps, threads 1, freeze off", from described().

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cycle_run.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/random.hpp>
 #include <stdexcept>
 
@@ -30,19 +27,6 @@ double mean_bucket_force(const engine::loading::LoadingLog& log, double step) {
   return mean_of(force);
 }
 
-// A file's name of this process, removed at the end.
-struct Scratch {
-  explicit Scratch(const std::filesystem::path& beside)
-      : path(beside.string() + "." + std::to_string(getpid()) + ".started") {}
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::filesystem::path path;
-};
-
 }  // namespace
 
 engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const std::filesystem::path& folder,
@@ -50,8 +34,7 @@ engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const st
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw std::runtime_error(std::string("--cycle ") + folder.string() +
-                             ": no folder for piles can be made here (" + error.message() +
+    throw std::runtime_error(folder.string() + ": no folder for piles can be made here (" + error.message() +
                              "); name one that is there or that can be made");
   scenario.pile.seed = static_cast<std::uint64_t>(seed);
   scenario.pile_file = folder / ("pile_" + std::to_string(seed) + ".h5");
@@ -65,10 +48,7 @@ engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::u
 }
 
 CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile) {
-  const Scratch scratch(scenario.pile_file);
   scenario.cycles = 1;
-  scenario.pile_file = scratch.path;
-  write_pile(scratch.path, pile, scenario);  // the same pile, whatever it was poured with
   CycleSample sample;
   int steps = 0;
   engine::loading::SimulationHooks hooks;
@@ -77,7 +57,7 @@ CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading:
     sample.mean_deepest_overlap += r.max_overlap;
     ++steps;
   };
-  const engine::loading::LoadingLog log = simulate(scenario, hooks);
+  const engine::loading::LoadingLog log = simulate(scenario, pile, hooks);
   if (!log.completed) throw std::runtime_error(log.message);
   sample.ms_step = sample.contact_ms / steps;
   sample.mean_deepest_overlap /= steps;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
-#include <drawpoint/engine/loading/scenario.hpp>
 
 /// One loading cycle from a given pile: what the bucket feels and loads.
 ///
@@ -28,8 +28,8 @@ engine::loading::Scenario with_pile(engine::loading::Scenario scenario, const st
 /// Raises each rock by up to `most` [m], by the draws of `seed`; what lies there is not pressed together.
 engine::loading::SettledPile displaced(engine::loading::SettledPile pile, std::uint64_t seed, double most);
 
-/// Runs the scenario's first cycle from the pile, through a file beside the scenario's pile file that is
-/// removed again. Throws std::runtime_error with the run's message when it does not come to its end.
+/// The scenario's first cycle from this pile, whatever it was poured with. Throws std::runtime_error with the
+/// run's message when it does not come to its end.
 CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading::SettledPile& pile);
 
 }  // namespace drawpoint::benchmarks

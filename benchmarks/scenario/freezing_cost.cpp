@@ -25,7 +25,7 @@ double processor_ms() {
 class TwoBoxes {
  public:
   TwoBoxes(const CostScene& scene, const WorldOptions& options)
-      : near_(support::rock_pile(scene.moving, scene.seed)),
+      : near_(support::rock_pile(scene.moving, scene.seed, scene.material)),
         blade_(near_.blade.start),
         world_(options, support::pile_materials(near_.material)) {
     add_static(HalfSpace{Vector3d::UnitZ(), 0}, Vector3d::Zero());

@@ -18,6 +18,7 @@ struct CostScene {
   int bed = 2700, moving = 300;
   std::uint64_t seed = 1;
   bool freeze = true;
+  support::PileMaterial material = {};
 };
 
 struct FreezingCost {

@@ -36,6 +36,7 @@ constexpr const char* about =
 struct Settings {
   bool cost = false, blade = false;
   std::string folder, setting = "10x1x100";
+  MaterialFlags material;
   int rocks = 300, seeds = 5, repeats = 3;
 };
 
@@ -56,9 +57,10 @@ void print_change(const std::string& what, const Paired& p) {
 }
 
 // Least of the repeats.
-FreezingCost least_cost(const CostScene& scene, int repeats) {
+FreezingCost least_cost(CostScene scene, const Settings& s) {
+  scene.material = s.material.pile();
   FreezingCost least;
-  for (int k = 0; k < repeats; ++k) {
+  for (int k = 0; k < s.repeats; ++k) {
     const FreezingCost cost = freezing_cost(scene, {});
     if (k == 0) least = cost;
     least.fall_ms = std::min(least.fall_ms, cost.fall_ms);
@@ -78,7 +80,7 @@ int study_cost(const Settings& s) {
                         {"300 alone", {.bed = 0}, {}},
                         {"300 beside 2700 frozen", {}, {}}};
   for (Row& row : rows) {
-    row.cost = least_cost(row.scene, s.repeats);
+    row.cost = least_cost(row.scene, s);
     std::printf(
         "%-24s ms a step: fall %.3f (%.0f awake), dig %.3f (%.0f awake), before them %.4f; %d frozen, "
         "%d solved again\n",
@@ -101,16 +103,18 @@ int study_blade(const Settings& s) {
   on.freezing.on = true;
   Paired drag, moved;
   for (int seed = 1; seed <= s.seeds; ++seed) {
-    const SettledState settled = settled_pile(s.rocks, static_cast<std::uint64_t>(seed), {}, progress);
+    const SettledState start = settled(
+        support::rock_pile(s.rocks, static_cast<std::uint64_t>(seed), s.material.pile()), {}, progress);
     const auto add = [&](std::vector<double> Paired::*which, const AccuracySample& sample) {
       (drag.*which).push_back(sample.drag);
       (moved.*which).push_back(sample.mass_moved);
     };
-    add(&Paired::off, accuracy_sample(settled, off, 0, progress));
-    add(&Paired::on, accuracy_sample(settled, on, 0, progress));
-    add(&Paired::twin, accuracy_sample(settled, off, 1e-6, progress));
+    add(&Paired::off, accuracy_sample(start, off, 0, progress));
+    add(&Paired::on, accuracy_sample(start, on, 0, progress));
+    add(&Paired::twin, accuracy_sample(start, off, 1e-6, progress));
   }
-  std::printf("blade through %d rocks, %d piles, %s\n", s.rocks, s.seeds, s.setting.c_str());
+  std::printf("blade through %d rocks, %d piles, %s, rolling resistance %g, spinning %g\n", s.rocks, s.seeds,
+              s.setting.c_str(), s.material.rolling, s.material.spinning);
   print_change("drag on the blade [N]", drag);
   print_change("mass moved [kg]", moved);
   return 0;
@@ -121,7 +125,8 @@ int study_cycle(const Settings& s) {
   const Setting setting = setting_of(s.setting);
   Paired force, mass, ms;
   for (int seed = 1; seed <= s.seeds; ++seed) {
-    const Scenario scenario = with_pile(lh621_in_a_drift(), s.folder, seed);
+    Scenario scenario = with_pile(lh621_in_a_drift(), s.folder, seed);
+    scenario.materials = with_resistance(scenario.materials, s.material.rolling, s.material.spinning);
     const SettledPile pile = prepared_pile(scenario);
     const auto run = [&](std::vector<double> Paired::*which, bool freeze, double offset) {
       Scenario chosen = scenario;
@@ -138,7 +143,8 @@ int study_cycle(const Settings& s) {
     run(&Paired::on, true, 0);
     run(&Paired::twin, false, 1e-6);
   }
-  std::printf("loading cycle, %d piles, %s\n", s.seeds, s.setting.c_str());
+  std::printf("loading cycle, %d piles, %s, rolling resistance %g, spinning %g\n", s.seeds, s.setting.c_str(),
+              s.material.rolling, s.material.spinning);
   print_change("force in the bucket pin [N]", force);
   print_change("loaded mass [kg]", mass);
   print_change("time in contacts [ms]", ms);
@@ -167,6 +173,7 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", s.repeats, "of the cost; the least counts")
       ->check(between(1, 100, "", "3 and more on a busy machine"))
       ->capture_default_str();
+  add_material_flags(app, s.material);
   return run_command(app, argc, argv, [&] {
     if (s.cost) return study_cost(s);
     return s.blade ? study_blade(s) : study_cycle(s);

@@ -15,6 +15,7 @@ namespace {
 
 struct Settings {
   EngineFlags engine;
+  MaterialFlags material;
   int rocks = 500;
   std::uint64_t seed = 1;
   std::optional<int> settle, steps, dig;
@@ -27,7 +28,9 @@ constexpr const char* about =
     "through it at 1.5 m/s. Prints milliseconds a step and how true the pile is.\n\n"
     "  pile_scenario                                 500 rocks, the engine's defaults\n"
     "  pile_scenario --rocks 3000 --dt 0.01 --json   the scene on which engines are compared, for a "
-    "script\n\n"
+    "script\n"
+    "  pile_scenario --rolling 0                     friction alone, as the engines that it is compared "
+    "with\n\n"
     "Fields of --json:\n"
     "  ms_rest      median wall time of a step at rest; ms_dig: mean while the blade moves. Parts: means.\n"
     "  contacts     contact points in the last step at rest; manifolds: pairs with such points;\n"
@@ -91,8 +94,9 @@ nlohmann::json run(const Settings& s) {
             steps = s.steps.value_or(steps_in(RockPile::rest_time, options.step)),
             dig = s.dig.value_or(steps_in(RockPile::dig_time, options.step));
   Progress progress;
-  support::PileWorld world(support::rock_pile(s.rocks, s.seed), options);
+  support::PileWorld world(support::rock_pile(s.rocks, s.seed, s.material.pile()), options);
   nlohmann::json out = described(options);
+  out.update({{"rolling", s.material.rolling}, {"spinning", s.material.spinning}});
   out.update({{"rocks", s.rocks}, {"seed", s.seed}, {"mass_kg", world.pile().mass()}});
   out.update({{"settle_steps", settle}, {"rest_steps", steps}, {"dig_steps", dig}});
 
@@ -124,8 +128,8 @@ void print_times(const char* what, double ms, const nlohmann::json& parts) {
 }
 
 void print_table(const nlohmann::json& j) {
-  std::printf("%d rocks, %.1f t; %s\n", j.at("rocks").get<int>(), number(j, "mass_kg") / 1e3,
-              in_words(j).c_str());
+  std::printf("%d rocks, %.1f t, rolling resistance %g, spinning %g; %s\n", j.at("rocks").get<int>(),
+              number(j, "mass_kg") / 1e3, number(j, "rolling"), number(j, "spinning"), in_words(j).c_str());
   print_times("rest", number(j, "ms_rest"), j.at("ms_rest_parts"));
   print_times("dig", number(j, "ms_dig"), j.at("ms_dig_parts"));
   std::printf("contact points %d in %d manifolds, %d rocks awake at rest; %d and %d while digging\n",
@@ -162,6 +166,7 @@ int main(int argc, char** argv) {
   app.add_option("--dig", s.dig, "steps of digging (default: 1 s)")
       ->check(between(1, 1e7, "steps", "leave it out for 1 s; the blade meets the wall after 3.6 s"));
   add_engine_flags(app, s.engine);
+  add_material_flags(app, s.material);
   app.add_flag("--json", s.json, "print one JSON object");
   return run_command(app, argc, argv, [&] {
     const nlohmann::json result = run(s);

@@ -16,6 +16,7 @@ namespace {
 
 struct Settings {
   EngineFlags engine;
+  MaterialFlags material{support::DugPile::stone.rolling, support::DugPile::stone.spinning};
   int rocks = 200;
   long steps = 2000, every = 500, restart = 0;
 };
@@ -29,7 +30,10 @@ constexpr const char* about =
     "  state_hash --rocks 40 --steps 200 --every 50 short enough for a build with sanitizers";
 
 int run(const Settings& s) {
-  support::DugPile pile(s.rocks, world_options(s.engine));
+  engine::contact::Material stone = support::DugPile::stone;
+  stone.rolling = s.material.rolling;
+  stone.spinning = s.material.spinning;
+  support::DugPile pile(s.rocks, world_options(s.engine), stone);
   Progress progress;
   while (pile.step() < s.steps) {
     if (s.restart > 0 && pile.step() == s.restart)
@@ -63,5 +67,6 @@ int main(int argc, char** argv) {
       ->check(between(0, 1e7, "steps", "half of --steps is usual"))
       ->capture_default_str();
   add_engine_flags(app, s.engine);
+  add_material_flags(app, s.material);
   return run_command(app, argc, argv, [&] { return run(s); });
 }

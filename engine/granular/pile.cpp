@@ -24,44 +24,62 @@ contact::RockBody RockLibrary::body(const RockSpec& spec) const {
 
 namespace {
 
-// Places of the layer: a square grid within the radius.
-std::vector<Eigen::Vector3d> layer_places(const EmitterOptions& o) {
-  std::vector<Eigen::Vector3d> places;
+// Places of a layer: a square grid within the radius.
+std::vector<Eigen::Vector2d> layer_places(const EmitterOptions& o) {
+  std::vector<Eigen::Vector2d> places;
   const int reach = static_cast<int>(o.radius / o.spacing) + 1;
   for (int i = -reach; i <= reach; ++i)
     for (int j = -reach; j <= reach; ++j) {
-      const Eigen::Vector3d offset(i * o.spacing, j * o.spacing, 0);
-      if (offset.norm() <= o.radius) places.push_back(o.centre + offset);
+      const Eigen::Vector2d offset(i * o.spacing, j * o.spacing);
+      if (offset.norm() <= o.radius) places.emplace_back(o.top.head<2>() + offset);
     }
   return places;
 }
 
-bool free_place(const contact::World& world, const Eigen::Vector3d& place, double clearance) {
-  return std::none_of(world.rocks().begin(), world.rocks().end(), [&](const contact::Rock& rock) {
-    return rock.present && (rock.pose.translation() - place).norm() < clearance;
-  });
+double radius_of(const contact::RockBody& body) {
+  return std::get<contact::ConvexPolyhedron>(*body.shape).radius();
+}
+
+// Least height of a sphere's centre over the floor and over the spheres about all rocks.
+double height_over(const contact::World& world, const Eigen::Vector2d& place, double radius) {
+  double z = radius;
+  for (const contact::Rock& rock : world.rocks()) {
+    if (!rock.present) continue;
+    const double reach = radius + radius_of(rock.body),
+                 apart = (rock.pose.translation().head<2>() - place).norm();
+    if (apart < reach)
+      z = std::max(z, rock.pose.translation().z() + std::sqrt(reach * reach - apart * apart));
+  }
+  return z;
 }
 
 }  // namespace
 
 Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t seed)
-    : options_(options), places_(layer_places(options)), turns_(seed), sampler_(seed, density) {}
+    : options_(options),
+      places_(layer_places(options)),
+      turns_(seed),
+      sampler_(seed, density),
+      next_(sampler_.next()) {}
 
 std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library,
                                std::vector<RockSpec>& specs, double mass) {
   std::vector<int> born;
-  for (const Eigen::Vector3d& place : places_) {
+  if (mass <= 0 || world.time() < due_) return born;
+  due_ = world.time() + options_.interval;
+  for (const Eigen::Vector2d& place : places_) {
     if (mass <= 0) break;
-    if (!free_place(world, place, options_.spacing)) continue;
-    const RockDraw draw = sampler_.next();
-    const RockSpec spec{draw.shape, draw.length};
+    const RockSpec spec{next_.shape, next_.length};
     const contact::RockBody body = library.body(spec);
+    const double z = height_over(world, place, radius_of(body)) + options_.clearance;
+    if (z > options_.top.z()) continue;
     Eigen::Isometry3d pose(turns_.rotation());
-    pose.translation() = place;
-    born.push_back(world.add_rock(body, pose, Eigen::Vector3d(0, 0, -options_.speed)));
+    pose.translation() << place, z;
+    born.push_back(world.add_rock(body, pose));
     specs.resize(world.rocks().size());
     specs.back() = spec;
     mass -= body.mass;
+    next_ = sampler_.next();
   }
   return born;
 }

@@ -212,13 +212,15 @@ std::vector<double> contour(const ColumnModel& model, const Row& row) {
   return {mean.data(), mean.data() + mean.size()};
 }
 
+bool lies_in_front(const ColumnModel& model, const Eigen::Vector3d& centre) {
+  const int j = std::clamp(strip_at(centre.y(), model.grid), 0, model.grid.ny() - 1);
+  return centre.x() < model.strips[j].front;
+}
+
 double mass_in_front(const ColumnModel& model, std::span<const PosedRock> rocks) {
   double mass = 0;
-  for (const PosedRock& rock : rocks) {
-    const Eigen::Vector3d p = rock.pose.translation();
-    const int j = std::clamp(strip_at(p.y(), model.grid), 0, model.grid.ny() - 1);
-    if (p.x() < model.strips[j].front) mass += rock.mass;
-  }
+  for (const PosedRock& rock : rocks)
+    if (lies_in_front(model, rock.pose.translation())) mass += rock.mass;
   return mass;
 }
 

@@ -92,8 +92,11 @@ ColumnModel column_model(const Eigen::MatrixXd& heights, const ColumnGrid& grid,
 /// Height of the pile body along x, mean over the row's strips: nx values at grid.x(i) [m].
 std::vector<double> contour(const ColumnModel& model, const Row& row);
 
-/// Mass of the rocks in front of the pile [kg]: centre on the vehicle's side of the front of the strip it
-/// lies in. A strip without pile is in front altogether. Leave out the rocks in the bucket.
+/// Whether a rock with this centre lies in front of the pile: on the vehicle's side of the front of the strip
+/// it lies in. A strip without pile is in front altogether.
+bool lies_in_front(const ColumnModel& model, const Eigen::Vector3d& centre);
+
+/// Mass of the rocks in front of the pile [kg]. Leave out the rocks in the bucket.
 double mass_in_front(const ColumnModel& model, std::span<const PosedRock> rocks);
 
 }  // namespace drawpoint::engine::loading

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
-#include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/random.hpp>
 #include <stdexcept>
 #include <string>
@@ -108,22 +108,7 @@ void add_drift(contact::World& world, const Drift& drift) {
 granular::EmitterOptions emitter_of(const Drift& d) {
   const double z = d.raise_height - 0.6;
   const double radius = d.raise_radius + d.raise_widening * (z - d.height) - 0.46;
-  return {{d.raise_axis().x(), d.raise_axis().y(), z}, radius, 0.91, 2.0};
-}
-
-contact::MaterialTable mine_materials(double tyre_stiffness) {
-  const int rock = 0, steel = static_cast<int>(SurfaceKind::steel),
-            tyre = static_cast<int>(SurfaceKind::tyre);
-  // Young's moduli of the tables times 0.1 m, but not softer than 1e8 N/m: rock on steel or floor at 1e8 Pa.
-  contact::MaterialTable table(surface_kinds);
-  table.set(rock, rock, {0.9, 0.5, 1e9, 0, 0.5});
-  table.set(rock, terrain, {1.0, 0.9, 1e8, 0, 0.9});
-  table.set(rock, steel, {1.0, 0.9, 1e8, 0, 0.9});
-  table.set(rock, tyre, {1.0, 0.9, 1e8, 0, 0.9});
-  table.set(terrain, steel, {1.0, 0.9, 1e8, 0, 0.9});
-  // A tyre's damping ratio is about 0.1: τ = 2 ζ sqrt(m/k) with a quarter of the machine on each.
-  table.set(terrain, tyre, {0.8, 0.0, tyre_stiffness, 0.2 * std::sqrt(14e3 / tyre_stiffness)});
-  return table;
+  return {.top = {d.raise_axis().x(), d.raise_axis().y(), z}, .radius = radius};
 }
 
 }  // namespace drawpoint::engine::loading

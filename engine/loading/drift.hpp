@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/material.hpp>
 #include <drawpoint/engine/contact/world.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
 
@@ -34,11 +33,7 @@ void check(const Drift& drift);
 /// Adds the drift's fixed surfaces to a world.
 void add_drift(contact::World& world, const Drift& drift);
 
-/// Where rocks come in: the top of the raise.
+/// Where rocks come in: under the raise, low over what lies there, at most at its top.
 granular::EmitterOptions emitter_of(const Drift& drift);
-
-/// Friction, rolling resistance and stiffness of tables 8-13 of the founding case. `tyre_stiffness` [N/m]
-/// replaces the thesis's rigid tyre (1e10 Pa): 2 MN/m is a tyre of this size.
-contact::MaterialTable mine_materials(double tyre_stiffness = 2e6);
 
 }  // namespace drawpoint::engine::loading

@@ -125,10 +125,12 @@ Stage Executor::after(StageEnd reason) const {
 }
 
 TipRates Executor::lift_rates(double s) const {
-  const double v_z = options_.speeds.lift, time_scale = plan_.height / v_z;
+  const SpeedPreset& v = options_.speeds;
+  const double time_scale = std::max({goal_.z / v.lift, goal_.x / v.drive_in, goal_.phi / v.curl});
   const double f = translation_factor(s, options_.progress);
   const double g = rotation_factor(s, options_.progress);
-  return {.v_x = f * v_z / std::tan(plan_.slope), .v_z = f * v_z, .omega = g * plan_.tilt / time_scale};
+  return {
+      .v_x = f * goal_.x / time_scale, .v_z = f * goal_.z / time_scale, .omega = g * goal_.phi / time_scale};
 }
 
 ActuatorRates Executor::set_speeds(const TipPose& tip) const {

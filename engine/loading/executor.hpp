@@ -11,11 +11,12 @@
 /// Follows a plan with set speeds for drive, boom and tilt, in four stages: drive in, lift, curl, back out.
 ///
 /// Each step: progress s from the tip; tip velocity from the stage's law; actuator rates by inverse
-/// kinematics; one common factor keeps them within limits. First speeds: stage 1 v_x, constant; stage 2 v_z
-/// with v_x = v_z / tan θ and ω = κθ v_z / h; stage 3 ω; stage 4 −v_x. A stage ends when (a) its goal is
-/// reached, (b) its time is up, or (c) an actuator whose set speed exceeds `least_set` has run below
-/// `slow_share` of it for longer than `slow_window`. (b) and (c) are being stuck; the policy says what
-/// follows. Stage 2 is left out if h = 0.
+/// kinematics; one common factor keeps them within limits. First speeds: stage 1 v_x, constant; stage 2
+/// straight to its goal in the least time T₀ at which none of drive-in, lift and curl speed is exceeded (v_z
+/// = the lift speed, v_x = v_z / tan θ and ω = κθ v_z / h when the drive-in reached its own); stage 3 ω;
+/// stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose set
+/// speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`. (b) and (c) are
+/// being stuck; the policy says what follows. Stage 2 is left out if h = 0.
 ///
 /// A value type on plain data: knows no simulator, deterministic. World frame, SI units. Source: Lindmark
 /// 2016, section 3.4, algorithm 1.
@@ -30,7 +31,7 @@ std::string_view name(StageEnd reason);
 
 struct SpeedPreset {
   double drive_in;                    ///< v_x of stage 1 [m/s]
-  double lift;                        ///< v_z at the start of stage 2 [m/s]
+  double lift;                        ///< v_z at the start of stage 2, at most [m/s]
   double curl;                        ///< ω at the start of stage 3 [rad/s]
   double back_out;                    ///< speed at the start of stage 4 [m/s]
   std::array<double, 4> stage_limit;  ///< longest time of each stage [s]

@@ -57,6 +57,7 @@ class Builder {
     lhd_.tyre_radius = 1.01;
     lhd_.bucket_width = 3.2;
     lhd_.bucket_volume = 8.0;
+    lhd_.payload = 21e3;
     lhd_.bucket_profile = {{3.85, 0}, {2.85, 1.75}, {2.30, 1.58}, {2.14, 1.15}, {2.16, 0.35}, {2.40, 0}};
   }
 
@@ -183,9 +184,10 @@ void Builder::add_motors() {
 // Strokes relative to the reference pose, and the oscillation of the rear unit.
 void Builder::add_stops() {
   const double lift = (D - B).norm(), tilt = (Q - T).norm(), roll = 8 * M_PI / 180;
-  lhd_.spec.stops = {{"lift cylinder stroke", lhd_.lift_rods[0], 1.719 - lift, 2.990 - lift},
-                     {"tilt cylinder stroke", lhd_.tilt_rod, 1.144 - tilt, 1.744 - tilt},
-                     {"oscillation", lhd_.rear, -roll, roll}};
+  lhd_.spec.stops = {
+      {"lift cylinder strokes", {lhd_.lift_rods[0], lhd_.lift_rods[1]}, 1.719 - lift, 2.990 - lift},
+      {"tilt cylinder stroke", {lhd_.tilt_rod}, 1.144 - tilt, 1.744 - tilt},
+      {"oscillation", {lhd_.rear}, -roll, roll}};
 }
 
 void Builder::draw(int body, const std::vector<Vector3d>& points, SurfaceKind kind, bool touches,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <drawpoint/engine/contact/shape.hpp>
+#include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <string>
 #include <vector>
@@ -41,9 +42,6 @@ struct LhdOptions {
   double wheel_torque = 81e3;  ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
 };
 
-enum class SurfaceKind { rock, terrain, steel, tyre };  ///< rows of the material table
-constexpr int surface_kinds = 4;
-
 /// A convex piece of one body, for contact and for pictures; in the body's frame.
 struct LhdSurface {
   int body;
@@ -66,6 +64,7 @@ struct Lhd {
   double loaded_radius;     ///< axle height under the machine's own weight [m]
   double bucket_width;      ///< [m]
   double bucket_volume;     ///< heaped 2:1 [m³]
+  double payload;           ///< rated [kg]
   std::vector<Eigen::Vector2d>
       bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]
   std::vector<LhdSurface> surfaces;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/pile_shape.hpp>
 #include <drawpoint/engine/loading/scene_recorder.hpp>
 #include <drawpoint/engine/loading/signals.hpp>
 #include <exception>
@@ -16,10 +17,10 @@ constexpr int trouble_interval = 50;     // steps between checks of the whole st
 
 class LoadingRun {
  public:
-  LoadingRun(const Scenario& scenario, const SimulationHooks& hooks)
+  LoadingRun(const Scenario& scenario, const SettledPile& pile, const SimulationHooks& hooks)
       : scenario_(scenario),
         hooks_(hooks),
-        site_(scenario, prepared_pile(scenario)),
+        site_(scenario, pile),
         signals_(site_.lhd()),
         scene_(site_, scenario.drift) {
     site_.world().before_solve(hooks.before_solve);
@@ -28,6 +29,7 @@ class LoadingRun {
 
   LoadingLog run() {
     bool fine = true;
+    in_front_before_ = rocks_in_front(columns(true));
     for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = attempt(cycle);
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
@@ -45,6 +47,7 @@ class LoadingRun {
   Plan plan(CycleRecord& record) const;
   bool execute(int cycle, CycleRecord& record);
   bool step(const std::function<void(const contact::StepReport&)>& record = {});
+  bool refill();
   bool wait_for_rest();
   bool fail(const std::string& message) {
     log_.message = message;
@@ -52,6 +55,8 @@ class LoadingRun {
   }
   ColumnModel columns(bool with_bucket) const;
   PlannerOptions planner_options() const;
+  std::vector<bool> rocks_in_front(const ColumnModel& model) const;
+  void weigh_front(CycleRecord& record) const;
 
   Scenario scenario_;
   SimulationHooks hooks_;
@@ -62,6 +67,7 @@ class LoadingRun {
   double cleared_ = 0;
   long steps_ = 0;
   std::size_t most_points_ = 0;
+  std::vector<bool> in_front_before_;  // by rock, before the machine first came
 };
 
 void LoadingRun::describe() {
@@ -78,6 +84,12 @@ void LoadingRun::describe() {
                   {"pile_mass", site_.initial_mass()},
                   {"rocks", static_cast<double>(site_.world().rocks().size())},
                   {"density", s.pile.density},
+                  {"payload", site_.lhd().payload},
+                  {"rock_friction", s.materials.rock_rock.friction},
+                  {"rock_rolling", s.materials.rock_rock.rolling},
+                  {"rock_spinning", s.materials.rock_rock.spinning},
+                  {"steel_friction", s.materials.rock_steel.friction},
+                  {"steel_rolling", s.materials.rock_steel.rolling},
                   {"step", s.world.step},
                   {"substeps", s.world.solver.substeps},
                   {"sweeps", s.world.solver.sweeps},
@@ -93,6 +105,7 @@ void LoadingRun::describe() {
                   {"lift_cylinder_limit", s.machine.lift_cylinder_force},
                   {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
   log_.texts = {{"machine", "Sandvik LH621 class"},
+                {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
                 {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
                 {"seed", std::to_string(s.seed)},
                 {"version", DRAWPOINT_VERSION},
@@ -100,14 +113,11 @@ void LoadingRun::describe() {
 }
 
 ColumnModel LoadingRun::columns(bool with_bucket) const {
-  ColumnGrid grid;
-  grid.x_max = scenario_.drift.length;
-  grid.half_width = scenario_.drift.width / 2;
   ColumnOptions options = scenario_.columns;
   options.bucket_width = site_.lhd().bucket_width;
   options.bucket_volume = site_.lhd().bucket_volume;
   const auto rocks = site_.rocks(with_bucket);
-  return column_model(rocks, grid, options);
+  return column_model(rocks, grid_over(scenario_.drift), options);
 }
 
 PlannerOptions LoadingRun::planner_options() const {
@@ -117,6 +127,7 @@ PlannerOptions LoadingRun::planner_options() const {
   options.standoff = scenario_.standoff;
   options.height_limit = scenario_.drift.height - room_under_roof;
   options.x_limit = scenario_.drift.length - scenario_.drift.wall_roughness;
+  options.curl = scenario_.curl;
   options.arm = site_.driver().arm();
   return options;
 }
@@ -150,10 +161,18 @@ bool LoadingRun::step(const std::function<void(const contact::StepReport&)>& rec
   return trouble.empty() || fail(trouble);
 }
 
+bool LoadingRun::refill() {
+  double last_birth = site_.world().time();
+  while (site_.missing_mass() > 0 && site_.world().time() - last_birth < granular::blocked_after) {
+    if (site_.refill()) last_birth = site_.world().time();
+    if (!step()) return false;
+  }
+  return true;
+}
+
 bool LoadingRun::wait_for_rest() {
   granular::RestWatch watch(scenario_.pile.rest);
   do {
-    site_.refill();
     if (!step()) return false;
   } while (!watch.at_rest(site_.world()));
   return true;
@@ -181,6 +200,26 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
   return true;
 }
 
+// By rock; those in the bucket lie in front of nothing.
+std::vector<bool> LoadingRun::rocks_in_front(const ColumnModel& model) const {
+  const auto& rocks = site_.world().rocks();
+  std::vector<bool> in_front(rocks.size());
+  for (std::size_t k = 0; k < rocks.size(); ++k)
+    in_front[k] = rocks[k].present && !site_.in_bucket(static_cast<int>(k)) &&
+                  lies_in_front(model, rocks[k].pose.translation());
+  return in_front;
+}
+
+void LoadingRun::weigh_front(CycleRecord& record) const {
+  const std::vector<bool> in_front = rocks_in_front(columns(false));
+  for (std::size_t k = 0; k < in_front.size(); ++k) {
+    if (!in_front[k]) continue;
+    const double mass = site_.world().rocks()[k].body.mass;
+    record.front_mass += mass;
+    if (k >= in_front_before_.size() || !in_front_before_[k]) record.spilled_mass += mass;
+  }
+}
+
 // A diverged state makes the parts below refuse their input; the cycles done before are still worth keeping.
 bool LoadingRun::attempt(int cycle) {
   try {
@@ -206,22 +245,29 @@ bool LoadingRun::run_cycle(int cycle) {
   record.loaded_rock_masses = site_.bucket_masses();
   record.loaded_mass =
       std::accumulate(record.loaded_rock_masses.begin(), record.loaded_rock_masses.end(), 0.0);
-  record.spilled_mass = mass_in_front(columns(false), site_.rocks(false));
+  weigh_front(record);
   site_.empty_bucket();
   log_.cycles.push_back(record);
-  return cycle == scenario_.cycles || wait_for_rest();
+  return cycle == scenario_.cycles || (refill() && wait_for_rest());
 }
 
 }  // namespace
 
 LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks) {
   check(scenario);
-  LoadingLog log;
   try {
-    log = LoadingRun(scenario, hooks).run();
-  } catch (const contact::SolutionBroken& error) {  // before the first cycle: the pile was being poured
+    return simulate(scenario, prepared_pile(scenario), hooks);
+  } catch (const contact::SolutionBroken& error) {
+    LoadingLog log;
     log.message = std::string("the pile broke down while it was poured: ") + error.what();
+    if (!scenario.log_file.empty()) write_log(scenario.log_file, log);
+    return log;
   }
+}
+
+LoadingLog simulate(const Scenario& scenario, const SettledPile& pile, const SimulationHooks& hooks) {
+  check(scenario);
+  const LoadingLog log = LoadingRun(scenario, pile, hooks).run();
   if (!scenario.log_file.empty()) write_log(scenario.log_file, log);
   return log;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/pile_store.hpp>
 #include <drawpoint/engine/loading/responses.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <functional>
@@ -28,5 +29,8 @@ struct SimulationHooks {
 };
 
 LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks = {});
+
+/// From this pile, whatever it was poured with; the scenario's pile file is not looked at.
+LoadingLog simulate(const Scenario& scenario, const SettledPile& pile, const SimulationHooks& hooks = {});
 
 }  // namespace drawpoint::engine::loading

@@ -12,7 +12,7 @@ using record::Reader;
 using record::Table;
 using record::Writer;
 
-const record::FileKind kind{"drawpoint loading log", 1};
+const record::FileKind kind{"drawpoint loading log", 2};
 
 std::string numbered(const std::string& group, std::size_t k) {
   std::string digits = std::to_string(k);
@@ -44,6 +44,7 @@ void visit_cycle_numbers(CycleOrConst& cycle, Visit&& visit) {
   visit("t_start_s", cycle.t_start);
   visit("t_end_s", cycle.t_end);
   visit("loaded_mass_kg", cycle.loaded_mass);
+  visit("front_mass_kg", cycle.front_mass);
   visit("spilled_mass_kg", cycle.spilled_mass);
 }
 

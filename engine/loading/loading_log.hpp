@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// Everything a loading run leaves behind: raw signals at full rate, one record a cycle, and frames for
+/// Everything a loading run leaves behind: raw signals at full rate, one record per cycle, and frames for
 /// pictures. Responses are pure functions of it, so a changed definition never needs a new simulation.
 ///
 /// Signals that the responses read, when present: time [s], cycle (from 1), hinge_G_torque_x/y/z [N m] (y:
@@ -21,7 +21,8 @@ namespace drawpoint::engine::loading {
 struct CycleRecord {
   double t_start = 0, t_end = 0;           ///< start of stage 1, end of stage 4 [s]
   double loaded_mass = 0;                  ///< in the heaped bucket at t_end [kg]
-  double spilled_mass = 0;                 ///< in front of the pile at the end of the cycle [kg]
+  double front_mass = 0;                   ///< in front of the pile at the end of the cycle [kg]
+  double spilled_mass = 0;                 ///< of that, rocks that did not lie there before the run [kg]
   std::vector<double> loaded_rock_masses;  ///< [kg]
   Plan plan;
   std::vector<StageResult> stages;
@@ -42,7 +43,7 @@ struct SceneFrame {
   double t = 0;  ///< [s]
   int cycle = 0;
   std::string label;
-  std::vector<float> poses;  ///< x y z qw qx qy qz a body; NaN: not shown
+  std::vector<float> poses;  ///< x y z qw qx qy qz per body; NaN: not shown
 };
 
 struct SceneRecord {

@@ -12,10 +12,21 @@ namespace {
 
 const record::FileKind pile_kind{"drawpoint settled pile", 1};
 
-void add_number(std::string& recipe, const char* name, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s=%.17g ", name, value);
-  recipe += text;
+void add_number(std::string& recipe, const std::string& name, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "=%.17g ", value);
+  recipe += name + text;
+}
+
+// The machine's pairs are no part of it: it comes when the pile lies.
+void add_material(std::string& recipe, const std::string& pair, const contact::Material& m) {
+  add_number(recipe, pair + "_friction", m.friction);
+  add_number(recipe, pair + "_rolling", m.rolling);
+  add_number(recipe, pair + "_spinning", m.spinning);
+  add_number(recipe, pair + "_stiffness", m.stiffness);
+  add_number(recipe, pair + "_damping_time", m.damping_time);
+  add_number(recipe, pair + "_restitution", m.restitution);
+  add_number(recipe, pair + "_law", static_cast<int>(m.law));
 }
 
 double pile_height(const contact::World& world) {
@@ -41,6 +52,13 @@ std::string pile_recipe(const Scenario& s) {
   add_number(recipe, "density", s.pile.density);
   add_number(recipe, "max_height", s.pile.max_height);
   recipe += "seed=" + std::to_string(s.pile.seed) + " ";
+  const granular::EmitterOptions emitter = emitter_of(d);
+  add_number(recipe, "release_radius", emitter.radius);
+  add_number(recipe, "release_spacing", emitter.spacing);
+  add_number(recipe, "release_clearance", emitter.clearance);
+  add_number(recipe, "release_interval", emitter.interval);
+  add_material(recipe, "rock_rock", s.materials.rock_rock);
+  add_material(recipe, "rock_terrain", s.materials.rock_terrain);
   add_number(recipe, "step", s.world.step);
   recipe += "method=" + std::string(contact::to_string(s.world.solver.method)) + " ";
   add_number(recipe, "substeps", s.world.solver.substeps);
@@ -68,7 +86,7 @@ std::string pile_recipe(const Scenario& s) {
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress,
                       const std::function<void(const contact::StepReport&)>& on_step) {
   check(scenario);
-  contact::World world(scenario.world, mine_materials());
+  contact::World world(scenario.world, material_table(scenario.materials));
   add_drift(world, scenario.drift);
   const granular::RockLibrary library(scenario.pile.density, static_cast<int>(SurfaceKind::rock));
   granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed);
@@ -78,17 +96,18 @@ SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)
   };
   std::vector<granular::RockSpec> specs;
   double poured = 0;
-  const int steps_a_second = std::max(1, static_cast<int>(std::lround(1 / world.options().step)));
+  const int steps_per_second = std::max(1, static_cast<int>(std::lround(1 / world.options().step)));
   // A blocked raise gives no room for new rocks; then, or at the height limit, what lies there is the pile.
   double last_birth = 0;
-  for (int step = 0; poured < scenario.pile.mass && world.time() - last_birth < 5; ++step) {
+  for (int step = 0; poured < scenario.pile.mass && world.time() - last_birth < granular::blocked_after;
+       ++step) {
     if (pile_height(world) < scenario.pile.max_height)
       for (int rock : emitter.emit(world, library, specs, scenario.pile.mass - poured)) {
         poured += world.rocks()[rock].body.mass;
         last_birth = world.time();
       }
     step_world();
-    if (progress && step % steps_a_second == 0) progress(std::min(1.0, poured / scenario.pile.mass));
+    if (progress && step % steps_per_second == 0) progress(std::min(1.0, poured / scenario.pile.mass));
   }
   granular::RestWatch watch(scenario.pile.rest);
   do step_world();

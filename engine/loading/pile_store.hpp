@@ -8,11 +8,15 @@
 #include <string>
 #include <vector>
 
-/// The common initial state of all runs: a pile poured through the raise and left to settle, saved and read
+/// The common initial state of all runs: a pile heaped up under the raise and left to settle, saved and read
 /// back.
 ///
-/// The file carries what the pile was made from (drift, rocks, step, solver) as one line of text; reading it
-/// for anything else is refused, so that a study can never start from another study's pile unnoticed.
+/// Rocks are let go low over the growing heap (granular::Emitter), as ore comes down a choked raise, so that
+/// the pile lies at the ore's angle of repose (pile_shape.hpp).
+///
+/// The file carries what the pile was made from (drift, rocks, materials, step, solver) as one line of text;
+/// reading it for anything else is refused, so that a study can never start from another study's pile
+/// unnoticed.
 namespace drawpoint::engine::loading {
 
 struct SettledPile {

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <drawpoint/engine/loading/responses.hpp>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace drawpoint::engine::loading {
@@ -65,11 +69,18 @@ class TorqueSignal {
   bool has_cycle_;
 };
 
-// A sample at the start of a cycle stands for the time before it, unless it is the first of its samples.
-bool within_a_cycle(const LoadingLog& log, double time, bool begins) {
-  for (const CycleRecord& cycle : log.cycles)
-    if ((begins ? time >= cycle.t_start : time > cycle.t_start) && time <= cycle.t_end) return true;
-  return false;
+// The cycle that a sample counts for; none between cycles. A sample at the start of a cycle stands for the
+// time before it, unless it is the first of its samples.
+std::optional<std::size_t> cycle_of(const LoadingLog& log, double time, bool begins) {
+  for (std::size_t k = 0; k < log.cycles.size(); ++k) {
+    const CycleRecord& cycle = log.cycles[k];
+    if ((begins ? time >= cycle.t_start : time > cycle.t_start) && time <= cycle.t_end) return k;
+  }
+  return {};
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double magnitude(const Vector3d& torque, TorqueComponent component) {
@@ -78,45 +89,80 @@ double magnitude(const Vector3d& torque, TorqueComponent component) {
 
 }  // namespace
 
-double production(const LoadingLog& log, const ProductionOptions& options) {
+std::vector<double> production_by_cycle(const LoadingLog& log) {
   require_cycles(log, "production");
-  double ratios = 0, mass = 0, time = 0;
+  std::vector<double> rates;
+  for (const CycleRecord& cycle : log.cycles) rates.push_back(cycle.loaded_mass / duration(cycle));
+  return rates;
+}
+
+double production(const LoadingLog& log, const ProductionOptions& options) {
+  const std::vector<double> rates = production_by_cycle(log);
+  if (options.mean == ProductionMean::of_ratios) return mean(rates);
+  double mass = 0, time = 0;
   for (const CycleRecord& cycle : log.cycles) {
-    ratios += cycle.loaded_mass / duration(cycle);
     mass += cycle.loaded_mass;
     time += duration(cycle);
   }
-  if (options.mean == ProductionMean::ratio_of_sums) return mass / time;
-  return ratios / static_cast<double>(log.cycles.size());
+  return mass / time;
 }
 
-double joint_damage(const LoadingLog& log, const DamageOptions& options) {
+std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOptions& options) {
   require_cycles(log, "joint_damage");
   require_positive("DamageOptions: tau_y [N m]", options.tau_y);
   if (!(options.lowpass_hz >= 0))
     throw std::invalid_argument("loading::DamageOptions: lowpass_hz [Hz] is " +
                                 std::to_string(options.lowpass_hz) + "; give 0 (none) or more");
   const TorqueSignal signal(log.signals);
-  double excess = 0;
+  std::vector<double> damage(log.cycles.size());
   Vector3d filtered = Vector3d::Zero();
   for (std::size_t row = 0; row < signal.rows(); ++row) {
     const double dt = signal.weight(row);
     const bool direct = signal.begins(row) || options.lowpass_hz == 0;
     const double share = direct ? 1.0 : -std::expm1(-2 * std::numbers::pi * options.lowpass_hz * dt);
     filtered += share * (signal.torque(row) - filtered);
-    if (within_a_cycle(log, signal.time(row), signal.begins(row)))
-      excess += std::max(magnitude(filtered, options.component) - options.tau_y, 0.0) * dt;
+    if (const auto cycle = cycle_of(log, signal.time(row), signal.begins(row)))
+      damage[*cycle] += std::max(magnitude(filtered, options.component) / options.tau_y - 1, 0.0) * dt;
   }
-  const double run = excess / options.tau_y;
-  return options.sum == DamageSum::whole_run ? run : run / static_cast<double>(log.cycles.size());
+  return damage;
+}
+
+double joint_damage(const LoadingLog& log, const DamageOptions& options) {
+  const std::vector<double> damage = joint_damage_by_cycle(log, options);
+  if (options.sum == DamageSum::per_cycle) return mean(damage);
+  return std::accumulate(damage.begin(), damage.end(), 0.0);
+}
+
+std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options) {
+  require_cycles(log, "rock_spill");
+  require_positive("SpillOptions: m_max [kg]", options.m_max);
+  std::vector<double> shares;
+  for (const CycleRecord& cycle : log.cycles) shares.push_back(cycle.spilled_mass / options.m_max);
+  return shares;
 }
 
 double rock_spill(const LoadingLog& log, const SpillOptions& options) {
-  require_cycles(log, "rock_spill");
-  require_positive("SpillOptions: m_max [kg]", options.m_max);
-  double mass = 0;
-  for (const CycleRecord& cycle : log.cycles) mass += cycle.spilled_mass;
-  return mass / options.m_max / static_cast<double>(log.cycles.size());
+  return mean(rock_spill_by_cycle(log, options));
+}
+
+double fill_factor(const LoadingLog& log) {
+  require_cycles(log, "fill_factor");
+  const auto payload = log.numbers.find("payload");
+  if (payload == log.numbers.end() || !(payload->second > 0))
+    throw std::invalid_argument(
+        "loading::fill_factor: the log names no payload [kg] above 0; give the log of a simulated run");
+  std::vector<double> shares;
+  for (const CycleRecord& cycle : log.cycles) shares.push_back(cycle.loaded_mass / payload->second);
+  return mean(shares);
+}
+
+double stall_share(const LoadingLog& log) {
+  require_cycles(log, "stall_share");
+  double stalls = 0;
+  for (const CycleRecord& cycle : log.cycles)
+    for (const StageResult& stage : cycle.stages)
+      if (stage.stage == Stage::drive_in && stage.reason != StageEnd::goal) stalls += 1;
+  return stalls / static_cast<double>(log.cycles.size());
 }
 
 }  // namespace drawpoint::engine::loading

@@ -4,8 +4,8 @@
 
 #include <drawpoint/engine/loading/loading_log.hpp>
 
-/// The three responses of the loading study, pure functions of a run log. All throw std::invalid_argument
-/// when the log lacks what they need.
+/// The three responses of the loading study and what tells how far to trust them, pure functions of a run
+/// log. All throw std::invalid_argument when the log lacks what they need.
 ///
 /// production: c₁ = mean over cycles of M_i / T_i [kg/s], to be maximised; M the loaded mass, T from the
 /// start of stage 1 to the end of stage 4. The other aggregation is ΣM / ΣT.
@@ -17,8 +17,10 @@
 /// component, started anew with each cycle: a rigid impact's peak grows as 1/Δt, and unfiltered it would make
 /// the response a function of the time step.
 ///
-/// rock_spill: c₃ = mean over cycles of m_spill / m_max [1].
-/// Source: Lindmark 2016, equations 54-56; aggregation and filter are ours, the thesis is silent.
+/// rock_spill: c₃ = mean over cycles of m_spill / m_max [1], m_spill the rocks in front of the pile after the
+/// cycle that this run left there: what lay there before the machine first came does not count. Rocks that
+/// stay count again after each cycle; those that are cleared away for the machine no longer do. Source:
+/// Lindmark 2016, equations 54-56; aggregation and filter are ours, the thesis is silent.
 namespace drawpoint::engine::loading {
 
 enum class ProductionMean { of_ratios, ratio_of_sums };
@@ -40,6 +42,17 @@ struct DamageOptions {
 struct SpillOptions {
   double m_max = 10000;  ///< mass in front of the pile that would stop the work [kg]; only scales
 };
+
+/// Each response's share of every cycle, in order: M_i / T_i [kg/s]; Σ of the excess torque [s], whose sum is
+/// the run's damage; m_i / m_max [1].
+std::vector<double> production_by_cycle(const LoadingLog& log);
+std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOptions& options = {});
+std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options = {});
+
+/// Loaded mass over the rated payload, mean over the cycles [1].
+double fill_factor(const LoadingLog& log);
+/// Share of the cycles whose drive-in was ended by time or a slow actuator before its goal [1].
+double stall_share(const LoadingLog& log);
 
 double production(const LoadingLog& log, const ProductionOptions& options = {});
 double joint_damage(const LoadingLog& log, const DamageOptions& options = {});

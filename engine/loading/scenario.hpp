@@ -8,6 +8,7 @@
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/executor.hpp>
 #include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/loading/planner.hpp>
 #include <filesystem>
 
@@ -15,7 +16,7 @@
 namespace drawpoint::engine::loading {
 
 struct PileOptions {
-  double mass = 80e3;      ///< poured in the pre-simulation [kg]
+  double mass = 120e3;     ///< heaped up in the pre-simulation [kg]
   double density = 4500;   ///< of the rock [kg/m³]
   double max_height = 8;   ///< pouring stops when the pile reaches it [m]
   std::uint64_t seed = 1;  ///< of the pouring; one pile serves all runs of a study
@@ -30,9 +31,11 @@ struct Scenario {
   double standoff = 2.0;  ///< tip to toe at the start [m]
   Drift drift;
   PileOptions pile;
+  MineMaterials materials = calibrated_materials();
   LhdOptions machine;
   ExecutorOptions executor;
   ColumnOptions columns;
+  CurlMode curl = CurlMode::hinge_G;  ///< how the bucket breaks out of the pile
   contact::WorldOptions world;
   double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
   std::filesystem::path
@@ -43,8 +46,8 @@ struct Scenario {
 /// Speeds are the `thesis_like` preset, 2-3 times what such a machine's hydraulics deliver, as the founding
 /// case's 12 s cycles demand; set executor.speeds = machine_speeds() for engineering conclusions.
 ///
-/// The LH621 in a drift 6 m wide with a small pile (80 t, about 1200 rocks), one cycle: minutes for a whole
-/// study.
+/// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle: minutes
+/// for a whole study.
 Scenario lh621_in_a_drift();
 
 /// The scale of the founding case: a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.

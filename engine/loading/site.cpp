@@ -23,7 +23,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
     : drift_(scenario.drift),
       lhd_(sandvik_lh621(scenario.machine)),
       machine_(lhd_.spec),
-      world_(scenario.world, mine_materials()),
+      world_(scenario.world, material_table(scenario.materials)),
       driver_(lhd_, machine_),
       library_(scenario.pile.density, static_cast<int>(SurfaceKind::rock)),
       emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed) {
@@ -92,10 +92,9 @@ double Site::place_machine(double tip_x, double y, double back) {
   return cleared;
 }
 
-void Site::refill() {
-  const double missing = initial_mass_ - granular::present_mass(world_);
-  if (missing > 0) emitter_.emit(world_, library_, specs_, missing);
-}
+double Site::missing_mass() const { return initial_mass_ - granular::present_mass(world_); }
+
+bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_mass()).empty(); }
 
 std::string Site::trouble() const {
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {

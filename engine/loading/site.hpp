@@ -36,8 +36,10 @@ class Site {
   /// taken away; returns their mass [kg].
   double place_machine(double tip_x, double y, double back = 4.0);
 
-  /// Lets new rocks fall in until the mass in the drift is what it was at the start. Call once a step.
-  void refill();
+  /// Lets rocks come down the raise when it is time, toward the mass at the start; whether any came. Call
+  /// once per step while mass is missing.
+  bool refill();
+  double missing_mass() const;  ///< [kg]; at most 0 when the drift holds what it held at the start
 
   double initial_mass() const { return initial_mass_; }
   /// Empty, or what is wrong with the state: a value that is not finite, a rock outside the drift.

@@ -20,6 +20,13 @@ TipPose curled(const Plan& plan, const TipPose& from, double phi, const ArmGeome
   return curled_about_G(from, phi, arm);
 }
 
+// What is left to go, up and in and nose up only.
+StageGoal toward(const TipPose& place, const TipPose& now) {
+  return {.x = std::max(place.x - now.x, 0.0),
+          .z = std::max(place.z - now.z, 0.0),
+          .phi = std::max(place.phi - now.phi, 0.0)};
+}
+
 }  // namespace
 
 std::array<TipPose, 5> corner_points(const Plan& plan, double standoff, const ArmGeometry& arm) {
@@ -38,7 +45,7 @@ StageGoal stage_goal(const Plan& plan, int stage, const TipPose& now, const TipP
       return {.x = std::max(plan.toe + plan.depth - now.x, 0.0)};
     case 2:
       if (!(plan.height > 0)) return {};
-      return {.x = plan.height / std::tan(plan.slope), .z = plan.height, .phi = plan.tilt};
+      return toward(plan.corners[2], now);
     case 3:
       return {.phi = std::max(plan.phi_max - now.phi, 0.0)};
     case 4:

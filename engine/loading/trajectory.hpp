@@ -10,7 +10,9 @@
 /// What the planner hands to the executor, as a tip path A-B-C-D-E, and the goals of the four stages.
 ///
 ///   A-B drive in, bucket flat: from A (tip ℓ₀ before the toe) to B (depth d behind the toe)
-///   B-C lift and tilt along the slope: by (h / tan θ, h), bucket angle to φ = κθ; left out when h = 0
+///   B-C lift and tilt along the slope to C, d behind the pile's surface at height h, bucket angle φ = κθ;
+///   left
+///       out when h = 0
 ///   C-D curl fully back, to φ_max
 ///   D-E back out, until the tip is above A
 /// World frame, metres and radians.
@@ -51,8 +53,9 @@ struct StageGoal {
 /// A to E of a plan whose numbers are set.
 std::array<TipPose, 5> corner_points(const Plan& plan, double standoff, const ArmGeometry& arm);
 
-/// The goal of stage 1-4 from where the tip is when it starts: stages 1 and 4 aim at places (B and A), stages
-/// 2 and 3 at changes of pose. `cycle_start` is the tip at the start of stage 1.
+/// The goal of stage 1-4 from where the tip is when it starts. Stages 1, 2 and 4 aim at places (B, C and A),
+/// so that a drive-in that ended early is made good on the way up: the lift then leads into the pile instead
+/// of skimming its surface. Stage 3 aims at a bucket angle. `cycle_start` is the tip at the start of stage 1.
 StageGoal stage_goal(const Plan& plan, int stage, const TipPose& now, const TipPose& cycle_start);
 
 /// The path for a plot: straight pieces and the arc of the curl, `arc_points` points on it.

@@ -37,8 +37,8 @@ struct Machine::Simbody {
         reactions{std::vector<Wrench>(spec.bodies.size()),
                   std::vector<Eigen::Vector3d>(spec.loops.size(), Eigen::Vector3d::Zero())} {}
 
-  StopSide side_of(const StopSpec& stop) const { return nearer_stop(stop, tree.coordinate(stop.body)); }
-
+  StopSide side_of(const StopSpec& stop) const;
+  Eigen::RowVectorXd joint_sum(const std::vector<int>& bodies) const;
   void linearise_dynamics();
   void build_rows();
   BodyForces loads(const std::vector<contact::SpatialVector>* part_impulses) const;
@@ -73,18 +73,31 @@ BodyForces Machine::Simbody::loads(const std::vector<contact::SpatialVector>* pa
   return forces;
 }
 
+StopSide Machine::Simbody::side_of(const StopSpec& stop) const {
+  double sum = 0;
+  for (int body : stop.bodies) sum += tree.coordinate(body);
+  return nearer_stop(stop, sum / static_cast<double>(stop.bodies.size()));
+}
+
+// What turns w into the sum of the joints' speeds.
+Eigen::RowVectorXd Machine::Simbody::joint_sum(const std::vector<int>& bodies) const {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(N.cols());
+  for (int body : bodies) sum += N.row(tree.speed_index(body));
+  return sum;
+}
+
 void Machine::Simbody::build_rows() {
   const MachineSpec& spec = tree.spec;
   super.rows.clear();
   const std::size_t n_motors = spec.motors.size();
   for (std::size_t m = 0; m < n_motors; ++m) {
-    Eigen::RowVectorXd joints = Eigen::RowVectorXd::Zero(N.cols());
-    for (int body : spec.motors[m].bodies) joints += N.row(tree.speed_index(body));
-    super.rows.push_back(motor_row(spec.motors[m], joints, motor_targets[m], h, row_starts[m]));
+    const MotorSpec& motor = spec.motors[m];
+    super.rows.push_back(motor_row(motor, joint_sum(motor.bodies), motor_targets[m], h, row_starts[m]));
   }
-  for (std::size_t s = 0; s < spec.stops.size(); ++s)
-    super.rows.push_back(stop_row(side_of(spec.stops[s]), N.row(tree.speed_index(spec.stops[s].body)), h,
-                                  row_starts[n_motors + s]));
+  for (std::size_t s = 0; s < spec.stops.size(); ++s) {
+    const StopSpec& stop = spec.stops[s];
+    super.rows.push_back(stop_row(stop, side_of(stop), joint_sum(stop.bodies), h, row_starts[n_motors + s]));
+  }
 }
 
 // Of motors and stops on the joints, means over the step.
@@ -96,8 +109,9 @@ SimTK::Vector Machine::Simbody::row_forces(const std::vector<double>& row_impuls
     for (int body : spec.motors[m].bodies)
       forces[static_cast<int>(tree.speed_index(body))] += row_impulses[m] / h;
   for (std::size_t s = 0; s < spec.stops.size(); ++s)
-    forces[static_cast<int>(tree.speed_index(spec.stops[s].body))] +=
-        side_of(spec.stops[s]).sign * row_impulses[n_motors + s] / h;
+    for (int body : spec.stops[s].bodies)
+      forces[static_cast<int>(tree.speed_index(body))] +=
+          side_of(spec.stops[s]).sign * row_impulses[n_motors + s] / h;
   return forces;
 }
 

@@ -27,12 +27,12 @@ contact::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd
   return row;
 }
 
-contact::SuperBodyRow stop_row(const StopSide& side, const Eigen::RowVectorXd& joint, double h,
-                               double start) {
+contact::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
+                               double h, double start) {
   contact::SuperBodyRow row;
   row.kind = contact::SuperBodyRow::Kind::stop;
-  row.jacobian = side.sign * joint.transpose();
-  row.gap = side.gap;
+  row.jacobian = side.sign * joints.transpose();
+  row.gap = static_cast<double>(stop.bodies.size()) * side.gap;
   row.recovery = recovery_steps * h;
   row.upper = std::numeric_limits<double>::infinity();
   row.start = start;

@@ -8,9 +8,10 @@
 /// A machine's own rows in the solve: velocity motors with force limits and joint stops.
 ///
 /// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with |λ| ≤ h · max_force, λ the impulse on each.
-/// Stop: with the distance g left to the nearer end of the stroke and the direction s in which that end
-/// pushes, s J w⁺ ≥ −g/h; past the end (g < 0) it asks for |g|/5h back, so that an overrun is taken out
-/// over some five steps and the load is not thrown. First order in h.
+/// Stop of k joints: with the distance g left to the nearer end of the stroke (mean over the joints) and the
+/// direction s in which that end pushes, s (J₁ + … + J_k) w⁺ ≥ −k g/h, λ the impulse on each; past the end
+/// (g < 0) it asks for k |g|/5h back, so that an overrun is taken out over some five steps and the load is
+/// not thrown. First order in h.
 namespace drawpoint::engine::machine {
 
 struct StopSide {
@@ -20,9 +21,11 @@ struct StopSide {
 
 StopSide nearer_stop(const StopSpec& stop, double coordinate);
 
-/// `joints`: sum of the rows of N for the motor's joints; `start`: impulse to start from [N s] or [N m s].
+/// `joints`: sum of the rows of N for the motor's or stop's joints; `start`: impulse to start from [N s] or
+/// [N m s].
 contact::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
                                 double h, double start);
-contact::SuperBodyRow stop_row(const StopSide& side, const Eigen::RowVectorXd& joint, double h, double start);
+contact::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
+                               double h, double start);
 
 }  // namespace drawpoint::engine::machine

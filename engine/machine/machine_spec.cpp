@@ -45,7 +45,8 @@ void check(const MachineSpec& spec) {
     if (!(motor.max_force >= 0)) refuse("motor \"" + motor.name + "\": the force limit must not be negative");
   }
   for (const auto& stop : spec.stops) {
-    check_joint_of(spec, stop.body, "stop \"" + stop.name + "\"");
+    if (stop.bodies.empty()) refuse("stop \"" + stop.name + "\": it stops no joint; name at least one body");
+    for (int body : stop.bodies) check_joint_of(spec, body, "stop \"" + stop.name + "\"");
     if (!(stop.lower < stop.upper))
       refuse("stop \"" + stop.name + "\": the lower limit is not below the upper one");
   }

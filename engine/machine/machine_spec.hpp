@@ -49,10 +49,11 @@ struct MotorSpec {
   double max_force = 0;
 };
 
-/// Keeps the joint coordinate of `body` within [lower, upper], [rad] or [m].
+/// Keeps the joint coordinates of `bodies` within [lower, upper], [rad] or [m]. Several joints are ones that
+/// the linkage moves alike, as two cylinders side by side: their ends share the load, the same force on each.
 struct StopSpec {
   std::string name;
-  int body = 0;
+  std::vector<int> bodies;
   double lower = 0, upper = 0;
 };
 

@@ -22,6 +22,7 @@
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/pareto/search.hpp>
+#include <drawpoint/studies/headline.hpp>
 #include <drawpoint/studies/polishing.hpp>
 
 #include <filesystem>
@@ -33,7 +34,8 @@
 namespace drawpoint::studies {
 
 struct ReportInput {
-  std::string study, about, command;  ///< any text; the page shows it as it is
+  std::string study, about, command;     ///< any text; the page shows it as it is
+  std::vector<Headline> headlines = {};  ///< said first
   doe::Problem problem;
   doe::Evaluations training, validation;
   std::vector<kriging::Model> models;  ///< one a response, in order; empty when none could be fitted

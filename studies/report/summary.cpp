@@ -51,6 +51,11 @@ std::string values_text(const ReportInput& input, Eigen::Index row, Eigen::Index
 
 json cards(const ReportInput& input) {
   json all = json::array();
+  for (const Headline& h : input.headlines)
+    all.push_back({{"label", capital(pretty(h.name))},
+                   {"value", std::isfinite(h.value) ? number(h.value) : "unknown"},
+                   {"unit", h.unit == "1" || !std::isfinite(h.value) ? "" : h.unit},
+                   {"note", h.note}});
   const auto chosen = objectives(input.problem);
   for (std::size_t k = 0; k < chosen.size() && k < 3 && input.front.Y.rows() > 0; ++k) {
     const doe::Response& r = input.problem.responses[chosen[k]];

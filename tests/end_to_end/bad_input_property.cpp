@@ -50,6 +50,21 @@ TEST_F(BadInput, WrongUsage) {
   EXPECT_FALSE(std::filesystem::exists(dir()));
 }
 
+// An option that the study declares reaches every run, is kept with the folder, and is refused like any
+// other.
+TEST_F(BadInput, OptionsOfTheStudy) {
+  expect_refused(study + " --rock coal" + out(), 2,
+                 "\"coal\" is not one of the values of --rock; allowed: ore, waste");
+  EXPECT_TRUE(contains(run(study + " --help").out, "what is loaded: ore waste (default ore"));
+  EXPECT_EQ(run(with("options") + "evaluate --x=0.2,5 --rock ore").code, 0);
+  const Ended failed = run(with("options") + "evaluate --x=0.2,5 --rock=waste");
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_TRUE(contains(failed.err, "only waste"));
+  ASSERT_EQ(run(with("options") + "--runs 12 --validation 0 --rock ore --json" + out()).code, 0);
+  EXPECT_EQ(count("status = 'done'"), 12);
+  expect_refused(study + " --rock waste" + out(), 2, "option rock: ore there, waste here");
+}
+
 TEST_F(BadInput, WrongBounds) {
   expect_refused(with("bounds") + out(), 1,
                  "variable \"y\": lower bound 25 deg is not below upper bound -5 deg; swap them");

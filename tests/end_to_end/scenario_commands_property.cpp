@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/tests/end_to_end/support.hpp>
 
 using namespace drawpoint;
@@ -9,7 +10,7 @@ using namespace drawpoint::test;
 /// The commands of benchmarks/scenario, run as scripts run them, on scenes that take a fraction of a second.
 namespace {
 
-const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY;
+const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY, fill = BUCKET_FILL;
 const std::string tiny = pile + " --rocks 40 --settle 60 --steps 20 --dig 20 --json";
 
 using ScenarioCommands = StudyTest;
@@ -53,12 +54,23 @@ TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
   EXPECT_EQ(j.at("freeze"), options.freezing.on ? "on" : "off");
 }
 
+TEST_F(ScenarioCommands, PileMaterialIsCalibratedUnlessTold) {
+  const nlohmann::json j = run(pile + " --rocks 2 --settle 1 --steps 1 --dig 1 --json").json();
+  const auto ore = engine::loading::calibrated_materials().rock_rock;
+  EXPECT_EQ(j.at("rolling"), ore.rolling);
+  EXPECT_EQ(j.at("spinning"), ore.spinning);
+  const nlohmann::json other = run(tiny + " --rolling 0.5 --spinning 0.25").json();
+  EXPECT_EQ(other.at("rolling"), 0.5);
+  EXPECT_EQ(other.at("spinning"), 0.25);
+}
+
 TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
   const auto hash = [&](const std::string& flags) { return run(tiny + flags).json().at("hash"); };
   const nlohmann::json once = hash("");
   EXPECT_EQ(hash(""), once);
   EXPECT_EQ(hash(" --threads 2"), once);
-  for (const char* flags : {" --seed 2", " --sweeps 10", " --substeps 2", " --dt 0.004"})
+  for (const char* flags :
+       {" --seed 2", " --rolling 0", " --spinning 0.1", " --sweeps 10", " --substeps 2", " --dt 0.004"})
     EXPECT_NE(hash(flags), once) << flags;
 }
 
@@ -91,7 +103,7 @@ TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
 
 TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
   const Ended run = this->run(study +
-                              " --rocks 6 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json"
+                              " --rocks 20 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json"
                               " --reference-method coloured --freeze on --jobs 2");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json rows = run.json().at("configurations");
@@ -107,6 +119,22 @@ TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
     EXPECT_EQ(row.at("freeze"), "on");
   }
   EXPECT_TRUE(rows[2].at("drag_n").at("half_width").is_number());
+}
+
+// On a pile of 12 t, that is all a bucket could take: the table is there, and the pile is kept and found
+// again.
+TEST_F(ScenarioCommands, FillCountsWhatTheBucketLoads) {
+  const std::string line =
+      fill + " --piles " + (dir() / "piles").string() + " --mass 12 --seeds 1 --alphas 0.5 --json";
+  const Ended run = this->run(line);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json row = run.json().at("rows").at(0);
+  EXPECT_EQ(row.at("alpha"), 0.5);
+  EXPECT_EQ(row.at("cycles"), 1);
+  expect_number(row, "loaded_kg", 0, 13e3);
+  expect_number(row, "cycle_s", 1, 60);
+  expect_number(run.json().at("pile"), "angle_deg", 0, 60);
+  EXPECT_EQ(this->run(line).json().at("rows"), run.json().at("rows"));
 }
 
 TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
@@ -127,6 +155,9 @@ TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
   refused(pile + " --method fastest", "\"fastest\"", "sequential, coloured");
   refused(pile + " --freeze maybe", "maybe", "on,off");
   refused(pile + " --rock 5", "--rock", "--help");
+  refused(pile + " --rolling -1", "--rolling: \"-1\"", "0 to 2");
+  refused(fill + " --piles x --materials gravel", "gravel", "calibrated,lindmark2016");
+  refused(fill + " --seeds 1", "--piles", "--help");
   refused(table + " --ratio 0", "--ratio: \"0\"", "0.001 to 1e+06");
   refused(study + " --settings 10x16x1,20x1x1", "\"20x1x1\"", "0.01 to 10 ms");
   refused(study + " --settings 10x16", "\"10x16\"", "STEPxSUBSTEPSxSWEEPS");

@@ -51,6 +51,7 @@ doe::Outcome misbehave(const std::string& how, double x, double y) {
 doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunContext& context) {
   const std::string how = trouble();
   std::cout << (how == "print" ? "a black box that prints\n" : "");
+  if (how == "options" && context.options.at("rock") == "waste") return doe::Failure{"only waste"};
   if (how == "slow") std::this_thread::sleep_for(std::chrono::milliseconds(150));
   if (how == "large") write_log(context.log, 300'000);
   if (how == "huge") write_log(context.log, 2'000'000);
@@ -61,9 +62,9 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
   return x[0] > 0.5 || how == "all" ? misbehave(how == "all" ? "throw" : how, x[0], x[1]) : good(x[0], x[1]);
 }
 
-void prepare(const std::filesystem::path& shared) {
+void prepare(const studies::RunContext& context) {
   if (trouble() == "unprepared") throw std::runtime_error("the pile does not settle");
-  std::ofstream(shared / "pile.txt") << "settled\n";
+  std::ofstream(context.shared / "pile.txt") << "settled\n";
 }
 
 }  // namespace
@@ -74,7 +75,8 @@ int main(int argc, char** argv) {
       .problem = {.variables = {{"x", "m", 0.0, 1.0}, {"y", "deg", -5.0, 25.0}},
                   .responses = {{"cost", "EUR", doe::Goal::minimize}, {"wear", "1", doe::Goal::minimize}}},
       .black_box = simulate,
-      .defaults = {.runs = 12, .validation = 4}};
+      .defaults = {.runs = 12, .validation = 4},
+      .options = {{"rock", "what is loaded", "ore", {"ore", "waste"}}}};
   if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;

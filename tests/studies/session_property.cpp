@@ -74,6 +74,45 @@ TEST_F(SessionTest, OtherOptionsAreRefused) {
   EXPECT_EQ(plan_study(sample(), folder_, {.seed = 1}).runs().size(), 8u);
 }
 
+Study with_options_of_its_own() {
+  Study study = sample();
+  study.options = {{"rock", "what is loaded", "ore", {"ore", "waste"}},
+                   {.name = "cycles", .help = "per run", .value = "2", .least = 1, .most = 9}};
+  return study;
+}
+
+TEST_F(SessionTest, OptionsOfTheStudyBelongToTheFolder) {
+  const Study study = with_options_of_its_own();
+  const Store store = plan_study(study, folder_, {.options = {{"rock", "waste"}}});
+  EXPECT_EQ(store.identity().options, (OptionValues{{"rock", "waste"}, {"cycles", "2"}}));
+  EXPECT_EQ(plan_study(study, folder_, {}).identity().options, store.identity().options);
+  EXPECT_EQ(plan_study(study, folder_, {.options = {{"cycles", "2"}}}).runs().size(), 8u);
+  EXPECT_NE(refused(study, {.options = {{"rock", "ore"}}}).find("option rock: waste there, ore here"),
+            std::string::npos);
+  EXPECT_NE(refused(sample(), {}).find("option cycles: 2 there, none here"), std::string::npos);
+}
+
+TEST(StudyOptions, ValuesAreCheckedInWords) {
+  const auto options = with_options_of_its_own().options;
+  EXPECT_EQ(complaint(options[0], "waste"), "");
+  EXPECT_EQ(complaint(options[0], "coal"),
+            "\"coal\" is not one of the values of --rock; allowed: ore, waste");
+  EXPECT_EQ(complaint(options[1], "9"), "");
+  for (const char* wrong : {"0", "10", "2.5", "two", "", " 2"})
+    EXPECT_EQ(complaint(options[1], wrong),
+              "\"" + std::string(wrong) +
+                  "\" is not one of the values of --cycles; allowed: whole numbers "
+                  "from 1 to 9");
+}
+
+TEST(StudyOptions, NamesAndDefaultsAreChecked) {
+  const auto text = [](const StudyOption& option) { return complaint([&] { check({option}); }); };
+  for (const char* name : {"", "Rock", "1st", "a b", "runs", "seed"})
+    EXPECT_NE(text({name, "", "a", {"a"}}).find("cannot name an option"), std::string::npos) << name;
+  EXPECT_NE(text({"rock", "", "b", {"a"}}).find("default of an option"), std::string::npos);
+  EXPECT_NO_THROW(check({{"rock", "", "a", {"a"}}, {.name = "n-2", .value = "3", .least = 1, .most = 3}}));
+}
+
 TEST_F(SessionTest, OtherProblemsAreRefused) {
   plan_study(sample(), folder_, {});
   Study other = sample();

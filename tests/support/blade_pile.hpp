@@ -18,15 +18,15 @@ inline engine::machine::MachineSpec blade_on_a_slider(double max_force) {
   body.joint_axis = Vector3d::UnitX();
   body.mass = 800;
   body.inertia = Vector3d(120, 60, 120).asDiagonal();
-  return {{body}, {}, {{"push", {0}, max_force}}, {{"travel", 0, -0.5, 2.0}}};
+  return {{body}, {}, {{"push", {0}, max_force}}, {{"travel", {0}, -0.5, 2.0}}};
 }
 
-/// Rocks of 0.3 to 0.6 m in layers over the floor, turned at random by the seed; friction 0.6, rolling 0.05.
+/// Rocks of 0.3 to 0.6 m in layers over the floor, turned at random by the seed.
 class BladePile {
  public:
-  BladePile(int rocks, const engine::contact::WorldOptions& options, std::uint64_t seed = 7)
-      : blade_(blade_on_a_slider(20e3)),
-        world_(options, one_material({.friction = 0.6, .rolling = 0.05, .stiffness = 1e8})) {
+  BladePile(int rocks, const engine::contact::WorldOptions& options, std::uint64_t seed = 7,
+            const engine::contact::Material& material = {.friction = 0.6, .rolling = 0.1, .stiffness = 1e8})
+      : blade_(blade_on_a_slider(20e3)), world_(options, one_material(material)) {
     add_floor(world_);
     for (double side : {-1.0, 1.0})
       world_.add_static(shared(engine::contact::box({3, 0.2, 3})), at(0, 1.7 * side, 3), 0);

@@ -16,8 +16,11 @@ class DugPile {
  public:
   static constexpr long stroke = 250;  ///< steps between two turns of the blade
 
-  DugPile(int rocks, const engine::contact::WorldOptions& options)
-      : rocks_(rocks), options_(options), pile_(std::make_unique<BladePile>(rocks, options)) {}
+  static constexpr engine::contact::Material stone{.friction = 0.6, .rolling = 0.1, .stiffness = 1e8};
+
+  DugPile(int rocks, const engine::contact::WorldOptions& options,
+          const engine::contact::Material& material = stone)
+      : rocks_(rocks), options_(options), material_(material), pile_(built()) {}
 
   void run(long steps) {
     for (const long end = step_ + steps; step_ < end; ++step_) {
@@ -29,7 +32,7 @@ class DugPile {
   /// Through the file, which is removed afterwards, into a pile that knows nothing of this one.
   void restart(const std::filesystem::path& file) {
     engine::record::write_snapshot(file, pile_->world().save());
-    pile_ = std::make_unique<BladePile>(rocks_, options_);
+    pile_ = built();
     pile_->world().restore(engine::record::read_snapshot(file));
     std::filesystem::remove(file);
   }
@@ -39,8 +42,13 @@ class DugPile {
   const engine::contact::StepReport& report() const { return pile_->report(); }
 
  private:
+  std::unique_ptr<BladePile> built() const {
+    return std::make_unique<BladePile>(rocks_, options_, 7, material_);
+  }
+
   int rocks_;
   engine::contact::WorldOptions options_;
+  engine::contact::Material material_;
   std::unique_ptr<BladePile> pile_;
   long step_ = 0;
 };

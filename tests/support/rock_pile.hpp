@@ -52,8 +52,8 @@ struct PileWall {
 struct PileMaterial {
   double friction = 0.9;    ///< Coulomb μ
   double restitution = 0;   ///< e
-  double rolling = 0.5;     ///< μ_r: moment ≤ μ_r R* × normal force (the engine's rock-on-rock value)
-  double spinning = 0.5;    ///< μ_s, the same about the normal
+  double rolling = 0.1;     ///< μ_r: moment ≤ μ_r R* × normal force (calibrated, as in the loading case)
+  double spinning = 0;      ///< μ_s, the same about the normal
   double stiffness = 1e9;   ///< k of a pair of bodies [N/m] (the engine's rock-on-rock value)
   double damping_time = 0;  ///< [s]; 0: the least that the method allows
 };
@@ -164,11 +164,12 @@ inline int hull_index(RockPile& pile, std::array<int, 24>& known, const engine::
 }  // namespace detail
 
 /// The scene with `rocks` rocks, 1 to 100 000. Throws std::invalid_argument for another number.
-inline RockPile rock_pile(int rocks, std::uint64_t seed = 1) {
+inline RockPile rock_pile(int rocks, std::uint64_t seed = 1, const PileMaterial& material = {}) {
   if (rocks < 1 || rocks > 100'000)
     throw std::invalid_argument("rock_pile: the number of rocks is " + std::to_string(rocks) +
                                 "; allowed: 1 to 100000; 500 to 3000 are usual");
   RockPile pile;
+  pile.material = material;
   const Eigen::Vector3d X = Eigen::Vector3d::UnitX(), Y = Eigen::Vector3d::UnitY();
   pile.walls = {{Eigen::Vector3d::UnitZ(), 0},
                 {X, -RockPile::length / 2},

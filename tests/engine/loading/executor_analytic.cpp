@@ -149,6 +149,36 @@ TEST(Executor, CycleTimesOfBothPresets) {
   EXPECT_NEAR(driven(plan, options).results.back().t_end, 12, 0.5);
 }
 
+// A drive-in that gives up 1 m short of its depth is made good on the way up: the lift ends at C all the
+// same, as deep behind the surface as planned, on a straight line from where the drive-in ended, and no
+// faster than the drive-in.
+TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
+  const Plan plan = example_plan();
+  const double wall = plan.toe + plan.depth - 1.0;
+  double x = plan.toe - 2.0;  // of the tip while the bucket is flat on the floor
+  bool driving_in = true;
+  const auto soft_wall = [&](const ActuatorRates& set, double) {
+    driving_in = driving_in && set.boom == 0 && set.drive > 0;
+    if (!driving_in || x < wall) return x += set.drive * h, set;
+    return ActuatorRates{0, set.boom, set.tilt};
+  };
+  const ExecutorOptions options;
+  const Drive run = driven(plan, options, soft_wall);
+  ASSERT_TRUE(run.finished);
+  EXPECT_EQ(run.results[0].reason, StageEnd::slow_actuator);
+  const TipPose &from = run.results[1].start, &C = plan.corners[2];
+  EXPECT_NEAR(from.x, wall, options.speeds.drive_in * h);
+  EXPECT_EQ(run.results[1].reason, StageEnd::goal);
+  const double length = std::hypot(C.x - from.x, C.z - from.z);
+  EXPECT_LT(distance(run.results[1].end, C), options.progress.tolerance * (length + arm.GK * plan.tilt) +
+                                                 options.speeds.drive_in * h + drift_bound);
+  for (std::size_t k = 0; k < run.path.size(); ++k) {
+    if (run.stage[k] != Stage::lift) continue;
+    const double dx = run.path[k].x - from.x, dz = run.path[k].z - from.z;
+    EXPECT_NEAR((dz * (C.x - from.x) - dx * C.z) / length, 0, drift_bound);
+  }
+}
+
 TEST(Executor, LimitsKeepTheDirection) {
   const Plan plan = example_plan();
   ExecutorOptions options = exact_options();

@@ -143,5 +143,40 @@ TEST(Responses, SayWhatIsMissing) {
   EXPECT_NE(thrown_by([&] { joint_damage(log, {.tau_y = -1}); }).find("tau_y"), std::string::npos);
 }
 
+CycleRecord driven_in(StageEnd end, double loaded) {
+  CycleRecord record = cycle(0, 1, loaded, 0);
+  record.stages = {{.stage = Stage::drive_in, .reason = end},
+                   {.stage = Stage::lift, .reason = StageEnd::timeout}};
+  return record;
+}
+
+TEST(FillAndStalls, AreSharesOfPayloadAndCycles) {
+  LoadingLog log;
+  log.cycles = {driven_in(StageEnd::goal, 21e3), driven_in(StageEnd::slow_actuator, 0),
+                driven_in(StageEnd::timeout, 10.5e3), driven_in(StageEnd::goal, 10.5e3)};
+  EXPECT_EQ(thrown_by([&] { fill_factor(log); }),
+            "loading::fill_factor: the log names no payload [kg] above 0; give the log of a simulated run");
+  log.numbers["payload"] = 21e3;
+  EXPECT_DOUBLE_EQ(fill_factor(log), 0.5);
+  EXPECT_DOUBLE_EQ(stall_share(log), 0.5);  // a lift that is late is no stalled drive-in
+}
+
+// A run's responses are the means, and damage the sum, of what its cycles say.
+TEST(ByCycle, AddsUpToTheRun) {
+  LoadingLog log;
+  log.signals = empty_signals();
+  for (int c = 1; c <= 2; ++c)
+    for (int k = 1; k <= 100; ++k)
+      log.signals.append_row(std::vector<double>{10.0 * c + k * h, 1.0 * c, 0, 0, (1.0 + c) * 145e3});
+  log.cycles = {cycle(10, 11, 100, 1000), cycle(20, 21, 300, 4000)};
+  EXPECT_EQ(production_by_cycle(log), (std::vector<double>{100, 300}));
+  EXPECT_EQ(rock_spill_by_cycle(log), (std::vector<double>{0.1, 0.4}));
+  const std::vector<double> damage = joint_damage_by_cycle(log, unfiltered());
+  ASSERT_EQ(damage.size(), 2u);
+  EXPECT_NEAR(damage[0], 1.0, 1e-12);  // excess of one yield torque for 1 s, then of two
+  EXPECT_NEAR(damage[1], 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(joint_damage(log, unfiltered()), damage[0] + damage[1]);
+}
+
 }  // namespace
 }  // namespace drawpoint::engine::loading

@@ -20,7 +20,7 @@ namespace {
 TEST(Wall, StopsTheLoaderAtFullForce) {
   Lhd lhd = sandvik_lh621({});
   machine::Machine machine(lhd.spec);
-  contact::World world({}, mine_materials());
+  contact::World world({}, material_table(calibrated_materials()));
   LhdDriver driver(lhd, machine);
   const auto terrain = static_cast<int>(SurfaceKind::terrain);
   world.add_static(std::make_shared<const contact::Shape>(contact::HalfSpace{Vector3d::UnitZ(), 0}),

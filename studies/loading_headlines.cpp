@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/studies/loading_headlines.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+using engine::loading::LoadingLog;
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+
+/// What the runs tell of one response.
+struct Scatter {
+  double squares = 0;  ///< sum of the squared deviations from each run's own mean
+  long freedoms = 0;
+  std::size_t cycles = 0;  ///< of a run
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+
+  void add(const std::vector<double>& by_cycle, double response) {
+    cycles = by_cycle.size();
+    const double n = static_cast<double>(cycles);
+    double mean = 0;
+    for (const double value : by_cycle) mean += value / n;
+    for (const double value : by_cycle) squares += (value - mean) * (value - mean);
+    freedoms += static_cast<long>(cycles) - 1;
+    least = std::min(least, response);
+    most = std::max(most, response);
+  }
+};
+
+enum class Over { mean, sum };
+
+Headline noise_of(const std::string& response, const std::string& unit, const Scatter& s, Over over) {
+  const std::string name = "noise_of_" + response;
+  if (s.freedoms == 0)
+    return {name, unit, std::nan(""), "runs of one cycle tell no noise; take --cycles 2 or more"};
+  const double n = static_cast<double>(s.cycles),
+               of_cycle = std::sqrt(s.squares / static_cast<double>(s.freedoms)),
+               value = over == Over::mean ? of_cycle / std::sqrt(n) : of_cycle * std::sqrt(n);
+  const std::string share =
+      s.most > s.least ? ", " + percent(value / (s.most - s.least)) + " of the range of the runs" : "";
+  return {name, unit, value,
+          "standard deviation of a repeated run of " + std::to_string(s.cycles) + " cycles" + share};
+}
+
+}  // namespace
+
+std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs) {
+  if (logs.empty()) return {};
+  double fill = 0, most_fill = 0, stalls = 0;
+  Scatter production, damage, spill;
+  for (const auto& file : logs) {
+    const LoadingLog log = engine::loading::read_log(file);
+    const double of_run = fill_factor(log);
+    fill += of_run / static_cast<double>(logs.size());
+    most_fill = std::max(most_fill, of_run);
+    stalls += stall_share(log) / static_cast<double>(logs.size());
+    production.add(production_by_cycle(log), engine::loading::production(log));
+    damage.add(joint_damage_by_cycle(log), joint_damage(log));
+    spill.add(rock_spill_by_cycle(log), rock_spill(log));
+  }
+  char best[64];
+  std::snprintf(best, sizeof best, "loaded mass over the rated payload; %.2f in the best run", most_fill);
+  return {{"fill_factor", "1", fill, best},
+          {"stall_share", "1", stalls, "drive-ins that ended before their goal, by time or a slow actuator"},
+          noise_of("production", "kg/s", production, Over::mean),
+          noise_of("joint_damage", "s", damage, Over::sum),
+          noise_of("rock_spill", "1", spill, Over::mean)};
+}
+
+}  // namespace drawpoint::studies

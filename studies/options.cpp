@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/options.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <stdexcept>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr std::array taken = {"runs",   "validation",   "replicates", "jobs",    "seed",
+                              "out",    "json",         "time-limit", "x",       "log",
+                              "shared", "retry-failed", "help",       "version", "result-descriptor"};
+
+bool whole_number_within(const std::string& text, int least, int most) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+}
+
+std::string allowed(const StudyOption& option) {
+  if (option.choices.empty())
+    return "whole numbers from " + std::to_string(option.least) + " to " + std::to_string(option.most);
+  std::string text;
+  for (const auto& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
+  return text;
+}
+
+bool is_allowed(const StudyOption& option, const std::string& value) {
+  if (option.choices.empty()) return whole_number_within(value, option.least, option.most);
+  return std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end();
+}
+
+bool can_be_a_name(const std::string& name) {
+  const auto plain = [](unsigned char c) {
+    return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '-' || c == '_';
+  };
+  return !name.empty() && std::islower(static_cast<unsigned char>(name[0])) != 0 &&
+         std::all_of(name.begin(), name.end(), plain) &&
+         std::find(taken.begin(), taken.end(), name) == taken.end();
+}
+
+std::string value_in(const OptionValues& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? "none" : found->second;
+}
+
+}  // namespace
+
+std::string complaint(const StudyOption& option, const std::string& value) {
+  if (is_allowed(option, value)) return "";
+  return "\"" + value + "\" is not one of the values of --" + option.name + "; allowed: " + allowed(option);
+}
+
+OptionValues with_defaults(const std::vector<StudyOption>& options, const OptionValues& given) {
+  OptionValues values;
+  for (const auto& option : options) {
+    const auto found = given.find(option.name);
+    values[option.name] = found == given.end() ? option.value : found->second;
+  }
+  return values;
+}
+
+std::string difference(const OptionValues& there, const OptionValues& here, bool partly) {
+  OptionValues all = here;
+  if (!partly) all.insert(there.begin(), there.end());
+  for (const auto& [name, ignored] : all) {
+    const std::string a = value_in(there, name), b = value_in(here, name);
+    if (a != b) return "option " + name + ": " + a + " there, " + b + " here";
+  }
+  return "";
+}
+
+void check(const std::vector<StudyOption>& options) {
+  for (const auto& option : options) {
+    if (!can_be_a_name(option.name))
+      throw std::invalid_argument(
+          "studies::Study: \"" + option.name +
+          "\" cannot name an option; use lower case letters, digits, '-' and '_', and "
+          "no name of an option that all studies have");
+    const std::string wrong = complaint(option, option.value);
+    if (!wrong.empty()) throw std::invalid_argument("studies::Study: default of an option: " + wrong);
+  }
+}
+
+}  // namespace drawpoint::studies

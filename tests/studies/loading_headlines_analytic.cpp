@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// What the loading study says first, on logs whose cycles are known.
+
+#include "support.hpp"
+
+#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/studies/loading_headlines.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace drawpoint::studies {
+namespace {
+
+using engine::loading::CycleRecord;
+using engine::loading::LoadingLog;
+using engine::loading::Stage;
+using engine::loading::StageEnd;
+
+/// A cycle of 10 s without torque.
+CycleRecord cycle(double start, double loaded, double spilled, StageEnd end) {
+  CycleRecord record;
+  record.t_start = start;
+  record.t_end = start + 10;
+  record.loaded_mass = loaded;
+  record.spilled_mass = spilled;
+  record.stages = {{.stage = Stage::drive_in, .reason = end}};
+  return record;
+}
+
+LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
+  LoadingLog log;
+  log.completed = true;
+  log.numbers["payload"] = 20e3;
+  log.signals.columns = {{"time", "s"},
+                         {"cycle", "1"},
+                         {"hinge_G_torque_x", "N m"},
+                         {"hinge_G_torque_y", "N m"},
+                         {"hinge_G_torque_z", "N m"}};
+  log.cycles = cycles;
+  return log;
+}
+
+class LoadingHeadlines : public testing::Test {
+ protected:
+  std::map<std::string, Headline> told(const std::vector<LoadingLog>& logs) {
+    std::vector<std::filesystem::path> files;
+    for (const LoadingLog& log : logs) {
+      files.push_back(place_ / (std::to_string(files.size()) + ".h5"));
+      write_log(files.back(), log);
+    }
+    std::map<std::string, Headline> named;
+    for (const Headline& headline : loading_headlines(files)) named[headline.name] = headline;
+    return named;
+  }
+  test::TestFolder place_;
+};
+
+// Two runs of two cycles: 4 and 8 t, 6 and 6 t in 10 s. Deviations of the rates from their run's mean: ±200
+// and 0 kg/s, pooled over one degree of freedom each: √(2 · 200² / 2) = 200 kg/s per cycle, 200/√2 for a mean
+// of two. Spill 0, 2 and 1, 1 t of 10: √(2 · 0.1² / 2)/√2 = 0.1/√2. No torque, no damage, no noise of it.
+TEST_F(LoadingHeadlines, SayFillStallsAndNoise) {
+  const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 8e3, 2e3, StageEnd::timeout)}),
+                        log_of({cycle(0, 6e3, 1e3, StageEnd::goal), cycle(20, 6e3, 1e3, StageEnd::goal)})});
+  EXPECT_DOUBLE_EQ(of.at("fill_factor").value, 0.3);
+  EXPECT_NE(of.at("fill_factor").note.find("0.30 in the best run"), std::string::npos);
+  EXPECT_DOUBLE_EQ(of.at("stall_share").value, 0.25);
+  EXPECT_NEAR(of.at("noise_of_production").value, 200 / std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(of.at("noise_of_production").unit, "kg/s");
+  EXPECT_NEAR(of.at("noise_of_rock_spill").value, 0.1 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(of.at("noise_of_joint_damage").value, 0);
+}
+
+// Means over cycles of 0 and 400 kg/s: the noise of 0 is 0 % of a range of 400.
+TEST_F(LoadingHeadlines, NoiseIsSetAgainstTheRangeOfTheRuns) {
+  const auto of = told({log_of({cycle(0, 0, 0, StageEnd::goal), cycle(20, 0, 0, StageEnd::goal)}),
+                        log_of({cycle(0, 3e3, 0, StageEnd::goal), cycle(20, 5e3, 0, StageEnd::goal)})});
+  // √((2 · 100²) / 2) / √2 = 70.7 of 400 kg/s
+  EXPECT_NE(of.at("noise_of_production").note.find("18 % of the range"), std::string::npos)
+      << of.at("noise_of_production").note;
+}
+
+TEST_F(LoadingHeadlines, OneCycleTellsNoNoise) {
+  const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
+  EXPECT_TRUE(std::isnan(of.at("noise_of_production").value));
+  EXPECT_NE(of.at("noise_of_production").note.find("--cycles 2"), std::string::npos);
+}
+
+TEST_F(LoadingHeadlines, NoRunsNoHeadlines) { EXPECT_TRUE(told({}).empty()); }
+
+}  // namespace
+}  // namespace drawpoint::studies
