@@ -44,7 +44,10 @@ int main(int argc, char** argv) {
        .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
        .defaults = {.runs = 40, .validation = 12},
        .options =
-           {{"materials", "contact coefficients", "calibrated", {"calibrated", "lindmark2016"}},
+           {{"materials",
+             "contact coefficients",
+             "calibrated",
+             {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
             {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000}},
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,

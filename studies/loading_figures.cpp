@@ -210,7 +210,7 @@ void settle_pile(engine::loading::Scenario scenario) {
   const engine::loading::PileShape shape = engine::loading::pile_shape(pile, scenario);
   std::fprintf(stderr, "the pile: %zu rocks, %.0f t, %s after %.0f s; crest %.2f m, surface at %.1f deg\n",
                pile.rocks.size(), shape.mass / 1e3, pile.timed_out ? "still creeping" : "at rest",
-               pile.poured_s, shape.crest, shape.angle * 180 / M_PI);
+               pile.poured_s, shape.surface.crest, shape.surface.mean * 180 / M_PI);
 }
 
 json loading_figures(const std::filesystem::path& log_file) {

@@ -13,8 +13,8 @@
 
 namespace drawpoint::studies {
 
-/// Heaps up the scenario's pile into its pile file, on all cores, and tells on standard error how far it is
-/// and how the pile lies. About a minute.
+/// Heaps up the scenario's pile into its pile file, on up to eight threads, and tells on standard error (of a
+/// study: logs/prepare.txt) how far it is and how the pile lies. About a minute.
 void settle_pile(engine::loading::Scenario scenario);
 
 /// Panels for the report from a run log. Throws std::runtime_error if the log cannot be read.

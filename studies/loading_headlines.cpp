@@ -42,6 +42,18 @@ struct Scatter {
 
 enum class Over { mean, sum };
 
+/// As the first run's log has it: the pile is the same for all.
+Headline pile_of(const LoadingLog& log) {
+  const auto number = [&](const char* name) {
+    const auto found = log.numbers.find(name);
+    return found == log.numbers.end() ? std::nan("") : found->second;
+  };
+  char note[96];
+  std::snprintf(note, sizeof note, "of the pile's surface before the first cycle; %.0f t, crest %.1f m",
+                number("pile_mass") / 1e3, number("pile_crest"));
+  return {"pile_angle", "deg", number("pile_angle_deg"), note};
+}
+
 Headline noise_of(const std::string& response, const std::string& unit, const Scatter& s, Over over) {
   const std::string name = "noise_of_" + response;
   if (s.freedoms == 0)
@@ -52,7 +64,7 @@ Headline noise_of(const std::string& response, const std::string& unit, const Sc
   const std::string share =
       s.most > s.least ? ", " + percent(value / (s.most - s.least)) + " of the range of the runs" : "";
   return {name, unit, value,
-          "standard deviation of a repeated run of " + std::to_string(s.cycles) + " cycles" + share};
+          "standard error of a run, from the scatter of its " + std::to_string(s.cycles) + " cycles" + share};
 }
 
 }  // namespace
@@ -61,8 +73,10 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   if (logs.empty()) return {};
   double fill = 0, most_fill = 0, stalls = 0;
   Scatter production, damage, spill;
+  Headline pile;
   for (const auto& file : logs) {
     const LoadingLog log = engine::loading::read_log(file);
+    if (pile.name.empty()) pile = pile_of(log);
     const double of_run = fill_factor(log);
     fill += of_run / static_cast<double>(logs.size());
     most_fill = std::max(most_fill, of_run);
@@ -75,6 +89,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   std::snprintf(best, sizeof best, "loaded mass over the rated payload; %.2f in the best run", most_fill);
   return {{"fill_factor", "1", fill, best},
           {"stall_share", "1", stalls, "drive-ins that ended before their goal, by time or a slow actuator"},
+          pile,
           noise_of("production", "kg/s", production, Over::mean),
           noise_of("joint_damage", "s", damage, Over::sum),
           noise_of("rock_spill", "1", spill, Over::mean)};

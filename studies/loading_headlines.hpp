@@ -10,11 +10,12 @@
 
 namespace drawpoint::studies {
 
-/// From the run logs: fill factor and share of stalled drive-ins, means over all cycles, and the noise of
-/// each response. Noise is the standard deviation that a run repeated with other random rocks would have:
-/// from the scatter s of a response over the n cycles of a run, s/√n for a mean over cycles and s·√n for a
-/// sum, pooled over the runs. It counts a trend over the cycles as noise, so it is at most that; runs of one
-/// cycle tell none. Throws std::runtime_error if a log cannot be read.
+/// From the run logs: fill factor and share of stalled drive-ins, means over all cycles; the angle at which
+/// the pile lies at the start; and the noise of each response, by the scatter s of its n cycles within a run:
+/// s/√n for a mean over the cycles, s·√n for a sum, pooled over the runs. That is the noise of a run if its
+/// cycles are independent draws. They are not quite: all runs share the first pile, the second cycle finds
+/// another (more scatter), and spilled rock stays (less). Runs of one cycle tell none. Throws
+/// std::runtime_error if a log cannot be read.
 std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs);
 
 }  // namespace drawpoint::studies

@@ -34,7 +34,8 @@ constexpr const char* about =
     "                                                        and solved as loosely as there";
 
 struct Settings {
-  std::string piles, materials = "calibrated", speeds = "thesis_like", curl = "hinge", setting;
+  std::string piles, materials = "calibrated", speeds = "thesis_like", curl = "hinge", lift = "surface",
+                     setting;
   std::vector<double> alphas = {0.3, 1.0, 1.6};
   Strategy strategy = {.alpha = 1, .beta = 0.4, .gamma = 0.5, .kappa = 0.5};
   std::optional<double> rolling, spinning, steel_friction, rock_friction, mass;
@@ -49,6 +50,7 @@ struct Cycle {
 };
 
 struct Result {
+  std::string failure;  // why there is nothing else
   std::vector<Cycle> cycles;
   double production = 0, damage = 0, spill = 0;
 };
@@ -58,14 +60,12 @@ Scenario scenario_of(const Settings& s) {
   scenario.cycles = s.cycles;
   scenario.strategy = s.strategy;
   scenario.materials = materials_named(s.materials);
-  const auto& rock = scenario.materials.rock_rock;
-  if (s.rolling || s.spinning)
-    scenario.materials = with_resistance(scenario.materials, s.rolling.value_or(rock.rolling),
-                                         s.spinning.value_or(rock.spinning));
+  scenario.materials = with_resistance(scenario.materials, s.rolling, s.spinning);
   if (s.steel_friction) scenario.materials.rock_steel.friction = *s.steel_friction;
   if (s.rock_friction) scenario.materials.rock_rock.friction = *s.rock_friction;
   if (s.mass) scenario.pile.mass = 1e3 * *s.mass;
   if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
+  if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
   if (s.speeds == "machine") scenario.executor.speeds = machine_speeds();
   return scenario;
 }
@@ -83,8 +83,11 @@ bool reached(const CycleRecord& cycle, Stage stage) {
 }
 
 Result result_of(const LoadingLog& log) {
-  if (!log.completed) throw std::runtime_error(log.message);
   Result result;
+  if (!log.completed) {
+    result.failure = log.message;
+    return result;
+  }
   for (const CycleRecord& c : log.cycles)
     result.cycles.push_back({.loaded = c.loaded_mass,
                              .depth = c.stages.front().end.x - c.plan.toe,
@@ -117,8 +120,12 @@ Study study(const Settings& s) {
       scenario.strategy.alpha = s.alphas[a];
       scenario.seed = static_cast<std::uint64_t>(seed);
       out.results[a][k] = result_of(simulate(scenario, pile));
-      std::fprintf(stderr, "seed %d, alpha %g: %.0f kg, %.1f kg/s\n", seed, s.alphas[a],
-                   out.results[a][k].cycles.front().loaded, out.results[a][k].production);
+      const Result& result = out.results[a][k];
+      if (result.failure.empty())
+        std::fprintf(stderr, "seed %d, alpha %g: %.0f kg, %.1f kg/s\n", seed, s.alphas[a],
+                     result.cycles.front().loaded, result.production);
+      else
+        std::fprintf(stderr, "seed %d, alpha %g failed: %s\n", seed, s.alphas[a], result.failure.c_str());
     }
   });
   return out;
@@ -130,8 +137,10 @@ double deviation(const std::vector<double>& values) {
 
 nlohmann::json row(double alpha, const std::vector<Result>& runs) {
   std::vector<double> loaded, depth, wanted, time, production, damage, spill, rocks;
-  int drive_ins = 0, lifts = 0;
+  int drive_ins = 0, lifts = 0, failed = 0;
   for (const Result& run : runs) {
+    failed += !run.failure.empty();
+    if (!run.failure.empty()) continue;
     for (const Cycle& c : run.cycles) {
       loaded.push_back(c.loaded);
       depth.push_back(c.depth);
@@ -146,6 +155,7 @@ nlohmann::json row(double alpha, const std::vector<Result>& runs) {
     spill.push_back(run.spill);
   }
   return {{"alpha", alpha},
+          {"failed", failed},
           {"cycles", loaded.size()},
           {"loaded_kg", mean_of(loaded)},
           {"loaded_deviation_kg", deviation(loaded)},
@@ -161,12 +171,35 @@ nlohmann::json row(double alpha, const std::vector<Result>& runs) {
           {"rock_spill", mean_of(spill)}};
 }
 
+// What decides the rows, as it came out of the flags.
+nlohmann::json described(const Settings& s) {
+  Scenario scenario = scenario_of(s);
+  nlohmann::json out{{"poured", in_words(benchmarks::described(scenario.world))}};
+  solve_as_told(scenario, s);
+  const MineMaterials& m = scenario.materials;
+  out.update({{"materials", s.materials},
+              {"rolling", m.rock_rock.rolling},
+              {"spinning", m.rock_rock.spinning},
+              {"rock_friction", m.rock_rock.friction},
+              {"steel_friction", m.rock_steel.friction},
+              {"steel_rolling", m.rock_steel.rolling},
+              {"beta", s.strategy.beta},
+              {"gamma", s.strategy.gamma},
+              {"kappa", s.strategy.kappa},
+              {"cycles", s.cycles},
+              {"speeds", s.speeds},
+              {"curl", s.curl},
+              {"lift", s.lift},
+              {"solved", in_words(benchmarks::described(scenario.world)) + (s.cold ? ", cold" : "")}});
+  return out;
+}
+
 nlohmann::json as_json(const Settings& s, const Study& study) {
-  nlohmann::json out{{"seeds", s.seeds}, {"materials", s.materials}, {"rows", nlohmann::json::array()}};
+  nlohmann::json out{{"seeds", s.seeds}, {"scenario", described(s)}, {"rows", nlohmann::json::array()}};
   std::vector<double> angle, crest, mass;
   for (const PileShape& p : study.piles) {
-    angle.push_back(p.angle * 180 / M_PI);
-    crest.push_back(p.crest);
+    angle.push_back(p.surface.mean * 180 / M_PI);
+    crest.push_back(p.surface.crest);
     mass.push_back(p.mass);
   }
   out["pile"] = {{"angle_deg", mean_of(angle)},
@@ -183,10 +216,24 @@ double number(const nlohmann::json& j, const char* key) { return j.at(key).get<d
 
 void print_table(const nlohmann::json& j) {
   const nlohmann::json& pile = j.at("pile");
-  std::printf("%d piles of %.1f t: crest %.2f m, surface at %.1f +- %.1f deg (%.1f to %.1f); %s materials\n",
+  std::printf("%d piles of %.1f t: crest %.2f m, surface at %.1f +- %.1f deg (%.1f to %.1f)\n",
               j.at("seeds").get<int>(), number(pile, "mass_kg") / 1e3, number(pile, "crest_m"),
               number(pile, "angle_deg"), number(pile, "angle_deviation_deg"), number(pile, "angle_least_deg"),
-              number(pile, "angle_most_deg"), j.at("materials").get<std::string>().c_str());
+              number(pile, "angle_most_deg"));
+  const nlohmann::json& of = j.at("scenario");
+  std::printf(
+      "%s: rolling %g (steel %g), spinning %g, friction %g (steel %g); beta %g, gamma %g, kappa %g; %s "
+      "speeds, "
+      "curl about the %s, lift by the %s\nsolved with %s\n",
+      of.at("materials").get<std::string>().c_str(), number(of, "rolling"), number(of, "steel_rolling"),
+      number(of, "spinning"), number(of, "rock_friction"), number(of, "steel_friction"), number(of, "beta"),
+      number(of, "gamma"), number(of, "kappa"), of.at("speeds").get<std::string>().c_str(),
+      of.at("curl").get<std::string>().c_str(), of.at("lift").get<std::string>().c_str(),
+      of.at("solved").get<std::string>().c_str());
+  for (const nlohmann::json& r : j.at("rows"))
+    if (const int failed = r.at("failed").get<int>())
+      std::printf("alpha %g: %d of %d runs failed and are left out\n", number(r, "alpha"), failed,
+                  j.at("seeds").get<int>());
   std::printf("%6s %6s %14s %6s %13s %9s %6s %7s %16s %8s %8s\n", "alpha", "cycles", "loaded t", "rocks",
               "depth (of) m", "drive-ins", "lifts", "cycle s", "production kg/s", "damage s", "spill");
   for (const nlohmann::json& r : j.at("rows")) {
@@ -237,6 +284,12 @@ int main(int argc, char** argv) {
   app.add_option("--curl", s.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")
       ->check(CLI::IsMember({"hinge", "tip"}))
+      ->capture_default_str();
+  app.add_option(
+         "--lift", s.lift,
+         "the lift aims behind the pile's surface, or along its slope from where the drive-in ended, as in "
+         "Lindmark (2016)")
+      ->check(CLI::IsMember({"surface", "slope"}))
       ->capture_default_str();
   app.add_option("--setting", s.setting,
                  "how cycles are solved: STEPxSUBSTEPSxSWEEPS with the step in ms, +SPARE for spare work "

@@ -29,10 +29,13 @@ int run(const Scenario& scenario, int seeds) {
     const SettledPile pile = pour_pile(of, {}, [&](const auto& report) { times.add(report); });
     times.print("pile settling", pile.poured_s);
     const PileShape shape = pile_shape(pile, of);
-    std::printf("  seed %d: %zu rocks, %.1f t, %s; crest %.2f m, toe at %.2f m, surface at %.1f deg\n", seed,
-                pile.rocks.size(), shape.mass / 1e3,
-                pile.timed_out ? "still creeping at the rest criterion's cap" : "at rest", shape.crest,
-                shape.toe, shape.angle * 180 / M_PI);
+    std::printf(
+        "  seed %d: %zu rocks, %.1f t, %s; crest %.2f m, toe at %.2f m, surface at %.1f deg (rows %.1f to "
+        "%.1f)\n",
+        seed, pile.rocks.size(), shape.mass / 1e3,
+        pile.timed_out ? "still creeping at the rest criterion's cap" : "at rest", shape.surface.crest,
+        shape.surface.toe, shape.surface.mean * 180 / M_PI, shape.surface.least * 180 / M_PI,
+        shape.surface.most * 180 / M_PI);
     std::fflush(stdout);
   }
   return 0;
@@ -47,7 +50,7 @@ int main(int argc, char** argv) {
   MaterialFlags materials{scenario.materials.rock_rock.rolling, scenario.materials.rock_rock.spinning};
   CLI::App app(about, "pile_settling");
   app.add_option("--mass", mass, "of the pile [t]")
-      ->check(between(10, 1e4, "t", "80 is the study's"))
+      ->check(between(10, 1e4, "t", "120 is the study's"))
       ->capture_default_str();
   app.add_option("--seeds", seeds, "number of piles, seeds 1, 2, ...")
       ->check(between(1, 1000, "", "6 and more show the scatter"))

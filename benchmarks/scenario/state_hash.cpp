@@ -16,7 +16,7 @@ namespace {
 
 struct Settings {
   EngineFlags engine;
-  MaterialFlags material{support::DugPile::stone.rolling, support::DugPile::stone.spinning};
+  MaterialFlags material{support::BladePile::stone.rolling, support::BladePile::stone.spinning};
   int rocks = 200;
   long steps = 2000, every = 500, restart = 0;
 };
@@ -30,7 +30,7 @@ constexpr const char* about =
     "  state_hash --rocks 40 --steps 200 --every 50 short enough for a build with sanitizers";
 
 int run(const Settings& s) {
-  engine::contact::Material stone = support::DugPile::stone;
+  engine::contact::Material stone = support::BladePile::stone;
   stone.rolling = s.material.rolling;
   stone.spinning = s.material.spinning;
   support::DugPile pile(s.rocks, world_options(s.engine), stone);

@@ -217,11 +217,4 @@ bool lies_in_front(const ColumnModel& model, const Eigen::Vector3d& centre) {
   return centre.x() < model.strips[j].front;
 }
 
-double mass_in_front(const ColumnModel& model, std::span<const PosedRock> rocks) {
-  double mass = 0;
-  for (const PosedRock& rock : rocks)
-    if (lies_in_front(model, rock.pose.translation())) mass += rock.mass;
-  return mass;
-}
-
 }  // namespace drawpoint::engine::loading

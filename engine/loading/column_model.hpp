@@ -96,7 +96,4 @@ std::vector<double> contour(const ColumnModel& model, const Row& row);
 /// it lies in. A strip without pile is in front altogether.
 bool lies_in_front(const ColumnModel& model, const Eigen::Vector3d& centre);
 
-/// Mass of the rocks in front of the pile [kg]. Leave out the rocks in the bucket.
-double mass_in_front(const ColumnModel& model, std::span<const PosedRock> rocks);
-
 }  // namespace drawpoint::engine::loading

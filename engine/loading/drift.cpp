@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
@@ -106,8 +107,10 @@ void add_drift(contact::World& world, const Drift& drift) {
 }
 
 granular::EmitterOptions emitter_of(const Drift& d) {
+  constexpr double rock = 0.46;  // radius of the sphere about the largest [m]
   const double z = d.raise_height - 0.6;
-  const double radius = d.raise_radius + d.raise_widening * (z - d.height) - 0.46;
+  // Within the opening, and clear of the back wall, whose rocks stand out by up to 0.6 of their size.
+  const double radius = d.raise_radius - rock - std::max(0.0, 0.6 * d.wall_roughness - 0.3);
   return {.top = {d.raise_axis().x(), d.raise_axis().y(), z}, .radius = radius};
 }
 

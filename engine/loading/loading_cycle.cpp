@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <drawpoint/engine/loading/scene_recorder.hpp>
@@ -25,11 +26,11 @@ class LoadingRun {
         scene_(site_, scenario.drift) {
     site_.world().before_solve(hooks.before_solve);
     describe();
+    log_.texts["pile_recipe"] = pile.recipe.empty() ? "given by the caller" : pile.recipe;
   }
 
   LoadingLog run() {
     bool fine = true;
-    in_front_before_ = rocks_in_front(columns(true));
     for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = attempt(cycle);
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
@@ -55,6 +56,7 @@ class LoadingRun {
   }
   ColumnModel columns(bool with_bucket) const;
   PlannerOptions planner_options() const;
+  void look_at_pile();
   std::vector<bool> rocks_in_front(const ColumnModel& model) const;
   void weigh_front(CycleRecord& record) const;
 
@@ -108,16 +110,12 @@ void LoadingRun::describe() {
                 {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
                 {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
                 {"seed", std::to_string(s.seed)},
-                {"version", DRAWPOINT_VERSION},
-                {"pile_recipe", pile_recipe(s)}};
+                {"lift", s.lift == LiftGoal::behind_surface ? "behind surface" : "along slope"},
+                {"version", DRAWPOINT_VERSION}};
 }
 
 ColumnModel LoadingRun::columns(bool with_bucket) const {
-  ColumnOptions options = scenario_.columns;
-  options.bucket_width = site_.lhd().bucket_width;
-  options.bucket_volume = site_.lhd().bucket_volume;
-  const auto rocks = site_.rocks(with_bucket);
-  return column_model(rocks, grid_over(scenario_.drift), options);
+  return columns_of(site_.rocks(with_bucket), scenario_, site_.lhd());
 }
 
 PlannerOptions LoadingRun::planner_options() const {
@@ -128,6 +126,7 @@ PlannerOptions LoadingRun::planner_options() const {
   options.height_limit = scenario_.drift.height - room_under_roof;
   options.x_limit = scenario_.drift.length - scenario_.drift.wall_roughness;
   options.curl = scenario_.curl;
+  options.lift = scenario_.lift;
   options.arm = site_.driver().arm();
   return options;
 }
@@ -200,20 +199,27 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
   return true;
 }
 
-// By rock; those in the bucket lie in front of nothing.
+// As it lies before the machine comes.
+void LoadingRun::look_at_pile() {
+  const ColumnModel model = columns(true);
+  in_front_before_ = rocks_in_front(model);
+  if (model.rows.empty()) return;
+  const SurfaceAngles surface = surface_angles(model);
+  log_.numbers["pile_angle_deg"] = surface.mean * 180 / M_PI;
+  log_.numbers["pile_crest"] = surface.crest;
+}
+
 std::vector<bool> LoadingRun::rocks_in_front(const ColumnModel& model) const {
-  const auto& rocks = site_.world().rocks();
-  std::vector<bool> in_front(rocks.size());
-  for (std::size_t k = 0; k < rocks.size(); ++k)
-    in_front[k] = rocks[k].present && !site_.in_bucket(static_cast<int>(k)) &&
-                  lies_in_front(model, rocks[k].pose.translation());
+  std::vector<bool> in_front;
+  for (const contact::Rock& rock : site_.world().rocks())
+    in_front.push_back(rock.present && lies_in_front(model, rock.pose.translation()));
   return in_front;
 }
 
 void LoadingRun::weigh_front(CycleRecord& record) const {
   const std::vector<bool> in_front = rocks_in_front(columns(false));
   for (std::size_t k = 0; k < in_front.size(); ++k) {
-    if (!in_front[k]) continue;
+    if (!in_front[k] || site_.in_bucket(static_cast<int>(k))) continue;
     const double mass = site_.world().rocks()[k].body.mass;
     record.front_mass += mass;
     if (k >= in_front_before_.size() || !in_front_before_[k]) record.spilled_mass += mass;
@@ -232,6 +238,7 @@ bool LoadingRun::attempt(int cycle) {
 
 bool LoadingRun::run_cycle(int cycle) {
   CycleRecord record;
+  if (cycle == 1) look_at_pile();
   record.plan = plan(record);
   if (!record.plan.feasible) return fail("cycle " + std::to_string(cycle) + ": " + record.plan.message);
   cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);

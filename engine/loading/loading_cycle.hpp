@@ -13,8 +13,8 @@
 ///
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
 /// hauling, dumping and driving are left out. After the cycle the bucket's rocks are taken away and weighed,
-/// spilled rocks stay where they lie, and the raise lets rocks fall in until the drift holds its first mass
-/// again. Rocks that lie where the machine must stand are taken away and logged
+/// spilled rocks stay where they lie, and rocks come down the raise until the drift holds its first mass
+/// again or the raise is blocked. Rocks that lie where the machine must stand are taken away and logged
 /// (`cleared_mass`).
 ///
 /// Failure is data: a pile without a place to load, or a solution that breaks down, gives a log with

@@ -64,6 +64,7 @@ void write_plan(Writer& file, const std::string& group, const Plan& plan) {
   file.integer(group, "limited", plan.limited);
   file.integer(group, "row", plan.row);
   file.integer(group, "curl", static_cast<int>(plan.curl));
+  file.integer(group, "lift", static_cast<int>(plan.lift));
   std::vector<double> corners;
   for (const TipPose& corner : plan.corners) corners.insert(corners.end(), {corner.x, corner.z, corner.phi});
   file.array(group + "/corners_x_z_phi", std::span<const double>(corners), {plan.corners.size(), 3});
@@ -77,6 +78,7 @@ Plan read_plan(const Reader& file, const std::string& group) {
   plan.limited = file.integer(group, "limited") != 0;
   plan.row = static_cast<int>(file.integer(group, "row"));
   plan.curl = static_cast<CurlMode>(file.integer(group, "curl"));
+  plan.lift = static_cast<LiftGoal>(file.integer(group, "lift"));
   const auto corners = file.doubles(group + "/corners_x_z_phi").values;
   for (std::size_t k = 0; k < plan.corners.size(); ++k)
     plan.corners[k] = {corners.at(3 * k), corners.at(3 * k + 1), corners.at(3 * k + 2)};

@@ -41,10 +41,11 @@ MineMaterials materials_named(const std::string& name) {
                               "\"; choose calibrated or lindmark2016");
 }
 
-MineMaterials with_resistance(MineMaterials m, double rolling, double spinning) {
+MineMaterials with_resistance(MineMaterials m, std::optional<double> rolling,
+                              std::optional<double> spinning) {
   for (contact::Material* pair : {&m.rock_rock, &m.rock_terrain, &m.rock_steel, &m.rock_tyre}) {
-    pair->rolling = rolling;
-    pair->spinning = spinning;
+    pair->rolling = rolling.value_or(pair->rolling);
+    pair->spinning = spinning.value_or(pair->spinning);
   }
   return m;
 }

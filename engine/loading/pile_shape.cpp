@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <stdexcept>
 
 namespace drawpoint::engine::loading {
 
-ColumnGrid grid_over(const Drift& drift) {
+ColumnModel columns_of(std::span<const PosedRock> rocks, const Scenario& scenario, const Lhd& lhd) {
   ColumnGrid grid;
-  grid.x_max = drift.length;
-  grid.half_width = drift.width / 2;
-  return grid;
+  grid.x_max = scenario.drift.length;
+  grid.half_width = scenario.drift.width / 2;
+  ColumnOptions options = scenario.columns;
+  options.bucket_width = lhd.bucket_width;
+  options.bucket_volume = lhd.bucket_volume;
+  return column_model(rocks, grid, options);
 }
 
 double surface_angle(const ColumnModel& model, const Row& row) {
@@ -27,6 +31,7 @@ double surface_angle(const ColumnModel& model, const Row& row) {
     sum_xx += x * x;
     sum_xz += x * z[i];
   }
+  if (n < 2) return row.slope;
   return std::atan2(n * sum_xz - sum_x * sum_z, n * sum_xx - sum_x * sum_x);
 }
 
@@ -41,17 +46,26 @@ PileShape pile_shape(const SettledPile& pile, const Scenario& scenario) {
         {&std::get<contact::ConvexPolyhedron>(*bodies.back().shape), rock.pose, bodies.back().mass});
     shape.mass += bodies.back().mass;
   }
-  const ColumnModel model = column_model(rocks, grid_over(scenario.drift), scenario.columns);
+  const ColumnModel model = columns_of(rocks, scenario, sandvik_lh621(scenario.machine));
   if (model.rows.empty())
     throw std::invalid_argument(
         "loading::pile_shape: the bucket fits nowhere before this pile; pour more rock");
-  for (const Row& row : model.rows) {
-    const double share = 1.0 / static_cast<double>(model.rows.size());
-    shape.crest += share * row.crest;
-    shape.toe += share * row.front;
-    shape.angle += share * surface_angle(model, row);
-  }
+  shape.surface = surface_angles(model);
   return shape;
+}
+
+SurfaceAngles surface_angles(const ColumnModel& model) {
+  SurfaceAngles all{.least = M_PI};
+  const double share = 1.0 / static_cast<double>(model.rows.size());
+  for (const Row& row : model.rows) {
+    const double angle = surface_angle(model, row);
+    all.mean += share * angle;
+    all.least = std::min(all.least, angle);
+    all.most = std::max(all.most, angle);
+    all.crest += share * row.crest;
+    all.toe += share * row.front;
+  }
+  return all;
 }
 
 }  // namespace drawpoint::engine::loading

@@ -113,7 +113,7 @@ SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)
   do step_world();
   while (!watch.at_rest(world));
   if (progress) progress(1.0);
-  SettledPile pile{{}, world.time(), watch.timed_out()};
+  SettledPile pile{{}, world.time(), watch.timed_out(), pile_recipe(scenario)};
   for (std::size_t k = 0; k < specs.size(); ++k) pile.rocks.push_back({specs[k], world.rocks()[k].pose});
   return pile;
 }
@@ -140,15 +140,16 @@ void write_pile(const std::filesystem::path& path, const SettledPile& pile, cons
 SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario) {
   const record::Reader file(path, pile_kind);
   if (file.text("/", "recipe") != pile_recipe(scenario))
-    throw std::runtime_error(
-        "loading::read_pile: " + path.string() +
-        " was made for another drift, pile or solver; remove it to pour a new one, or name another file");
+    throw std::runtime_error("loading::read_pile: " + path.string() +
+                             " was made for another drift, pile, rock material or solver; remove it to pour "
+                             "a new one, or name another file");
   const auto shapes = file.integers("/shape").values;
   const auto sizes = file.doubles("/size").values, poses = file.doubles("/pose").values;
   if (sizes.size() != shapes.size() || poses.size() != 12 * shapes.size())
     throw std::runtime_error("loading::read_pile: " + path.string() +
                              " contradicts itself; remove it to pour a new pile");
-  SettledPile pile{{}, file.number("/", "poured_s"), file.integer("/", "timed_out") != 0};
+  SettledPile pile{
+      {}, file.number("/", "poured_s"), file.integer("/", "timed_out") != 0, file.text("/", "recipe")};
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     granular::PlacedRock rock{{shapes[k], sizes[k]}, Eigen::Isometry3d::Identity()};
     for (int row = 0; row < 3; ++row)

@@ -21,8 +21,9 @@ namespace drawpoint::engine::loading {
 
 struct SettledPile {
   std::vector<granular::PlacedRock> rocks;
-  double poured_s = 0;     ///< simulated time to pour and settle [s]
-  bool timed_out = false;  ///< still creeping when the rest criterion's cap was reached
+  double poured_s = 0;      ///< simulated time to pour and settle [s]
+  bool timed_out = false;   ///< still creeping when the rest criterion's cap was reached
+  std::string recipe = {};  ///< what it was made from; empty: not by pour_pile()
 };
 
 /// What decides the pile, as text.

@@ -98,6 +98,7 @@ Plan plan_trajectory(const Strategy& strategy, const ColumnModel& model, const P
   plan.depth = planned_depth(plan.height, plan.slope, plan.area);
   plan.phi_max = options.phi_max;
   plan.curl = options.curl;
+  plan.lift = options.lift;
   stay_before(options.x_limit, plan);
   plan.corners = corner_points(plan, options.standoff, options.arm);
   return plan;

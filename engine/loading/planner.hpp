@@ -40,6 +40,7 @@ struct PlannerOptions {
   /// Of the tip's x at C, e.g. before the back wall [m]; d gives way first, then h.
   double x_limit = std::numeric_limits<double>::infinity();
   CurlMode curl = CurlMode::hinge_G;
+  LiftGoal lift = LiftGoal::behind_surface;
   ArmGeometry arm;
 };
 

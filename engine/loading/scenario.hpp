@@ -36,6 +36,7 @@ struct Scenario {
   ExecutorOptions executor;
   ColumnOptions columns;
   CurlMode curl = CurlMode::hinge_G;  ///< how the bucket breaks out of the pile
+  LiftGoal lift = LiftGoal::behind_surface;
   contact::WorldOptions world;
   double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
   std::filesystem::path
@@ -46,8 +47,7 @@ struct Scenario {
 /// Speeds are the `thesis_like` preset, 2-3 times what such a machine's hydraulics deliver, as the founding
 /// case's 12 s cycles demand; set executor.speeds = machine_speeds() for engineering conclusions.
 ///
-/// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle: minutes
-/// for a whole study.
+/// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();
 
 /// The scale of the founding case: a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.

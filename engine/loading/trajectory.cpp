@@ -45,6 +45,8 @@ StageGoal stage_goal(const Plan& plan, int stage, const TipPose& now, const TipP
       return {.x = std::max(plan.toe + plan.depth - now.x, 0.0)};
     case 2:
       if (!(plan.height > 0)) return {};
+      if (plan.lift == LiftGoal::along_slope)
+        return {.x = plan.height / std::tan(plan.slope), .z = plan.height, .phi = plan.tilt};
       return toward(plan.corners[2], now);
     case 3:
       return {.phi = std::max(plan.phi_max - now.phi, 0.0)};

@@ -24,6 +24,13 @@ enum class CurlMode {
   tip_fixed  ///< as the thesis has it: the tip stays and G sinks, which a low tip forbids
 };
 
+/// Where stage 2 aims.
+enum class LiftGoal {
+  behind_surface,  ///< at C, as deep behind the pile's surface as planned, from wherever stage 1 ended
+                   ///< (default)
+  along_slope      ///< by (h / tan θ, h) from where stage 1 ended, as the thesis has it
+};
+
 struct Plan {
   bool feasible = false;  ///< false: see message; the numbers are then not to be used
   std::string message;
@@ -41,6 +48,7 @@ struct Plan {
   bool limited = false;      ///< depth or height were cut to stay before x_limit
   double phi_max = 0;        ///< bucket angle at D [rad]
   CurlMode curl = CurlMode::hinge_G;
+  LiftGoal lift = LiftGoal::behind_surface;
   std::array<TipPose, 5> corners;  ///< A, B, C, D, E
 };
 
@@ -55,7 +63,8 @@ std::array<TipPose, 5> corner_points(const Plan& plan, double standoff, const Ar
 
 /// The goal of stage 1-4 from where the tip is when it starts. Stages 1, 2 and 4 aim at places (B, C and A),
 /// so that a drive-in that ended early is made good on the way up: the lift then leads into the pile instead
-/// of skimming its surface. Stage 3 aims at a bucket angle. `cycle_start` is the tip at the start of stage 1.
+/// of skimming its surface (LiftGoal::along_slope keeps the thesis's displacement). Stage 3 aims at a bucket
+/// angle. `cycle_start` is the tip at the start of stage 1.
 StageGoal stage_goal(const Plan& plan, int stage, const TipPose& now, const TipPose& cycle_start);
 
 /// The path for a plot: straight pieces and the arc of the curl, `arc_points` points on it.

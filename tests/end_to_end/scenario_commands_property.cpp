@@ -7,7 +7,7 @@
 using namespace drawpoint;
 using namespace drawpoint::test;
 
-/// The commands of benchmarks/scenario, run as scripts run them, on scenes that take a fraction of a second.
+/// The commands of benchmarks/scenario, run as scripts run them, on scenes that take seconds at most.
 namespace {
 
 const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY, fill = BUCKET_FILL;

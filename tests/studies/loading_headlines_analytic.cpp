@@ -32,7 +32,7 @@ CycleRecord cycle(double start, double loaded, double spilled, StageEnd end) {
 LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
   LoadingLog log;
   log.completed = true;
-  log.numbers["payload"] = 20e3;
+  log.numbers = {{"payload", 20e3}, {"pile_mass", 120e3}, {"pile_crest", 2.5}, {"pile_angle_deg", 37}};
   log.signals.columns = {{"time", "s"},
                          {"cycle", "1"},
                          {"hinge_G_torque_x", "N m"},
@@ -70,6 +70,8 @@ TEST_F(LoadingHeadlines, SayFillStallsAndNoise) {
   EXPECT_EQ(of.at("noise_of_production").unit, "kg/s");
   EXPECT_NEAR(of.at("noise_of_rock_spill").value, 0.1 / std::sqrt(2.0), 1e-12);
   EXPECT_EQ(of.at("noise_of_joint_damage").value, 0);
+  EXPECT_EQ(of.at("pile_angle").value, 37);
+  EXPECT_NE(of.at("pile_angle").note.find("120 t, crest 2.5 m"), std::string::npos);
 }
 
 // Means over cycles of 0 and 400 kg/s: the noise of 0 is 0 % of a range of 400.

@@ -24,8 +24,10 @@ inline engine::machine::MachineSpec blade_on_a_slider(double max_force) {
 /// Rocks of 0.3 to 0.6 m in layers over the floor, turned at random by the seed.
 class BladePile {
  public:
+  static constexpr engine::contact::Material stone{.friction = 0.6, .rolling = 0.1, .stiffness = 1e8};
+
   BladePile(int rocks, const engine::contact::WorldOptions& options, std::uint64_t seed = 7,
-            const engine::contact::Material& material = {.friction = 0.6, .rolling = 0.1, .stiffness = 1e8})
+            const engine::contact::Material& material = stone)
       : blade_(blade_on_a_slider(20e3)), world_(options, one_material(material)) {
     add_floor(world_);
     for (double side : {-1.0, 1.0})

@@ -16,10 +16,8 @@ class DugPile {
  public:
   static constexpr long stroke = 250;  ///< steps between two turns of the blade
 
-  static constexpr engine::contact::Material stone{.friction = 0.6, .rolling = 0.1, .stiffness = 1e8};
-
   DugPile(int rocks, const engine::contact::WorldOptions& options,
-          const engine::contact::Material& material = stone)
+          const engine::contact::Material& material = BladePile::stone)
       : rocks_(rocks), options_(options), material_(material), pile_(built()) {}
 
   void run(long steps) {

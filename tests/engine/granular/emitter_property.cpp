@@ -18,7 +18,9 @@ double radius(const contact::Rock& rock) {
 
 struct Heap {
   explicit Heap(const EmitterOptions& o, std::uint64_t seed = 1)
-      : options(o), world({}, support::one_material({.friction = 0.9, .rolling = 0.1})), emitter(o, 4500, seed) {
+      : options(o),
+        world({}, support::one_material({.friction = 0.9, .rolling = 0.1})),
+        emitter(o, 4500, seed) {
     world.add_static(support::shared(contact::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
                      Eigen::Isometry3d::Identity(), 0);
   }
@@ -37,15 +39,15 @@ double room_about(const contact::World& world, int k) {
   double room = rock.pose.translation().z() - radius(rock);
   for (const contact::Rock& other : world.rocks())
     if (&other != &rock)
-      room = std::min(room, (rock.pose.translation() - other.pose.translation()).norm() - radius(rock) -
-                                radius(other));
+      room = std::min(
+          room, (rock.pose.translation() - other.pose.translation()).norm() - radius(rock) - radius(other));
   return room;
 }
 
 }  // namespace
 
-// A place's height leaves the clearance above the highest sphere below it; measured between spheres, which is along
-// the line of centres and not straight down, the room is at most that, and above 0.
+// A place's height leaves the clearance above the highest sphere below it; measured between spheres, which is
+// along the line of centres and not straight down, the room is at most that, and above 0.
 TEST(Emitter, LetsRocksGoLowAndClear) {
   Heap heap({.top = {0, 0, 6}, .radius = 1.8});
   std::size_t births = 0;

@@ -22,8 +22,9 @@ TEST(MineMaterials, Lindmark2016HasTheTablesOfTheSource) {
     int a, b;
     double rolling, friction;
   };
-  for (const Row& r : {Row{rock, steel, 0.9, 1.0}, Row{terrain, steel, 0.9, 1.0}, Row{rock, tyre, 0.9, 1.0},
-                       Row{rock, terrain, 0.9, 1.0}, Row{tyre, terrain, 0.0, 0.8}, Row{rock, rock, 0.5, 0.9}}) {
+  for (const Row& r :
+       {Row{rock, steel, 0.9, 1.0}, Row{terrain, steel, 0.9, 1.0}, Row{rock, tyre, 0.9, 1.0},
+        Row{rock, terrain, 0.9, 1.0}, Row{tyre, terrain, 0.0, 0.8}, Row{rock, rock, 0.5, 0.9}}) {
     EXPECT_EQ(table.of(r.a, r.b).rolling, r.rolling) << r.a << " on " << r.b;
     EXPECT_EQ(table.of(r.b, r.a).friction, r.friction) << r.a << " on " << r.b;
     EXPECT_EQ(table.of(r.a, r.b).spinning, 0) << "the source has no spinning resistance";
@@ -43,6 +44,10 @@ TEST(MineMaterials, ResistanceIsOfTheRocksAlone) {
   }
   EXPECT_EQ(after.tyre_terrain.rolling, before.tyre_terrain.rolling);
   EXPECT_EQ(after.steel_terrain.rolling, before.steel_terrain.rolling);
+  const MineMaterials source = with_resistance(lindmark2016_materials(), {}, 0.2);
+  EXPECT_EQ(source.rock_rock.rolling, 0.5);
+  EXPECT_EQ(source.rock_steel.rolling, 0.9);
+  EXPECT_EQ(source.rock_steel.spinning, 0.2);
 }
 
 TEST(MineMaterials, AnUnknownNameIsRefusedWithTheNamesThereAre) {
@@ -51,8 +56,9 @@ TEST(MineMaterials, AnUnknownNameIsRefusedWithTheNamesThereAre) {
     materials_named("gravel");
     FAIL() << "gravel was found";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "loading::materials_named: there are no materials \"gravel\"; choose calibrated or lindmark2016");
+    EXPECT_STREQ(
+        error.what(),
+        "loading::materials_named: there are no materials \"gravel\"; choose calibrated or lindmark2016");
   }
 }
 
