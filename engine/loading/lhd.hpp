@@ -23,8 +23,8 @@
 /// tyre size.
 ///
 /// Bucket, boom, front unit and wheels touch rocks; the rear unit, cylinders, bell-crank and link are only
-/// drawn. Both lift cylinders are one motor. Cylinder limits are those of the full piston in both directions;
-/// pulling, a real cylinder has only its ring area.
+/// drawn. Both lift cylinders are one motor and share one stop. Cylinder limits are those of the full piston
+/// in both directions; pulling, a real cylinder has only its ring area.
 namespace drawpoint::engine::loading {
 
 /// What moves the arm.
