@@ -83,11 +83,7 @@ void add_run_options(CLI::App& command, Settings& settings, const Defaults& defa
 /// Those that the study declares; what is given goes to `values`.
 void add_study_options(CLI::App& command, const Study& study, OptionValues& values, bool kept) {
   for (const auto& option : study.options) {
-    std::string help = option.help;
-    if (!option.choices.empty()) {
-      help += ":";
-      for (const auto& choice : option.choices) help += " " + choice;
-    }
+    std::string help = option.help + ": " + allowed_values(option);
     help += " (default " + option.value + (kept ? ", or what the folder was made with)" : ")");
     command
         .add_option_function<std::string>(

@@ -21,14 +21,6 @@ bool whole_number_within(const std::string& text, int least, int most) {
   return error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
 }
 
-std::string allowed(const StudyOption& option) {
-  if (option.choices.empty())
-    return "whole numbers from " + std::to_string(option.least) + " to " + std::to_string(option.most);
-  std::string text;
-  for (const auto& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
-  return text;
-}
-
 bool is_allowed(const StudyOption& option, const std::string& value) {
   if (option.choices.empty()) return whole_number_within(value, option.least, option.most);
   return std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end();
@@ -50,9 +42,18 @@ std::string value_in(const OptionValues& values, const std::string& name) {
 
 }  // namespace
 
+std::string allowed_values(const StudyOption& option) {
+  if (option.choices.empty())
+    return "whole numbers from " + std::to_string(option.least) + " to " + std::to_string(option.most);
+  std::string text;
+  for (const auto& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
+  return text;
+}
+
 std::string complaint(const StudyOption& option, const std::string& value) {
   if (is_allowed(option, value)) return "";
-  return "\"" + value + "\" is not one of the values of --" + option.name + "; allowed: " + allowed(option);
+  return "\"" + value + "\" is not one of the values of --" + option.name +
+         "; allowed: " + allowed_values(option);
 }
 
 OptionValues with_defaults(const std::vector<StudyOption>& options, const OptionValues& given) {

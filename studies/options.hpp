@@ -22,6 +22,9 @@ struct StudyOption {
 /// A value per option.
 using OptionValues = std::map<std::string, std::string>;
 
+/// The values there are, in words: "ore, waste" or "whole numbers from 1 to 9".
+std::string allowed_values(const StudyOption& option);
+
 /// What is wrong with a value, in words, or "".
 std::string complaint(const StudyOption& option, const std::string& value);
 

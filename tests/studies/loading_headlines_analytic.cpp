@@ -25,7 +25,9 @@ CycleRecord cycle(double start, double loaded, double spilled, StageEnd end) {
   record.t_end = start + 10;
   record.loaded_mass = loaded;
   record.spilled_mass = spilled;
-  record.stages = {{.stage = Stage::drive_in, .reason = end}};
+  record.stages.resize(1);
+  record.stages[0].stage = Stage::drive_in;
+  record.stages[0].reason = end;
   return record;
 }
 

@@ -145,8 +145,11 @@ TEST(Responses, SayWhatIsMissing) {
 
 CycleRecord driven_in(StageEnd end, double loaded) {
   CycleRecord record = cycle(0, 1, loaded, 0);
-  record.stages = {{.stage = Stage::drive_in, .reason = end},
-                   {.stage = Stage::lift, .reason = StageEnd::timeout}};
+  record.stages.resize(2);
+  record.stages[0].stage = Stage::drive_in;
+  record.stages[0].reason = end;
+  record.stages[1].stage = Stage::lift;
+  record.stages[1].reason = StageEnd::timeout;
   return record;
 }
 
