@@ -76,12 +76,6 @@ void solve_as_told(Scenario& scenario, const Settings& s) {
   if (s.cold) scenario.world.warm_start = 0;
 }
 
-bool reached(const CycleRecord& cycle, Stage stage) {
-  for (const StageResult& result : cycle.stages)
-    if (result.stage == stage) return result.reason == StageEnd::goal;
-  return true;  // left out: nothing was missed
-}
-
 Result result_of(const LoadingLog& log) {
   Result result;
   if (!log.completed) {
@@ -94,8 +88,8 @@ Result result_of(const LoadingLog& log) {
                              .wanted_depth = c.plan.depth,
                              .time = c.t_end - c.t_start,
                              .rocks = static_cast<int>(c.loaded_rock_masses.size()),
-                             .drive_in_done = reached(c, Stage::drive_in),
-                             .lift_done = reached(c, Stage::lift)});
+                             .drive_in_done = reached_goal(c, Stage::drive_in),
+                             .lift_done = reached_goal(c, Stage::lift)});
   result.production = production(log);
   result.damage = joint_damage(log);
   result.spill = rock_spill(log);

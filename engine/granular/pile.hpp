@@ -13,7 +13,7 @@
 /// Rocks have one of six shapes and one of the four sizes of the distribution by mass; the emitter draws
 /// sizes to a mass quota and shapes evenly, turns each at random and lets it go at rest, low over what
 /// already lies below: ore in a raise comes down choked, it does not fall. Dropped from the top of the raise
-/// instead, 8 m, the same rocks lie at 17 to 25 degrees in place of 38 to 42. All random numbers are
+/// instead, 8 m, the same rocks lie at 17 to 25 degrees in place of 36 to 39. All random numbers are
 /// counter-based: the seed gives the pile, bit for bit.
 namespace drawpoint::engine::granular {
 

@@ -38,13 +38,11 @@ double surface_angle(const ColumnModel& model, const Row& row) {
 PileShape pile_shape(const SettledPile& pile, const Scenario& scenario) {
   const granular::RockLibrary library(scenario.pile.density);
   std::vector<PosedRock> rocks;
-  std::vector<contact::RockBody> bodies;  // keep the shapes alive
   PileShape shape;
   for (const granular::PlacedRock& rock : pile.rocks) {
-    bodies.push_back(library.body(rock.spec));
-    rocks.push_back(
-        {&std::get<contact::ConvexPolyhedron>(*bodies.back().shape), rock.pose, bodies.back().mass});
-    shape.mass += bodies.back().mass;
+    const contact::RockBody body = library.body(rock.spec);  // the library keeps its shape
+    rocks.push_back({&std::get<contact::ConvexPolyhedron>(*body.shape), rock.pose, body.mass});
+    shape.mass += body.mass;
   }
   const ColumnModel model = columns_of(rocks, scenario, sandvik_lh621(scenario.machine));
   if (model.rows.empty())

@@ -156,12 +156,16 @@ double fill_factor(const LoadingLog& log) {
   return mean(shares);
 }
 
+bool reached_goal(const CycleRecord& cycle, Stage stage) {
+  for (const StageResult& result : cycle.stages)
+    if (result.stage == stage) return result.reason == StageEnd::goal;
+  return true;
+}
+
 double stall_share(const LoadingLog& log) {
   require_cycles(log, "stall_share");
   double stalls = 0;
-  for (const CycleRecord& cycle : log.cycles)
-    for (const StageResult& stage : cycle.stages)
-      if (stage.stage == Stage::drive_in && stage.reason != StageEnd::goal) stalls += 1;
+  for (const CycleRecord& cycle : log.cycles) stalls += reached_goal(cycle, Stage::drive_in) ? 0 : 1;
   return stalls / static_cast<double>(log.cycles.size());
 }
 

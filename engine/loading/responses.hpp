@@ -51,7 +51,9 @@ std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOption
 
 /// Loaded mass over the rated payload, mean over the cycles [1].
 double fill_factor(const LoadingLog& log);
-/// Share of the cycles whose drive-in was ended by time or a slow actuator before its goal [1].
+/// Whether a stage ended at its goal, not by time or a slow actuator; true for a stage that was left out.
+bool reached_goal(const CycleRecord& cycle, Stage stage);
+/// Share of the cycles whose drive-in did not [1].
 double stall_share(const LoadingLog& log);
 
 double production(const LoadingLog& log, const ProductionOptions& options = {});

@@ -10,9 +10,7 @@
 /// What the planner hands to the executor, as a tip path A-B-C-D-E, and the goals of the four stages.
 ///
 ///   A-B drive in, bucket flat: from A (tip ℓ₀ before the toe) to B (depth d behind the toe)
-///   B-C lift and tilt along the slope to C, d behind the pile's surface at height h, bucket angle φ = κθ;
-///   left
-///       out when h = 0
+///   B-C lift and tilt to C, d behind the pile's surface at height h, with φ = κθ; left out when h = 0
 ///   C-D curl fully back, to φ_max
 ///   D-E back out, until the tip is above A
 /// World frame, metres and radians.
