@@ -9,21 +9,32 @@ include(GNUInstallDirs)
 
 set(drawpoint_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Drawpoint)
 
-# drawpoint_install(COMPONENT): the target, its export file and the headers of its folder.
+# drawpoint_install(COMPONENT [FOLDER...]): the target, its export file and the headers of its folders.
 function(drawpoint_install component)
   install(TARGETS drawpoint_${component} EXPORT Drawpoint-${component}
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component})
   install(EXPORT Drawpoint-${component} NAMESPACE Drawpoint:: FILE DrawpointTargets-${component}.cmake
           DESTINATION ${drawpoint_cmake_dir} COMPONENT ${component})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${component}/ DESTINATION include/drawpoint/${component}
-          COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp")
+  set(folders ${ARGN})
+  if(NOT folders)
+    set(folders ${component})
+  endif()
+  foreach(folder IN LISTS folders)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION include/drawpoint/${folder}
+            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
 endfunction()
 
 foreach(component doe kriging pareto)
   drawpoint_install(${component})
 endforeach()
+if(DRAWPOINT_BUILD_CONTACT)
+  list(TRANSFORM drawpoint_contact_folders PREPEND engine/ OUTPUT_VARIABLE folders)
+  drawpoint_install(contact ${folders})
+endif()
 if(DRAWPOINT_BUILD_ENGINE)
-  drawpoint_install(engine)
+  list(TRANSFORM drawpoint_engine_folders PREPEND engine/ OUTPUT_VARIABLE folders)
+  drawpoint_install(engine ${folders})
 endif()
 
 # Which of the header-only modules hand Ipopt on to their users, so that the config looks for it there only.
@@ -94,9 +105,14 @@ drawpoint_deb(doe "Drawpoint: designed experiments over any black box (headers)"
 drawpoint_deb(kriging "Drawpoint: regression Kriging (headers)" ${toolkit})
 set(CPACK_DEBIAN_KRIGING_PACKAGE_SUGGESTS nlohmann-json3-dev) # for kriging/save.hpp alone
 drawpoint_deb(pareto "Drawpoint: multi-objective search (headers)" ${toolkit})
+if(DRAWPOINT_BUILD_CONTACT)
+  list(APPEND CPACK_COMPONENTS_ALL contact)
+  drawpoint_deb(contact "Drawpoint: convex rocks and their contacts (library and headers)"
+                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libtbb-dev libhwy-dev libhdf5-dev)
+endif()
 if(DRAWPOINT_BUILD_ENGINE)
   list(APPEND CPACK_COMPONENTS_ALL engine)
   drawpoint_deb(engine "Drawpoint: articulated machines among convex rocks (library and headers)"
-                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libsimbody-dev libfcl-dev libtbb-dev libhwy-dev libhdf5-dev)
+                "libdrawpoint-contact-dev ${same_version}" libsimbody-dev)
 endif()
 include(CPack)

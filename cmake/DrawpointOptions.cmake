@@ -1,7 +1,8 @@
 # What to build. Everything but the toolkit is for people who work on Drawpoint itself, so it is ON only at top level.
 
 option(DRAWPOINT_BUILD_TOOLKIT "Build doe, kriging and pareto (need Ipopt)" ON)
-option(DRAWPOINT_BUILD_ENGINE "Build the simulation engine (needs Simbody, FCL, oneTBB, Highway, HDF5)" ${PROJECT_IS_TOP_LEVEL})
+option(DRAWPOINT_BUILD_CONTACT "Build rocks and contact solving (needs FCL, oneTBB, Highway, HDF5)" ${PROJECT_IS_TOP_LEVEL})
+option(DRAWPOINT_BUILD_ENGINE "Build machines and the loading case (needs DRAWPOINT_BUILD_CONTACT and Simbody)" ${DRAWPOINT_BUILD_CONTACT})
 option(DRAWPOINT_BUILD_STUDIES "Build the study runner and the studies (needs the engine, SQLite, CLI11)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_TESTS "Build the tests (needs GoogleTest, RapidCheck)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_FUZZERS "Build the fuzz targets of tests/fuzz (needs Clang)" OFF)
@@ -21,5 +22,9 @@ endif()
 add_library(drawpoint_build_flags INTERFACE)
 target_compile_options(drawpoint_build_flags INTERFACE -Wall -Wextra -ffp-contract=off)
 
-# The engine's folders in dependency order; a shorter list builds a part of it (contact alone, for a solver benchmark).
-set(DRAWPOINT_ENGINE_FOLDERS contact machine granular record loading CACHE STRING "Folders of engine/ to build")
+if(DRAWPOINT_BUILD_ENGINE AND NOT DRAWPOINT_BUILD_CONTACT)
+  message(FATAL_ERROR "DRAWPOINT_BUILD_ENGINE is ON and DRAWPOINT_BUILD_CONTACT is OFF, but machines work on contacts; switch both on or both off")
+endif()
+if(DRAWPOINT_BUILD_STUDIES AND NOT DRAWPOINT_BUILD_ENGINE)
+  message(FATAL_ERROR "DRAWPOINT_BUILD_STUDIES is ON and DRAWPOINT_BUILD_ENGINE is OFF, but the loading study simulates; switch both on or both off")
+endif()

@@ -25,8 +25,8 @@
 #include <vector>
 
 #include <drawpoint/doe/evaluations.hpp>
-#include <drawpoint/doe/nearest.hpp>
-#include <drawpoint/doe/unit_box.hpp>
+#include <drawpoint/doe/detail/nearest.hpp>
+#include <drawpoint/doe/detail/unit_box.hpp>
 
 namespace drawpoint::doe {
 

@@ -29,8 +29,8 @@
 #include <drawpoint/doe/evaluate_options.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/run_journal.hpp>
-#include <drawpoint/doe/scaling.hpp>
-#include <drawpoint/doe/watchdog.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
+#include <drawpoint/doe/detail/watchdog.hpp>
 
 namespace drawpoint::doe {
 

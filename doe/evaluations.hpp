@@ -21,8 +21,8 @@
 #include <string_view>
 #include <vector>
 
-#include <drawpoint/doe/atomic_file.hpp>
-#include <drawpoint/doe/csv.hpp>
+#include <drawpoint/doe/detail/atomic_file.hpp>
+#include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
 

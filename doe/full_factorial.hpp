@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/scaling.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
 
 namespace drawpoint::doe {
 

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/scaling.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
 namespace drawpoint::doe {

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/scaling.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
 namespace drawpoint::doe {

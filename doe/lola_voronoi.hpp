@@ -25,10 +25,10 @@
 #include <vector>
 
 #include <drawpoint/doe/criterion.hpp>
-#include <drawpoint/doe/neighbourhood.hpp>
-#include <drawpoint/doe/nonlinearity.hpp>
-#include <drawpoint/doe/sites.hpp>
-#include <drawpoint/doe/voronoi.hpp>
+#include <drawpoint/doe/detail/neighbourhood.hpp>
+#include <drawpoint/doe/detail/nonlinearity.hpp>
+#include <drawpoint/doe/detail/sites.hpp>
+#include <drawpoint/doe/detail/voronoi.hpp>
 
 namespace drawpoint::doe {
 

@@ -25,9 +25,9 @@
 #include <tuple>
 #include <utility>
 
-#include <drawpoint/doe/latin_annealing.hpp>
+#include <drawpoint/doe/detail/latin_annealing.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
-#include <drawpoint/doe/lattice.hpp>
+#include <drawpoint/doe/detail/lattice.hpp>
 #include <drawpoint/doe/quality.hpp>
 
 namespace drawpoint::doe {

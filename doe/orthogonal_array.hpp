@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/galois_field.hpp>
+#include <drawpoint/doe/detail/galois_field.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 
 namespace drawpoint::doe {

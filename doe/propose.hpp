@@ -27,10 +27,10 @@
 
 #include <drawpoint/doe/black_box.hpp>
 #include <drawpoint/doe/criterion.hpp>
-#include <drawpoint/doe/nearest.hpp>
-#include <drawpoint/doe/sites.hpp>
-#include <drawpoint/doe/unit_box.hpp>
-#include <drawpoint/doe/voronoi.hpp>
+#include <drawpoint/doe/detail/nearest.hpp>
+#include <drawpoint/doe/detail/sites.hpp>
+#include <drawpoint/doe/detail/unit_box.hpp>
+#include <drawpoint/doe/detail/voronoi.hpp>
 
 namespace drawpoint::doe {
 

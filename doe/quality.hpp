@@ -24,7 +24,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <drawpoint/doe/scaling.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
 
 namespace drawpoint::doe {
 

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include <drawpoint/doe/fractional_factorial.hpp>
-#include <drawpoint/doe/scaling.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
 
 namespace drawpoint::doe {
 

@@ -30,7 +30,7 @@
 #include <system_error>
 #include <utility>
 
-#include <drawpoint/doe/csv.hpp>
+#include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 
 namespace drawpoint::doe {

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <utility>
 
-#include <drawpoint/doe/scaling.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
 namespace drawpoint::doe {

@@ -28,10 +28,10 @@
 #include <vector>
 
 #include <drawpoint/doe/criterion.hpp>
-#include <drawpoint/doe/nearest.hpp>
+#include <drawpoint/doe/detail/nearest.hpp>
 #include <drawpoint/doe/outcome.hpp>
-#include <drawpoint/kriging/blind.hpp>
-#include <drawpoint/kriging/normal.hpp>
+#include <drawpoint/kriging/detail/blind.hpp>
+#include <drawpoint/kriging/detail/normal.hpp>
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <drawpoint/kriging/cholesky.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <stdexcept>
 #include <string>

@@ -23,9 +23,9 @@
 #include <string_view>
 #include <utility>
 
-#include <drawpoint/kriging/dense.hpp>
-#include <drawpoint/kriging/parallel.hpp>
-#include <drawpoint/kriging/simd.hpp>
+#include <drawpoint/kriging/detail/dense.hpp>
+#include <drawpoint/kriging/detail/parallel.hpp>
+#include <drawpoint/kriging/detail/simd.hpp>
 
 namespace drawpoint::kriging {
 

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <concepts>
 #include <drawpoint/doe/seed.hpp>
-#include <drawpoint/kriging/blind.hpp>
+#include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <numeric>
 #include <optional>

@@ -14,12 +14,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/kriging/blind.hpp>
-#include <drawpoint/kriging/likelihood.hpp>
+#include <drawpoint/kriging/detail/blind.hpp>
+#include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
-#include <drawpoint/kriging/search.hpp>
-#include <drawpoint/kriging/training_data.hpp>
+#include <drawpoint/kriging/detail/search.hpp>
+#include <drawpoint/kriging/detail/training_data.hpp>
 #include <limits>
 #include <string>
 #include <utility>

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include <drawpoint/kriging/least_squares.hpp>
+#include <drawpoint/kriging/detail/least_squares.hpp>
 #include <drawpoint/kriging/radial.hpp>
 
 namespace drawpoint::kriging {

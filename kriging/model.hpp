@@ -18,9 +18,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/kriging/cholesky.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/correlation.hpp>
-#include <drawpoint/kriging/model_state.hpp>
+#include <drawpoint/kriging/detail/model_state.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>
 #include <stdexcept>

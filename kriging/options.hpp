@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/correlation.hpp>
-#include <drawpoint/kriging/trend.hpp>
+#include <drawpoint/kriging/detail/trend.hpp>
 #include <string>
 #include <string_view>
 

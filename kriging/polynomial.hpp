@@ -23,10 +23,10 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/kriging/cholesky.hpp>
-#include <drawpoint/kriging/least_squares.hpp>
-#include <drawpoint/kriging/monomials.hpp>
-#include <drawpoint/kriging/runs_of_surrogate.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
+#include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/detail/monomials.hpp>
+#include <drawpoint/kriging/detail/runs_of_surrogate.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <drawpoint/kriging/validate.hpp>
 

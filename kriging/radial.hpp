@@ -25,8 +25,8 @@
 #include <string_view>
 #include <utility>
 
-#include <drawpoint/kriging/matrix_product.hpp>
-#include <drawpoint/kriging/runs_of_surrogate.hpp>
+#include <drawpoint/kriging/detail/matrix_product.hpp>
+#include <drawpoint/kriging/detail/runs_of_surrogate.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <drawpoint/kriging/validate.hpp>
 

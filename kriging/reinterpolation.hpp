@@ -13,7 +13,7 @@
 /// Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy' Computer Experiments".
 
 #include <Eigen/Core>
-#include <drawpoint/kriging/cholesky.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <limits>
 #include <utility>

@@ -28,9 +28,9 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/atomic_file.hpp>
+#include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/kriging/model.hpp>
-#include <drawpoint/kriging/saved_checks.hpp>
+#include <drawpoint/kriging/detail/saved_checks.hpp>
 
 namespace drawpoint::kriging {
 

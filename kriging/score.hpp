@@ -15,8 +15,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/doe/normal_quantile.hpp>
-#include <drawpoint/kriging/dense.hpp>
+#include <drawpoint/doe/detail/normal_quantile.hpp>
+#include <drawpoint/kriging/detail/dense.hpp>
 #include <limits>
 #include <numbers>
 #include <numeric>

@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/pareto/ranked_points.hpp>
+#include <drawpoint/pareto/detail/ranked_points.hpp>
 
 namespace drawpoint::pareto {
 

@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/doe/normal_quantile.hpp>
+#include <drawpoint/doe/detail/normal_quantile.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/pareto/search.hpp>

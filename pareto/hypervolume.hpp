@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/pareto/box_union.hpp>
-#include <drawpoint/pareto/volume_contributions.hpp>
+#include <drawpoint/pareto/detail/box_union.hpp>
+#include <drawpoint/pareto/detail/volume_contributions.hpp>
 
 namespace drawpoint::pareto {
 

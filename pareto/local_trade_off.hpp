@@ -17,7 +17,7 @@
 #include <limits>
 #include <string>
 
-#include <drawpoint/pareto/normalized.hpp>
+#include <drawpoint/pareto/detail/normalized.hpp>
 #include <drawpoint/pareto/polish.hpp>
 
 namespace drawpoint::pareto {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <drawpoint/pareto/draws.hpp>
-#include <drawpoint/pareto/normalized.hpp>
+#include <drawpoint/pareto/detail/normalized.hpp>
 
 namespace drawpoint::pareto {
 

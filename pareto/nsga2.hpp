@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/pareto/elitism.hpp>
-#include <drawpoint/pareto/evolution.hpp>
+#include <drawpoint/pareto/detail/elitism.hpp>
+#include <drawpoint/pareto/detail/evolution.hpp>
 
 namespace drawpoint::pareto {
 

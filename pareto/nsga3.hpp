@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/pareto/evolution.hpp>
+#include <drawpoint/pareto/detail/evolution.hpp>
 #include <drawpoint/pareto/reference_directions.hpp>
 
 namespace drawpoint::pareto {

@@ -28,7 +28,7 @@
 #include <vector>
 
 #include <drawpoint/pareto/hypervolume.hpp>
-#include <drawpoint/pareto/scalar_problem.hpp>
+#include <drawpoint/pareto/detail/scalar_problem.hpp>
 #include <drawpoint/pareto/search.hpp>
 #include <drawpoint/pareto/stationarity.hpp>
 

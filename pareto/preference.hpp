@@ -21,7 +21,7 @@
 #include <string>
 
 #include <drawpoint/pareto/choice.hpp>
-#include <drawpoint/pareto/normalized.hpp>
+#include <drawpoint/pareto/detail/normalized.hpp>
 
 namespace drawpoint::pareto {
 

@@ -16,7 +16,7 @@
 #include <functional>
 #include <vector>
 
-#include <drawpoint/pareto/population.hpp>
+#include <drawpoint/pareto/detail/population.hpp>
 
 namespace drawpoint::pareto {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/pareto/evolution.hpp>
+#include <drawpoint/pareto/detail/evolution.hpp>
 #include <drawpoint/pareto/hypervolume.hpp>
 
 namespace drawpoint::pareto {

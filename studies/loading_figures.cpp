@@ -91,7 +91,7 @@ json path_panel(const LoadingLog& log, const CycleRecord& cycle) {
           {"stages", stage_paths(log, rows, stride)}};
 }
 
-json shape_of(const engine::contact::ConvexPolyhedron& shape) {
+json shape_of(const engine::ConvexPolyhedron& shape) {
   json vertices = json::array();
   for (const auto& v : shape.vertices()) vertices.push_back({rounded(v.x()), rounded(v.y()), rounded(v.z())});
   return {{"vertices", vertices}, {"faces", shape.faces()}};

@@ -6,8 +6,8 @@
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision.h>
 
-#include <drawpoint/engine/contact/contact_finder.hpp>
-#include <drawpoint/engine/contact/convex_contact.hpp>
+#include <drawpoint/engine/collision/contact_finder.hpp>
+#include <drawpoint/engine/geometry/convex_contact.h>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/tests/support/dense_rocks.hpp>
 #include <map>
@@ -17,9 +17,9 @@ namespace {
 
 using namespace drawpoint::engine;
 namespace support = drawpoint::support;
-using contact::detail::AxisQuery;
-using contact::detail::AxisSearch;
-using contact::detail::CollisionHull;
+using detail::AxisQuery;
+using detail::AxisSearch;
+using detail::CollisionHull;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
@@ -78,8 +78,8 @@ BENCHMARK(separating_axis);
 
 void axis_and_manifold(benchmark::State& state) {
   const auto pairs = rock_pairs();
-  contact::detail::ConvexContactSearch search;
-  contact::detail::ConvexContact contact;
+  detail::ConvexContactSearch search;
+  detail::ConvexContact contact;
   std::size_t k = 0;
   double points = 0;
   for (auto _ : state) {
@@ -91,7 +91,7 @@ void axis_and_manifold(benchmark::State& state) {
 }
 BENCHMARK(axis_and_manifold);
 
-std::shared_ptr<fcl::Convexd> fcl_shape(const contact::ConvexPolyhedron& shape) {
+std::shared_ptr<fcl::Convexd> fcl_shape(const ConvexPolyhedron& shape) {
   auto faces = std::make_shared<std::vector<int>>();
   for (const auto& face : shape.faces()) {
     faces->push_back(static_cast<int>(face.size()));
@@ -143,7 +143,7 @@ BENCHMARK_CAPTURE(fcl_collide, indep, fcl::GST_INDEP);
 class Replay {
  public:
   Replay(const support::RockPile& pile, const std::vector<support::RockPile::Frame>& frames,
-         const contact::ContactFinderOptions& options = {})
+         const ContactFinderOptions& options = {})
       : frames_(frames), finder_(options) {
     for (const auto& wall : pile.walls) finder_.add({wall, -1, 0, 0, false, Isometry3d::Identity()});
     for (std::size_t k = 0; k < pile.shapes.size(); ++k)
@@ -158,7 +158,7 @@ class Replay {
     frame_ += forward_ ? 1 : -1;
     place();
   }
-  contact::ContactFinder& finder() { return finder_; }
+  ContactFinder& finder() { return finder_; }
 
  private:
   void place() {
@@ -166,7 +166,7 @@ class Replay {
   }
 
   const std::vector<support::RockPile::Frame>& frames_;
-  contact::ContactFinder finder_;
+  ContactFinder finder_;
   std::vector<int> ids_;
   std::size_t frame_ = 0;
   bool forward_ = true;

@@ -7,16 +7,16 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-using engine::contact::ContactProblem;
-using engine::contact::Method;
-using engine::contact::SolverOptions;
-using engine::contact::SolverReport;
+using engine::ContactProblem;
+using engine::Method;
+using engine::SolverOptions;
+using engine::SolverReport;
 
 template <Method method>
 SolverReport solve_by(ContactProblem& problem, const SolverOptions& options) {
   SolverOptions chosen = options;
   chosen.method = method;
-  return engine::contact::solve(problem, chosen);
+  return engine::solve(problem, chosen);
 }
 
 // Made on first use, so that files may register in any order.

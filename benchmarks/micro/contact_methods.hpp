@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/solver/solver.hpp>
 #include <string>
 #include <vector>
 
@@ -14,8 +14,8 @@
 /// file there.
 namespace drawpoint::benchmarks {
 
-using Solve = engine::contact::SolverReport (*)(engine::contact::ContactProblem&,
-                                                const engine::contact::SolverOptions&);
+using Solve = engine::SolverReport (*)(engine::ContactProblem&,
+                                                const engine::SolverOptions&);
 
 struct ContactMethod {
   std::string name;
@@ -29,7 +29,7 @@ std::vector<ContactMethod> contact_methods();
 ContactMethod contact_method(const std::string& name);
 
 /// Just so many substeps and sweeps, whatever they reach.
-engine::contact::SolverOptions fixed_work(int substeps, int sweeps, int threads = 1);
+engine::SolverOptions fixed_work(int substeps, int sweeps, int threads = 1);
 
 struct RegisteredMethod {
   explicit RegisteredMethod(const ContactMethod& method);

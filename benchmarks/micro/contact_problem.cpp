@@ -13,7 +13,7 @@
 /// Every command takes --json. docs/contact-solving.md explains the numbers.
 using namespace drawpoint;
 using namespace drawpoint::benchmarks;
-using engine::contact::SolverOptions;
+using engine::SolverOptions;
 using engine::record::RecordedProblem;
 using nlohmann::json;
 

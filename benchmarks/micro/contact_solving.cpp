@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
-#include <drawpoint/engine/contact/pair_batch.hpp>
-#include <drawpoint/engine/contact/sequential_sweeper.hpp>
-#include <drawpoint/engine/contact/sweep_order.hpp>
+#include <drawpoint/engine/solver/batch/pair_batch.h>
+#include <drawpoint/engine/solver/sequential_iteration.h>
+#include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <drawpoint/tests/support/rocks.hpp>
 #include <map>
 
@@ -19,9 +19,9 @@
 /// again from the cache. `triad` is a[i] = b[i] + s c[i], 24 bytes an element, over arrays that together are
 /// as large; `share_of_triad` is bytes streamed a second over the triad's at the nearest size.
 using namespace drawpoint;
-using engine::contact::ContactProblem;
-using engine::contact::World;
-namespace detail = engine::contact::detail;
+using engine::ContactProblem;
+using engine::World;
+namespace detail = engine::detail;
 
 namespace {
 
@@ -32,7 +32,7 @@ ContactProblem heap_problem(int rocks, bool digging) {
   support::add_floor(world);
   for (const Eigen::Vector3d& n : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
                                    Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
-    world.add_static(support::shared(engine::contact::HalfSpace{n, -1.5}), Eigen::Isometry3d::Identity(), 0);
+    world.add_static(support::shared(engine::HalfSpace{n, -1.5}), Eigen::Isometry3d::Identity(), 0);
   for (int k = 0; k < rocks; ++k)
     world.add_rock(support::rock_body(k % 6, 0.4),
                    support::at(-1.1 + 0.55 * (k % 5), -1.1 + 0.55 * (k / 5 % 5), 0.3 + 0.5 * (k / 25)));

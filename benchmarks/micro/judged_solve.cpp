@@ -11,7 +11,7 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-using namespace engine::contact;
+using namespace engine;
 
 // One thread is timed by its processor time, which other programs lengthen least; several by the clock.
 double now(int threads) {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
-#include <drawpoint/engine/contact/residual.hpp>
-#include <drawpoint/engine/contact/solution_distance.hpp>
+#include <drawpoint/engine/solver/residual.hpp>
+#include <drawpoint/engine/solver/solution_distance.hpp>
 
 /// One method on one problem: how true, how far from the converged solution, how long.
 ///
@@ -16,26 +16,26 @@
 namespace drawpoint::benchmarks {
 
 struct Solved {
-  engine::contact::ContactProblem problem;
-  engine::contact::SolverReport report;
+  engine::ContactProblem problem;
+  engine::SolverReport report;
 };
 
-Solved converged_solution(const engine::contact::ContactProblem& problem);
+Solved converged_solution(const engine::ContactProblem& problem);
 
 struct Judgement {
-  engine::contact::Residual residual;
-  engine::contact::Distance distance;
+  engine::Residual residual;
+  engine::Distance distance;
   double momentum_defect = 0;
   double milliseconds = 0;  ///< of the whole solve
 };
 
 /// Throws std::invalid_argument for options that the method does not take.
-Judgement judge(const engine::contact::ContactProblem& problem, const ContactMethod& method,
-                const engine::contact::SolverOptions& options, int repeats, const Solved& converged);
+Judgement judge(const engine::ContactProblem& problem, const ContactMethod& method,
+                const engine::SolverOptions& options, int repeats, const Solved& converged);
 
 /// [ns]; points x substeps x sweeps are the work.
-double nanoseconds_a_point_a_sweep(const engine::contact::ContactProblem& problem,
-                                   const ContactMethod& method, const engine::contact::SolverOptions& options,
+double nanoseconds_a_point_a_sweep(const engine::ContactProblem& problem,
+                                   const ContactMethod& method, const engine::SolverOptions& options,
                                    int repeats);
 
 }  // namespace drawpoint::benchmarks

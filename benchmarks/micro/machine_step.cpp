@@ -19,15 +19,15 @@ void machine_linearise(benchmark::State& state) {
 void machine_on_its_tyres(benchmark::State& state) {
   const loading::Lhd lhd = loading::sandvik_lh621();
   machine::Machine machine(lhd.spec);
-  contact::World world({}, loading::material_table(loading::calibrated_materials()));
+  World world({}, loading::material_table(loading::calibrated_materials()));
   loading::LhdDriver driver(lhd, machine);
   driver.place(0, 0);
   world.attach(&machine);
-  world.add_static(std::make_shared<const contact::Shape>(contact::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
+  world.add_static(std::make_shared<const Shape>(HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
                    Eigen::Isometry3d::Identity(), static_cast<int>(loading::SurfaceKind::terrain));
   for (const auto& s : lhd.surfaces)
     if (s.touches)
-      world.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
+      world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape),
                            Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   for (auto _ : state) {
     driver.command({0, 0, 0});

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <drawpoint/benchmarks/micro/matrix_form.hpp>
-#include <drawpoint/engine/contact/contact_law.hpp>
+#include <drawpoint/engine/solver/contact_law.hpp>
 
 namespace drawpoint::benchmarks {
 namespace {
 
-using namespace engine::contact;
+using namespace engine;
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
-#include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/solver/solver.hpp>
 
 /// A contact problem as one sparse system, for methods that think in matrices; one whole step, S = 1.
 ///
@@ -15,17 +15,17 @@
 namespace drawpoint::benchmarks {
 
 struct MatrixForm {
-  explicit MatrixForm(const engine::contact::ContactProblem& problem);
+  explicit MatrixForm(const engine::ContactProblem& problem);
 
   Eigen::Index point_row(std::size_t point) const { return 3 * static_cast<Eigen::Index>(point); }
   Eigen::Index pair_row(std::size_t pair) const { return pairs_begin + 3 * static_cast<Eigen::Index>(pair); }
 
   /// Onto the limits that the law sets at the present normal impulses: λ_n ≥ 0, then the discs of friction
   /// and moments, then the machine's limits.
-  void project(const engine::contact::ContactProblem& problem, Eigen::VectorXd& impulses) const;
+  void project(const engine::ContactProblem& problem, Eigen::VectorXd& impulses) const;
 
   /// Writes the solution into the problem, all "out" fields, and returns the machine's part.
-  engine::contact::SolverReport store(engine::contact::ContactProblem& problem,
+  engine::SolverReport store(engine::ContactProblem& problem,
                                       const Eigen::VectorXd& impulses, const Eigen::VectorXd& x) const;
 
   Eigen::SparseMatrix<double, Eigen::RowMajor> J, inverse_mass;  ///< rows x velocities, velocities²

@@ -11,17 +11,17 @@ namespace drawpoint::benchmarks {
 namespace {
 
 using namespace engine;
-using contact::ContactProblem;
-using contact::World;
+using engine::ContactProblem;
+using engine::World;
 
 // Rocks on a lattice above the box, layer after layer, each turned by the emitter's own draw.
 void fill_box(World& world, int rocks) {
-  const auto ground = std::make_shared<const contact::Shape>(contact::HalfSpace{Eigen::Vector3d::UnitZ(), 0});
+  const auto ground = std::make_shared<const engine::Shape>(engine::HalfSpace{Eigen::Vector3d::UnitZ(), 0});
   const int terrain = static_cast<int>(loading::SurfaceKind::terrain);
   world.add_static(ground, Eigen::Isometry3d::Identity(), terrain);
   for (const Eigen::Vector3d& n : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
                                    Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
-    world.add_static(std::make_shared<const contact::Shape>(contact::HalfSpace{n, -2}),
+    world.add_static(std::make_shared<const engine::Shape>(engine::HalfSpace{n, -2}),
                      Eigen::Isometry3d::Identity(), terrain);
   const granular::RockLibrary library;
   granular::RockSampler sampler(1, 4500);

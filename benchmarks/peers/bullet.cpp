@@ -42,7 +42,7 @@ Eigen::Isometry3d eigen_pose(const btTransform& X) {
   return pose;
 }
 
-std::shared_ptr<btCollisionShape> hull(const engine::contact::ConvexPolyhedron& shape) {
+std::shared_ptr<btCollisionShape> hull(const engine::ConvexPolyhedron& shape) {
   auto result = std::make_shared<btConvexHullShape>();
   for (const Eigen::Vector3d& p : shape.vertices()) result->addPoint(bullet_vector(p), false);
   result->recalcLocalAabb();
@@ -72,8 +72,8 @@ class Bullet : public Peer {
       rocks_.push_back(add(hulls[rock.hull], rock.start, {kind.mass, kind.inertia}));
     }
     for (const auto& wall : pile.walls)
-      add(hull(engine::contact::box({slab, slab, slab})), slab_pose(wall), {});
-    blade_ = add(hull(engine::contact::box(pile.blade.half)),
+      add(hull(engine::box({slab, slab, slab})), slab_pose(wall), {});
+    blade_ = add(hull(engine::box(pile.blade.half)),
                  Eigen::Isometry3d(Eigen::Translation3d(pile.blade.start)), {});
     blade_->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   }

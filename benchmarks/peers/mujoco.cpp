@@ -59,7 +59,7 @@ class ModelText {
     out_ << "' quat='" << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << "' ";
   }
 
-  void write_mesh(std::size_t index, const engine::contact::ConvexPolyhedron& shape) {
+  void write_mesh(std::size_t index, const engine::ConvexPolyhedron& shape) {
     out_ << "<mesh name='hull" << index << "' vertex='";
     for (const Eigen::Vector3d& p : shape.vertices()) write(p);
     out_ << "'/>\n";

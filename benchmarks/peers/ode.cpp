@@ -21,7 +21,7 @@ constexpr int most_points = 8;
 
 /// ODE keeps pointers to these arrays.
 struct ConvexData {
-  explicit ConvexData(const engine::contact::ConvexPolyhedron& shape) {
+  explicit ConvexData(const engine::ConvexPolyhedron& shape) {
     for (const Eigen::Vector3d& p : shape.vertices()) points.insert(points.end(), {p.x(), p.y(), p.z()});
     for (std::size_t f = 0; f < shape.faces().size(); ++f) {
       const auto& face = shape.faces()[f];
@@ -130,7 +130,7 @@ class Ode : public Peer {
   }
 
   void add_blade(const support::PileBlade& blade) {
-    hulls_.emplace_back(engine::contact::box(blade.half));
+    hulls_.emplace_back(engine::box(blade.half));
     blade_ = dBodyCreate(world_);
     dBodySetKinematic(blade_);
     attach(hulls_.back().geom(fixed_), blade_, Eigen::Isometry3d(Eigen::Translation3d(blade.start)));

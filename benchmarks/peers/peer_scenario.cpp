@@ -129,7 +129,7 @@ RockPile as_pile(const MassRatioTable& table) {
   for (const auto& cube : table.cubes) {
     pile.rocks.push_back(
         {static_cast<int>(pile.hulls.size()), Eigen::Isometry3d(Eigen::Translation3d(cube.start))});
-    pile.hulls.push_back({engine::contact::box(Eigen::Vector3d::Constant(cube.half)), cube.mass,
+    pile.hulls.push_back({engine::box(Eigen::Vector3d::Constant(cube.half)), cube.mass,
                           Eigen::Vector3d::Constant(cube.inertia)});
   }
   return pile;

@@ -20,7 +20,7 @@ support::RockPile moved_to(const SettledState& settled, double offset) {
 
 double mass_moment(const support::PileWorld& world) {
   double sum = 0;
-  for (const engine::contact::Rock& rock : world.world().rocks())
+  for (const engine::Rock& rock : world.world().rocks())
     sum += rock.body.mass * rock.pose.translation().x();
   return sum;
 }
@@ -57,14 +57,14 @@ void sample_dig(AccuracySample& sample, support::PileWorld& world, Progress& pro
 
 }  // namespace
 
-SettledState settled(support::RockPile pile, const engine::contact::WorldOptions& options,
+SettledState settled(support::RockPile pile, const engine::WorldOptions& options,
                      Progress& progress) {
   support::PileWorld world(std::move(pile), options);
   run_phase(world, "settle", steps_in(support::RockPile::settle_time, options.step), progress);
   return {world.pile(), world.states()};
 }
 
-AccuracySample accuracy_sample(const SettledState& settled, const engine::contact::WorldOptions& options,
+AccuracySample accuracy_sample(const SettledState& settled, const engine::WorldOptions& options,
                                double offset, Progress& progress) {
   support::PileWorld world(moved_to(settled, offset), options);
   AccuracySample sample;

@@ -18,7 +18,7 @@ struct SettledState {
 };
 
 /// Settles the pile, whose rocks are at their start poses, for RockPile::settle_time.
-SettledState settled(support::RockPile pile, const engine::contact::WorldOptions& options,
+SettledState settled(support::RockPile pile, const engine::WorldOptions& options,
                      Progress& progress);
 
 struct AccuracySample {
@@ -33,7 +33,7 @@ struct AccuracySample {
 
 /// Goes on from the settled pile. `offset` [m] displaces every other rock upwards: a run and its twin with an
 /// offset of a micrometre differ by what chaos alone does.
-AccuracySample accuracy_sample(const SettledState& settled, const engine::contact::WorldOptions& options,
+AccuracySample accuracy_sample(const SettledState& settled, const engine::WorldOptions& options,
                                double offset, Progress& progress);
 
 }  // namespace drawpoint::benchmarks

@@ -56,7 +56,7 @@ struct Quantity {
 };
 
 using Sample = std::vector<double>;  // by quantity
-using Run = std::function<Sample(const engine::contact::WorldOptions&, double offset)>;
+using Run = std::function<Sample(const engine::WorldOptions&, double offset)>;
 
 // What is studied: quantities, and for each seed the run that all settings share.
 struct Subject {
@@ -67,12 +67,12 @@ struct Subject {
 struct Configuration {
   std::string name;
   Setting setting;
-  engine::contact::WorldOptions options;
+  engine::WorldOptions options;
   double offset = 0;
   std::vector<Sample> samples;  // by seed
 };
 
-std::vector<Configuration> configurations(const Settings& s, engine::contact::WorldOptions options) {
+std::vector<Configuration> configurations(const Settings& s, engine::WorldOptions options) {
   std::vector<Configuration> all;
   const auto chosen = world_options(s.engine);
   options.solver.threads = options.contacts.threads = chosen.solver.threads;
@@ -82,7 +82,7 @@ std::vector<Configuration> configurations(const Settings& s, engine::contact::Wo
     all.push_back({name, setting, with(options, setting), offset,
                    std::vector<Sample>(static_cast<std::size_t>(s.seeds))});
   };
-  options.solver.method = engine::contact::method_named(s.reference_method);
+  options.solver.method = engine::method_named(s.reference_method);
   add("reference", s.reference, 0);
   add("twin", s.reference, 1e-6);
   options.solver.method = chosen.solver.method;
@@ -91,7 +91,7 @@ std::vector<Configuration> configurations(const Settings& s, engine::contact::Wo
 }
 
 // Settles well below the errors in question: every setting starts from the same pile.
-engine::contact::WorldOptions settling_options() { return with({}, setting_of("5x5x10")); }
+engine::WorldOptions settling_options() { return with({}, setting_of("5x5x10")); }
 
 Subject blade(const Settings& s) {
   return {{{"ms_rest", "ms rest", 1, 2, false},
@@ -108,7 +108,7 @@ Subject blade(const Settings& s) {
             const SettledState start =
                 settled(support::rock_pile(s.rocks, static_cast<std::uint64_t>(seed), s.material.pile()),
                         settling_options(), progress);
-            return [start](const engine::contact::WorldOptions& options, double offset) -> Sample {
+            return [start](const engine::WorldOptions& options, double offset) -> Sample {
               Progress shown;
               const AccuracySample a = accuracy_sample(start, options, offset, shown);
               return {a.ms_rest, a.ms_dig, a.overlap_mean, a.overlap_p99, a.dig_overlap_p99,
@@ -125,7 +125,7 @@ Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
           [&s, scenario](int seed) -> Run {
             const engine::loading::Scenario of = with_pile(scenario, s.cycle, seed);
             const engine::loading::SettledPile pile = prepared_pile(of);
-            return [of, pile](const engine::contact::WorldOptions& options, double offset) -> Sample {
+            return [of, pile](const engine::WorldOptions& options, double offset) -> Sample {
               engine::loading::Scenario started = of;
               started.world = options;
               const CycleSample c = cycle_run(started, displaced(pile, 1, offset));

@@ -24,7 +24,7 @@ CLI::Validator known_method() {
   return CLI::Validator(
       [](std::string& name) -> std::string {
         try {
-          engine::contact::method_named(name);
+          engine::method_named(name);
           return {};
         } catch (const std::invalid_argument& error) {
           return error.what();
@@ -92,15 +92,15 @@ void add_material_flags(CLI::App& app, MaterialFlags& flags) {
       ->capture_default_str();
 }
 
-engine::contact::WorldOptions world_options(const EngineFlags& flags) {
-  engine::contact::WorldOptions options = flags.world;
-  options.solver.method = engine::contact::method_named(flags.method);
+engine::WorldOptions world_options(const EngineFlags& flags) {
+  engine::WorldOptions options = flags.world;
+  options.solver.method = engine::method_named(flags.method);
   options.contacts.threads = options.solver.threads;
   options.freezing.on = flags.freeze == "on";
   return options;
 }
 
-nlohmann::json described(const engine::contact::WorldOptions& options) {
+nlohmann::json described(const engine::WorldOptions& options) {
   return {{"dt_s", options.step},
           {"method", to_string(options.solver.method)},
           {"substeps", options.solver.substeps},

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/tests/support/rock_pile.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 
 /// The flags; the defaults are those of WorldOptions{}.
 struct EngineFlags {
-  engine::contact::WorldOptions world;
+  engine::WorldOptions world;
   std::string method, freeze;
 };
 
@@ -30,7 +30,7 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags);
 /// Of these only --method, --threads and --freeze.
 void add_method_flags(CLI::App& app, EngineFlags& flags);
 /// The world's options as the flags choose them; --threads holds for contact finding and solving.
-engine::contact::WorldOptions world_options(const EngineFlags& flags);
+engine::WorldOptions world_options(const EngineFlags& flags);
 /// The two coefficients of rocks on everything that studies of materials vary.
 struct MaterialFlags {
   double rolling = support::PileMaterial{}.rolling, spinning = support::PileMaterial{}.spinning;  ///< [1]
@@ -48,7 +48,7 @@ struct MaterialFlags {
 void add_material_flags(CLI::App& app, MaterialFlags& flags);
 
 /// The options as they go into the results.
-nlohmann::json described(const engine::contact::WorldOptions& options);
+nlohmann::json described(const engine::WorldOptions& options);
 /// "dt 5 ms, sequential, 1 x 25 sweeps, threads 1, freeze off", from described().
 std::string in_words(const nlohmann::json& described);
 

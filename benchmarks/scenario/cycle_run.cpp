@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <stdexcept>
 
 #include "estimate.hpp"
@@ -52,7 +52,7 @@ CycleSample cycle_run(engine::loading::Scenario scenario, const engine::loading:
   CycleSample sample;
   int steps = 0;
   engine::loading::SimulationHooks hooks;
-  hooks.on_step = [&](const engine::contact::StepReport& r) {
+  hooks.on_step = [&](const engine::StepReport& r) {
     sample.contact_ms += 1e3 * (r.broad_s + r.narrow_s + r.solver_s + r.rest_s);
     sample.mean_deepest_overlap += r.max_overlap;
     ++steps;

@@ -9,7 +9,7 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-using namespace engine::contact;
+using namespace engine;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 

@@ -30,6 +30,6 @@ struct FreezingCost {
 };
 
 /// Throws std::runtime_error when the bed has not come to rest after 20 s.
-FreezingCost freezing_cost(const CostScene& scene, engine::contact::WorldOptions options);
+FreezingCost freezing_cost(const CostScene& scene, engine::WorldOptions options);
 
 }  // namespace drawpoint::benchmarks

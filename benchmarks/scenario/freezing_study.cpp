@@ -98,8 +98,8 @@ int study_cost(const Settings& s) {
 
 int study_blade(const Settings& s) {
   Progress progress;
-  const engine::contact::WorldOptions off = with({}, setting_of(s.setting));
-  engine::contact::WorldOptions on = off;
+  const engine::WorldOptions off = with({}, setting_of(s.setting));
+  engine::WorldOptions on = off;
   on.freezing.on = true;
   Paired drag, moved;
   for (int seed = 1; seed <= s.seeds; ++seed) {

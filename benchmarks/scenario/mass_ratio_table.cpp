@@ -28,19 +28,19 @@ constexpr const char* about =
 
 using Poses = std::array<Eigen::Isometry3d, 5>;
 
-Poses poses_of(const engine::contact::World& world) {
+Poses poses_of(const engine::World& world) {
   Poses poses;
   for (std::size_t k = 0; k < poses.size(); ++k) poses[k] = world.rocks()[k].pose;
   return poses;
 }
 
-void build(engine::contact::World& world, const MassRatioTable& table) {
-  using engine::contact::Shape;
-  world.add_static(std::make_shared<const Shape>(engine::contact::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
+void build(engine::World& world, const MassRatioTable& table) {
+  using engine::Shape;
+  world.add_static(std::make_shared<const Shape>(engine::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
                    Eigen::Isometry3d::Identity(), 0);
   for (const MassRatioTable::Cube& cube : table.cubes) {
     const auto shape =
-        std::make_shared<const Shape>(engine::contact::box(Eigen::Vector3d::Constant(cube.half)));
+        std::make_shared<const Shape>(engine::box(Eigen::Vector3d::Constant(cube.half)));
     world.add_rock({shape, cube.mass, Eigen::Vector3d::Constant(cube.inertia), 0},
                    Eigen::Isometry3d(Eigen::Translation3d(cube.start)));
   }
@@ -49,7 +49,7 @@ void build(engine::contact::World& world, const MassRatioTable& table) {
 nlohmann::json run(double ratio, const EngineFlags& flags) {
   const auto options = world_options(flags);
   const MassRatioTable table = support::mass_ratio_table(ratio);
-  engine::contact::World world(options, support::pile_materials({}));
+  engine::World world(options, support::pile_materials({}));
   build(world, table);
   Progress progress;
   PhaseTimes times;

@@ -12,7 +12,7 @@ namespace {
 
 void check_sound(const support::PileWorld& world, const std::string& phase) {
   for (std::size_t k = 0; k < world.world().rocks().size(); ++k) {
-    const engine::contact::Rock& rock = world.world().rocks()[k];
+    const engine::Rock& rock = world.world().rocks()[k];
     double inside = std::numeric_limits<double>::infinity();
     for (const support::PileWall& wall : world.pile().walls)
       inside = std::min(inside, wall.normal.dot(rock.pose.translation()) - wall.offset);
@@ -47,9 +47,9 @@ nlohmann::json PhaseTimes::parts() const {
           {"rest", rest / n}};
 }
 
-engine::contact::StepReport add_step(PhaseTimes& times, engine::contact::World& world) {
+engine::StepReport add_step(PhaseTimes& times, engine::World& world) {
   const auto start = std::chrono::steady_clock::now();
-  engine::contact::StepReport report;
+  engine::StepReport report;
   try {
     report = world.step();
   } catch (const std::invalid_argument& error) {  // a pose that is not finite, told by the contact finder
@@ -75,7 +75,7 @@ PhaseTimes run_phase(support::PileWorld& world, const std::string& name, int ste
                      const AfterStep& after) {
   PhaseTimes times;
   for (int k = 0; k < steps; ++k) {
-    const engine::contact::StepReport report = add_step(times, world.world());
+    const engine::StepReport report = add_step(times, world.world());
     if (after) after(report);
     progress.show(name, k + 1, steps);
   }

@@ -23,10 +23,10 @@ struct PhaseTimes {
 };
 
 /// Makes a step and adds its times. Returns its report. Throws std::runtime_error when the engine refuses it.
-engine::contact::StepReport add_step(PhaseTimes& times, engine::contact::World& world);
+engine::StepReport add_step(PhaseTimes& times, engine::World& world);
 
 /// Called after a step with its report.
-using AfterStep = std::function<void(const engine::contact::StepReport&)>;
+using AfterStep = std::function<void(const engine::StepReport&)>;
 
 /// Makes `steps` steps. Throws std::runtime_error when a rock's position or velocity is no longer finite or a
 /// rock has left the box by more than a metre.

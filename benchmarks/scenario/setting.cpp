@@ -49,7 +49,7 @@ std::string name_of(const Setting& s) {
   return name;
 }
 
-engine::contact::WorldOptions with(engine::contact::WorldOptions options, const Setting& setting) {
+engine::WorldOptions with(engine::WorldOptions options, const Setting& setting) {
   options.step = setting.step;
   options.solver.substeps = setting.substeps;
   options.solver.sweeps = setting.sweeps;

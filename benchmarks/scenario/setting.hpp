@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <string>
 
 /// A choice of step and work of the solver, in one word: STEPxSUBSTEPSxSWEEPS, with +SPARE for spare work.
@@ -20,6 +20,6 @@ Setting setting_of(const std::string& text);
 std::string name_of(const Setting& setting);
 
 /// The options with this step and work; all else stays.
-engine::contact::WorldOptions with(engine::contact::WorldOptions options, const Setting& setting);
+engine::WorldOptions with(engine::WorldOptions options, const Setting& setting);
 
 }  // namespace drawpoint::benchmarks

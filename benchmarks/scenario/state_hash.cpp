@@ -30,7 +30,7 @@ constexpr const char* about =
     "  state_hash --rocks 40 --steps 200 --every 50 short enough for a build with sanitizers";
 
 int run(const Settings& s) {
-  engine::contact::Material stone = support::BladePile::stone;
+  engine::Material stone = support::BladePile::stone;
   stone.rolling = s.material.rolling;
   stone.spinning = s.material.spinning;
   support::DugPile pile(s.rocks, world_options(s.engine), stone);

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 
 /// Sums up where the steps of a scenario spend their time and prints it in milliseconds a step.
 namespace drawpoint::benchmarks {
 
 class StepTimes {
  public:
-  void add(const engine::contact::StepReport& r) {
+  void add(const engine::StepReport& r) {
     ++steps_;
     broad_ += r.broad_s;
     narrow_ += r.narrow_s;

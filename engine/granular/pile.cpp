@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/contact/mass_properties.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 
 namespace drawpoint::engine::granular {
 
 RockLibrary::RockLibrary(double density, int material) : density_(density), material_(material) {}
 
-contact::RockBody RockLibrary::body(const RockSpec& spec) const {
+engine::RockBody RockLibrary::body(const RockSpec& spec) const {
   for (const auto& [known, body] : made_)
     if (known.shape == spec.shape && known.size == spec.size) return body;
   const auto polyhedron = rock_shapes().at(spec.shape).scaled(spec.size);
-  const auto properties = contact::mass_properties(polyhedron, density_);
+  const auto properties = engine::mass_properties(polyhedron, density_);
   made_.push_back({spec,
-                   {std::make_shared<const contact::Shape>(polyhedron), properties.mass,
+                   {std::make_shared<const engine::Shape>(polyhedron), properties.mass,
                     properties.inertia.diagonal(), material_}});
   return made_.back().second;
 }
@@ -36,14 +36,14 @@ std::vector<Eigen::Vector2d> layer_places(const EmitterOptions& o) {
   return places;
 }
 
-double radius_of(const contact::RockBody& body) {
-  return std::get<contact::ConvexPolyhedron>(*body.shape).radius();
+double radius_of(const engine::RockBody& body) {
+  return std::get<engine::ConvexPolyhedron>(*body.shape).radius();
 }
 
 // Least height of a sphere's centre over the floor and over the spheres about all rocks.
-double height_over(const contact::World& world, const Eigen::Vector2d& place, double radius) {
+double height_over(const engine::World& world, const Eigen::Vector2d& place, double radius) {
   double z = radius;
-  for (const contact::Rock& rock : world.rocks()) {
+  for (const engine::Rock& rock : world.rocks()) {
     if (!rock.present) continue;
     const double reach = radius + radius_of(rock.body),
                  apart = (rock.pose.translation().head<2>() - place).norm();
@@ -62,7 +62,7 @@ Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t se
       sampler_(seed, density),
       next_(sampler_.next()) {}
 
-std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library,
+std::vector<int> Emitter::emit(engine::World& world, const RockLibrary& library,
                                std::vector<RockSpec>& specs, double mass) {
   std::vector<int> born;
   if (mass <= 0 || world.time() < due_) return born;
@@ -70,7 +70,7 @@ std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library
   for (const Eigen::Vector2d& place : places_) {
     if (mass <= 0) break;
     const RockSpec spec{next_.shape, next_.length};
-    const contact::RockBody body = library.body(spec);
+    const engine::RockBody body = library.body(spec);
     const double z = height_over(world, place, radius_of(body)) + options_.clearance;
     if (z > options_.top.z()) continue;
     Eigen::Isometry3d pose(turns_.rotation());
@@ -84,7 +84,7 @@ std::vector<int> Emitter::emit(contact::World& world, const RockLibrary& library
   return born;
 }
 
-bool RestWatch::at_rest(const contact::World& world) {
+bool RestWatch::at_rest(const engine::World& world) {
   const double h = world.options().step, mass = present_mass(world);
   elapsed_ += h;
   const bool calm = mass == 0 || (world.kinetic_energy() / mass < options_.mean_energy &&
@@ -94,9 +94,9 @@ bool RestWatch::at_rest(const contact::World& world) {
   return calm_ >= options_.hold || timed_out_;
 }
 
-double present_mass(const contact::World& world) {
+double present_mass(const engine::World& world) {
   double sum = 0;
-  for (const contact::Rock& rock : world.rocks())
+  for (const engine::Rock& rock : world.rocks())
     if (rock.present) sum += rock.body.mass;
   return sum;
 }

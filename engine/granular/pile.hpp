@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/granular/size_distribution.hpp>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <vector>
 
 /// Rocks as data, the emitter that pours them and the settling of a pile.
@@ -31,12 +31,12 @@ struct PlacedRock {
 class RockLibrary {
  public:
   explicit RockLibrary(double density = 4500, int material = 0);
-  contact::RockBody body(const RockSpec& spec) const;
+  engine::RockBody body(const RockSpec& spec) const;
 
  private:
   double density_;
   int material_;
-  mutable std::vector<std::pair<RockSpec, contact::RockBody>> made_;
+  mutable std::vector<std::pair<RockSpec, engine::RockBody>> made_;
 };
 
 struct EmitterOptions {
@@ -53,7 +53,7 @@ class Emitter {
   Emitter(const EmitterOptions& options, double density, std::uint64_t seed);
   /// Call once per step. When a layer is due, lets go at most `mass` [kg] (the last rock may exceed it), but
   /// nothing where the heap reaches the top. Returns the new rocks' indices.
-  std::vector<int> emit(contact::World& world, const RockLibrary& library, std::vector<RockSpec>& specs,
+  std::vector<int> emit(engine::World& world, const RockLibrary& library, std::vector<RockSpec>& specs,
                         double mass);
 
  private:
@@ -79,7 +79,7 @@ class RestWatch {
  public:
   explicit RestWatch(const RestOptions& options = {}) : options_(options) {}
   /// Call once per step; true once the pile has been at rest for `hold`, or after `cap` (then timed_out()).
-  bool at_rest(const contact::World& world);
+  bool at_rest(const engine::World& world);
   bool timed_out() const { return timed_out_; }
 
  private:
@@ -88,7 +88,7 @@ class RestWatch {
   bool timed_out_ = false;
 };
 
-double present_mass(const contact::World& world);  ///< [kg]
+double present_mass(const engine::World& world);  ///< [kg]
 
 /// A raise that has let no rock go for this long is full or blocked [s].
 constexpr double blocked_after = 5;

@@ -5,13 +5,13 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstddef>
-#include <drawpoint/engine/contact/mass_properties.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <vector>
 
 namespace drawpoint::engine::granular {
 namespace {
 
-using contact::ConvexPolyhedron;
+using engine::ConvexPolyhedron;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -136,7 +136,7 @@ Matrix3d principal_axes(const Matrix3d& inertia) {
 
 ConvexPolyhedron rock(const Planes& planes) {
   const ConvexPolyhedron raw = ConvexPolyhedron::hull_of(corners(planes));
-  const contact::MassProperties mass = contact::mass_properties(raw, 1.0);
+  const engine::MassProperties mass = engine::mass_properties(raw, 1.0);
   Eigen::Isometry3d to_principal = Eigen::Isometry3d::Identity();
   to_principal.linear() = principal_axes(mass.inertia);
   to_principal.translation() = -(to_principal.linear() * mass.centre);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <drawpoint/engine/contact/convex_polyhedron.hpp>
+#include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 
 /// Six shapes of blasted rock: blocks bounded by 10 to 12 fracture planes, 16 to 20 vertices.
 ///
@@ -16,6 +16,6 @@
 namespace drawpoint::engine::granular {
 
 /// Built on the first call, the same objects ever after.
-const std::array<contact::ConvexPolyhedron, 6>& rock_shapes();
+const std::array<engine::ConvexPolyhedron, 6>& rock_shapes();
 
 }  // namespace drawpoint::engine::granular

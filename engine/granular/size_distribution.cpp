@@ -47,7 +47,7 @@ void check(double density, const SizeDistribution& sizes) {
 
 double mean_unit_volume() {
   double sum = 0;
-  for (const contact::ConvexPolyhedron& shape : rock_shapes()) sum += shape.volume();
+  for (const engine::ConvexPolyhedron& shape : rock_shapes()) sum += shape.volume();
   return sum / static_cast<double>(rock_shapes().size());
 }
 

@@ -44,7 +44,7 @@ int column_at(double x, const ColumnGrid& grid) { return index_of((x - grid.x_mi
 int strip_at(double y, const ColumnGrid& grid) { return index_of(y / grid.cell + 0.5 * grid.ny()); }
 
 // Where the vertical line through (x, y) leaves the polyhedron at the top; -infinity if it misses.
-double top_over(const contact::ConvexPolyhedron& rock, double x, double y) {
+double top_over(const engine::ConvexPolyhedron& rock, double x, double y) {
   constexpr double upright = 1e-12;
   double low = -infinity, high = infinity;
   for (std::size_t k = 0; k < rock.faces().size(); ++k) {
@@ -68,7 +68,7 @@ void raise(MatrixXd& heights, int i, int j, double z) {
 }
 
 void add_rock(const PosedRock& rock, const ColumnGrid& grid, MatrixXd& heights) {
-  const contact::ConvexPolyhedron placed = rock.shape->transformed(rock.pose);
+  const engine::ConvexPolyhedron placed = rock.shape->transformed(rock.pose);
   Vector3d low = Vector3d::Constant(infinity), high = -low;
   for (const Vector3d& v : placed.vertices()) {
     low = low.cwiseMin(v);

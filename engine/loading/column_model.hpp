@@ -3,7 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <drawpoint/engine/contact/convex_polyhedron.hpp>
+#include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 #include <span>
 #include <vector>
 
@@ -29,7 +29,7 @@
 namespace drawpoint::engine::loading {
 
 struct PosedRock {
-  const contact::ConvexPolyhedron* shape = nullptr;
+  const engine::ConvexPolyhedron* shape = nullptr;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   double mass = 0;  ///< [kg]
 };

@@ -5,16 +5,16 @@
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <stdexcept>
 #include <string>
 
 namespace drawpoint::engine::loading {
 namespace {
 
-using contact::ConvexPolyhedron;
-using contact::HalfSpace;
-using contact::Shape;
+using engine::ConvexPolyhedron;
+using engine::HalfSpace;
+using engine::Shape;
 using Eigen::Vector3d;
 
 constexpr int terrain = static_cast<int>(SurfaceKind::terrain);
@@ -28,18 +28,18 @@ void require(bool fine, const char* name, double value, const char* allowed) {
                                 " m; allowed: " + allowed);
 }
 
-void add(contact::World& world, Shape shape) {
+void add(engine::World& world, Shape shape) {
   world.add_static(std::make_shared<const Shape>(std::move(shape)), Eigen::Isometry3d::Identity(), terrain);
 }
 
-void add_block(contact::World& world, const Vector3d& low, const Vector3d& high) {
+void add_block(engine::World& world, const Vector3d& low, const Vector3d& high) {
   std::vector<Vector3d> points;
   for (int c = 0; c < 8; ++c)
     points.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(), c & 4 ? high.z() : low.z());
   add(world, ConvexPolyhedron::hull_of(points));
 }
 
-void add_roof(contact::World& world, const Drift& d) {
+void add_roof(engine::World& world, const Drift& d) {
   const double front = d.raise_axis().x() - d.raise_radius, side = d.raise_radius, far = d.length + slab;
   add_block(world, {-10, -d.width, d.height}, {front, d.width, d.height + slab});
   add_block(world, {front, side, d.height}, {far, d.width, d.height + slab});
@@ -48,7 +48,7 @@ void add_roof(contact::World& world, const Drift& d) {
 }
 
 // Eight plates, flat inside, that overlap at the corners so that the ring is closed.
-void add_raise(contact::World& world, const Drift& d) {
+void add_raise(engine::World& world, const Drift& d) {
   constexpr int sides = 8;
   const double rise = d.raise_height - d.height;
   for (int k = 0; k < sides; ++k) {
@@ -65,7 +65,7 @@ void add_raise(contact::World& world, const Drift& d) {
   }
 }
 
-void add_back_wall(contact::World& world, const Drift& d) {
+void add_back_wall(engine::World& world, const Drift& d) {
   add(world, HalfSpace{-Vector3d::UnitX(), -d.length});
   if (d.wall_roughness <= 0) return;
   const auto& shapes = granular::rock_shapes();
@@ -96,7 +96,7 @@ void check(const Drift& d) {
   require(d.raise_height > d.height + 1, "raise height", d.raise_height, "more than a metre above the roof");
 }
 
-void add_drift(contact::World& world, const Drift& drift) {
+void add_drift(engine::World& world, const Drift& drift) {
   check(drift);
   add(world, HalfSpace{Vector3d::UnitZ(), 0});
   add(world, HalfSpace{Vector3d::UnitY(), -drift.width / 2});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
 
 /// The drift: floor, two walls, rough back wall, a roof that opens at the end into a conical raise.
@@ -31,7 +31,7 @@ struct Drift {
 void check(const Drift& drift);
 
 /// Adds the drift's fixed surfaces to a world.
-void add_drift(contact::World& world, const Drift& drift);
+void add_drift(engine::World& world, const Drift& drift);
 
 /// Where rocks come in: under the raise, low over what lies there, at most at its top.
 granular::EmitterOptions emitter_of(const Drift& drift);

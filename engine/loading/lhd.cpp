@@ -6,7 +6,7 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-using contact::ConvexPolyhedron;
+using engine::ConvexPolyhedron;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -223,7 +223,7 @@ void Builder::add_chassis_surfaces() {
   draw_box(lhd_.rear, {-4.6, 0.62, 1.95}, {-3.2, 1.45, 2.9}, false, "#3a3f47");
   for (int wheel : lhd_.wheels)
     lhd_.surfaces.push_back(
-        {wheel, contact::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
+        {wheel, engine::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
 }
 
 // Plates of the shell, 8 cm thick, outside the profile; the floor's front edge is a wedge. Two side walls

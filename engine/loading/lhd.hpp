@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <drawpoint/engine/contact/shape.hpp>
+#include <drawpoint/engine/geometry/shape.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <string>
@@ -45,7 +45,7 @@ struct LhdOptions {
 /// A convex piece of one body, for contact and for pictures; in the body's frame.
 struct LhdSurface {
   int body;
-  contact::Shape shape;
+  engine::Shape shape;
   SurfaceKind kind;
   bool touches;       ///< takes part in contacts; the others are only drawn
   std::string color;  ///< #rrggbb

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
-#include <drawpoint/engine/loading/scene_recorder.hpp>
-#include <drawpoint/engine/loading/signals.hpp>
+#include <drawpoint/engine/loading/scene_recorder.h>
+#include <drawpoint/engine/loading/signals.h>
 #include <exception>
 #include <numeric>
 
@@ -35,7 +35,7 @@ class LoadingRun {
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
     log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
-    log_.numbers["most_sweeps_a_substep"] = contact::most_sweeps(scenario_.world.solver, most_points_);
+    log_.numbers["most_sweeps_a_substep"] = engine::most_sweeps(scenario_.world.solver, most_points_);
     log_.signals = signals_.take();
     log_.scene = scene_.take();
     return std::move(log_);
@@ -47,7 +47,7 @@ class LoadingRun {
   bool run_cycle(int cycle);
   Plan plan(CycleRecord& record) const;
   bool execute(int cycle, CycleRecord& record);
-  bool step(const std::function<void(const contact::StepReport&)>& record = {});
+  bool step(const std::function<void(const engine::StepReport&)>& record = {});
   bool refill();
   bool wait_for_rest();
   bool fail(const std::string& message) {
@@ -150,8 +150,8 @@ Plan LoadingRun::plan(CycleRecord& record) const {
 }
 
 // One step of the world; `record` sees its report before the state is checked.
-bool LoadingRun::step(const std::function<void(const contact::StepReport&)>& record) {
-  const contact::StepReport report = site_.world().step();
+bool LoadingRun::step(const std::function<void(const engine::StepReport&)>& record) {
+  const engine::StepReport report = site_.world().step();
   if (hooks_.on_step) hooks_.on_step(report);
   most_points_ = std::max(most_points_, static_cast<std::size_t>(report.points));
   if (record) record(report);
@@ -189,7 +189,7 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
     }
     if (executor.finished()) break;
     site_.driver().command(set);
-    const auto log_signals = [&](const contact::StepReport& report) {
+    const auto log_signals = [&](const engine::StepReport& report) {
       signals_.append(site_, cycle, executor, set, report);
     };
     if (!step(log_signals)) return false;
@@ -211,7 +211,7 @@ void LoadingRun::look_at_pile() {
 
 std::vector<bool> LoadingRun::rocks_in_front(const ColumnModel& model) const {
   std::vector<bool> in_front;
-  for (const contact::Rock& rock : site_.world().rocks())
+  for (const engine::Rock& rock : site_.world().rocks())
     in_front.push_back(rock.present && lies_in_front(model, rock.pose.translation()));
   return in_front;
 }
@@ -264,7 +264,7 @@ LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks) {
   check(scenario);
   try {
     return simulate(scenario, prepared_pile(scenario), hooks);
-  } catch (const contact::SolutionBroken& error) {
+  } catch (const engine::SolutionBroken& error) {
     LoadingLog log;
     log.message = std::string("the pile broke down while it was poured: ") + error.what();
     if (!scenario.log_file.empty()) write_log(scenario.log_file, log);

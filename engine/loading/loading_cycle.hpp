@@ -24,8 +24,8 @@
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {
-  std::function<void(const contact::StepReport&)> on_step;  ///< after each step, with where its time went
-  contact::World::Observer before_solve;  ///< in each step of the cycles, as World::before_solve
+  std::function<void(const engine::StepReport&)> on_step;  ///< after each step, with where its time went
+  engine::World::Observer before_solve;  ///< in each step of the cycles, as World::before_solve
 };
 
 LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks = {});

@@ -222,7 +222,7 @@ SceneRecord read_scene(const Reader& file) {
     std::vector<Eigen::Vector3d> vertices;
     for (std::size_t v = 0; v + 2 < values.size(); v += 3)
       vertices.emplace_back(values[v], values[v + 1], values[v + 2]);
-    scene.shapes.push_back(contact::ConvexPolyhedron::hull_of(vertices));
+    scene.shapes.push_back(engine::ConvexPolyhedron::hull_of(vertices));
   }
   read_bodies(file, scene);
   read_frames(file, scene);

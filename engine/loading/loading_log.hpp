@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/convex_polyhedron.hpp>
+#include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 #include <drawpoint/engine/loading/executor.hpp>
 #include <drawpoint/engine/record/table.hpp>
 #include <filesystem>
@@ -47,7 +47,7 @@ struct SceneFrame {
 };
 
 struct SceneRecord {
-  std::vector<contact::ConvexPolyhedron> shapes;
+  std::vector<engine::ConvexPolyhedron> shapes;
   std::vector<SceneBody> bodies;
   std::vector<SceneFrame> frames;
 };

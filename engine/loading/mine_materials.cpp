@@ -11,7 +11,7 @@ namespace {
 constexpr double rock_stiffness = 1e9, soft_stiffness = 1e8;  // rock on rock; on floor, steel and tyre [N/m]
 
 // A tyre's damping ratio is about 0.1: τ = 2 ζ √(m/k) with a quarter of the machine on each.
-contact::Material tyre_on_floor() {
+engine::Material tyre_on_floor() {
   constexpr double stiffness = 2e6, quarter = 14e3;
   return {.friction = 0.8, .stiffness = stiffness, .damping_time = 0.2 * std::sqrt(quarter / stiffness)};
 }
@@ -19,7 +19,7 @@ contact::Material tyre_on_floor() {
 }  // namespace
 
 MineMaterials lindmark2016_materials() {
-  const contact::Material on_others{.friction = 1.0, .rolling = 0.9, .stiffness = soft_stiffness};
+  const engine::Material on_others{.friction = 1.0, .rolling = 0.9, .stiffness = soft_stiffness};
   return {.rock_rock = {.friction = 0.9, .rolling = 0.5, .stiffness = rock_stiffness},
           .rock_terrain = on_others,
           .rock_steel = on_others,
@@ -43,17 +43,17 @@ MineMaterials materials_named(const std::string& name) {
 
 MineMaterials with_resistance(MineMaterials m, std::optional<double> rolling,
                               std::optional<double> spinning) {
-  for (contact::Material* pair : {&m.rock_rock, &m.rock_terrain, &m.rock_steel, &m.rock_tyre}) {
+  for (engine::Material* pair : {&m.rock_rock, &m.rock_terrain, &m.rock_steel, &m.rock_tyre}) {
     pair->rolling = rolling.value_or(pair->rolling);
     pair->spinning = spinning.value_or(pair->spinning);
   }
   return m;
 }
 
-contact::MaterialTable material_table(const MineMaterials& m) {
+engine::MaterialTable material_table(const MineMaterials& m) {
   constexpr int rock = static_cast<int>(SurfaceKind::rock), terrain = static_cast<int>(SurfaceKind::terrain),
                 steel = static_cast<int>(SurfaceKind::steel), tyre = static_cast<int>(SurfaceKind::tyre);
-  contact::MaterialTable table(surface_kinds);
+  engine::MaterialTable table(surface_kinds);
   table.set(rock, rock, m.rock_rock);
   table.set(rock, terrain, m.rock_terrain);
   table.set(rock, steel, m.rock_steel);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <drawpoint/engine/contact/material.hpp>
+#include <drawpoint/engine/world/material.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +21,7 @@ constexpr int surface_kinds = 4;
 
 /// One material per pair of surfaces that can meet.
 struct MineMaterials {
-  contact::Material rock_rock, rock_terrain, rock_steel, rock_tyre, steel_terrain, tyre_terrain;
+  engine::Material rock_rock, rock_terrain, rock_steel, rock_tyre, steel_terrain, tyre_terrain;
 };
 
 /// The default. Rolling resistance 0.1 and spinning resistance 0 wherever a rock takes part: the study's
@@ -47,6 +47,6 @@ MineMaterials with_resistance(MineMaterials materials, std::optional<double> rol
                               std::optional<double> spinning);
 
 /// The table that a World takes, which checks the coefficients; its rows are the kinds of surface.
-contact::MaterialTable material_table(const MineMaterials& materials);
+engine::MaterialTable material_table(const MineMaterials& materials);
 
 }  // namespace drawpoint::engine::loading

@@ -40,8 +40,8 @@ PileShape pile_shape(const SettledPile& pile, const Scenario& scenario) {
   std::vector<PosedRock> rocks;
   PileShape shape;
   for (const granular::PlacedRock& rock : pile.rocks) {
-    const contact::RockBody body = library.body(rock.spec);  // the library keeps its shape
-    rocks.push_back({&std::get<contact::ConvexPolyhedron>(*body.shape), rock.pose, body.mass});
+    const engine::RockBody body = library.body(rock.spec);  // the library keeps its shape
+    rocks.push_back({&std::get<engine::ConvexPolyhedron>(*body.shape), rock.pose, body.mass});
     shape.mass += body.mass;
   }
   const ColumnModel model = columns_of(rocks, scenario, sandvik_lh621(scenario.machine));

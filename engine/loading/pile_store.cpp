@@ -19,7 +19,7 @@ void add_number(std::string& recipe, const std::string& name, double value) {
 }
 
 // The machine's pairs are no part of it: it comes when the pile lies.
-void add_material(std::string& recipe, const std::string& pair, const contact::Material& m) {
+void add_material(std::string& recipe, const std::string& pair, const engine::Material& m) {
   add_number(recipe, pair + "_friction", m.friction);
   add_number(recipe, pair + "_rolling", m.rolling);
   add_number(recipe, pair + "_spinning", m.spinning);
@@ -29,9 +29,9 @@ void add_material(std::string& recipe, const std::string& pair, const contact::M
   add_number(recipe, pair + "_law", static_cast<int>(m.law));
 }
 
-double pile_height(const contact::World& world) {
+double pile_height(const engine::World& world) {
   double top = 0;
-  for (const contact::Rock& rock : world.rocks())
+  for (const engine::Rock& rock : world.rocks())
     if (rock.present && rock.velocity.norm() < 0.5) top = std::max(top, rock.pose.translation().z());
   return top;
 }
@@ -60,7 +60,7 @@ std::string pile_recipe(const Scenario& s) {
   add_material(recipe, "rock_rock", s.materials.rock_rock);
   add_material(recipe, "rock_terrain", s.materials.rock_terrain);
   add_number(recipe, "step", s.world.step);
-  recipe += "method=" + std::string(contact::to_string(s.world.solver.method)) + " ";
+  recipe += "method=" + std::string(engine::to_string(s.world.solver.method)) + " ";
   add_number(recipe, "substeps", s.world.solver.substeps);
   add_number(recipe, "sweeps", s.world.solver.sweeps);
   add_number(recipe, "spare_work", s.world.solver.spare_work);
@@ -71,7 +71,7 @@ std::string pile_recipe(const Scenario& s) {
   add_number(recipe, "reuse_distance", s.world.contacts.reuse_distance);
   add_number(recipe, "rest_speed", s.pile.rest.fastest);
   add_number(recipe, "rest_energy", s.pile.rest.mean_energy);
-  if (const contact::FreezingOptions& f = s.world.freezing; f.on) {
+  if (const engine::FreezingOptions& f = s.world.freezing; f.on) {
     add_number(recipe, "freeze_hold", f.hold);
     add_number(recipe, "freeze_distance", f.distance);
     add_number(recipe, "freeze_tolerance", f.tolerance);
@@ -84,14 +84,14 @@ std::string pile_recipe(const Scenario& s) {
 }
 
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress,
-                      const std::function<void(const contact::StepReport&)>& on_step) {
+                      const std::function<void(const engine::StepReport&)>& on_step) {
   check(scenario);
-  contact::World world(scenario.world, material_table(scenario.materials));
+  engine::World world(scenario.world, material_table(scenario.materials));
   add_drift(world, scenario.drift);
   const granular::RockLibrary library(scenario.pile.density, static_cast<int>(SurfaceKind::rock));
   granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed);
   const auto step_world = [&] {
-    const contact::StepReport report = world.step();
+    const engine::StepReport report = world.step();
     if (on_step) on_step(report);
   };
   std::vector<granular::RockSpec> specs;

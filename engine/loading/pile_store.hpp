@@ -32,7 +32,7 @@ std::string pile_recipe(const Scenario& scenario);
 /// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once a simulated second.
 /// Stops early when the pile reaches max_height or the raise is full.
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress = {},
-                      const std::function<void(const contact::StepReport&)>& on_step = {});
+                      const std::function<void(const engine::StepReport&)>& on_step = {});
 
 /// Atomic. Throws std::runtime_error if the file cannot be written / read, is damaged or has another recipe.
 void write_pile(const std::filesystem::path& path, const SettledPile& pile, const Scenario& scenario);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/executor.hpp>
@@ -37,7 +37,7 @@ struct Scenario {
   ColumnOptions columns;
   CurlMode curl = CurlMode::hinge_G;  ///< how the bucket breaks out of the pile
   LiftGoal lift = LiftGoal::behind_surface;
-  contact::WorldOptions world;
+  engine::WorldOptions world;
   double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
   std::filesystem::path
       pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew

@@ -1,26 +1,26 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/granular/rock_shapes.hpp>
-#include <drawpoint/engine/loading/scene_recorder.hpp>
+#include <drawpoint/engine/loading/scene_recorder.h>
 #include <limits>
 
 namespace drawpoint::engine::loading {
 namespace {
 
-using contact::ConvexPolyhedron;
+using engine::ConvexPolyhedron;
 
 constexpr int values_a_pose = 7;
 constexpr int wheel_sides = 32;
 const char* rock_colors[] = {"#6b6f76", "#7d7468", "#8a8378", "#5e6066", "#77706a", "#6f7a80"};
 
-ConvexPolyhedron drawable(const contact::Shape& shape) {
-  if (const auto* cylinder = std::get_if<contact::Cylinder>(&shape))
-    return contact::prism(cylinder->radius, cylinder->half_width, wheel_sides);
+ConvexPolyhedron drawable(const engine::Shape& shape) {
+  if (const auto* cylinder = std::get_if<engine::Cylinder>(&shape))
+    return engine::prism(cylinder->radius, cylinder->half_width, wheel_sides);
   return std::get<ConvexPolyhedron>(shape);
 }
 
 ConvexPolyhedron block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return contact::box(0.5 * (high - low))
+  return engine::box(0.5 * (high - low))
       .transformed(Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))));
 }
 
@@ -77,7 +77,7 @@ void SceneRecorder::frame(const Site& site, int cycle, const std::string& label)
   for (std::size_t k = 0; k < machine_bodies_; ++k)
     append_pose(frame.poses, site.machine().pose(site.lhd().surfaces[k].body));
   for (std::size_t k = 0; k < fixed_bodies_; ++k) append_pose(frame.poses, Eigen::Isometry3d::Identity());
-  for (const contact::Rock& rock : site.world().rocks()) {
+  for (const engine::Rock& rock : site.world().rocks()) {
     if (rock.present)
       append_pose(frame.poses, rock.pose);
     else

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/loading/signals.hpp>
+#include <drawpoint/engine/loading/signals.h>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -42,7 +42,7 @@ SignalRecorder::SignalRecorder(const Lhd& lhd) {
 }
 
 void SignalRecorder::append(const Site& site, int cycle, const Executor& executor, const ActuatorRates& set,
-                            const contact::StepReport& report) {
+                            const engine::StepReport& report) {
   const MachineReading m = site.driver().read();
   const LhdDriver& d = site.driver();
   row_ = {site.world().time(),

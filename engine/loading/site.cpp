@@ -7,13 +7,13 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-using contact::ConvexPolyhedron;
+using engine::ConvexPolyhedron;
 
 // The box that the machine fills behind its cutting edge, with 10 cm of room: rocks may not lie there at the
 // start.
 constexpr double machine_length = 12.2, machine_half_width = 1.7, machine_top = 2.0, room = 0.1;
 
-const ConvexPolyhedron& polyhedron(const contact::Rock& rock) {
+const ConvexPolyhedron& polyhedron(const engine::Rock& rock) {
   return std::get<ConvexPolyhedron>(*rock.body.shape);
 }
 
@@ -32,7 +32,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
   world_.attach(&machine_);
   for (const LhdSurface& s : lhd_.surfaces)
     if (s.touches)
-      world_.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
+      world_.add_part_shape(s.body, std::make_shared<const engine::Shape>(s.shape),
                             Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   for (const granular::PlacedRock& rock : pile.rocks) {
     world_.add_rock(library_.body(rock.spec), rock.pose);
@@ -44,7 +44,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
 std::vector<PosedRock> Site::rocks(bool with_bucket) const {
   std::vector<PosedRock> out;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
-    const contact::Rock& rock = world_.rocks()[k];
+    const engine::Rock& rock = world_.rocks()[k];
     if (!rock.present || (!with_bucket && in_bucket(static_cast<int>(k)))) continue;
     out.push_back({&polyhedron(rock), rock.pose, rock.body.mass});
   }
@@ -69,20 +69,20 @@ void Site::empty_bucket() {
 }
 
 double Site::place_machine(double tip_x, double y, double back) {
-  const auto in_lane = [&](const contact::Rock& rock) {
+  const auto in_lane = [&](const engine::Rock& rock) {
     return rock.present &&
            std::abs(rock.pose.translation().y() - y) < machine_half_width + polyhedron(rock).radius() &&
            rock.pose.translation().z() < machine_top;
   };
   const double nearest = tip_x - back;
   double x = tip_x;
-  for (const contact::Rock& rock : world_.rocks()) {
+  for (const engine::Rock& rock : world_.rocks()) {
     const double left = rock.pose.translation().x() - polyhedron(rock).radius() - room;
     if (in_lane(rock) && left < x && left >= nearest) x = left;  // farther rocks are taken away below
   }
   double cleared = 0;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
-    const contact::Rock& rock = world_.rocks()[k];
+    const engine::Rock& rock = world_.rocks()[k];
     const double centre = rock.pose.translation().x(), reach = polyhedron(rock).radius() + room;
     if (!in_lane(rock) || centre - reach >= x || centre + reach <= x - machine_length) continue;
     cleared += rock.body.mass;
@@ -98,7 +98,7 @@ bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_ma
 
 std::string Site::trouble() const {
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
-    const contact::Rock& rock = world_.rocks()[k];
+    const engine::Rock& rock = world_.rocks()[k];
     if (!rock.present) continue;
     const Eigen::Vector3d& p = rock.pose.translation();
     const bool inside = p.z() > -0.5 && std::abs(p.y()) < drift_.width && p.x() < drift_.length + 1 &&

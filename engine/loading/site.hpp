@@ -15,8 +15,8 @@ class Site {
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
 
-  contact::World& world() { return world_; }
-  const contact::World& world() const { return world_; }
+  engine::World& world() { return world_; }
+  const engine::World& world() const { return world_; }
   machine::Machine& machine() { return machine_; }
   const machine::Machine& machine() const { return machine_; }
   const Lhd& lhd() const { return lhd_; }
@@ -49,7 +49,7 @@ class Site {
   Drift drift_;
   Lhd lhd_;
   machine::Machine machine_;
-  contact::World world_;
+  engine::World world_;
   LhdDriver driver_;
   granular::RockLibrary library_;
   granular::Emitter emitter_;

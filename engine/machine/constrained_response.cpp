@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/machine/constrained_response.hpp>
+#include <drawpoint/engine/machine/constrained_response.h>
 
 namespace drawpoint::engine::machine {
 namespace {

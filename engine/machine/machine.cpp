@@ -3,9 +3,9 @@
 #include <drawpoint/engine/machine/reactions.h>
 
 #include <algorithm>
-#include <drawpoint/engine/machine/constrained_response.hpp>
+#include <drawpoint/engine/machine/constrained_response.h>
 #include <drawpoint/engine/machine/machine.hpp>
-#include <drawpoint/engine/machine/machine_rows.hpp>
+#include <drawpoint/engine/machine/machine_rows.h>
 #include <stdexcept>
 
 namespace drawpoint::engine::machine {
@@ -26,7 +26,7 @@ struct Machine::Simbody {
   Eigen::Vector3d gravity;
   Eigen::MatrixXd M, G, J, N;  // J: 6 (bodies + 1) x n, ground first
   SimTK::Vector bias;          // C(q, u) − f
-  contact::SuperBody super;
+  engine::SuperBody super;
 
   explicit Simbody(const MachineSpec& spec)
       : tree(spec),
@@ -41,7 +41,7 @@ struct Machine::Simbody {
   Eigen::RowVectorXd joint_sum(const std::vector<int>& bodies) const;
   void linearise_dynamics();
   void build_rows();
-  BodyForces loads(const std::vector<contact::SpatialVector>* part_impulses) const;
+  BodyForces loads(const std::vector<engine::SpatialVector>* part_impulses) const;
   SimTK::Vector row_forces(const std::vector<double>& row_impulses) const;
 };
 
@@ -59,7 +59,7 @@ void Machine::Simbody::linearise_dynamics() {
 }
 
 // Gravity and added forces on every body, with the contact impulses over the step when they are known.
-BodyForces Machine::Simbody::loads(const std::vector<contact::SpatialVector>* part_impulses) const {
+BodyForces Machine::Simbody::loads(const std::vector<engine::SpatialVector>* part_impulses) const {
   BodyForces forces(tree.matter.getNumBodies(), SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
     Wrench total = extra[b];
@@ -208,7 +208,7 @@ void Machine::add_force(int body, const Wrench& wrench) {
   simbody_->extra.at(body).force += wrench.force;
 }
 
-const contact::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gravity) {
+const engine::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gravity) {
   Simbody& s = *simbody_;
   s.h = h;
   s.gravity = gravity;
@@ -226,7 +226,7 @@ const contact::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gr
   return s.super;
 }
 
-void Machine::advance(const contact::SuperBodySolution& solution) {
+void Machine::advance(const engine::SuperBodySolution& solution) {
   Simbody& s = *simbody_;
   const Eigen::VectorXd u = s.N * solution.velocity;
   if (!(u.norm() <= SimbodyTree::fastest))

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/articulated_body.hpp>
+#include <drawpoint/engine/world/articulated_body.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <memory>
 
@@ -27,7 +27,7 @@ struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
 };
 
-class Machine final : public contact::ArticulatedBody {
+class Machine final : public engine::ArticulatedBody {
  public:
   explicit Machine(const MachineSpec& spec);
   ~Machine() override;
@@ -69,10 +69,10 @@ class Machine final : public contact::ArticulatedBody {
 
   int parts() const override;
   Eigen::Isometry3d part_pose(int part) const override;
-  const contact::SuperBody& linearise(double h, const Eigen::Vector3d& gravity) override;
+  const engine::SuperBody& linearise(double h, const Eigen::Vector3d& gravity) override;
   /// Throws std::runtime_error if the speeds are absurd or the loops cannot be closed any more; the machine
   /// has not moved then.
-  void advance(const contact::SuperBodySolution& solution) override;
+  void advance(const engine::SuperBodySolution& solution) override;
 
   /// Coordinates, speeds, set speeds, added forces, and of the last step the row impulses and joint forces.
   std::vector<double> state() const override;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/machine/machine_rows.hpp>
+#include <drawpoint/engine/machine/machine_rows.h>
 #include <limits>
 
 namespace drawpoint::engine::machine {
@@ -15,10 +15,10 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate) {
   return low < high ? StopSide{low, 1.0} : StopSide{high, -1.0};
 }
 
-contact::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
+engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
                                 double h, double start) {
   const double limit = motor.max_force * h;
-  contact::SuperBodyRow row;
+  engine::SuperBodyRow row;
   row.jacobian = joints.transpose();
   row.target = static_cast<double>(motor.bodies.size()) * speed;
   row.lower = -limit;
@@ -27,10 +27,10 @@ contact::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd
   return row;
 }
 
-contact::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
+engine::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
                                double h, double start) {
-  contact::SuperBodyRow row;
-  row.kind = contact::SuperBodyRow::Kind::stop;
+  engine::SuperBodyRow row;
+  row.kind = engine::SuperBodyRow::Kind::stop;
   row.jacobian = side.sign * joints.transpose();
   row.gap = static_cast<double>(stop.bodies.size()) * side.gap;
   row.recovery = recovery_steps * h;

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdio>
-#include <drawpoint/engine/record/contact_problem_check.hpp>
+#include <drawpoint/engine/record/contact_problem_check.h>
 
 namespace drawpoint::engine::record::detail {
 namespace {
 
-using contact::ContactPair;
-using contact::ContactPoint;
-using contact::ContactProblem;
-using contact::SolverBody;
-using contact::SuperBody;
-using contact::SuperBodyRow;
+using engine::ContactPair;
+using engine::ContactPoint;
+using engine::ContactProblem;
+using engine::SolverBody;
+using engine::SuperBody;
+using engine::SuperBodyRow;
 
 // Unit to the round-off of a normalised vector and a few operations.
 constexpr double unit_length = 1e-9;

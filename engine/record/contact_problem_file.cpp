@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
-#include <drawpoint/engine/record/contact_problem_check.hpp>
+#include <drawpoint/engine/record/contact_problem_check.h>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <stdexcept>
@@ -9,13 +9,13 @@
 namespace drawpoint::engine::record {
 namespace {
 
-using contact::ContactPair;
-using contact::ContactPoint;
-using contact::ContactProblem;
-using contact::SolverBody;
-using contact::SpatialMap;
-using contact::SuperBody;
-using contact::SuperBodyRow;
+using engine::ContactPair;
+using engine::ContactPoint;
+using engine::ContactProblem;
+using engine::SolverBody;
+using engine::SpatialMap;
+using engine::SuperBody;
+using engine::SuperBodyRow;
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/contact_problem.hpp>
+#include <drawpoint/engine/solver/contact_problem.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -21,14 +21,14 @@ namespace drawpoint::engine::record {
 
 /// The machine lives on the heap, so copies and moves of this keep problem.machine valid.
 struct RecordedProblem {
-  contact::ContactProblem problem;
-  std::shared_ptr<const contact::SuperBody> machine;  ///< none: nullptr
+  engine::ContactProblem problem;
+  std::shared_ptr<const engine::SuperBody> machine;  ///< none: nullptr
   std::string note;                                   ///< where the problem comes from
 };
 
 /// Before it is solved: World::before_solve gives it. Throws std::invalid_argument if it contradicts itself,
 /// std::runtime_error if it cannot be written.
-void write_contact_problem(const std::filesystem::path& path, const contact::ContactProblem& problem,
+void write_contact_problem(const std::filesystem::path& path, const engine::ContactProblem& problem,
                            const std::string& note = {});
 
 /// Throws std::runtime_error, with the file, the field, the row and the value, if the file cannot be read,

@@ -3,7 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <drawpoint/engine/record/hdf5_support.hpp>
+#include <drawpoint/engine/record/hdf5_support.h>
 #include <type_traits>
 
 namespace drawpoint::engine::record::detail {

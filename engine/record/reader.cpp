@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <drawpoint/engine/record/file.hpp>
-#include <drawpoint/engine/record/hdf5_support.hpp>
-#include <drawpoint/engine/record/trailer.hpp>
+#include <drawpoint/engine/record/hdf5_support.h>
+#include <drawpoint/engine/record/trailer.h>
 #include <functional>
 #include <numeric>
 #include <optional>

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <drawpoint/engine/record/atomic_write.hpp>
+#include <drawpoint/engine/base/atomic_file.hpp>
 #include <drawpoint/engine/record/snapshot_file.hpp>
 #include <fstream>
 #include <stdexcept>

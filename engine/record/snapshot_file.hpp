@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// A saved state (contact::World::save()) in a file, written whole or not at all and verified when read.
+/// A saved state (engine::World::save()) in a file, written whole or not at all and verified when read.
 ///
 /// Layout, little-endian: 8 bytes of mark ("DPSNAP\r\n"), version (u32, 1), zero (u32), length of the state
 /// (u64), the state, and the 64-bit FNV-1a checksum of all before. A plain file and not HDF5: the state is

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <drawpoint/engine/record/trailer.hpp>
+#include <drawpoint/engine/record/trailer.h>
 #include <fstream>
 #include <span>
 #include <system_error>

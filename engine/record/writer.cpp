@@ -3,10 +3,10 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <drawpoint/engine/record/atomic_write.hpp>
+#include <drawpoint/engine/base/atomic_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
-#include <drawpoint/engine/record/hdf5_support.hpp>
-#include <drawpoint/engine/record/trailer.hpp>
+#include <drawpoint/engine/record/hdf5_support.h>
+#include <drawpoint/engine/record/trailer.h>
 #include <functional>
 #include <numeric>
 #include <stdexcept>

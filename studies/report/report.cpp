@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/doe/atomic_file.hpp>
+#include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/studies/report/data.hpp>
 #include <drawpoint/studies/report/page.hpp>
 #include <drawpoint/studies/report/report.hpp>

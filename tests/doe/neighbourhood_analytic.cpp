@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/doe/neighbourhood.hpp>
-#include <drawpoint/doe/nonlinearity.hpp>
+#include <drawpoint/doe/detail/neighbourhood.hpp>
+#include <drawpoint/doe/detail/nonlinearity.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <numbers>

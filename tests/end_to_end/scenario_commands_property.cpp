@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/tests/end_to_end/support.hpp>
 
@@ -45,7 +45,7 @@ TEST_F(ScenarioCommands, PilePrintsOneObjectWithItsFields) {
 
 TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
   const nlohmann::json j = run(pile + " --rocks 2 --settle 1 --steps 1 --dig 1 --json").json();
-  const engine::contact::WorldOptions options;
+  const engine::WorldOptions options;
   EXPECT_EQ(j.at("dt_s"), options.step);
   EXPECT_EQ(j.at("method"), to_string(options.solver.method));
   EXPECT_EQ(j.at("substeps"), options.solver.substeps);

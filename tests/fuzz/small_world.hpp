@@ -9,15 +9,15 @@
 /// any hull, and each restore would make its prism of 48 sides anew, at a hundred times the cost of all else.
 namespace drawpoint::fuzz {
 
-inline std::unique_ptr<engine::contact::World> small_world() {
+inline std::unique_ptr<engine::World> small_world() {
   using namespace drawpoint::support;
-  engine::contact::WorldOptions options;
+  engine::WorldOptions options;
   options.solver.sweeps = 2;
   options.solver.spare_work = 0;
-  auto world = std::make_unique<engine::contact::World>(
+  auto world = std::make_unique<engine::World>(
       options, one_material({.friction = 0.5, .rolling = 0.02, .stiffness = 1e8}));
   add_floor(*world);
-  world->add_static(shared(engine::contact::box({0.1, 2, 1})), at(1, 0, 1), 0);
+  world->add_static(shared(engine::box({0.1, 2, 1})), at(1, 0, 1), 0);
   for (int k = 0; k < 5; ++k)
     world->add_rock(box_body({0.2, 0.15, 0.1 + 0.02 * k}), at(0.1 * k, 0, 0.15 + 0.26 * k), {0.3 * k, 0, 0});
   return world;

@@ -7,7 +7,7 @@
 // checksum. Odd: the state behind it; the custom mutator puts the checksum of the contact finder's part right
 // after each mutation, so that what is mutated is the meaning and not the sum.
 #include <cstring>
-#include <drawpoint/engine/contact/world_state.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/engine/record/snapshot_file.hpp>
 #include <drawpoint/tests/fuzz/small_world.hpp>
 
@@ -21,8 +21,8 @@ std::span<const std::byte> as_bytes(const std::uint8_t* data, std::size_t size) 
   return {reinterpret_cast<const std::byte*>(data), size};
 }
 
-void require_finite(const engine::contact::World& world) {
-  for (const engine::contact::Rock& rock : world.rocks())
+void require_finite(const engine::World& world) {
+  for (const engine::Rock& rock : world.rocks())
     if (rock.present &&
         !(rock.pose.matrix().allFinite() && rock.velocity.allFinite() && rock.angular_velocity.allFinite()))
       __builtin_trap();
@@ -30,17 +30,17 @@ void require_finite(const engine::contact::World& world) {
 
 // One world serves all inputs: each restore must replace whatever the one before left.
 void restore_and_step(std::span<const std::byte> state) {
-  static const std::unique_ptr<engine::contact::World> world = fuzz::small_world();
-  const std::uint64_t before = engine::contact::state_hash(*world);
+  static const std::unique_ptr<engine::World> world = fuzz::small_world();
+  const std::uint64_t before = engine::state_hash(*world);
   try {
     world->restore(state);
   } catch (const std::runtime_error&) {
-    if (engine::contact::state_hash(*world) != before) __builtin_trap();
+    if (engine::state_hash(*world) != before) __builtin_trap();
     return;
   }
   try {
     for (int k = 0; k < 2; ++k) world->step();
-  } catch (const engine::contact::SolutionBroken&) {
+  } catch (const engine::SolutionBroken&) {
   }
   require_finite(*world);
 }

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <drawpoint/kriging/cholesky.hpp>
-#include <drawpoint/kriging/dense.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
+#include <drawpoint/kriging/detail/dense.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
 using namespace drawpoint::kriging;

@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-#include <drawpoint/kriging/likelihood.hpp>
+#include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
 using namespace drawpoint::kriging;

@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/pareto/elitism.hpp>
+#include <drawpoint/pareto/detail/elitism.hpp>
 #include <numeric>
 
 namespace drawpoint::pareto {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/tests/support/machines.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
 
@@ -24,18 +24,18 @@ inline engine::machine::MachineSpec blade_on_a_slider(double max_force) {
 /// Rocks of 0.3 to 0.6 m in layers over the floor, turned at random by the seed.
 class BladePile {
  public:
-  static constexpr engine::contact::Material stone{.friction = 0.6, .rolling = 0.1, .stiffness = 1e8};
+  static constexpr engine::Material stone{.friction = 0.6, .rolling = 0.1, .stiffness = 1e8};
 
-  BladePile(int rocks, const engine::contact::WorldOptions& options, std::uint64_t seed = 7,
-            const engine::contact::Material& material = stone)
+  BladePile(int rocks, const engine::WorldOptions& options, std::uint64_t seed = 7,
+            const engine::Material& material = stone)
       : blade_(blade_on_a_slider(20e3)), world_(options, one_material(material)) {
     add_floor(world_);
     for (double side : {-1.0, 1.0})
-      world_.add_static(shared(engine::contact::box({3, 0.2, 3})), at(0, 1.7 * side, 3), 0);
-    world_.add_static(shared(engine::contact::box({0.2, 3, 3})), at(2.2, 0, 3), 0);
+      world_.add_static(shared(engine::box({3, 0.2, 3})), at(0, 1.7 * side, 3), 0);
+    world_.add_static(shared(engine::box({0.2, 3, 3})), at(2.2, 0, 3), 0);
     world_.attach(&blade_);
-    world_.add_part_shape(0, shared(engine::contact::box({0.05, 1.4, 0.4})), at(0, 0, 0), 0);
-    const std::array<engine::contact::RockBody, 3> bodies{rock_body(0, 0.3), rock_body(2, 0.4),
+    world_.add_part_shape(0, shared(engine::box({0.05, 1.4, 0.4})), at(0, 0, 0), 0);
+    const std::array<engine::RockBody, 3> bodies{rock_body(0, 0.3), rock_body(2, 0.4),
                                                           rock_body(4, 0.6)};
     engine::CounterRandom turns(seed);
     for (int k = 0; k < rocks; ++k) {
@@ -52,14 +52,14 @@ class BladePile {
     for (int k = 0; k < steps; ++k) report_ = world_.step();
   }
 
-  engine::contact::World& world() { return world_; }
+  engine::World& world() { return world_; }
   engine::machine::Machine& blade() { return blade_; }
-  const engine::contact::StepReport& report() const { return report_; }
+  const engine::StepReport& report() const { return report_; }
 
  private:
   engine::machine::Machine blade_;
-  engine::contact::World world_;
-  engine::contact::StepReport report_;
+  engine::World world_;
+  engine::StepReport report_;
 };
 
 }  // namespace drawpoint::support

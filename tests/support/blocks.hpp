@@ -14,18 +14,18 @@
 namespace drawpoint::support {
 
 struct PlacedBlock {
-  engine::contact::RockBody body;
+  engine::RockBody body;
   Eigen::Isometry3d pose;
 };
 
-inline PlacedBlock placed(const engine::contact::ConvexPolyhedron& polyhedron, double density = 2500) {
-  const auto properties = engine::contact::mass_properties(polyhedron, density);
+inline PlacedBlock placed(const engine::ConvexPolyhedron& polyhedron, double density = 2500) {
+  const auto properties = engine::mass_properties(polyhedron, density);
   Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(properties.inertia).eigenvectors();
   if (axes.determinant() < 0) axes.col(2) *= -1;
   PlacedBlock block;
   block.pose = Eigen::Translation3d(properties.centre) * Eigen::AngleAxisd(Eigen::Quaterniond(axes));
   const auto shape = polyhedron.transformed(block.pose.inverse());
-  const auto principal = engine::contact::mass_properties(shape, density);
+  const auto principal = engine::mass_properties(shape, density);
   block.body = {shared(shape), principal.mass, principal.inertia.diagonal(), 0};
   return block;
 }
@@ -43,7 +43,7 @@ inline std::vector<PlacedBlock> semicircular_arch(int count, double radius, doub
           const double angle = M_PI * (1 - static_cast<double>(joint) / count);
           corners.emplace_back(r * std::cos(angle), y, r * std::sin(angle));
         }
-    arch.push_back(placed(engine::contact::ConvexPolyhedron::hull_of(corners)));
+    arch.push_back(placed(engine::ConvexPolyhedron::hull_of(corners)));
   }
   return arch;
 }

@@ -3,22 +3,22 @@
 #pragma once
 
 #include <algorithm>
-#include <drawpoint/engine/contact/contact_finder.hpp>
+#include <drawpoint/engine/collision/contact_finder.hpp>
 #include <limits>
 #include <memory>
 
 /// Small helpers to ask a contact finder about two shapes.
 namespace drawpoint::support {
 
-using SharedShape = std::shared_ptr<const engine::contact::Shape>;
+using SharedShape = std::shared_ptr<const engine::Shape>;
 
 template <class T>
 SharedShape share(T shape) {
-  return std::make_shared<const engine::contact::Shape>(std::move(shape));
+  return std::make_shared<const engine::Shape>(std::move(shape));
 }
 
-inline engine::contact::Collider collider_of(SharedShape shape, int body, bool moves = true) {
-  engine::contact::Collider collider;
+inline engine::Collider collider_of(SharedShape shape, int body, bool moves = true) {
+  engine::Collider collider;
   collider.shape = std::move(shape);
   collider.body = body;
   collider.moves = moves;
@@ -39,17 +39,17 @@ struct Placed {
 };
 
 /// The manifolds of two shapes with nothing remembered: none or one.
-inline std::vector<engine::contact::Manifold> contact_of(const Placed& a, const Placed& b,
+inline std::vector<engine::Manifold> contact_of(const Placed& a, const Placed& b,
                                                          double margin = 0.01) {
-  engine::contact::ContactFinderOptions options;
+  engine::ContactFinderOptions options;
   options.margin = margin;
-  engine::contact::ContactFinder finder(options);
+  engine::ContactFinder finder(options);
   finder.set_pose(finder.add(collider_of(a.shape, 0)), a.pose);
   finder.set_pose(finder.add(collider_of(b.shape, 1)), b.pose);
   return finder.find();
 }
 
-inline double least_gap(const engine::contact::Manifold& manifold) {
+inline double least_gap(const engine::Manifold& manifold) {
   double gap = std::numeric_limits<double>::infinity();
   for (int k = 0; k < manifold.count; ++k) gap = std::min(gap, manifold.points[k].gap);
   return gap;

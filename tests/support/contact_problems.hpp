@@ -8,20 +8,20 @@
 namespace drawpoint::support {
 
 /// A step of a little heap of boxes, before it is solved: 4 x 3 boxes fallen on each other askew, in motion.
-inline engine::contact::ContactProblem heap_of_boxes() {
-  engine::contact::WorldOptions options;
+inline engine::ContactProblem heap_of_boxes() {
+  engine::WorldOptions options;
   options.step = 0.005;
   options.solver = {
-      .method = engine::contact::Method::sequential, .substeps = 1, .sweeps = 25, .spare_work = 0};
-  engine::contact::World world(options, one_material({0.6, 0.2, 1e8, 0, 0.05}));
+      .method = engine::Method::sequential, .substeps = 1, .sweeps = 25, .spare_work = 0};
+  engine::World world(options, one_material({0.6, 0.2, 1e8, 0, 0.05}));
   add_floor(world);
   for (int k = 0; k < 12; ++k) {
     Eigen::Isometry3d pose = at(0.35 * (k % 4), 0.02 * (k / 4), 0.17 + 0.34 * (k / 4));
     pose.linear() = Eigen::AngleAxisd(0.1 * k, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     world.add_rock(box_body({0.15, 0.12, 0.16}), pose);
   }
-  engine::contact::ContactProblem kept;
-  world.before_solve([&](const engine::contact::ContactProblem& problem) { kept = problem; });
+  engine::ContactProblem kept;
+  world.before_solve([&](const engine::ContactProblem& problem) { kept = problem; });
   for (int step = 0; step < 160; ++step) world.step();
   return kept;
 }

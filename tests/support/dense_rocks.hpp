@@ -19,27 +19,27 @@ namespace drawpoint::support {
 
 struct RockPile {
   using Frame = std::vector<Eigen::Isometry3d>;  ///< a pose a rock
-  std::vector<std::shared_ptr<const engine::contact::Shape>> shapes, walls;
+  std::vector<std::shared_ptr<const engine::Shape>> shapes, walls;
   std::vector<Frame> rest, slide;
 };
 
 /// Floor first, the wall at +x last.
-inline std::vector<std::shared_ptr<const engine::contact::Shape>> pile_walls(double length, double width) {
-  using engine::contact::HalfSpace;
+inline std::vector<std::shared_ptr<const engine::Shape>> pile_walls(double length, double width) {
+  using engine::HalfSpace;
   return {shared(HalfSpace{Vector3d::UnitZ(), 0}), shared(HalfSpace{Vector3d::UnitY(), 0}),
           shared(HalfSpace{-Vector3d::UnitY(), -width}), shared(HalfSpace{Vector3d::UnitX(), 0}),
           shared(HalfSpace{-Vector3d::UnitX(), -length})};
 }
 
-inline engine::contact::World pile_world(const RockPile& pile, std::size_t walls) {
-  engine::contact::WorldOptions options;
+inline engine::World pile_world(const RockPile& pile, std::size_t walls) {
+  engine::WorldOptions options;
   options.step = 0.01;
-  engine::contact::World world(options, one_material({.friction = 0.9, .rolling = 0.05}));
+  engine::World world(options, one_material({.friction = 0.9, .rolling = 0.05}));
   for (std::size_t k = 0; k < walls; ++k) world.add_static(pile.walls[k], Eigen::Isometry3d::Identity(), 0);
   return world;
 }
 
-inline RockPile::Frame poses_of(const engine::contact::World& world) {
+inline RockPile::Frame poses_of(const engine::World& world) {
   RockPile::Frame frame;
   for (const auto& rock : world.rocks()) frame.push_back(rock.pose);
   return frame;
@@ -53,8 +53,8 @@ inline RockPile record_pile(int count, int settling_steps, int rest_steps, int s
   engine::granular::RockSampler sampler(1, density);
   const int along = std::max(1, static_cast<int>(length / spacing)),
             across = std::max(1, static_cast<int>(width / spacing));
-  std::map<std::pair<int, int>, engine::contact::RockBody> bodies;  // equal rocks share their shape
-  std::vector<engine::contact::RockBody> rocks;
+  std::map<std::pair<int, int>, engine::RockBody> bodies;  // equal rocks share their shape
+  std::vector<engine::RockBody> rocks;
   auto world = pile_world(pile, 5);
   for (int k = 0; k < count; ++k) {
     const auto draw = sampler.next();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/world_state.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/engine/record/snapshot_file.hpp>
 #include <drawpoint/tests/support/blade_pile.hpp>
 #include <memory>
@@ -16,8 +16,8 @@ class DugPile {
  public:
   static constexpr long stroke = 250;  ///< steps between two turns of the blade
 
-  DugPile(int rocks, const engine::contact::WorldOptions& options,
-          const engine::contact::Material& material = BladePile::stone)
+  DugPile(int rocks, const engine::WorldOptions& options,
+          const engine::Material& material = BladePile::stone)
       : rocks_(rocks), options_(options), material_(material), pile_(built()) {}
 
   void run(long steps) {
@@ -36,8 +36,8 @@ class DugPile {
   }
 
   long step() const { return step_; }
-  std::uint64_t hash() const { return engine::contact::state_hash(pile_->world()); }
-  const engine::contact::StepReport& report() const { return pile_->report(); }
+  std::uint64_t hash() const { return engine::state_hash(pile_->world()); }
+  const engine::StepReport& report() const { return pile_->report(); }
 
  private:
   std::unique_ptr<BladePile> built() const {
@@ -45,8 +45,8 @@ class DugPile {
   }
 
   int rocks_;
-  engine::contact::WorldOptions options_;
-  engine::contact::Material material_;
+  engine::WorldOptions options_;
+  engine::Material material_;
   std::unique_ptr<BladePile> pile_;
   long step_ = 0;
 };

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/contact/convex_polyhedron.hpp>
+#include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 #include <limits>
 #include <random>
 #include <utility>
@@ -16,7 +16,7 @@
 namespace drawpoint::support {
 
 using Eigen::Vector3d;
-using engine::contact::ConvexPolyhedron;
+using engine::ConvexPolyhedron;
 
 /// min over B minus max over A along the unit direction n.
 inline double separation_along(const ConvexPolyhedron& a, const ConvexPolyhedron& b, const Vector3d& n) {

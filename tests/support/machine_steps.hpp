@@ -7,10 +7,10 @@
 /// Steps a machine by itself: no contacts, and motors and stops that are idle.
 namespace drawpoint::support {
 
-inline engine::contact::SuperBodySolution free_solution(const engine::contact::SuperBody& super) {
-  engine::contact::SuperBodySolution solution;
+inline engine::SuperBodySolution free_solution(const engine::SuperBody& super) {
+  engine::SuperBodySolution solution;
   solution.velocity = solution.mean_velocity = super.velocity;
-  solution.part_impulses.assign(super.part_maps.size(), engine::contact::SpatialVector::Zero());
+  solution.part_impulses.assign(super.part_maps.size(), engine::SpatialVector::Zero());
   solution.row_impulses.assign(super.rows.size(), 0.0);
   solution.row_starts = solution.row_impulses;
   return solution;

@@ -49,7 +49,7 @@ inline MassRatioTable mass_ratio_table(double ratio) {
 inline double table_overlap(const MassRatioTable& table, const std::array<Eigen::Isometry3d, 5>& poses) {
   std::vector<PlacedHull> placed;
   for (std::size_t k = 0; k < poses.size(); ++k)
-    placed.emplace_back(engine::contact::box(Vector3d::Constant(table.cubes[k].half)), poses[k]);
+    placed.emplace_back(engine::box(Vector3d::Constant(table.cubes[k].half)), poses[k]);
   double deepest = 0;
   for (std::size_t a = 0; a < placed.size(); ++a) {
     for (const Vector3d& p : placed[a].world.vertices()) deepest = std::max(deepest, -p.z());

@@ -129,7 +129,7 @@ inline OverlapStatistics blade_overlaps(const RockPile& pile, const std::vector<
                                         const Vector3d& blade_centre) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = blade_centre;
-  const PlacedHull blade(engine::contact::box(pile.blade.half), pose);
+  const PlacedHull blade(engine::box(pile.blade.half), pose);
   std::vector<double> overlaps;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const ConvexPolyhedron& hull = pile.hull_of(static_cast<int>(k)).hull;

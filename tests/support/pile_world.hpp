@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/tests/support/pile_measures.hpp>
 
 /// The pile of rock_pile.hpp in Drawpoint's own engine.
@@ -13,7 +13,7 @@
 namespace drawpoint::support {
 
 /// A body that moves along x as it is told.
-class PrescribedBody final : public engine::contact::ArticulatedBody {
+class PrescribedBody final : public engine::ArticulatedBody {
  public:
   explicit PrescribedBody(const Vector3d& centre) : pose_(Eigen::Translation3d(centre)) {}
 
@@ -24,15 +24,15 @@ class PrescribedBody final : public engine::contact::ArticulatedBody {
   int parts() const override { return 1; }
   Eigen::Isometry3d part_pose(int) const override { return pose_; }
 
-  const engine::contact::SuperBody& linearise(double h, const Vector3d&) override {
+  const engine::SuperBody& linearise(double h, const Vector3d&) override {
     h_ = h;
     body_.velocity_before = body_.velocity = Eigen::VectorXd::Constant(1, root_mass * speed_);
-    body_.part_maps.assign(1, engine::contact::SpatialMap::Zero(6, 1));
+    body_.part_maps.assign(1, engine::SpatialMap::Zero(6, 1));
     body_.part_maps[0](3, 0) = 1 / root_mass;
     body_.origins = {pose_.translation()};
     return body_;
   }
-  void advance(const engine::contact::SuperBodySolution& solution) override {
+  void advance(const engine::SuperBodySolution& solution) override {
     force_ = solution.part_impulses.at(0).tail<3>() / h_;
     pose_.translation().x() += h_ * speed_;
   }
@@ -42,11 +42,11 @@ class PrescribedBody final : public engine::contact::ArticulatedBody {
   Eigen::Isometry3d pose_;
   double speed_ = 0, h_ = 1;
   Vector3d force_ = Vector3d::Zero();
-  engine::contact::SuperBody body_;
+  engine::SuperBody body_;
 };
 
-inline engine::contact::MaterialTable pile_materials(const PileMaterial& m) {
-  engine::contact::MaterialTable table(1);
+inline engine::MaterialTable pile_materials(const PileMaterial& m) {
+  engine::MaterialTable table(1);
   table.set(0, 0,
             {.friction = m.friction,
              .rolling = m.rolling,
@@ -60,14 +60,14 @@ inline engine::contact::MaterialTable pile_materials(const PileMaterial& m) {
 /// The scene built; rocks have the numbers that they have in the pile.
 class PileWorld {
  public:
-  PileWorld(RockPile pile, const engine::contact::WorldOptions& options)
+  PileWorld(RockPile pile, const engine::WorldOptions& options)
       : pile_(std::move(pile)), blade_(pile_.blade.start), world_(options, pile_materials(pile_.material)) {
     for (const PileWall& wall : pile_.walls)
-      world_.add_static(shape(engine::contact::HalfSpace{wall.normal, wall.offset}),
+      world_.add_static(shape(engine::HalfSpace{wall.normal, wall.offset}),
                         Eigen::Isometry3d::Identity(), 0);
     world_.attach(&blade_);
-    world_.add_part_shape(0, shape(engine::contact::box(pile_.blade.half)), Eigen::Isometry3d::Identity(), 0);
-    std::vector<engine::contact::RockBody> bodies;
+    world_.add_part_shape(0, shape(engine::box(pile_.blade.half)), Eigen::Isometry3d::Identity(), 0);
+    std::vector<engine::RockBody> bodies;
     for (const PileHull& hull : pile_.hulls) bodies.push_back({shape(hull.hull), hull.mass, hull.inertia, 0});
     for (const PileRock& rock : pile_.rocks) world_.add_rock(bodies[rock.hull], rock.start);
   }
@@ -76,8 +76,8 @@ class PileWorld {
 
   const RockPile& pile() const { return pile_; }
   const PrescribedBody& blade() const { return blade_; }
-  engine::contact::World& world() { return world_; }
-  const engine::contact::World& world() const { return world_; }
+  engine::World& world() { return world_; }
+  const engine::World& world() const { return world_; }
 
   /// Sets the blade moving at its digging speed.
   void dig() { blade_.set_speed(pile_.blade.speed); }
@@ -85,19 +85,19 @@ class PileWorld {
   std::vector<RockState> states() const {
     std::vector<RockState> states;
     states.reserve(world_.rocks().size());
-    for (const engine::contact::Rock& rock : world_.rocks())
+    for (const engine::Rock& rock : world_.rocks())
       states.push_back({rock.pose, rock.velocity, rock.angular_velocity});
     return states;
   }
 
  private:
-  static std::shared_ptr<const engine::contact::Shape> shape(engine::contact::Shape s) {
-    return std::make_shared<const engine::contact::Shape>(std::move(s));
+  static std::shared_ptr<const engine::Shape> shape(engine::Shape s) {
+    return std::make_shared<const engine::Shape>(std::move(s));
   }
 
   RockPile pile_;
   PrescribedBody blade_;
-  engine::contact::World world_;
+  engine::World world_;
 };
 
 }  // namespace drawpoint::support

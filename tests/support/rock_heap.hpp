@@ -21,9 +21,9 @@ inline Eigen::Isometry3d moved(const Eigen::Isometry3d& X, std::mt19937& rng, do
 
 class RockHeap {
  public:
-  RockHeap(int count, unsigned seed, const engine::contact::ContactFinderOptions& options = {})
+  RockHeap(int count, unsigned seed, const engine::ContactFinderOptions& options = {})
       : rng_(seed), finder_(options) {
-    finder_.add(collider_of(share(engine::contact::HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
+    finder_.add(collider_of(share(engine::HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
     for (int k = 0; k < count; ++k) {
       shapes_.push_back(share(rock(k).scaled(k % 2 == 0 ? 0.4 : 0.5)));
       poses_.push_back(pose_at(Vector3d(0.36 * (k % 4), 0.36 * (k / 4 % 4), 0.2 + 0.36 * (k / 16)),
@@ -47,20 +47,20 @@ class RockHeap {
   void drop(int k) { ids_[k] = -1; }
   /// Goes on from where another heap is; its finder is left alone.
   void follow(const RockHeap& other) { poses_ = other.poses_, rng_ = other.rng_; }
-  engine::contact::ContactFinder& finder() { return finder_; }
+  engine::ContactFinder& finder() { return finder_; }
   const std::vector<SharedShape>& shapes() const { return shapes_; }
   const std::vector<Eigen::Isometry3d>& poses() const { return poses_; }
 
  private:
   std::mt19937 rng_;
-  engine::contact::ContactFinder finder_;
+  engine::ContactFinder finder_;
   std::vector<SharedShape> shapes_;
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<int> ids_;
 };
 
-inline bool same_bits(const std::vector<engine::contact::Manifold>& x,
-                      const std::vector<engine::contact::Manifold>& y) {
+inline bool same_bits(const std::vector<engine::Manifold>& x,
+                      const std::vector<engine::Manifold>& y) {
   if (x.size() != y.size()) return false;
   for (std::size_t m = 0; m < x.size(); ++m) {
     bool same = x[m].collider_a == y[m].collider_a && x[m].collider_b == y[m].collider_b &&

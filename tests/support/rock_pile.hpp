@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <drawpoint/engine/contact/mass_properties.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/granular/size_distribution.hpp>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -32,7 +32,7 @@ namespace drawpoint::support {
 
 /// One of the (at most 24) different rocks: a shape at a size.
 struct PileHull {
-  engine::contact::ConvexPolyhedron hull;  ///< vertices in the rock's frame [m]
+  engine::ConvexPolyhedron hull;  ///< vertices in the rock's frame [m]
   double mass;                             ///< [kg]
   Eigen::Vector3d inertia;                 ///< principal moments [kg m²]
 };
@@ -155,7 +155,7 @@ inline int hull_index(RockPile& pile, std::array<int, 24>& known, const engine::
   if (index < 0) {
     index = static_cast<int>(pile.hulls.size());
     const auto hull = engine::granular::rock_shapes()[draw.shape].scaled(draw.length);
-    const auto properties = engine::contact::mass_properties(hull, RockPile::density);
+    const auto properties = engine::mass_properties(hull, RockPile::density);
     pile.hulls.push_back({hull, properties.mass, properties.inertia.diagonal()});
   }
   return index;

@@ -9,9 +9,9 @@
 namespace drawpoint::support {
 
 /// One of the six rocks at a longest dimension [m].
-inline engine::contact::RockBody rock_body(int shape, double size, double density = 4500) {
+inline engine::RockBody rock_body(int shape, double size, double density = 4500) {
   const auto scaled = engine::granular::rock_shapes()[shape].scaled(size);
-  const auto properties = engine::contact::mass_properties(scaled, density);
+  const auto properties = engine::mass_properties(scaled, density);
   return {shared(scaled), properties.mass, properties.inertia.diagonal(), 0};
 }
 

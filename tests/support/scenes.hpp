@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/convex_polyhedron.hpp>
-#include <drawpoint/engine/contact/mass_properties.hpp>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/geometry/convex_polyhedron.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
+#include <drawpoint/engine/world/world.hpp>
 
 /// Contact scenes with known answers, shared by tests and benchmarks.
 namespace drawpoint::support {
@@ -12,25 +12,25 @@ namespace drawpoint::support {
 using Eigen::Vector3d;
 
 /// One kind of surface everywhere.
-inline engine::contact::MaterialTable one_material(const engine::contact::Material& m) {
-  engine::contact::MaterialTable table(1);
+inline engine::MaterialTable one_material(const engine::Material& m) {
+  engine::MaterialTable table(1);
   table.set(0, 0, m);
   return table;
 }
 
-inline std::shared_ptr<const engine::contact::Shape> shared(engine::contact::Shape shape) {
-  return std::make_shared<const engine::contact::Shape>(std::move(shape));
+inline std::shared_ptr<const engine::Shape> shared(engine::Shape shape) {
+  return std::make_shared<const engine::Shape>(std::move(shape));
 }
 
 /// A box of the given half extents and density as a rock.
-inline engine::contact::RockBody box_body(const Vector3d& half, double density = 2500) {
-  const auto shape = engine::contact::box(half);
-  const auto properties = engine::contact::mass_properties(shape, density);
+inline engine::RockBody box_body(const Vector3d& half, double density = 2500) {
+  const auto shape = engine::box(half);
+  const auto properties = engine::mass_properties(shape, density);
   return {shared(shape), properties.mass, properties.inertia.diagonal(), 0};
 }
 
-inline void add_floor(engine::contact::World& world) {
-  world.add_static(shared(engine::contact::HalfSpace{Vector3d::UnitZ(), 0}), Eigen::Isometry3d::Identity(),
+inline void add_floor(engine::World& world) {
+  world.add_static(shared(engine::HalfSpace{Vector3d::UnitZ(), 0}), Eigen::Isometry3d::Identity(),
                    0);
 }
 

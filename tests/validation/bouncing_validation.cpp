@@ -10,7 +10,7 @@
 
 using namespace drawpoint;
 using Eigen::Vector3d;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -23,7 +23,7 @@ const validation::Problem bouncing{"bouncing", validation::Group::impact, "Bounc
 constexpr double g = 9.81, h = 1e-3, side = 0.4;
 
 World with_restitution(double e) {
-  engine::contact::Material material{0.5, 0, 1e12, 0};
+  engine::Material material{0.5, 0, 1e12, 0};
   material.restitution = e;
   return World(validation::reference_settings(h), support::one_material(material));
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/articulated_body.hpp>
+#include <drawpoint/engine/world/articulated_body.hpp>
 
 /// A plate that moves at a given velocity whatever pushes it, and feels what does: a gate, a trap door, a
 /// blade.
@@ -12,7 +12,7 @@
 /// units.
 namespace drawpoint::validation {
 
-class DrivenPlate final : public engine::contact::ArticulatedBody {
+class DrivenPlate final : public engine::ArticulatedBody {
  public:
   explicit DrivenPlate(const Eigen::Vector3d& position) : pose_(Eigen::Translation3d(position)) {}
 
@@ -23,17 +23,17 @@ class DrivenPlate final : public engine::contact::ArticulatedBody {
   int parts() const override { return 1; }
   Eigen::Isometry3d part_pose(int) const override { return pose_; }
 
-  const engine::contact::SuperBody& linearise(double h, const Eigen::Vector3d&) override {
+  const engine::SuperBody& linearise(double h, const Eigen::Vector3d&) override {
     step_ = h;
     const double speed = velocity_.norm();
     super_.velocity_before = super_.velocity = Eigen::VectorXd::Constant(1, speed / map);
-    super_.part_maps.assign(1, engine::contact::SpatialMap::Zero(6, 1));
+    super_.part_maps.assign(1, engine::SpatialMap::Zero(6, 1));
     if (speed > 0) super_.part_maps[0].col(0).tail<3>() = map * velocity_ / speed;
     super_.origins.assign(1, pose_.translation());
     return super_;
   }
 
-  void advance(const engine::contact::SuperBodySolution& solution) override {
+  void advance(const engine::SuperBodySolution& solution) override {
     force_ = solution.part_impulses[0].tail<3>() / step_;
     work_ -= force_.dot(velocity_) * step_;
     pose_.translation() += step_ * velocity_;
@@ -43,7 +43,7 @@ class DrivenPlate final : public engine::contact::ArticulatedBody {
   static constexpr double map = 1e-6;
   Eigen::Isometry3d pose_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), force_ = Eigen::Vector3d::Zero();
-  engine::contact::SuperBody super_;
+  engine::SuperBody super_;
   double step_ = 0, work_ = 0;
 };
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/tests/validation/record.hpp>
 #include <vector>
 
@@ -22,7 +22,7 @@ namespace drawpoint::validation {
 
 class EnergyLedger {
  public:
-  explicit EnergyLedger(const engine::contact::World& world) : world_(&world) {
+  explicit EnergyLedger(const engine::World& world) : world_(&world) {
     for (const auto& rock : world.rocks()) energies_.push_back(energy(rock));
   }
 
@@ -47,7 +47,7 @@ class EnergyLedger {
   double lost() const { return -lowest_; }               ///< [J]
 
  private:
-  double energy(const engine::contact::Rock& rock) const {
+  double energy(const engine::Rock& rock) const {
     const auto& options = world_->options();
     const double substep = options.step / options.solver.substeps;
     const Eigen::Vector3d w = rock.pose.linear().transpose() * rock.angular_velocity;
@@ -63,7 +63,7 @@ class EnergyLedger {
     return sum;
   }
 
-  const engine::contact::World* world_;
+  const engine::World* world_;
   std::vector<double> energies_;
   double work_ = 0, total_ = 0, lowest_ = 0, largest_rise_ = 0, recoverable_ = 0;
 };

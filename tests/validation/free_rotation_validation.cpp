@@ -22,7 +22,7 @@ const validation::Problem free_rotation{
 constexpr double h = 0.005, duration = 10;
 const Vector3d start(0.3, 5, 0.4);  // [rad/s], in the block's axes, which are the world's at the start
 
-engine::contact::RockBody block() { return support::box_body({0.1, 0.2, 0.35}, 4500); }
+engine::RockBody block() { return support::box_body({0.1, 0.2, 0.35}, 4500); }
 
 struct Spin {
   Vector3d rate;  // at the end, in the body's axes
@@ -30,9 +30,9 @@ struct Spin {
 };
 
 Spin spin(double step) {
-  engine::contact::WorldOptions options = validation::reference_settings(step);
+  engine::WorldOptions options = validation::reference_settings(step);
   options.gravity = Vector3d::Zero();
-  engine::contact::World world(options, support::one_material({}));
+  engine::World world(options, support::one_material({}));
   world.add_rock(block(), Eigen::Isometry3d::Identity(), Vector3d::Zero(), start);
   const Vector3d inertia = block().inertia;
   const auto momentum = [&] {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
 #include <drawpoint/tests/validation/heaps.hpp>
 #include <limits>
@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using engine::contact::ConvexPolyhedron;
-using engine::contact::Rock;
+using engine::ConvexPolyhedron;
+using engine::Rock;
 
 // Height at which the vertical line over `place` leaves the rock; −∞ where it misses it.
 double exit_height(const Rock& rock, const ConvexPolyhedron& shape, const Vector2d& place) {
@@ -33,7 +33,7 @@ double exit_height(const Rock& rock, const ConvexPolyhedron& shape, const Vector
   return low <= high ? rock.pose.translation().z() + high : -std::numeric_limits<double>::infinity();
 }
 
-bool free_place(const engine::contact::World& world, const Vector3d& place, double size) {
+bool free_place(const engine::World& world, const Vector3d& place, double size) {
   return std::none_of(world.rocks().begin(), world.rocks().end(), [&](const Rock& rock) {
     return rock.present && (rock.pose.translation() - place).norm() < size;
   });
@@ -63,14 +63,14 @@ double degrees_of(double retreat) { return std::atan2(1.0, -retreat) * 180 / M_P
 
 }  // namespace
 
-double highest_rock(const engine::contact::World& world, double slower_than) {
+double highest_rock(const engine::World& world, double slower_than) {
   double top = 0;
   for (const Rock& rock : world.rocks())
     if (rock.present && rock.velocity.norm() < slower_than) top = std::max(top, rock.pose.translation().z());
   return top;
 }
 
-int let_go_layer(engine::contact::World& world, const Pour& options, int most) {
+int let_go_layer(engine::World& world, const Pour& options, int most) {
   engine::CounterRandom turns(options.seed, 4 * world.rocks().size());
   const double z = std::max(options.lowest, highest_rock(world, 0.9 * options.speed) + options.clearance);
   int born = 0;
@@ -88,7 +88,7 @@ int let_go_layer(engine::contact::World& world, const Pour& options, int most) {
   return born;
 }
 
-std::vector<double> surface_heights(const engine::contact::World& world, const Area& area) {
+std::vector<double> surface_heights(const engine::World& world, const Area& area) {
   std::vector<Vector2d> places;
   for (double x = area.x0 + place_spacing / 2; x < area.x1; x += place_spacing)
     for (double y = area.y0 + place_spacing / 2; y < area.y1; y += place_spacing) places.emplace_back(x, y);
@@ -104,12 +104,12 @@ std::vector<double> surface_heights(const engine::contact::World& world, const A
   return heights;
 }
 
-double mean_height(const engine::contact::World& world, const Area& area) {
+double mean_height(const engine::World& world, const Area& area) {
   const auto heights = surface_heights(world, area);
   return std::accumulate(heights.begin(), heights.end(), 0.0) / static_cast<double>(heights.size());
 }
 
-double angle_of_cone(const engine::contact::World& world, double size) {
+double angle_of_cone(const engine::World& world, double size) {
   Area area{0, 0, 0, 0};
   for (const Rock& rock : world.rocks()) {
     const Vector3d p = rock.pose.translation();
@@ -127,7 +127,7 @@ double angle_of_cone(const engine::contact::World& world, double size) {
   return degrees_of(fitted_slope(levels, radii));
 }
 
-double angle_of_bank(const engine::contact::World& world, const Area& area, double size, double crest) {
+double angle_of_bank(const engine::World& world, const Area& area, double size, double crest) {
   const auto heights = surface_heights(world, area);
   std::vector<double> levels, depths;
   for (double z = 0.5 * size; z < crest - size; z += 0.1 * size) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <vector>
 
 /// Heaps of rocks: how they are poured, and the shape of their surface.
@@ -30,17 +30,17 @@ struct Pour {
 
 /// Pours into the world; `each_step` is called after every step. Returns the rocks' indices.
 template <class EachStep>
-void pour(engine::contact::World& world, const Pour& options, EachStep&& each_step);
+void pour(engine::World& world, const Pour& options, EachStep&& each_step);
 
 /// Steps for `time` seconds.
 template <class EachStep>
-void settle(engine::contact::World& world, double time, EachStep&& each_step);
+void settle(engine::World& world, double time, EachStep&& each_step);
 
 /// Lets the next layer of at most `most` rocks go; returns how many.
-int let_go_layer(engine::contact::World& world, const Pour& options, int most);
+int let_go_layer(engine::World& world, const Pour& options, int most);
 
 /// Highest centre of the rocks slower than `slower_than` [m/s]; 0 without any [m].
-double highest_rock(const engine::contact::World& world, double slower_than);
+double highest_rock(const engine::World& world, double slower_than);
 
 /// A rectangle of places in a square grid of 5 cm.
 struct Area {
@@ -49,14 +49,14 @@ struct Area {
 constexpr double place_spacing = 0.05;  ///< [m]
 
 /// Surface height over each place of the area [m], 0 where there is no rock.
-std::vector<double> surface_heights(const engine::contact::World& world, const Area& area);
-double mean_height(const engine::contact::World& world, const Area& area);  ///< [m]
+std::vector<double> surface_heights(const engine::World& world, const Area& area);
+double mean_height(const engine::World& world, const Area& area);  ///< [m]
 
 /// Angle [deg] of a heap that was poured on the floor anywhere, from one rock above the floor to where it is
 /// one rock in radius.
-double angle_of_cone(const engine::contact::World& world, double size);
+double angle_of_cone(const engine::World& world, double size);
 /// Angle [deg] of a bank that runs down along x, from half a rock above z = 0 to one rock below `crest` [m].
-double angle_of_bank(const engine::contact::World& world, const Area& area, double size, double crest);
+double angle_of_bank(const engine::World& world, const Area& area, double size, double crest);
 
 /// Mean and standard error of a sample of at least two.
 struct Estimate {
@@ -65,7 +65,7 @@ struct Estimate {
 Estimate estimate(const std::vector<double>& sample);
 
 template <class EachStep>
-void settle(engine::contact::World& world, double time, EachStep&& each_step) {
+void settle(engine::World& world, double time, EachStep&& each_step) {
   const int steps = static_cast<int>(time / world.options().step + 0.5);
   for (int k = 0; k < steps; ++k) {
     world.step();
@@ -74,7 +74,7 @@ void settle(engine::contact::World& world, double time, EachStep&& each_step) {
 }
 
 template <class EachStep>
-void pour(engine::contact::World& world, const Pour& options, EachStep&& each_step) {
+void pour(engine::World& world, const Pour& options, EachStep&& each_step) {
   for (int left = options.rocks; left > 0;) {
     left -= let_go_layer(world, options, left);
     settle(world, options.interval, each_step);

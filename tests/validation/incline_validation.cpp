@@ -8,7 +8,7 @@
 #include <numbers>
 
 using namespace drawpoint;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -22,7 +22,7 @@ const validation::Problem incline{
 constexpr double g = 9.81, mu = 0.6, stiffness = 1e8, degree = std::numbers::pi / 180;
 
 // Laid down with the overlap m g cos α / k, so that there is nothing to settle but the shear.
-World block_on_slope(double angle, engine::contact::WorldOptions options = validation::reference_settings()) {
+World block_on_slope(double angle, engine::WorldOptions options = validation::reference_settings()) {
   options.gravity = support::tilted_gravity(angle);
   World world(options, support::one_material({mu, 0.0, stiffness, 0}));
   support::add_floor(world);
@@ -31,7 +31,7 @@ World block_on_slope(double angle, engine::contact::WorldOptions options = valid
   return world;
 }
 
-const engine::contact::Rock& after(World& world, double time) {
+const engine::Rock& after(World& world, double time) {
   while (world.time() < time - 1e-9) world.step();
   return world.rocks()[0];
 }

@@ -8,7 +8,7 @@
 #include <limits>
 
 using namespace drawpoint;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {

@@ -6,7 +6,7 @@
 #include <drawpoint/tests/validation/energy_ledger.hpp>
 
 using namespace drawpoint;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {

@@ -6,7 +6,7 @@
 #include <drawpoint/tests/validation/energy_ledger.hpp>
 
 using namespace drawpoint;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -23,7 +23,7 @@ constexpr double side = 0.5, v = 2;  // halves and quarters: touching faces have
 
 // n cubes, the first arriving with v from a distance of 5 mm and the others `apart`.
 World cradle(int n, double restitution, double apart) {
-  engine::contact::WorldOptions options;
+  engine::WorldOptions options;
   options.gravity.setZero();
   World world(options, support::one_material({.restitution = restitution}));
   for (int k = 0; k < n; ++k)

@@ -8,7 +8,7 @@
 #include <numbers>
 
 using namespace drawpoint;
-using engine::contact::NormalLaw;
+using engine::NormalLaw;
 using validation::record;
 
 namespace {
@@ -22,9 +22,9 @@ const validation::Problem overlap{
 
 constexpr double g = 9.81;
 
-double resting_overlap(double side, const engine::contact::Material& material) {
-  const engine::contact::WorldOptions options = validation::reference_settings();
-  engine::contact::World world(options, support::one_material(material));
+double resting_overlap(double side, const engine::Material& material) {
+  const engine::WorldOptions options = validation::reference_settings();
+  engine::World world(options, support::one_material(material));
   support::add_floor(world);
   world.add_rock(support::box_body(Eigen::Vector3d::Constant(side / 2)), support::at(0, 0, side / 2));
   while (world.time() < 4) world.step();
@@ -59,7 +59,7 @@ TEST(Overlap, OfTheLinearLawIsForceOverStiffness) {
 
 TEST(Overlap, OfHertzLawIsItsPowerOfTheForce) {
   for (const double side : {0.2, 0.4}) {
-    engine::contact::Material material{0.5, 0, 1e6, 0.1};
+    engine::Material material{0.5, 0, 1e6, 0.1};
     material.law = NormalLaw::hertz;
     const double radius = side * std::cbrt(3 / (4 * std::numbers::pi));
     const double exact = std::pow(weight(side) / (4.0 / 3 * 1e6 * std::sqrt(radius)), 2.0 / 3);

@@ -9,7 +9,7 @@
 #include <drawpoint/tests/validation/heaps.hpp>
 
 using namespace drawpoint;
-using namespace drawpoint::engine::contact;
+using namespace drawpoint::engine;
 using validation::record;
 
 namespace {

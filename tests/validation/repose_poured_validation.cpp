@@ -8,7 +8,7 @@
 #include <drawpoint/tests/validation/heaps.hpp>
 
 using namespace drawpoint;
-using engine::contact::World;
+using engine::World;
 using validation::Estimate;
 using validation::record;
 

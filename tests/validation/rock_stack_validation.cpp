@@ -7,8 +7,8 @@
 #include <drawpoint/tests/validation/energy_ledger.hpp>
 
 using namespace drawpoint;
-using engine::contact::World;
-using engine::contact::WorldOptions;
+using engine::World;
+using engine::WorldOptions;
 using validation::record;
 
 namespace {

@@ -9,7 +9,7 @@
 
 using namespace drawpoint;
 using Eigen::Vector3d;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -26,12 +26,12 @@ constexpr int n = 12;
 const double beta = 2 * std::numbers::pi / n, s = std::sin(beta / 2);
 
 struct Prism {
-  engine::contact::RockBody body;
+  engine::RockBody body;
   double mass, inertia, edge;  // edge: moment about an edge
 
   Prism() {
-    const auto shape = engine::contact::prism(R, half_width, n);
-    const auto properties = engine::contact::mass_properties(shape, density);
+    const auto shape = engine::prism(R, half_width, n);
+    const auto properties = engine::mass_properties(shape, density);
     body = {support::shared(shape), properties.mass, properties.inertia.diagonal(), 0};
     mass = properties.mass;
     inertia = properties.inertia(1, 1);
@@ -88,7 +88,7 @@ Rates expected(const Prism& p, double r) {
 }
 
 std::vector<double> measured(const Prism& p, double mu_r, double* sides) {
-  const engine::contact::WorldOptions options = validation::reference_settings(h);
+  const engine::WorldOptions options = validation::reference_settings(h);
   World world(options, support::one_material({0.8, mu_r, 1e12, 0}));
   support::add_floor(world);
   const Vector3d edge(R * s, 0, -R * std::cos(beta / 2)), spin(0, omega, 0);

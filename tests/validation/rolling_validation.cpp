@@ -9,7 +9,7 @@
 
 using namespace drawpoint;
 using Eigen::Vector3d;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -24,16 +24,16 @@ const validation::Problem rolling{"rolling", validation::Group::single_body,
 
 constexpr double g = 9.81, R = 0.5, half_width = 0.3, mass = 1000, stiffness = 1e8;
 
-engine::contact::RockBody cylinder() {
+engine::RockBody cylinder() {
   const double across = mass * (R * R / 4 + half_width * half_width / 3);
-  return {support::shared(engine::contact::Cylinder{R, half_width}), mass,
+  return {support::shared(engine::Cylinder{R, half_width}), mass,
           Vector3d(across, mass * R * R / 2, across), 0};
 }
 
 double radius_of_volume(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }
 
-World floor_with(const engine::contact::Material& material) {
-  const engine::contact::WorldOptions options = validation::reference_settings();
+World floor_with(const engine::Material& material) {
+  const engine::WorldOptions options = validation::reference_settings();
   World world(options, support::one_material(material));
   support::add_floor(world);
   return world;

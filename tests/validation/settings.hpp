@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 
 /// The settings with which laws are validated: the reference method in double precision, one substep of 25
 /// sweeps, started from all of the last step's impulses, so that the solver's answers to the same problem
@@ -10,10 +10,10 @@
 /// which trade some of that for speed, have lines of their own.
 namespace drawpoint::validation {
 
-inline engine::contact::WorldOptions reference_settings(double step = 0.005) {
-  engine::contact::WorldOptions options;
+inline engine::WorldOptions reference_settings(double step = 0.005) {
+  engine::WorldOptions options;
   options.step = step;
-  options.solver.method = engine::contact::Method::sequential;
+  options.solver.method = engine::Method::sequential;
   options.solver.substeps = 1;
   options.solver.sweeps = 25;
   options.warm_start = 1;

@@ -12,7 +12,7 @@
 #include <numeric>
 
 using namespace drawpoint;
-using namespace drawpoint::engine::contact;
+using namespace drawpoint::engine;
 using validation::record;
 
 namespace {

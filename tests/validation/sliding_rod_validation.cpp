@@ -10,7 +10,7 @@
 using namespace drawpoint;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -30,12 +30,12 @@ const Vector2d over(half.x() * std::cos(tilt) - half.z() * std::sin(tilt),
                     half.x() * std::sin(tilt) + half.z() * std::cos(tilt));
 
 struct Rod {
-  engine::contact::RockBody body = support::box_body(half);
+  engine::RockBody body = support::box_body(half);
   double inertia = body.inertia.y(), about_tip = inertia + body.mass * over.squaredNorm();
 };
 
 World thrown() {
-  const engine::contact::WorldOptions options = validation::reference_settings(h);
+  const engine::WorldOptions options = validation::reference_settings(h);
   World world(options, support::one_material({mu, 0, 1e9, 0}));
   support::add_floor(world);
   Eigen::Isometry3d pose = support::at(0, 0, over.y());

@@ -9,7 +9,7 @@
 
 using namespace drawpoint;
 using Eigen::Vector3d;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {
@@ -27,7 +27,7 @@ constexpr double g = 9.81, rate = 5, stiffness = 1e8;
 
 struct Case {
   std::string name;
-  engine::contact::RockBody body;
+  engine::RockBody body;
   Eigen::Matrix3d upright;
   double height, inertia;  // of the centre [m]; about the vertical [kg m²]
 };
@@ -38,7 +38,7 @@ Case disc() {
   const Eigen::Matrix3d upright =
       Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()).toRotationMatrix();
   return {"disc",
-          {support::shared(engine::contact::Cylinder{R, half}), mass, Vector3d(across, along, across), 0},
+          {support::shared(engine::Cylinder{R, half}), mass, Vector3d(across, along, across), 0},
           upright,
           half,
           along};
@@ -53,8 +53,8 @@ struct Stop {
   double angle = 0, time = 0, substep = 0;
 };
 
-Stop spin(const Case& c, const engine::contact::Material& material) {
-  const engine::contact::WorldOptions options = validation::reference_settings();
+Stop spin(const Case& c, const engine::Material& material) {
+  const engine::WorldOptions options = validation::reference_settings();
   World world(options, support::one_material(material));
   support::add_floor(world);
   Eigen::Isometry3d pose = support::at(0, 0, c.height - c.body.mass * g / stiffness);
@@ -74,7 +74,7 @@ Stop spin(const Case& c, const engine::contact::Material& material) {
 
 // Under a constant moment M the stepper's rates ω − n s M/I are exact (s the substep) and the angle is their
 // sum: ω² I/(2M) − ω s/2, and up to M s²/(8 I) for the last, broken substep.
-void compare(const Case& c, const engine::contact::Material& material, double moment, const std::string& by,
+void compare(const Case& c, const engine::Material& material, double moment, const std::string& by,
              const std::string& source) {
   const Stop stop = spin(c, material);
   const double braking = moment / c.inertia;
@@ -113,7 +113,7 @@ TEST(Spinning, FrictionStopsABlock) {
 
 TEST(Spinning, SpinningResistanceStopsADiscWithoutFriction) {
   const Case c = disc();
-  engine::contact::Material material{0, 0, stiffness, 0};
+  engine::Material material{0, 0, stiffness, 0};
   material.spinning = 0.2;
   const double volume = std::numbers::pi * 0.5 * 0.5 * 0.2;
   const double R_star = std::cbrt(3 * volume / (4 * std::numbers::pi));

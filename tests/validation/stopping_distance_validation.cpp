@@ -8,7 +8,7 @@
 
 using namespace drawpoint;
 using Eigen::Vector3d;
-using engine::contact::World;
+using engine::World;
 using validation::record;
 
 namespace {

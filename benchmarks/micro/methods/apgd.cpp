@@ -17,7 +17,7 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-using namespace engine::contact;
+using namespace engine;
 using Eigen::Index;
 using Eigen::VectorXd;
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <drawpoint/engine/contact/contact_finder.hpp>
+#include <drawpoint/engine/collision/contact_finder.hpp>
 #include <drawpoint/engine/machine/machine.hpp>
 
 namespace {
@@ -41,18 +41,18 @@ bool rod_gains_its_energy() {
 // A cube of 1 m that stands 1 mm deep in the ground has four contact points there; 1e-9 m is far above
 // round-off.
 bool block_is_found() {
-  contact::ContactFinder finder;
-  contact::Collider ground, block;
-  ground.shape = std::make_shared<const contact::Shape>(contact::HalfSpace{Eigen::Vector3d::UnitZ(), 0.0});
+  ContactFinder finder;
+  Collider ground, block;
+  ground.shape = std::make_shared<const Shape>(HalfSpace{Eigen::Vector3d::UnitZ(), 0.0});
   ground.moves = false;
-  block.shape = std::make_shared<const contact::Shape>(contact::box({0.5, 0.5, 0.5}));
+  block.shape = std::make_shared<const Shape>(box({0.5, 0.5, 0.5}));
   block.body = 1;
   finder.add(ground);
   finder.set_pose(finder.add(block), Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.499)));
 
   const auto& manifolds = finder.find();
   if (manifolds.size() != 1) return false;
-  const contact::Manifold& found = manifolds.front();
+  const Manifold& found = manifolds.front();
   std::printf("block: %d points, gap %.6f m, expected 4 and -0.001000 m\n", found.count, found.points[0].gap);
   return found.count == 4 && std::abs(found.points[0].gap + 0.001) < 1e-9;
 }

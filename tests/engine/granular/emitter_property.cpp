@@ -12,8 +12,8 @@ using namespace drawpoint::engine::granular;
 
 namespace {
 
-double radius(const contact::Rock& rock) {
-  return std::get<contact::ConvexPolyhedron>(*rock.body.shape).radius();
+double radius(const engine::Rock& rock) {
+  return std::get<engine::ConvexPolyhedron>(*rock.body.shape).radius();
 }
 
 struct Heap {
@@ -21,23 +21,23 @@ struct Heap {
       : options(o),
         world({}, support::one_material({.friction = 0.9, .rolling = 0.1})),
         emitter(o, 4500, seed) {
-    world.add_static(support::shared(contact::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
+    world.add_static(support::shared(engine::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
                      Eigen::Isometry3d::Identity(), 0);
   }
   std::vector<int> emit(double mass) { return emitter.emit(world, library, specs, mass); }
 
   EmitterOptions options;
-  contact::World world;
+  engine::World world;
   Emitter emitter;
   RockLibrary library;
   std::vector<RockSpec> specs;
 };
 
 // The gap between the spheres of a rock and of the nearest of the others, or the floor [m].
-double room_about(const contact::World& world, int k) {
-  const contact::Rock& rock = world.rocks()[static_cast<std::size_t>(k)];
+double room_about(const engine::World& world, int k) {
+  const engine::Rock& rock = world.rocks()[static_cast<std::size_t>(k)];
   double room = rock.pose.translation().z() - radius(rock);
-  for (const contact::Rock& other : world.rocks())
+  for (const engine::Rock& other : world.rocks())
     if (&other != &rock)
       room = std::min(
           room, (rock.pose.translation() - other.pose.translation()).norm() - radius(rock) - radius(other));
@@ -54,7 +54,7 @@ TEST(Emitter, LetsRocksGoLowAndClear) {
   for (int step = 0; step < 400; ++step) {
     for (int k : heap.emit(1e9)) {
       ++births;
-      const contact::Rock& rock = heap.world.rocks()[static_cast<std::size_t>(k)];
+      const engine::Rock& rock = heap.world.rocks()[static_cast<std::size_t>(k)];
       EXPECT_GT(room_about(heap.world, k), 0) << k;
       EXPECT_LE(room_about(heap.world, k), heap.options.clearance + 1e-12) << k;
       EXPECT_EQ(rock.velocity.norm(), 0) << k;
@@ -92,7 +92,7 @@ TEST(Emitter, SameSeedSameRocks) {
   const auto poses = [](Heap& heap) {
     heap.emit(1e9);
     std::vector<Eigen::Matrix4d> all;
-    for (const contact::Rock& rock : heap.world.rocks()) all.push_back(rock.pose.matrix());
+    for (const engine::Rock& rock : heap.world.rocks()) all.push_back(rock.pose.matrix());
     return all;
   };
   const auto first = poses(a);

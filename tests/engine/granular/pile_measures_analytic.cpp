@@ -16,7 +16,7 @@ constexpr double round_off = 1e-12;  // lengths of order 1, some hundred operati
 // A scene of cubes with an edge of 1 m and a mass of 4500 kg in the pile's box.
 RockPile cubes(const std::vector<Vector3d>& centres) {
   RockPile pile = rock_pile(1);
-  const auto hull = engine::contact::box({0.5, 0.5, 0.5});
+  const auto hull = engine::box({0.5, 0.5, 0.5});
   pile.hulls = {{hull, 4500, Vector3d::Constant(750)}};
   pile.rocks.clear();
   for (const Vector3d& centre : centres)
@@ -33,7 +33,7 @@ std::vector<RockState> starts(const RockPile& pile) {
 }  // namespace
 
 TEST(PenetrationDepth, OfTwoBoxesAlongAFaceAndAcrossTwoEdges) {
-  const auto cube = engine::contact::box({0.5, 0.5, 0.5});
+  const auto cube = engine::box({0.5, 0.5, 0.5});
   const PlacedHull a(cube, pose_at({0, 0, 0}));
   EXPECT_NEAR(penetration_depth(a, {cube, pose_at({0.2, 0.1, 0.97})}), 0.03, round_off);
   EXPECT_EQ(penetration_depth(a, {cube, pose_at({0, 0, 1.001})}), 0);
@@ -61,7 +61,7 @@ TEST(PenetrationDepth, EqualsTheUnprunedTestOnRocks) {
 
 TEST(PileMeasures, OverlapIsOverTheSmallerRockAndOverTouchingPairs) {
   RockPile pile = cubes({{0, 0, 0.5}, {0, 0, 1.4}, {2, 0, 0.5}, {2, 2, 0.5}});
-  pile.hulls.push_back({engine::contact::box({0.25, 0.25, 0.25}), 562.5, Vector3d::Constant(23)});
+  pile.hulls.push_back({engine::box({0.25, 0.25, 0.25}), 562.5, Vector3d::Constant(23)});
   pile.rocks.push_back({1, Eigen::Isometry3d(Eigen::Translation3d(2, 0, 1.2))});
   const OverlapStatistics s = rock_overlaps(pile, starts(pile));
   // 0.1 m of a cube with the diagonal √3 m, 0.05 m of one with √3/2 m.
@@ -129,12 +129,12 @@ TEST(MassRatioTable, HasTheMassesAndTheHeightOfItsDescription) {
 // after which almost nothing is added. The blade itself keeps its way: it gives way by 4500 kg / 1e12 kg of
 // the cube's speed within a step and is set anew at the next.
 TEST(PileWorld, BladeReportsTheMomentumThatItGives) {
-  using engine::contact::Method;
+  using engine::Method;
   for (const auto& [method, tolerance] :
        {std::pair(Method::sequential, 1e-9), std::pair(Method::coloured, 1e-6)}) {
     RockPile pile = cubes({{-1.4, 0, 0.5}});
     pile.material.friction = pile.material.rolling = pile.material.spinning = 0;
-    engine::contact::WorldOptions options;
+    engine::WorldOptions options;
     options.solver.method = method;
     PileWorld world(pile, options);
     world.dig();

@@ -7,12 +7,12 @@
 #include <sys/resource.h>
 
 #include <ctime>
-#include <drawpoint/engine/contact/world_state.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/blade_pile.hpp>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::support;
-using contact::World;
+using World;
 
 namespace {
 
@@ -21,26 +21,26 @@ constexpr double g = 9.81;
 /// Kinetic and potential energy of the rocks that are there, over z = 0 [J].
 double energy(const World& world) {
   double sum = world.kinetic_energy();
-  for (const contact::Rock& rock : world.rocks())
+  for (const Rock& rock : world.rocks())
     if (rock.present) sum += rock.body.mass * g * rock.pose.translation().z();
   return sum;
 }
 
 void expect_finite(const World& world) {
-  for (const contact::Rock& rock : world.rocks()) {
+  for (const Rock& rock : world.rocks()) {
     ASSERT_TRUE(rock.pose.matrix().allFinite());
     ASSERT_TRUE(rock.velocity.allFinite() && rock.angular_velocity.allFinite());
   }
 }
 
-double farthest_x(const contact::Rock& rock) {
+double farthest_x(const Rock& rock) {
   double x = -1e9;
-  for (const Vector3d& v : std::get<contact::ConvexPolyhedron>(*rock.body.shape).vertices())
+  for (const Vector3d& v : std::get<ConvexPolyhedron>(*rock.body.shape).vertices())
     x = std::max(x, (rock.pose * v).x());
   return x;
 }
 
-contact::MaterialTable stone() { return one_material({.friction = 0.6, .rolling = 0.05, .stiffness = 1e8}); }
+MaterialTable stone() { return one_material({.friction = 0.6, .rolling = 0.05, .stiffness = 1e8}); }
 
 struct Throw {
   double speed, step;
@@ -56,11 +56,11 @@ class Thrown : public testing::TestWithParam<Throw> {};
 // gravity's discretisation gives none (q and v are advanced in the same order: an error of m g² h²/2 a step
 // in free flight, of either sign: 50 steps of a 0.3 m rock of 50 kg, h = 0.01: below 12 J of 250 kJ).
 TEST_P(Thrown, IsStoppedByAThinWall) {
-  contact::WorldOptions options;
+  WorldOptions options;
   options.step = GetParam().step;
   World world(options, stone());
   add_floor(world);
-  world.add_static(shared(contact::box({0.01, 60, 60})), at(5.01, 0, 60), 0);  // its face at x = 5
+  world.add_static(shared(box({0.01, 60, 60})), at(5.01, 0, 60), 0);  // its face at x = 5
   const auto body = rock_body(GetParam().shape, 0.4);
   world.add_rock(body, at(0, 0, 1.5), {GetParam().speed, 0, 0}, {3, 20, 5});
   const double start = energy(world), slack = 1e-3 * start;
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, Thrown,
 TEST(ThrownRock, IsCaughtByAPile) {
   World world({}, stone());
   add_floor(world);
-  world.add_static(shared(contact::box({0.01, 60, 60})), at(5.01, 0, 60), 0);
+  world.add_static(shared(box({0.01, 60, 60})), at(5.01, 0, 60), 0);
   CounterRandom turns(3);
   for (int k = 0; k < 24; ++k) {
     Eigen::Isometry3d pose(turns.rotation());
@@ -97,7 +97,7 @@ TEST(ThrownRock, IsCaughtByAPile) {
     world.step();
     expect_finite(world);
     ASSERT_LT(energy(world), start * (1 + 1e-3)) << "at t = " << world.time();
-    for (const contact::Rock& rock : world.rocks()) ASSERT_LT(rock.pose.translation().x(), 5) << world.time();
+    for (const Rock& rock : world.rocks()) ASSERT_LT(rock.pose.translation().x(), 5) << world.time();
   }
 }
 
@@ -109,7 +109,7 @@ TEST(ThrownRock, IsCaughtByAPile) {
 // substep may overshoot where a manifold's points work against each other: 5 %.
 TEST(OverlappingRocks, PartWithBoundedSpeed) {
   for (int shape = 0; shape < 6; ++shape) {
-    contact::WorldOptions options;
+    WorldOptions options;
     options.gravity.setZero();
     World world(options, stone());
     const auto body = rock_body(shape, 0.4);
@@ -149,9 +149,9 @@ TEST_P(Squeezed, StaysBounded) {
   machine::Machine blade(blade_on_a_slider(GetParam()));
   World world({}, stone());
   add_floor(world);
-  world.add_static(shared(contact::box({0.2, 3, 3})), at(0.7, 0, 3), 0);  // its face at x = 0.5
+  world.add_static(shared(box({0.2, 3, 3})), at(0.7, 0, 3), 0);  // its face at x = 0.5
   world.attach(&blade);
-  world.add_part_shape(0, shared(contact::box({0.05, 1.4, 0.4})), at(0, 0, 0), 0);
+  world.add_part_shape(0, shared(box({0.05, 1.4, 0.4})), at(0, 0, 0), 0);
   world.add_rock(rock_body(1, 0.5), at(0, 0, 0.3));
   blade.set_motor(0, 0.6);
   for (int k = 0; k < 500; ++k) {
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Forces, Squeezed, testing::Values(20e3, 1e9));
 
 TEST(Crowd, NoRocksAtAll) {
   World world({}, stone());
-  const contact::StepReport report = world.step();
+  const StepReport report = world.step();
   EXPECT_EQ(report.points, 0);
   EXPECT_EQ(report.max_overlap, 0);
   EXPECT_EQ(world.kinetic_energy(), 0);
@@ -185,7 +185,7 @@ TEST(Crowd, OfTwentyThousand) {
   World world({}, stone());
   add_floor(world);
   CounterRandom turns(5);
-  const std::array<contact::RockBody, 6> bodies{rock_body(0, 0.3), rock_body(1, 0.3), rock_body(2, 0.3),
+  const std::array<RockBody, 6> bodies{rock_body(0, 0.3), rock_body(1, 0.3), rock_body(2, 0.3),
                                                 rock_body(3, 0.3), rock_body(4, 0.3), rock_body(5, 0.3)};
   for (int k = 0; k < 20000; ++k) {
     Eigen::Isometry3d pose(turns.rotation());

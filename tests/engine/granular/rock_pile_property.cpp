@@ -46,7 +46,7 @@ TEST(RockPile, KeepsTheMassSharesOfTheSizes) {
 
 TEST(RockPile, HullsAreCentredOnTheirMassWithPrincipalAxes) {
   for (const PileHull& hull : rock_pile(300).hulls) {
-    const auto properties = engine::contact::mass_properties(hull.hull, RockPile::density);
+    const auto properties = engine::mass_properties(hull.hull, RockPile::density);
     const double length = hull.hull.length();
     EXPECT_NEAR(properties.mass, hull.mass, 1e-9 * hull.mass);
     EXPECT_LT(properties.centre.norm(), 1e-9 * length);

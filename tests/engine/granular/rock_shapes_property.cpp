@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/contact/mass_properties.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 
-using drawpoint::engine::contact::ConvexPolyhedron;
-using drawpoint::engine::contact::mass_properties;
+using drawpoint::engine::ConvexPolyhedron;
+using drawpoint::engine::mass_properties;
 using drawpoint::engine::granular::rock_shapes;
 
 TEST(RockShapes, StandInTheirPrincipalFrameWithUnitLength) {

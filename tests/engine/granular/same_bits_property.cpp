@@ -4,7 +4,7 @@
 // mid-run. The scene is a heap under a moving blade, so that contacts form, slide and part in every step.
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/contact/world_state.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/blade_pile.hpp>
 
 using namespace drawpoint::engine;
@@ -14,8 +14,8 @@ namespace {
 
 constexpr int rocks = 60, half = 150;
 
-contact::WorldOptions options(int threads = 1, contact::Method method = contact::Method::sequential) {
-  contact::WorldOptions o;
+WorldOptions options(int threads = 1, Method method = Method::sequential) {
+  WorldOptions o;
   o.solver.method = method;
   o.solver.threads = o.contacts.threads = threads;
   return o;
@@ -23,10 +23,10 @@ contact::WorldOptions options(int threads = 1, contact::Method method = contact:
 
 std::uint64_t hash_after(BladePile& pile, int steps) {
   pile.run(steps);
-  return contact::state_hash(pile.world());
+  return state_hash(pile.world());
 }
 
-class SameBits : public testing::TestWithParam<contact::Method> {};
+class SameBits : public testing::TestWithParam<Method> {};
 
 TEST_P(SameBits, TwiceInARowAndOnAnyNumberOfThreads) {
   BladePile first(rocks, options(1, GetParam()));
@@ -45,13 +45,13 @@ TEST_P(SameBits, AcrossSaveAndRestore) {
   original.world().remove_rock(5);
   original.run(half / 2);
   const std::vector<std::byte> saved = original.world().save();
-  const std::uint64_t middle = contact::state_hash(original.world());
+  const std::uint64_t middle = state_hash(original.world());
   const std::uint64_t end = hash_after(original, half);
   EXPECT_NE(middle, end);
 
   BladePile fresh(rocks, options(2, GetParam()));
   fresh.world().restore(saved);
-  EXPECT_EQ(contact::state_hash(fresh.world()), middle);
+  EXPECT_EQ(state_hash(fresh.world()), middle);
   EXPECT_EQ(fresh.world().save(), saved);
   EXPECT_EQ(hash_after(fresh, half), end);
 
@@ -76,24 +76,24 @@ TEST_P(SameBits, AcrossSaveAndRestoreWithChangesPending) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, SameBits,
-                         testing::Values(contact::Method::sequential, contact::Method::coloured),
-                         [](const auto& info) { return std::string(contact::to_string(info.param)); });
+                         testing::Values(Method::sequential, Method::coloured),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
 
 // The hash must see any single bit of any rock.
 TEST(StateHash, SeesOneBit) {
   BladePile a(3, options()), b(3, options());
-  EXPECT_EQ(contact::state_hash(a.world()), contact::state_hash(b.world()));
+  EXPECT_EQ(state_hash(a.world()), state_hash(b.world()));
   b.world().set_rock_velocity(2, {0, 0, -0.0}, {0, 0, 0});
-  EXPECT_NE(contact::state_hash(a.world()), contact::state_hash(b.world()));
+  EXPECT_NE(state_hash(a.world()), state_hash(b.world()));
 }
 
 std::string refusal(BladePile& pile, const std::vector<std::byte>& state) {
-  const std::uint64_t before = contact::state_hash(pile.world());
+  const std::uint64_t before = state_hash(pile.world());
   const std::vector<std::byte> all = pile.world().save();
   try {
     pile.world().restore(state);
   } catch (const std::runtime_error& error) {
-    EXPECT_EQ(contact::state_hash(pile.world()), before);
+    EXPECT_EQ(state_hash(pile.world()), before);
     EXPECT_EQ(pile.world().save(), all);
     return error.what();
   }
@@ -106,10 +106,10 @@ TEST(Restore, RefusesAnotherScene) {
   const std::vector<std::byte> saved = original.world().save();
   const auto told = [&](BladePile& pile) { return refusal(pile, saved); };
 
-  contact::WorldOptions finer = options();
+  WorldOptions finer = options();
   finer.step = 0.004;
   BladePile other_options(10, finer), more_rocks(11, options()), another_wall(10, options());
-  another_wall.world().add_static(drawpoint::support::shared(contact::box({1, 1, 1})),
+  another_wall.world().add_static(drawpoint::support::shared(box({1, 1, 1})),
                                   drawpoint::support::at(0, 0, 9), 0);
   EXPECT_NE(told(other_options).find("other options"), std::string::npos) << told(other_options);
   EXPECT_NE(told(more_rocks).find("other rocks"), std::string::npos) << told(more_rocks);
@@ -137,9 +137,9 @@ TEST(Restore, SurvivesCutAndFlippedBytes) {
     ++taken;
     try {
       world.run(2);
-    } catch (const contact::SolutionBroken&) {
+    } catch (const SolutionBroken&) {
     }
-    for (const contact::Rock& rock : world.world().rocks()) EXPECT_TRUE(rock.velocity.allFinite()) << at;
+    for (const Rock& rock : world.world().rocks()) EXPECT_TRUE(rock.velocity.allFinite()) << at;
   }
   EXPECT_GT(taken, 100);
 }

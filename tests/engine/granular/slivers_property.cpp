@@ -4,34 +4,34 @@
 // is refused.
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/contact/mass_properties.hpp>
-#include <drawpoint/engine/random.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::support;
-using contact::World;
+using World;
 
 namespace {
 
 double energy(const World& world) {
   double sum = world.kinetic_energy();
-  for (const contact::Rock& rock : world.rocks()) sum += rock.body.mass * 9.81 * rock.pose.translation().z();
+  for (const Rock& rock : world.rocks()) sum += rock.body.mass * 9.81 * rock.pose.translation().z();
   return sum;
 }
 
 void expect_finite(const World& world) {
-  for (const contact::Rock& rock : world.rocks()) {
+  for (const Rock& rock : world.rocks()) {
     ASSERT_TRUE(rock.pose.matrix().allFinite());
     ASSERT_TRUE(rock.velocity.allFinite() && rock.angular_velocity.allFinite());
   }
 }
 
-contact::MaterialTable stone() { return one_material({.friction = 0.6, .rolling = 0.05, .stiffness = 1e8}); }
+MaterialTable stone() { return one_material({.friction = 0.6, .rolling = 0.05, .stiffness = 1e8}); }
 
 /// A body of a shape moved to its centre of mass and principal axes.
-contact::RockBody body_of(const contact::ConvexPolyhedron& shape) {
-  const auto properties = contact::mass_properties(shape, 2500);
+RockBody body_of(const ConvexPolyhedron& shape) {
+  const auto properties = mass_properties(shape, 2500);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(properties.inertia);
   Eigen::Matrix3d axes = eigen.eigenvectors();
   if (axes.determinant() < 0) axes.col(0) *= -1;
@@ -40,11 +40,11 @@ contact::RockBody body_of(const contact::ConvexPolyhedron& shape) {
   return {shared(shape.transformed(X)), properties.mass, eigen.eigenvalues(), 0};
 }
 
-std::vector<contact::RockBody> slivers() {
+std::vector<RockBody> slivers() {
   const std::vector<Vector3d> sliver{{0, 0, 0}, {0.4, 0, 0}, {0.2, 0.3, 0}, {0.2, 0.1, 1e-3}};
-  return {body_of(contact::box({0.3, 0.3, 5e-5})), body_of(contact::box({0.4, 1e-3, 1e-3})),
-          body_of(contact::prism(0.3, 1e-4, 24)), body_of(contact::ConvexPolyhedron::hull_of(sliver)),
-          body_of(contact::box({0.4, 1e-4, 1e-4}))};
+  return {body_of(box({0.3, 0.3, 5e-5})), body_of(box({0.4, 1e-3, 1e-3})),
+          body_of(prism(0.3, 1e-4, 24)), body_of(ConvexPolyhedron::hull_of(sliver)),
+          body_of(box({0.4, 1e-4, 1e-4}))};
 }
 
 // Sheets, needles and slivers, as thin as 2e-4 of their width or 1/4000 of their length, in free flight at 3
@@ -52,9 +52,9 @@ std::vector<contact::RockBody> slivers() {
 // into are exact for a body with two equal moments; for the sliver the swing is below (hω)²/8, and ω·h is
 // 0.03 to 0.6. A direction of L that is off by ε would cost a needle ε² 1e7 of its energy.
 TEST(Slivers, TurnFreelyWithoutGain) {
-  for (const contact::RockBody& body : slivers())
+  for (const RockBody& body : slivers())
     for (const double rate : {3.0, 20.0, 60.0}) {
-      contact::WorldOptions options;
+      WorldOptions options;
       options.gravity.setZero();
       World world(options, stone());
       world.add_rock(body, at(0, 0, 0), {0, 0, 0}, rate * Vector3d(0.02, 1, 0.3).normalized());
@@ -70,7 +70,7 @@ TEST(Slivers, TurnFreelyWithoutGain) {
 // came with (contacts with e = 0 take; 1e-3 of it for gravity's discretisation), all lie still or roll
 // slowly.
 TEST(Slivers, FallWithoutGain) {
-  for (const contact::RockBody& body : slivers()) {
+  for (const RockBody& body : slivers()) {
     World world({}, stone());
     add_floor(world);
     world.add_rock(body, at(0, 0, 0.5), {0, 0, 0}, {3, 20, 5});
@@ -87,7 +87,7 @@ TEST(Slivers, FallWithoutGain) {
 
 // Many in a heap: they stay finite and above the floor by their centres.
 TEST(Slivers, HeapUpAndStayBounded) {
-  const std::vector<contact::RockBody> bodies = slivers();
+  const std::vector<RockBody> bodies = slivers();
   World world({}, stone());
   add_floor(world);
   CounterRandom turns(11);
@@ -100,7 +100,7 @@ TEST(Slivers, HeapUpAndStayBounded) {
     world.step();
     expect_finite(world);
   }
-  for (const contact::Rock& rock : world.rocks()) EXPECT_GT(rock.pose.translation().z(), -0.01);
+  for (const Rock& rock : world.rocks()) EXPECT_GT(rock.pose.translation().z(), -0.01);
 }
 
 TEST(Slivers, WithoutVolumeAreRefused) {
@@ -116,7 +116,7 @@ TEST(Slivers, WithoutVolumeAreRefused) {
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::infinity()}}};
   for (const auto& points : none) {
     try {
-      contact::ConvexPolyhedron::hull_of(points);
+      ConvexPolyhedron::hull_of(points);
       ADD_FAILURE() << points.size() << " points without volume were taken";
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find("give at least four finite points"), std::string::npos);

@@ -12,7 +12,7 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-using contact::ConvexPolyhedron;
+using engine::ConvexPolyhedron;
 using Eigen::Vector3d;
 
 Eigen::Isometry3d at(double x, double y, double z) {
@@ -33,7 +33,7 @@ TEST(ColumnModel, IndicesAndCentres) {
 }
 
 TEST(ColumnModel, HeightsOfABox) {
-  const ConvexPolyhedron box = contact::box({0.5, 0.5, 0.5});
+  const ConvexPolyhedron box = engine::box({0.5, 0.5, 0.5});
   const PosedRock rock{&box, at(5, 0, 0.5), 100};
   const ColumnModel model = column_model(std::span(&rock, 1), small, narrow);
   for (int i = 0; i < small.nx(); ++i)
@@ -49,7 +49,7 @@ TEST(ColumnModel, HeightsOfABox) {
 // A box turned by 30 deg about y: over a centre x, its top is the upper one of two planes.
 TEST(ColumnModel, HeightsOfATurnedBox) {
   const double turn = std::numbers::pi / 6, c = std::cos(turn), s = std::sin(turn);
-  const ConvexPolyhedron box = contact::box({0.8, 0.6, 0.3});
+  const ConvexPolyhedron box = engine::box({0.8, 0.6, 0.3});
   PosedRock rock{&box, at(5.03, 0.01, 2), 100};
   rock.pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitY()));
   const ColumnModel model = column_model(std::span(&rock, 1), small, narrow);
@@ -68,7 +68,7 @@ TEST(ColumnModel, HeightsOfATurnedBox) {
 
 // Columns that only a vertex reaches get the vertex.
 TEST(ColumnModel, VerticesCountWhereNoCentreIsCovered) {
-  const ConvexPolyhedron pebble = contact::box({0.05, 0.05, 0.05});
+  const ConvexPolyhedron pebble = engine::box({0.05, 0.05, 0.05});
   const PosedRock rock{&pebble, at(5.06, 0.06, 0.05), 1};
   const ColumnModel model = column_model(std::span(&rock, 1), small, narrow);
   EXPECT_NEAR(model.heights(20, 8), 0.1, 1e-15);
@@ -138,7 +138,7 @@ TEST(ColumnModel, ChordOfAPlane) {
 }
 
 TEST(ColumnModel, RocksOnTheFloorAreNotThePile) {
-  const ConvexPolyhedron block = contact::box({1.0, 2.0, 0.5}), stray = contact::box({0.4, 0.2, 0.2});
+  const ConvexPolyhedron block = engine::box({1.0, 2.0, 0.5}), stray = engine::box({0.4, 0.2, 0.2});
   const std::vector<PosedRock> rocks{{&block, at(9, 0, 0.5), 18000},
                                      {&stray, at(4, 0, 0.2), 500},
                                      {&stray, at(6, -1, 0.2), 300},

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
 #include <numeric>
@@ -23,13 +23,13 @@ struct Yard {
         machine(lhd.spec),
         world({}, material_table(calibrated_materials())),
         driver(lhd, machine) {
-    world.add_static(std::make_shared<const contact::Shape>(contact::HalfSpace{Vector3d::UnitZ(), 0}),
+    world.add_static(std::make_shared<const Shape>(HalfSpace{Vector3d::UnitZ(), 0}),
                      Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
     driver.place(0, 0);
     world.attach(&machine);
     for (const LhdSurface& s : lhd.surfaces)
       if (s.touches)
-        world.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
+        world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape),
                              Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   }
   /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce
@@ -52,7 +52,7 @@ struct Yard {
   }
   Lhd lhd;
   machine::Machine machine;
-  contact::World world;
+  World world;
   LhdDriver driver;
 };
 

@@ -44,7 +44,7 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
   EXPECT_LE(cycle.loaded_mass + cycle.spilled_mass, log.numbers.at("pile_mass"));
   EXPECT_GT(log.numbers.at("most_contact_points"), 0);
   EXPECT_EQ(log.numbers.at("most_sweeps_a_substep"),
-            contact::most_sweeps(small_case().world.solver, log.numbers.at("most_contact_points")));
+            most_sweeps(small_case().world.solver, log.numbers.at("most_contact_points")));
   EXPECT_EQ(cycle.stages.size(), 4u);
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
 }

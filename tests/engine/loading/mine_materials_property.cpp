@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/contact/world.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
 
 using namespace drawpoint::engine;
@@ -17,7 +17,7 @@ constexpr int rock = static_cast<int>(SurfaceKind::rock), terrain = static_cast<
 
 // The tables of the source, pair by pair: rolling resistance, friction.
 TEST(MineMaterials, Lindmark2016HasTheTablesOfTheSource) {
-  const contact::MaterialTable table = material_table(materials_named("lindmark2016"));
+  const MaterialTable table = material_table(materials_named("lindmark2016"));
   struct Row {
     int a, b;
     double rolling, friction;
@@ -66,5 +66,5 @@ TEST(MineMaterials, AnUnknownNameIsRefusedWithTheNamesThereAre) {
 TEST(MineMaterials, AWorldChecksTheCoefficients) {
   MineMaterials materials = calibrated_materials();
   materials.rock_steel.friction = -1;
-  EXPECT_THROW(contact::World({}, material_table(materials)), std::invalid_argument);
+  EXPECT_THROW(World({}, material_table(materials)), std::invalid_argument);
 }

@@ -72,7 +72,7 @@ LoadingLog example_log() {
     log.signals.append_row(
         std::vector<double>{0.01 * k, k < 3000 ? 1.0 : 2.0, torque(bits), torque(bits), torque(bits)});
   log.cycles = {example_cycle(bits, 0), example_cycle(bits, 1)};
-  log.scene.shapes = {contact::box({1, 2, 3}), contact::prism(1, 0.5, 8)};
+  log.scene.shapes = {engine::box({1, 2, 3}), engine::prism(1, 0.5, 8)};
   log.scene.bodies = {{0, "#e0b040", 1.0, "boom"}, {1, "#303030", 0.5, "front left wheel"}};
   for (int k = 0; k < 3; ++k) {
     SceneFrame frame{0.5 * k, 1, "lift", std::vector<float>(14, 0.25f * static_cast<float>(k))};

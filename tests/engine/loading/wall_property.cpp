@@ -20,19 +20,19 @@ namespace {
 TEST(Wall, StopsTheLoaderAtFullForce) {
   Lhd lhd = sandvik_lh621({});
   machine::Machine machine(lhd.spec);
-  contact::World world({}, material_table(calibrated_materials()));
+  World world({}, material_table(calibrated_materials()));
   LhdDriver driver(lhd, machine);
   const auto terrain = static_cast<int>(SurfaceKind::terrain);
-  world.add_static(std::make_shared<const contact::Shape>(contact::HalfSpace{Vector3d::UnitZ(), 0}),
+  world.add_static(std::make_shared<const Shape>(HalfSpace{Vector3d::UnitZ(), 0}),
                    Eigen::Isometry3d::Identity(), terrain);
   driver.place(0, 0);
   const double face = lhd.K.x() + 1.0;
-  world.add_static(std::make_shared<const contact::Shape>(contact::box({0.05, 5, 5})),
+  world.add_static(std::make_shared<const Shape>(box({0.05, 5, 5})),
                    Eigen::Isometry3d(Eigen::Translation3d(face + 0.05, 0, 0)), terrain);
   world.attach(&machine);
   for (const LhdSurface& s : lhd.surfaces)
     if (s.touches)
-      world.add_part_shape(s.body, std::make_shared<const contact::Shape>(s.shape),
+      world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape),
                            Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
   const auto stand = [&](double seconds) {
     for (double t = 0; t < seconds; t += world.options().step) world.step();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/machine/constrained_response.hpp>
+#include <drawpoint/engine/machine/constrained_response.h>
 #include <random>
 
 using drawpoint::engine::machine::constrained_response;

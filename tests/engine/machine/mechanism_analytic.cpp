@@ -98,9 +98,9 @@ TEST(FourBar, LoopPinAndGroundHingesCarryTheStaticLoad) {
   const double h = 1e-3, g = 9.81;
   const auto& super = machine.linearise(h, gravity);
   ASSERT_EQ(super.velocity.size(), 1);
-  engine::contact::SuperBodySolution solution;
+  engine::SuperBodySolution solution;
   solution.velocity = solution.mean_velocity = Eigen::VectorXd::Zero(1);  // at rest, held by the moment below
-  solution.part_impulses.assign(3, engine::contact::SpatialVector::Zero());
+  solution.part_impulses.assign(3, engine::SpatialVector::Zero());
   solution.part_impulses[0].head<3>() = Eigen::Vector3d(0, -2 * g * std::sin(M_PI / 6) * h, 0);
   machine.advance(solution);
   const double tolerance = 1e-8 * g;

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <drawpoint/engine/contact/solver.hpp>
+#include <drawpoint/engine/solver/solver.hpp>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
@@ -14,7 +14,7 @@
 #include <functional>
 
 using namespace drawpoint;
-using namespace drawpoint::engine::contact;
+using namespace drawpoint::engine;
 using engine::record::read_contact_problem;
 using engine::record::RecordedProblem;
 using engine::record::write_contact_problem;

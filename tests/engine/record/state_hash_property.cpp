@@ -21,7 +21,7 @@ std::filesystem::path scratch() {
 /// Hashes after each hundred steps; `restart_at`: after that many hundreds through a snapshot file, -1:
 /// never.
 std::vector<std::uint64_t> hashes(int threads, bool freezing, int restart_at = -1) {
-  engine::contact::WorldOptions options;
+  engine::WorldOptions options;
   options.solver.threads = options.contacts.threads = threads;
   options.freezing.on = freezing;
   support::DugPile pile(rocks, options);

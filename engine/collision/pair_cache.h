@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <drawpoint/engine/collision/broad_phase.h>
+#include <drawpoint/engine/geometry/convex_contact.h>
+#include <limits>
+#include <map>
+#include <vector>
+
+/// The pairs that may touch, in order, each with what is remembered of it. A short entry says until when
+/// nothing has to be asked and whether there is a contact; only pairs that touch or have moved look at their
+/// state: the contact, and where the shapes stood against each other when it was computed. Memory is reused,
+/// not returned.
+///
+/// Pairs of two colliders that have stopped moving are parked: no step touches them, and they come back as
+/// they were once one of the two moves. A contact computed anew has other points and gaps, within the
+/// tolerance of its reuse, and a pile that stands on the old ones would be kicked.
+namespace drawpoint::engine::detail {
+
+struct PairState {
+  ConvexContact contact;
+  double margin = 0;                                 ///< that the contact was searched with [m]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the smaller shape, in the frame of the larger
+  Eigen::Matrix3d orientation =
+      Eigen::Matrix3d::Zero();  ///< of the smaller shape, in the frame of the larger
+};
+
+struct PairEntry {
+  static constexpr double at_once = -std::numeric_limits<double>::infinity();
+
+  int a, b;  ///< a < b
+  int slot;
+  int count = 0;           ///< points of the contact
+  double limit = at_once;  ///< sum of both odometers up to which what is remembered holds [m]
+};
+
+class PairCache {
+ public:
+  using Parked = std::map<BroadPhase::Pair, PairEntry>;
+
+  std::vector<PairEntry>& entries() { return entries_; }
+  const std::vector<PairEntry>& entries() const { return entries_; }
+  PairState& state(const PairEntry& entry) { return states_[static_cast<std::size_t>(entry.slot)]; }
+  const PairState& state(const PairEntry& entry) const {
+    return states_[static_cast<std::size_t>(entry.slot)];
+  }
+
+  const Parked& parked() const { return parked_; }
+
+  /// Takes over the changes; `allowed(a, b)` says which pairs count, `stands(a, b)` which of the others are
+  /// parked.
+  template <class Allowed, class Stands>
+  void update(const BroadPhase& boxes, const BroadPhase::Changes& changes, const Allowed& allowed,
+              const Stands& stands) {
+    merged_.clear();
+    auto found = changes.pairs.begin();
+    const auto add_until = [&](BroadPhase::Pair end) {
+      for (; found != changes.pairs.end() && *found < end; ++found)
+        if (allowed(found->first, found->second)) merged_.push_back(entry_of(*found));
+    };
+    for (const PairEntry& entry : entries_) {
+      add_until({entry.a, entry.b});
+      const bool again = found != changes.pairs.end() && *found == BroadPhase::Pair{entry.a, entry.b};
+      if (again) ++found;
+      if (again || !(changes.everything || boxes.changed(entry.a) || boxes.changed(entry.b)))
+        merged_.push_back(entry);
+      else if (stands(entry.a, entry.b))
+        parked_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry);
+      else
+        free_.push_back(entry.slot);
+    }
+    add_until({std::numeric_limits<int>::max(), 0});
+    entries_.swap(merged_);
+  }
+
+  void forget() {
+    for (PairEntry& entry : entries_) forget(entry);
+    for (auto& [pair, entry] : parked_) forget(entry);
+  }
+  /// The pairs of one collider only.
+  void forget(int id) {
+    for (PairEntry& entry : entries_)
+      if (entry.a == id || entry.b == id) forget(entry);
+  }
+  /// Drops the parked pairs of a collider that is taken away.
+  void remove(int id) {
+    for (auto place = parked_.begin(); place != parked_.end();) {
+      const bool mine = place->first.first == id || place->first.second == id;
+      if (mine) free_.push_back(place->second.slot);
+      place = mine ? parked_.erase(place) : std::next(place);
+    }
+  }
+
+  /// Replaces all pairs by these; states are those of the entries, then of the parked ones. Slots are given
+  /// anew.
+  void assign(const std::vector<PairEntry>& entries, const std::vector<PairEntry>& parked,
+              const std::vector<PairState>& states) {
+    entries_ = entries;
+    states_ = states;
+    free_.clear();
+    parked_.clear();
+    int slot = 0;
+    for (PairEntry& entry : entries_) entry.slot = slot++;
+    for (const PairEntry& entry : parked)
+      parked_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry).first->second.slot = slot++;
+  }
+
+ private:
+  void forget(PairEntry& entry) {
+    state(entry) = PairState{};
+    entry.count = 0;
+    entry.limit = PairEntry::at_once;
+  }
+
+  PairEntry entry_of(const BroadPhase::Pair& pair) {
+    const auto known = parked_.find(pair);
+    if (known == parked_.end()) return {pair.first, pair.second, new_slot()};
+    const PairEntry entry = known->second;
+    parked_.erase(known);
+    return entry;
+  }
+
+  int new_slot() {
+    if (free_.empty()) {
+      states_.emplace_back();
+      return static_cast<int>(states_.size()) - 1;
+    }
+    const int slot = free_.back();
+    free_.pop_back();
+    states_[static_cast<std::size_t>(slot)] = PairState{};
+    return slot;
+  }
+
+  std::vector<PairEntry> entries_, merged_;
+  Parked parked_;
+  std::vector<PairState> states_;
+  std::vector<int> free_;
+};
+
+}  // namespace drawpoint::engine::detail

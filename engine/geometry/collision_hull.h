@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <drawpoint/engine/geometry/convex_polyhedron.hpp>
+#include <span>
+#include <vector>
+
+/// A convex polyhedron laid out for collision: coordinates and planes as arrays for vectorised sweeps, edges
+/// with their two faces, and the planes that stand on the sides of each face. Built once a shape, read only
+/// afterwards. Shape's frame, metres.
+namespace drawpoint::engine::detail {
+
+/// Runs from start to end with the face `left` on its left, seen from outside.
+struct HullEdge {
+  int start, end, left, right;
+  Eigen::Vector3d along;  ///< end - start
+  Eigen::Vector3d beyond_left,
+      beyond_right;  ///< unit, in the plane of the face and out of it across the edge
+};
+
+/// A corner of a face, and the plane that stands on the side from it to the next corner.
+struct HullCorner {
+  int vertex;
+  Eigen::Vector3d outward;  ///< unit, in the plane of the face
+  double reach;             ///< outward·x <= reach in the face's prism
+};
+
+struct CollisionHull {
+  explicit CollisionHull(const ConvexPolyhedron& shape);
+
+  int vertex_count() const { return static_cast<int>(vertices.size()); }
+  int face_count() const { return static_cast<int>(normals.size()); }
+  /// Counter-clockwise seen from outside.
+  std::span<const HullCorner> corners(int face) const {
+    return std::span(corners_).subspan(face_begin_[face], face_begin_[face + 1] - face_begin_[face]);
+  }
+  std::span<const int> faces_around(int vertex) const {
+    return std::span(around_).subspan(around_begin_[vertex],
+                                      around_begin_[vertex + 1] - around_begin_[vertex]);
+  }
+  std::span<const int> edges_of(int face) const {
+    return std::span(face_edges_).subspan(face_begin_[face], face_begin_[face + 1] - face_begin_[face]);
+  }
+
+  std::vector<Eigen::Vector3d> vertices, normals, middles;  ///< middle: mean of a face's vertices
+  std::vector<double> offsets;                              ///< face plane: normal·x = offset
+  std::vector<HullEdge> edges;
+  Eigen::ArrayXd x, y, z;         ///< vertices, padded to a multiple of four by repeating the last
+  Eigen::ArrayXd nx, ny, nz, no;  ///< face planes, padded to a multiple of four by planes infinitely far out
+  Eigen::Vector3d centre;         ///< mean of the vertices
+  double radius;                  ///< of the sphere about the centre
+  double equivalent_radius;       ///< of the sphere of the same volume
+
+ private:
+  void index(const std::vector<std::vector<int>>& faces);
+  void lay_out();
+
+  std::vector<HullCorner> corners_;
+  std::vector<int> face_edges_, around_, face_begin_, around_begin_;
+};
+
+}  // namespace drawpoint::engine::detail

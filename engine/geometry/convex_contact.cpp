@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/geometry/convex_contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/geometry/hull_extremes.h>
+#include <drawpoint/engine/geometry/segments.h>
+#include <limits>
+
+namespace drawpoint::engine::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double coincident = 1e-9;  // [m] nearer points than this give no direction
+constexpr std::uint32_t edge_group = 0x7f, nearest_group = 0xff;
+
+// Of the faces around a vertex, the one that faces the direction n most (its normal along -n).
+int facing(const CollisionHull& hull, int vertex, const Vector3d& n) {
+  int best = -1;
+  double least = 2;
+  for (int f : hull.faces_around(vertex))
+    if (const double d = hull.normals[f].dot(n); d < least) best = f, least = d;
+  return best;
+}
+
+void add_anchors(const Vector3d& on_a, const Vector3d& on_b, std::uint32_t feature, ConvexContact& contact) {
+  contact.points[static_cast<std::size_t>(contact.count++)] = {on_a, on_b, feature};
+}
+
+// Of the points, before the normal goes to its owner.
+double least_gap(const HullPair& pair, const ConvexContact& contact) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < contact.count; ++k) {
+    const Anchors& point = contact.points[static_cast<std::size_t>(k)];
+    least = std::min(least, contact.normal.dot(pair.X_AB * point.on_b - point.on_a));
+  }
+  return least;
+}
+
+// Overlapping, but by round-off no polygon is left to clip or the edges pass each other: the deepest vertex
+// alone.
+void support_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) {
+  const int vertex = lowest(pair.b, pair.X_AB.linear().transpose() * axis.normal).vertex;
+  const Vector3d other = pair.vertex_b(vertex) - axis.separation * axis.normal;
+  add_anchors(other, pair.b.vertices[vertex], feature_number(0, vertex, vertex_mark), contact);
+}
+
+}  // namespace
+
+// With the polygon of face `other` of the shape whose face is not the axis.
+void ConvexContactSearch::clip_against(const HullPair& pair, const Axis& axis, int other, double margin,
+                                       ConvexContact& contact) {
+  const bool on_a = axis.feature.kind == FeatureKind::face_a;
+  const int face = on_a ? axis.feature.a : axis.feature.b;
+  const std::uint32_t group = (on_a ? 0u : 0x80u) | (static_cast<std::uint32_t>(face) % 0x7f);
+  contact.count = 0;
+  clipper_.clear();
+  if (on_a) {
+    for (const HullCorner& c : pair.b.corners(other))
+      clipper_.add_incident(pair.vertex_b(c.vertex), c.vertex, group);
+    for (const ClipPoint& p : clipper_.clip(pair.a, face, margin, group))
+      add_anchors(p.position - p.gap * axis.normal, pair.in_b(p.position), p.feature, contact);
+  } else {
+    for (const HullCorner& c : pair.a.corners(other))
+      clipper_.add_incident(pair.in_b(pair.a.vertices[c.vertex]), c.vertex, group);
+    for (const ClipPoint& p : clipper_.clip(pair.b, face, margin, group))
+      add_anchors(pair.X_AB * p.position, p.position - p.gap * pair.b.normals[face], p.feature, contact);
+  }
+}
+
+void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, double margin,
+                                       ConvexContact& contact) {
+  const bool on_a = axis.feature.kind == FeatureKind::face_a;
+  const CollisionHull& incident = on_a ? pair.b : pair.a;
+  const Vector3d n = on_a ? Vector3d(pair.X_AB.linear().transpose() * axis.normal) : Vector3d(-axis.normal);
+  const int other = facing(incident, axis.support, n);
+  clip_against(pair, axis, other, margin, contact);
+  if (axis.separation > 0 || least_gap(pair, contact) <= axis.separation + coincident) return;
+  // An edge or a face parallel to the reference face is lowest, and the lowest vertex lies beside the
+  // reference face: the polygon that goes down deepest is that of another face around the vertex.
+  for (int f : incident.faces_around(axis.support)) {
+    if (f == other) continue;
+    spare_ = contact;
+    clip_against(pair, axis, f, margin, spare_);
+    if (least_gap(pair, spare_) < least_gap(pair, contact)) contact = spare_;
+  }
+}
+
+void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) const {
+  const HullEdge &a = pair.a.edges[axis.feature.a], &b = pair.b.edges[axis.feature.b];
+  const auto [p, q] = nearest_points({pair.a.vertices[a.start], pair.a.vertices[a.end]},
+                                     {pair.vertex_b(b.start), pair.vertex_b(b.end)});
+  // Nearest points at an end of an edge: another direction separates the shapes more.
+  if ((q - p).norm() > std::abs(axis.separation) + coincident) return;
+  add_anchors(p, pair.in_b(q),
+              feature_number(edge_group, axis.feature.a, static_cast<std::uint32_t>(axis.feature.b)),
+              contact);
+}
+
+void ConvexContactSearch::nearest_contact(const HullPair& pair, const Axis& axis, double margin,
+                                          ConvexContact& contact) {
+  AxisSearch::Nearest nearest;
+  if (!axes_.nearest_edges(pair, axis, margin, nearest)) {
+    contact.separation = std::max(contact.separation, margin);
+    return;
+  }
+  if (nearest.distance > coincident) {
+    contact.normal = (nearest.on_b - nearest.on_a) / nearest.distance;
+    contact.normal_of_b = false;
+    contact.separation = nearest.distance;
+  }
+  add_anchors(nearest.on_a, pair.in_b(nearest.on_b),
+              feature_number(nearest_group, nearest.edge_a, static_cast<std::uint32_t>(nearest.edge_b)),
+              contact);
+}
+
+// The contact that goes with an axis, if the features of the axis face each other.
+void ConvexContactSearch::touch(const HullPair& pair, const Axis& axis, double margin,
+                                ConvexContact& contact) {
+  contact.normal = axis.normal;
+  contact.normal_of_b = axis.feature.kind == FeatureKind::face_b;
+  contact.separation = axis.separation;
+  contact.reach = axis.reach;
+  contact.feature = axis.feature;
+  if (axis.separation > margin) return;
+  if (axis.feature.kind == FeatureKind::edges)
+    edge_contact(pair, axis, contact);
+  else
+    face_contact(pair, axis, margin, contact);
+}
+
+void ConvexContactSearch::find(const HullPair& pair, const AxisQuery& query, ConvexContact& contact) {
+  contact.count = 0;
+  Axis axis = axes_.find(pair, query);
+  touch(pair, axis, query.margin, contact);
+  if (contact.count == 0 && axis.separation <= 0 && axis.feature == query.hint) {  // a stale hint
+    axis = axes_.find(pair, {query.margin, 0, {}});
+    touch(pair, axis, query.margin, contact);
+  }
+  if (contact.count > 0 && least_gap(pair, contact) > query.report) {
+    contact.count = 0;  // edges beside the facing polygons may be nearer
+    nearest_contact(pair, axis, query.margin, contact);
+  } else if (contact.count == 0 && axis.separation <= query.margin) {
+    if (axis.separation > -coincident)  // apart, or in one plane side by side
+      nearest_contact(pair, axis, query.margin, contact);
+    else
+      support_contact(pair, axis, contact);
+  }
+  if (contact.count > 0 && contact.normal_of_b)
+    contact.normal = pair.X_AB.linear().transpose() * contact.normal;
+}
+
+}  // namespace drawpoint::engine::detail

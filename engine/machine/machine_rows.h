@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/world/articulated_body.hpp>
+#include <drawpoint/engine/machine/machine_spec.hpp>
+
+/// A machine's own rows in the solve: velocity motors with force limits and joint stops.
+///
+/// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with |λ| ≤ h · max_force, λ the impulse on each.
+/// Stop of k joints: with the distance g left to the nearer end of the stroke (mean over the joints) and the
+/// direction s in which that end pushes, s (J₁ + … + J_k) w⁺ ≥ −k g/h, λ the impulse on each; past the end
+/// (g < 0) it asks for k |g|/5h back, so that an overrun is taken out over some five steps and the load is
+/// not thrown. First order in h.
+namespace drawpoint::engine::machine {
+
+struct StopSide {
+  double gap;   ///< g [rad] or [m], negative past the end
+  double sign;  ///< s: +1 at the lower end, −1 at the upper
+};
+
+StopSide nearer_stop(const StopSpec& stop, double coordinate);
+
+/// `joints`: sum of the rows of N for the motor's or stop's joints; `start`: impulse to start from [N s] or
+/// [N m s].
+engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
+                                double h, double start);
+engine::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
+                               double h, double start);
+
+}  // namespace drawpoint::engine::machine

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/solver/batch/machine_pairs.h>
+#include <drawpoint/engine/solver/batch/pair_batches.h>
+#include <drawpoint/engine/base/thread_pool.h>
+#include <drawpoint/engine/solver/contact_problem.hpp>
+#include <drawpoint/engine/solver/solver_options.hpp>
+#include <drawpoint/engine/solver/solver_report.hpp>
+#include <memory>
+#include <optional>
+
+/// The fast method: sixteen pairs at a time that share no body, zones of the scene on threads, single
+/// precision.
+///
+/// Pairs that touch the machine are swept one after another in double precision before the others
+/// (sweep_order.hpp), on the same velocities. Bodies that touch nothing keep double precision. Velocities and
+/// impulses of the others have 24 bits: a residual below about 1e-6 of the load is round-off, and momentum is
+/// kept to 6e-8 of a body's own a sweep. Positions stay in double precision outside. Cost and figures:
+/// docs/contact-solving.md.
+namespace drawpoint::engine::detail {
+
+class ColouredSolver {
+ public:
+  ColouredSolver(const SolverOptions& options, std::shared_ptr<const Parallel> parallel)
+      : options_(options), parallel_(std::move(parallel)) {}
+
+  SolverReport solve(ContactProblem& problem);
+
+ private:
+  template <class Kernel>
+  void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
+  template <class Kernel>
+  void each_stage(bool forward, const Kernel& kernel);  // for kernels that do
+  int most_parts() const;
+  template <class Work>
+  void each_row(const Work& work);  // of the bodies
+  void run_substep(int number);
+  void start();
+  void extrapolate();
+  void sweep(bool forward, const Sweep& this_sweep);
+  void travel(int row);
+  void store_bodies();
+  void store_body(int index);
+  SolverReport report();
+  float substep() const { return static_cast<float>(problem_->step / options_.substeps); }
+  double change() const { return batches_.change() + machine_change_; }
+  double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
+
+  SolverOptions options_;
+  std::shared_ptr<const Parallel> parallel_;
+  PairBatches batches_;
+  std::vector<BodyRow> travel_;  // by row: ∫ v dt, ∫ ω dt
+  std::vector<char> touched_;    // by body: in a pair
+
+  // During a solve.
+  ContactProblem* problem_ = nullptr;
+  std::optional<MachinePairs> machine_;
+  int threads_ = 1;
+  double machine_change_ = 0;  // of the machine's pairs in the last sweep
+};
+
+}  // namespace drawpoint::engine::detail

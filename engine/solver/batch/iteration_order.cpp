@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <drawpoint/engine/solver/batch/iteration_order.h>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace drawpoint::engine::detail {
+
+namespace {
+
+constexpr int slabs = 256;  // among whose borders those of the zones are chosen
+
+bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
+
+// Sorts by a key of 0 .. keys-1, stably, in linear time; numbers whose key is negative are left out.
+template <class Key>
+std::vector<int> sorted(const std::vector<int>& numbers, int keys, const Key& key) {
+  std::vector<int> starts(keys + 1, 0);
+  for (const int k : numbers)
+    if (key(k) >= 0) ++starts[key(k) + 1];
+  for (int k = 0; k < keys; ++k) starts[k + 1] += starts[k];
+  std::vector<int> result(starts[keys]);
+  for (const int k : numbers)
+    if (key(k) >= 0) result[starts[key(k)]++] = k;
+  return result;
+}
+
+std::vector<int> below(std::size_t count) {
+  std::vector<int> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+// What the order needs to know of a pair, close together: it is gone through several times.
+struct Ends {
+  int a, b, points;
+  bool in_order() const { return a >= 0 && b >= 0 && points > 0; }  // has points, and none of the machine's
+};
+
+std::vector<Ends> ends_of(const ContactProblem& problem) {
+  std::vector<Ends> ends;
+  ends.reserve(problem.pairs.size());
+  for (const ContactPair& pair : problem.pairs) ends.push_back({pair.a, pair.b, pair.count});
+  return ends;
+}
+
+// Where a body is, as its first pair has it, and of how many pairs it is a moving side.
+struct Place {
+  bool fixed;
+  int sides = 0;
+  Eigen::Array3d centre = Eigen::Array3d::Zero();
+};
+
+std::vector<Place> places_of(const ContactProblem& problem, const std::vector<Ends>& ends) {
+  std::vector<Place> places;
+  places.reserve(problem.bodies.size());
+  for (const SolverBody& body : problem.bodies) places.push_back({is_fixed(body)});
+  const auto visit = [&](int body, const ContactPoint& point, const Eigen::Vector3d& arm) {
+    Place& place = places[body];
+    if (!place.fixed && place.sides++ == 0) place.centre = point.position - arm;
+  };
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    if (!ends[k].in_order()) continue;
+    const ContactPoint& point = problem.points[problem.pairs[k].first];
+    visit(ends[k].a, point, point.arm_a);
+    visit(ends[k].b, point, point.arm_b);
+  }
+  return places;
+}
+
+// The slab of each body along the axis of the largest spread. The slabs fill 2.5 standard deviations on
+// either side of the mean, those at the ends hold what is beyond: a stray rock does not widen them.
+std::vector<int> slabs_of(const std::vector<Place>& places) {
+  std::vector<int> result(places.size(), 0);
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
+  double sides = 0;
+  for (const Place& place : places)
+    sum += place.sides * place.centre, squares += place.sides * place.centre.square(), sides += place.sides;
+  if (sides == 0) return result;
+  const Eigen::Array3d mean = sum / sides;
+  int axis = 0;
+  const double variance = (squares / sides - mean.square()).maxCoeff(&axis);
+  if (!(variance > 0)) return result;
+  const double width = 5 * std::sqrt(variance) / slabs, low = mean[axis] - 0.5 * slabs * width;
+  for (std::size_t body = 0; body < places.size(); ++body) {
+    const double slab = (places[body].centre[axis] - low) / width;
+    result[body] = static_cast<int>(std::min(std::max(0.0, slab), slabs - 1.0));  // NaN: 0
+  }
+  return result;
+}
+
+// Which zone each body is in. Zones hold about as many sides of pairs each; their number is a power of two,
+// so that two, four or eight threads have as many each.
+class Zones {
+ public:
+  Zones(std::size_t pairs, const std::vector<Place>& places, const std::vector<int>& slab_of, int least)
+      : slab_of_(slab_of) {
+    count_ = static_cast<int>(std::bit_floor(std::max<std::size_t>(1, pairs / least)));
+    std::vector<double> sides(slabs, 0);
+    for (std::size_t body = 0; body < places.size(); ++body) sides[slab_of[body]] += places[body].sides;
+    double total = 0, passed = 0;
+    for (const double n : sides) total += n;
+    for (int slab = 0; slab < slabs; ++slab) {
+      zone_of_slab_[slab] = std::min(count_ - 1, static_cast<int>(count_ * passed / std::max(total, 1.0)));
+      passed += sides[slab];
+    }
+  }
+
+  int count() const { return count_; }
+  int of(int body) const { return zone_of_slab_[slab_of_[body]]; }
+
+ private:
+  int count_;
+  const std::vector<int>& slab_of_;
+  int zone_of_slab_[slabs];
+};
+
+// The parts in their order: beyond neighbours, borders after even zones, after odd ones, zones.
+class Parts {
+ public:
+  explicit Parts(int zones) : zones_(zones) {}
+
+  int of(int zone, int other) const {
+    const int low = std::min(zone, other), apart = std::abs(zone - other);
+    if (apart == 0) return zones_ + low;
+    if (apart > 1) return 0;
+    return low % 2 == 0 ? 1 + low / 2 : 1 + zones_ / 2 + low / 2;
+  }
+  int count() const { return 2 * zones_; }
+  std::vector<int> last_of_stages() const { return {0, zones_ / 2, zones_ - 1, count() - 1}; }
+
+ private:
+  int zones_;
+};
+
+// Deals pairs to batches: each to the first open batch that none of its moving bodies is in, or to a new one.
+// Full batches are closed.
+class Dealer {
+ public:
+  Dealer(const std::vector<Ends>& ends, const std::vector<Place>& places, int most)
+      : ends_(ends), places_(places), most_(most), open_in_(places.size(), 0) {}
+
+  std::vector<int> sizes;  // of the batches, in the order in which they were opened
+
+  // Returns the batch.
+  int deal(int index) {
+    const Ends& pair = ends_[index];
+    const std::uint64_t room = open_ & ~(batches_of(pair.a) | batches_of(pair.b));
+    if (room == 0 && ~open_ == 0) return put(open_batch());  // alone
+    const int slot = room != 0 ? std::countr_zero(room) : std::countr_one(open_);
+    if (room == 0) batch_in_[slot] = open_batch(), open_ |= bit(slot);
+    const int batch = put(batch_in_[slot]);
+    members_[slot].push_back(index);
+    open_in_[pair.a] |= bit(slot);
+    open_in_[pair.b] |= bit(slot);
+    if (static_cast<int>(members_[slot].size()) == most_) close(slot);
+    return batch;
+  }
+
+  void close_all() {
+    for (int slot = 0; slot < slots; ++slot) close(slot);
+  }
+
+ private:
+  static constexpr int slots = 64;  // for open batches
+  static std::uint64_t bit(int slot) { return std::uint64_t{1} << slot; }
+  std::uint64_t batches_of(int body) const { return places_[body].fixed ? 0 : open_in_[body]; }
+
+  int open_batch() {
+    sizes.push_back(0);
+    return static_cast<int>(sizes.size()) - 1;
+  }
+
+  int put(int batch) {
+    ++sizes[batch];
+    return batch;
+  }
+
+  void close(int slot) {
+    for (const int index : members_[slot]) {
+      open_in_[ends_[index].a] &= ~bit(slot);
+      open_in_[ends_[index].b] &= ~bit(slot);
+    }
+    members_[slot].clear();
+    open_ &= ~bit(slot);
+  }
+
+  const std::vector<Ends>& ends_;
+  const std::vector<Place>& places_;
+  int most_;
+  std::vector<std::uint64_t> open_in_;  // of each body: the slots whose batches it is in
+  std::uint64_t open_ = 0;              // the slots that hold a batch
+  std::vector<int> members_[slots];
+  int batch_in_[slots] = {};
+};
+
+// Twice the part of each pair, and one for pairs with the world; -1 for those that are not in the order.
+std::vector<int> groups_of(const std::vector<Ends>& ends, const std::vector<Place>& places,
+                           const Zones& zones, const Parts& parts) {
+  std::vector<int> result(ends.size(), -1);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const auto& [a, b, points] = ends[k];
+    if (!ends[k].in_order()) continue;
+    const bool fixed_a = places[a].fixed, fixed_b = places[b].fixed;
+    const int part = parts.of(zones.of(fixed_a ? b : a), zones.of(fixed_b ? a : b));
+    result[k] = 2 * part + (fixed_a || fixed_b);
+  }
+  return result;
+}
+
+// The pairs in the order in which they are dealt: group after group, in each by falling number of points.
+std::vector<int> queue_of(const std::vector<Ends>& ends, const std::vector<int>& group_of, int groups) {
+  int most = 0;
+  for (const Ends& pair : ends) most = std::max(most, pair.points);
+  return sorted(below(ends.size()), groups * (most + 1), [&](int k) {
+    return group_of[k] < 0 ? -1 : group_of[k] * (most + 1) + most - ends[k].points;
+  });
+}
+
+// The pairs of a part, batch after batch, and how many each batch has.
+struct DealtPart {
+  std::vector<int> pairs, sizes;
+};
+
+DealtPart deal_part(std::span<const int> queue, const std::vector<int>& group_of, Dealer dealer) {
+  std::vector<int> batch_of(queue.size());
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    if (k > 0 && group_of[queue[k]] != group_of[queue[k - 1]]) dealer.close_all();
+    batch_of[k] = dealer.deal(queue[k]);
+  }
+  DealtPart part;
+  part.sizes = std::move(dealer.sizes);
+  part.pairs =
+      sorted(below(queue.size()), static_cast<int>(part.sizes.size()), [&](int k) { return batch_of[k]; });
+  for (int& place : part.pairs) place = queue[place];
+  return part;
+}
+
+// Parts share nothing: threads deal them side by side.
+std::vector<DealtPart> deal_parts(const std::vector<int>& queue, const std::vector<int>& group_of,
+                                  const Dealer& dealer, int parts, const Parallel& parallel) {
+  const auto first_of = [&](int part) {
+    return std::partition_point(queue.begin(), queue.end(), [&](int k) { return group_of[k] < 2 * part; });
+  };
+  std::vector<DealtPart> dealt(static_cast<std::size_t>(parts));
+  parallel.run(parts, parallel.threads(), [&](int part) {
+    const std::span<const int> own(first_of(part), first_of(part + 1));
+    if (!own.empty()) dealt[part] = deal_part(own, group_of, dealer);
+  });
+  return dealt;
+}
+
+}  // namespace
+
+SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone, const Parallel& parallel) {
+  const std::vector<Ends> ends = ends_of(problem);
+  const std::vector<Place> places = places_of(problem, ends);
+  const std::vector<int> slab_of = slabs_of(places);
+  const Zones zones(std::count_if(ends.begin(), ends.end(), std::mem_fn(&Ends::in_order)), places, slab_of,
+                    least_a_zone);
+  const Parts parts(zones.count());
+  const std::vector<int> group_of = groups_of(ends, places, zones, parts);
+  const std::vector<int> queue = queue_of(ends, group_of, 2 * parts.count());
+
+  SweepOrder order;
+  order.bodies = sorted(below(places.size()), slabs, [&](int body) { return slab_of[body]; });
+  for (const Place& place : places) order.fixed.push_back(place.fixed);
+  order.pairs.reserve(queue.size());
+  order.batches = order.parts = order.stages = {0};
+  int part = 0;
+  const std::vector<int> last_of_stages = parts.last_of_stages();
+  auto last = last_of_stages.begin();
+  for (const DealtPart& dealt : deal_parts(queue, group_of, {ends, places, most}, parts.count(), parallel)) {
+    order.pairs.insert(order.pairs.end(), dealt.pairs.begin(), dealt.pairs.end());
+    for (const int size : dealt.sizes) order.batches.push_back(order.batches.back() + size);
+    if (!dealt.sizes.empty()) order.parts.push_back(static_cast<int>(order.batches.size()) - 1);
+    for (; last != last_of_stages.end() && *last == part; ++last)
+      order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
+    ++part;
+  }
+  return order;
+}
+
+}  // namespace drawpoint::engine::detail

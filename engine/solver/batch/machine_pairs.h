@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/solver/batch/pair_batch.h>
+#include <drawpoint/engine/solver/sequential_iteration.h>
+
+/// The machine's rows and the pairs that touch it, swept in double precision on the velocities of a batch
+/// solve.
+namespace drawpoint::engine::detail {
+
+class MachinePairs {
+ public:
+  /// `row_of`: of each body in the batch solve.
+  MachinePairs(const ContactProblem& problem, const std::vector<int>& row_of, int substeps);
+
+  void refresh(const std::vector<BodyRow>& end);
+  void start(std::vector<BodyRow>& bodies);
+  void extrapolate() { sweeper_.extrapolate(); }
+  void correct(std::vector<BodyRow>& bodies);
+  double sweep(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
+  void finish() { sweeper_.finish(); }
+  double normal_load() const { return sweeper_.normal_load(); }
+  Misfit misfit(const std::vector<BodyRow>& bodies);
+  SuperBodySolution store(ContactProblem& problem);
+
+ private:
+  static ContactProblem part_of_problem(const ContactProblem& problem, const std::vector<int>& row_of,
+                                        std::vector<int>& rows, std::vector<int>& members);
+  void fetch(const std::vector<BodyRow>& bodies);
+  void put_back(std::vector<BodyRow>& bodies) const;
+
+  std::vector<int> rows_, members_;  // body row of each body, pair of each pair of the part
+  ContactProblem part_;
+  SequentialSweeper sweeper_;
+};
+
+}  // namespace drawpoint::engine::detail

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/solver/contact_problem.hpp>
+
+/// The frame (n, t1, t2) of a contact, a function of the normal alone, and what a solve starts from in it.
+namespace drawpoint::engine {
+
+/// Rows n, t1, t2: right-handed, orthonormal.
+inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n) {
+  const Eigen::Vector3d helper = std::abs(n.z()) < 0.7 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d t1 = helper.cross(n).normalized();
+  Eigen::Matrix3d frame;
+  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
+  return frame;
+}
+
+/// The matrix X with X v = r × v.
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
+  Eigen::Matrix3d X;
+  X << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return X;
+}
+
+/// A point's start impulse of one of S substeps in its frame, made admissible.
+inline Eigen::Vector3d start_impulse(const ContactPoint& point, const Eigen::Matrix3d& frame, int substeps) {
+  Eigen::Vector3d impulse = frame * point.start / substeps;
+  impulse[0] = std::max(0.0, impulse[0]);
+  const double slip = impulse.tail<2>().norm(), limit = point.friction * impulse[0];
+  if (slip > limit) impulse.tail<2>() *= limit / slip;
+  return impulse;
+}
+
+}  // namespace drawpoint::engine

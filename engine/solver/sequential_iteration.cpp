@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/sequential_iteration.h>
+
+namespace drawpoint::engine::detail {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+SequentialSweeper::SequentialSweeper(ContactProblem& problem, int substeps)
+    : problem_(problem),
+      substeps_(substeps),
+      h_(problem.step / substeps),
+      machine_(problem.machine, problem.step, substeps) {
+  points_.reserve(problem.points.size());
+  for (const ContactPair& pair : problem.pairs) add_pair(pair);
+}
+
+Matrix3d SequentialSweeper::response(int index, const Vector3d& arm, const Matrix3d& frame) const {
+  const SolverBody& body = problem_.bodies[index];
+  const Matrix3d X = cross_matrix(arm);
+  return frame * (body.inverse_mass * Matrix3d::Identity() - X * body.inverse_inertia * X) *
+         frame.transpose();
+}
+
+void SequentialSweeper::add_part_response(ContactBlock& block) const {
+  for (const int rows : {block.rows_a, block.rows_b})
+    if (rows >= 0) block.W += machine_.rows(rows) * machine_.rows(rows).transpose();
+}
+
+void SequentialSweeper::add_pair(const ContactPair& pair) {
+  for (int k = pair.first; k < pair.first + pair.count; ++k) add_point(pair, problem_.points[k]);
+  PairBlock r;
+  r.a = pair.a;
+  r.b = pair.b;
+  r.first = pair.first;
+  r.count = pair.count;
+  r.rolling_arm = pair.rolling_arm;
+  r.spinning_arm = pair.spinning_arm;
+  r.frame = contact_frame(problem_.points[pair.first].normal);
+  r.W.setZero();
+  r.rows_a = r.a < 0 ? machine_.add_angular_rows(part_of(r.a), r.frame) : -1;
+  r.rows_b = r.b < 0 ? machine_.add_angular_rows(part_of(r.b), r.frame) : -1;
+  for (const int index : {r.a, r.b})
+    if (index >= 0) r.W += r.frame * problem_.bodies[index].inverse_inertia * r.frame.transpose();
+  add_part_response(r);
+  r.invert(0);
+  r.impulse = r.frame * pair.start / substeps_;
+  pairs_.push_back(r);
+}
+
+void SequentialSweeper::add_point(const ContactPair& pair, const ContactPoint& point) {
+  PointBlock p;
+  p.a = pair.a;
+  p.b = pair.b;
+  p.arm_a = point.arm_a;
+  p.arm_b = point.arm_b;
+  p.frame = contact_frame(point.normal);
+  p.law = spook(point.stiffness, std::max(point.damping_time, 2 * problem_.step), h_);
+  p.gap = point.gap;
+  p.friction = point.friction;
+  p.W.setZero();
+  p.rows_a = p.a < 0 ? machine_.add_rows(part_of(p.a), p.arm_a, p.frame) : -1;
+  p.rows_b = p.b < 0 ? machine_.add_rows(part_of(p.b), p.arm_b, p.frame) : -1;
+  if (p.a >= 0) p.W += response(p.a, p.arm_a, p.frame);
+  if (p.b >= 0) p.W += response(p.b, p.arm_b, p.frame);
+  add_part_response(p);
+  p.invert(p.law.sigma);
+  p.impulse = start_impulse(point, p.frame, substeps_);
+  p.begun = p.impulse[0];
+  points_.push_back(p);
+}
+
+Vector3d SequentialSweeper::velocity(const PointBlock& p) const {
+  Vector3d u = Vector3d::Zero();
+  if (p.a >= 0) {
+    const SolverBody& body = problem_.bodies[p.a];
+    u -= p.frame * (body.velocity + body.angular_velocity.cross(p.arm_a));
+  } else {
+    u -= machine_.velocity(p.rows_a);
+  }
+  if (p.b >= 0) {
+    const SolverBody& body = problem_.bodies[p.b];
+    u += p.frame * (body.velocity + body.angular_velocity.cross(p.arm_b));
+  } else {
+    u += machine_.velocity(p.rows_b);
+  }
+  return u;
+}
+
+Vector3d SequentialSweeper::spin(const PairBlock& r) const {
+  Vector3d u = Vector3d::Zero();
+  u -= r.a >= 0 ? Vector3d(r.frame * problem_.bodies[r.a].angular_velocity) : machine_.velocity(r.rows_a);
+  u += r.b >= 0 ? Vector3d(r.frame * problem_.bodies[r.b].angular_velocity) : machine_.velocity(r.rows_b);
+  return u;
+}
+
+void SequentialSweeper::apply(const PointBlock& p, const Vector3d& delta) {
+  const Vector3d impulse = p.frame.transpose() * delta;
+  if (p.a >= 0) {
+    SolverBody& body = problem_.bodies[p.a];
+    body.velocity -= body.inverse_mass * impulse;
+    body.angular_velocity -= body.inverse_inertia * p.arm_a.cross(impulse);
+  } else {
+    machine_.push(p.rows_a, -delta);
+  }
+  if (p.b >= 0) {
+    SolverBody& body = problem_.bodies[p.b];
+    body.velocity += body.inverse_mass * impulse;
+    body.angular_velocity += body.inverse_inertia * p.arm_b.cross(impulse);
+  } else {
+    machine_.push(p.rows_b, delta);
+  }
+}
+
+void SequentialSweeper::apply(const PairBlock& r, const Vector3d& delta) {
+  if (r.a >= 0)
+    problem_.bodies[r.a].angular_velocity -=
+        problem_.bodies[r.a].inverse_inertia * (r.frame.transpose() * delta);
+  else
+    machine_.push(r.rows_a, -delta);
+  if (r.b >= 0)
+    problem_.bodies[r.b].angular_velocity +=
+        problem_.bodies[r.b].inverse_inertia * (r.frame.transpose() * delta);
+  else
+    machine_.push(r.rows_b, delta);
+}
+
+// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).
+void SequentialSweeper::carry_over() {
+  for (PairBlock& r : pairs_) {
+    double force = 0, kept = 0;
+    for (int k = r.first; k < r.first + r.count; ++k) {
+      PointBlock& p = points_[k];
+      const double share = carried_share(p.impulse[0], p.begun, p.inverse_nn);
+      p.correction = (share - 1) * p.impulse;
+      force += p.impulse[0];
+      p.impulse += p.correction;
+      p.begun = p.impulse[0];
+      kept += p.impulse[0];
+    }
+    r.correction = force > kept ? Vector3d((kept / force - 1) * r.impulse) : Vector3d::Zero().eval();
+    r.impulse += r.correction;
+  }
+}
+
+void SequentialSweeper::refresh() {
+  if (!fresh_) carry_over();
+  for (PointBlock& p : points_) {
+    const double approach = velocity(p)[0];
+    if (!fresh_) p.gap += h_ * approach;
+    p.target = spook_target(p.gap, approach, p.law.upsilon, h_);
+  }
+  fresh_ = false;
+  machine_.aim();
+}
+
+void SequentialSweeper::correct() {
+  for (const PointBlock& p : points_) apply(p, p.correction);
+  for (const PairBlock& r : pairs_) apply(r, r.correction);
+}
+
+void SequentialSweeper::aim(const std::vector<double>& targets) {
+  for (std::size_t k = 0; k < points_.size(); ++k) points_[k].target = targets[k];
+}
+
+void SequentialSweeper::start() {
+  machine_.start();
+  for (const PointBlock& p : points_) apply(p, p.impulse);
+  for (const PairBlock& r : pairs_) apply(r, r.impulse);
+}
+
+double SequentialSweeper::sweep(bool forward) {
+  change_ = 0;
+  machine_.sweep();
+  const int n = static_cast<int>(pairs_.size());
+  for (int k = 0; k < n; ++k) {
+    PairBlock& r = pairs_[forward ? k : n - 1 - k];
+    for (int i = 0; i < r.count; ++i) solve_point(points_[r.first + (forward ? i : r.count - 1 - i)]);
+    solve_pair(r);
+  }
+  return change_;
+}
+
+void SequentialSweeper::solve_point(PointBlock& p) {
+  const Vector3d u = velocity(p);
+  const Vector3d before = p.impulse;
+  p.impulse[0] = std::max(0.0, before[0] - p.inverse_nn * (u[0] + p.law.sigma * before[0] - p.target));
+  const double dn = p.impulse[0] - before[0];
+  p.project_tangents(u[1] + p.W(1, 0) * dn, u[2] + p.W(2, 0) * dn, p.friction * p.impulse[0]);
+  const Vector3d delta = p.impulse - before;
+  const double moved = delta.lpNorm<1>();
+  if (moved == 0) return;
+  change_ += moved;
+  apply(p, delta);
+}
+
+void SequentialSweeper::solve_pair(PairBlock& r) {
+  double load = 0;
+  for (int k = r.first; k < r.first + r.count; ++k) load += points_[k].impulse[0];
+  if (r.rolling_arm == 0 && r.spinning_arm == 0) return;
+  const Vector3d u = spin(r);
+  const Vector3d before = r.impulse;
+  const double limit = r.spinning_arm * load;
+  r.impulse[0] = std::clamp(before[0] - r.inverse_nn * u[0], -limit, limit);
+  const double dn = r.impulse[0] - before[0];
+  r.project_tangents(u[1] + r.W(1, 0) * dn, u[2] + r.W(2, 0) * dn, r.rolling_arm * load);
+  apply(r, r.impulse - before);
+}
+
+void SequentialSweeper::finish() {
+  machine_.finish();
+  for (PointBlock& p : points_) p.total += p.impulse;
+  for (PairBlock& r : pairs_) r.total += r.impulse;
+}
+
+double SequentialSweeper::normal_load() const {
+  double sum = 0;
+  for (const PointBlock& p : points_) sum += p.impulse[0];
+  return sum;
+}
+
+Misfit SequentialSweeper::misfit() const {
+  Misfit sum;
+  for (const PointBlock& p : points_) {
+    const Vector3d u = velocity(p);
+    const double normal = p.impulse[0], rest = u[0] + p.law.sigma * normal - p.target;
+    const double next = std::max(0.0, normal - p.inverse_nn * rest);
+    sum.normal += std::abs(normal - next);
+    sum.load += std::max(normal, next);
+    Eigen::Vector2d stepped = p.impulse.tail<2>() - p.inverse_rho * u.tail<2>();
+    const double length = stepped.norm(), limit = p.friction * normal;
+    if (length > limit) stepped *= limit / length;
+    sum.tangent += (p.impulse.tail<2>() - stepped).norm();
+  }
+  return sum;
+}
+
+SuperBodySolution SequentialSweeper::store() {
+  SuperBodySolution solution = machine_.store();
+  const auto add = [&](int part, double sign, const Vector3d& arm, const Vector3d& impulse,
+                       const Vector3d& moment) {
+    solution.part_impulses[part].head<3>() += sign * (arm.cross(impulse) + moment);
+    solution.part_impulses[part].tail<3>() += sign * impulse;
+  };
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const PointBlock& p = points_[k];
+    const Vector3d impulse = p.frame.transpose() * p.total;
+    problem_.points[k].impulse = impulse;
+    problem_.points[k].start = substeps_ * (p.frame.transpose() * p.impulse);
+    problem_.points[k].carried = carried_share(p.impulse[0], p.begun, p.inverse_nn);
+    if (p.a < 0) add(part_of(p.a), -1, p.arm_a, impulse, Vector3d::Zero());
+    if (p.b < 0) add(part_of(p.b), +1, p.arm_b, impulse, Vector3d::Zero());
+  }
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const PairBlock& r = pairs_[k];
+    const Vector3d moment = r.frame.transpose() * r.total;
+    problem_.pairs[k].impulse = moment;
+    problem_.pairs[k].start = substeps_ * (r.frame.transpose() * r.impulse);
+    if (r.a < 0) add(part_of(r.a), -1, Vector3d::Zero(), Vector3d::Zero(), moment);
+    if (r.b < 0) add(part_of(r.b), +1, Vector3d::Zero(), Vector3d::Zero(), moment);
+  }
+  return solution;
+}
+
+}  // namespace drawpoint::engine::detail

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/solver/contact_block.h>
+#include <drawpoint/engine/solver/contact_problem.hpp>
+#include <drawpoint/engine/solver/solver_options.hpp>
+#include <drawpoint/engine/solver/solver_report.hpp>
+#include <drawpoint/engine/solver/super_body_motion.h>
+#include <vector>
+
+/// Gauss-Seidel sweeps over the points, pairs and machine rows of a ContactProblem, in double precision.
+///
+/// Works on the bodies' velocities in the problem and on the machine's w. A substep is: refresh(); then
+/// either start() in the first substep or extrapolate() in the others; sweep() as often as wanted; and
+/// finish(). Extrapolating, v = 2 v_end − v_begin of the last substep, adds the outer forces' share and last
+/// substep's contact impulses to every body at once, because that is what changed it.
+namespace drawpoint::engine::detail {
+
+/// Sums over points of the natural map of their law (residual.hpp) [N s].
+struct Misfit {
+  double normal = 0, tangent = 0;
+  double load = 0;  ///< what they are relative to
+};
+
+inline void report_misfit(const Misfit& misfit, SolverReport& report) {
+  if (misfit.load <= 0) return;
+  report.complementarity = misfit.normal / misfit.load;
+  report.cone = misfit.tangent / misfit.load;
+}
+
+class SequentialSweeper {
+ public:
+  SequentialSweeper(ContactProblem& problem, int substeps);
+
+  /// Gaps and targets from the bodies' velocities, which are those at the end of the last substep.
+  void refresh();
+  /// In place of refresh(): the velocities that the points' normals must reach [m/s].
+  void aim(const std::vector<double>& targets);
+  /// First substep: the machine's outer forces, and the start impulses on bodies and machine.
+  void start();
+  /// Other substeps: the machine's w; the bodies are the caller's.
+  void extrapolate() { machine_.extrapolate(); }
+  /// After extrapolating: takes back the blows that it repeated.
+  void correct();
+  /// Returns Σ|Δλ| over the points.
+  double sweep(bool forward);
+  /// Adds the substep's impulses and the machine's travel to the step's.
+  void finish();
+
+  double normal_load() const;  ///< Σ λ_n of the substep [N s]
+  Misfit misfit() const;       ///< of the points, at the velocities reached
+
+  /// Writes the impulses into the problem and returns the machine's part.
+  SuperBodySolution store();
+
+ private:
+  Eigen::Matrix3d response(int index, const Eigen::Vector3d& arm, const Eigen::Matrix3d& frame) const;
+  void add_pair(const ContactPair& pair);
+  void add_point(const ContactPair& pair, const ContactPoint& point);
+  void add_part_response(ContactBlock& block) const;
+  void carry_over();
+  void solve_point(PointBlock& p);
+  void solve_pair(PairBlock& r);
+  Eigen::Vector3d velocity(const PointBlock& p) const;
+  Eigen::Vector3d spin(const PairBlock& r) const;
+  void apply(const PointBlock& p, const Eigen::Vector3d& delta);
+  void apply(const PairBlock& r, const Eigen::Vector3d& delta);
+
+  ContactProblem& problem_;
+  int substeps_;
+  double h_;
+  bool fresh_ = true;
+  SuperBodyMotion machine_;
+  std::vector<PointBlock> points_;
+  std::vector<PairBlock> pairs_;
+  double change_ = 0;
+};
+
+}  // namespace drawpoint::engine::detail

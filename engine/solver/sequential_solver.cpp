@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/sequential_solver.h>
+#include <drawpoint/engine/solver/sequential_iteration.h>
+
+namespace drawpoint::engine {
+namespace {
+
+struct Motion {
+  Eigen::Vector3d velocity, angular_velocity;
+};
+
+void add_push(std::vector<SolverBody>& bodies, int substeps) {
+  for (SolverBody& body : bodies) body.velocity += body.push / substeps;
+}
+
+// What changed a body in the last substep acts again: outer forces and contact impulses.
+void extrapolate(std::vector<SolverBody>& bodies, const std::vector<Motion>& begin) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    bodies[k].velocity = 2 * bodies[k].velocity - begin[k].velocity;
+    bodies[k].angular_velocity = 2 * bodies[k].angular_velocity - begin[k].angular_velocity;
+  }
+}
+
+}  // namespace
+
+SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options) {
+  const double h = problem.step / options.substeps;
+  for (SolverBody& body : problem.bodies) body.travel.setZero(), body.turn.setZero();
+  detail::SequentialSweeper sweeper(problem, options.substeps);
+  std::vector<Motion> begin(problem.bodies.size()), now(problem.bodies.size());
+  double change = 0;
+  for (int s = 0; s < options.substeps; ++s) {
+    sweeper.refresh();
+    for (std::size_t k = 0; k < now.size(); ++k)
+      now[k] = {problem.bodies[k].velocity, problem.bodies[k].angular_velocity};
+    if (s == 0) {
+      add_push(problem.bodies, options.substeps);
+      sweeper.start();
+    } else {
+      extrapolate(problem.bodies, begin);
+      sweeper.extrapolate();
+      sweeper.correct();
+    }
+    begin.swap(now);
+    for (int k = 0; k < most_sweeps(options, problem.points.size()); ++k) {
+      if (k >= options.sweeps && change <= options.tolerance * sweeper.normal_load()) break;
+      change = sweeper.sweep(k % 2 == 0);
+    }
+    sweeper.finish();
+    for (SolverBody& body : problem.bodies) {
+      body.travel += h * body.velocity;
+      body.turn += h * body.angular_velocity;
+    }
+  }
+  const double load = sweeper.normal_load();
+  SolverReport report;
+  if (load > 0) report.last_change = change / load;
+  detail::report_misfit(sweeper.misfit(), report);
+  report.machine = sweeper.store();
+  return report;
+}
+
+}  // namespace drawpoint::engine

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+/// Which method solves a contact problem, and how much work it may do; what the numbers mean stands in
+/// solver.hpp.
+namespace drawpoint::engine {
+
+enum class Method { sequential, coloured };
+
+/// "sequential", "coloured".
+std::string_view to_string(Method method);
+/// Throws std::invalid_argument with the known names.
+Method method_named(std::string_view name);
+
+struct SolverOptions {
+  Method method = Method::coloured;
+  int substeps = 16;  ///< S ≥ 1
+  int sweeps = 1;     ///< a substep, at least, ≥ 1
+  /// Beyond that a substep adds sweeps until one changes less than `tolerance` of the normal load, as long as
+  /// sweeps times points stay below `spare_work`: a pile at rest needs none, rocks in motion some, and small
+  /// problems, which are cheap, as many as it takes. 0: never. A machine that digs needs some five sweeps a
+  /// substep: with one, its bucket loads half as much again (docs/decisions/0018).
+  int spare_work = 20000;
+  double tolerance = 1e-5;
+  int threads = 1;  ///< ≥ 1; never changes a bit
+};
+
+/// Sweeps a substep at most, for so many points.
+inline int most_sweeps(const SolverOptions& options, std::size_t points) {
+  return std::max(options.sweeps, options.spare_work / std::max(1, static_cast<int>(points)));
+}
+
+}  // namespace drawpoint::engine

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/solver/super_body.hpp>
+
+/// What a solve did, and the machine's part of the solution; the rest is written into the problem.
+namespace drawpoint::engine {
+
+struct SolverReport {
+  double last_change = 0;  ///< Σ|Δλ| of the last sweep over Σ λ_n (0 when there is no load)
+  /// Of the points in the last substep, relative to Σ λ_n (0 when there is no load): see residual.hpp.
+  double complementarity = 0, cone = 0;
+  SuperBodySolution machine;
+};
+
+}  // namespace drawpoint::engine

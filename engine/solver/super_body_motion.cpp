@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/super_body_motion.h>
+
+namespace drawpoint::engine::detail {
+
+SuperBodyMotion::SuperBodyMotion(const SuperBody* machine, double step, int substeps)
+    : machine_(machine), step_(step), h_(step / substeps), substeps_(substeps) {
+  if (!machine) return;
+  w_ = begin_ = machine->velocity_before;
+  push_ = (machine->velocity - machine->velocity_before) / substeps;
+  travel_ = Eigen::VectorXd::Zero(w_.size());
+  for (const SuperBodyRow& row : machine->rows) {
+    const double square = row.jacobian.squaredNorm();
+    rows_.push_back(
+        {square > 0 ? 1.0 / square : 0.0, std::clamp(row.start, row.lower, row.upper) / substeps});
+  }
+}
+
+int SuperBodyMotion::add_rows(int part, const Eigen::Vector3d& arm, const Eigen::Matrix3d& axes) {
+  const SpatialMap& map = machine_->part_maps[part];
+  return add(axes * (map.bottomRows<3>() - cross_matrix(arm) * map.topRows<3>()));
+}
+
+int SuperBodyMotion::add_angular_rows(int part, const Eigen::Matrix3d& axes) {
+  return add(axes * machine_->part_maps[part].topRows<3>());
+}
+
+int SuperBodyMotion::add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows) {
+  const auto index = part_rows_.size() / static_cast<std::size_t>(std::max<Eigen::Index>(1, rows.size()));
+  part_rows_.insert(part_rows_.end(), rows.data(), rows.data() + rows.size());
+  return static_cast<int>(index);
+}
+
+double SuperBodyMotion::target(const SuperBodyRow& row) const {
+  if (row.kind == SuperBodyRow::Kind::motor) return row.target;
+  const double gap = row.gap + row.jacobian.dot(travel_);
+  return gap >= 0 ? -gap / h_ : -gap / row.recovery;
+}
+
+void SuperBodyMotion::aim() {
+  for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].target = target(machine_->rows[k]);
+}
+
+void SuperBodyMotion::start() {
+  w_ += push_;
+  for (std::size_t k = 0; k < rows_.size(); ++k) w_ += machine_->rows[k].jacobian * rows_[k].impulse;
+}
+
+void SuperBodyMotion::extrapolate() {
+  const Eigen::VectorXd next = 2 * w_ - begin_;
+  begin_ = w_;
+  w_ = next;
+}
+
+void SuperBodyMotion::sweep() {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const SuperBodyRow& row = machine_->rows[k];
+    Row& r = rows_[k];
+    const double rest = row.jacobian.dot(w_) - r.target;
+    const double next =
+        std::clamp(r.impulse - r.inverse * rest, row.lower / substeps_, row.upper / substeps_);
+    const double delta = next - r.impulse;
+    if (delta == 0) continue;
+    r.impulse = next;
+    w_.noalias() += row.jacobian * delta;
+  }
+}
+
+void SuperBodyMotion::finish() {
+  travel_ += h_ * w_;
+  for (Row& row : rows_) row.total += row.impulse;
+}
+
+SuperBodySolution SuperBodyMotion::store() const {
+  SuperBodySolution solution;
+  if (!machine_) return solution;
+  solution.velocity = w_;
+  solution.mean_velocity = travel_ / step_;
+  for (const Row& row : rows_) {
+    solution.row_impulses.push_back(row.total);
+    solution.row_starts.push_back(substeps_ * row.impulse);
+  }
+  solution.part_impulses.assign(machine_->part_maps.size(), SpatialVector::Zero());
+  return solution;
+}
+
+}  // namespace drawpoint::engine::detail

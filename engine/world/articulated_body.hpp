@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <drawpoint/engine/solver/super_body.hpp>
+#include <stdexcept>
+#include <vector>
+
+/// What a world asks of an articulated machine: where its parts are, its super-body for a step, and to take
+/// the solved velocities. Frames: world. SI units.
+namespace drawpoint::engine {
+
+/// A machine that takes part in the contact solve.
+class ArticulatedBody {
+ public:
+  virtual ~ArticulatedBody() = default;
+
+  virtual int parts() const = 0;
+  virtual Eigen::Isometry3d part_pose(int part) const = 0;  ///< X_WP
+
+  /// The super-body at the present position for a step of h [s] under the gravity vector [m/s²]. Valid until
+  /// advance().
+  virtual const SuperBody& linearise(double h, const Eigen::Vector3d& gravity) = 0;
+
+  /// Takes the solved velocities, moves the machine by one step and recovers its joint forces.
+  virtual void advance(const SuperBodySolution& solution) = 0;
+
+  /// All numbers that later steps depend on, and taking them back. set_state() throws std::runtime_error for
+  /// numbers that cannot be its own. A body that does not implement both cannot be saved, and says so.
+  virtual std::vector<double> state() const {
+    throw std::logic_error(
+        "engine::ArticulatedBody: this machine cannot be saved; implement state() and set_state()");
+  }
+  virtual void set_state(const std::vector<double>&) {
+    throw std::logic_error(
+        "engine::ArticulatedBody: this machine cannot be restored; implement state() and set_state()");
+  }
+};
+
+}  // namespace drawpoint::engine

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <drawpoint/engine/world/checks.h>
+#include <limits>
+#include <sstream>
+
+namespace drawpoint::engine::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct Range {
+  double lower, upper;
+  const char* unit;
+};
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("engine::" + what); }
+
+std::string text(double x) {
+  std::ostringstream out;
+  out << x;
+  return out.str();
+}
+
+std::string text(const Vector3d& v) {
+  return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")";
+}
+
+// `name` is "place: quantity".
+void require(const std::string& name, double value, const Range& allowed) {
+  if (value >= allowed.lower && value <= allowed.upper) return;  // false for what is not a number
+  refuse(name + " is " + text(value) + " " + allowed.unit + "; allowed: " + text(allowed.lower) + " to " +
+         text(allowed.upper) + " " + allowed.unit);
+}
+
+void check(const Material& m, const std::string& name) {
+  require(name + "friction", m.friction, {0, 100, "[1]"});
+  require(name + "rolling resistance", m.rolling, {0, 100, "[1]"});
+  require(name + "spinning resistance", m.spinning, {0, 100, "[1]"});
+  require(name + "stiffness", m.stiffness, {1e-3, 1e18, "N/m (or Pa)"});
+  require(name + "damping time", m.damping_time, {0, 1e6, "s"});
+  require(name + "restitution", m.restitution, {0, 1, "[1]"});
+}
+
+}  // namespace
+
+void check(const WorldOptions& o) {
+  if (!(o.step > 0) || o.step > 0.1)
+    refuse("World: step is " + text(o.step) +
+           " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
+  require("World: size of gravity", o.gravity.norm(), {0, 1e3, "m/s^2"});
+  require("World: warm_start", o.warm_start, {0, 1, "[1]"});
+  require("World: sweeps", o.solver.sweeps, {1, 1e6, "a substep"});
+  require("World: substeps", o.solver.substeps, {1, 1e4, "a step"});
+  require("World: threads", o.solver.threads, {1, 1024, "[1]"});
+  require("World: spare_work", o.solver.spare_work, {0, 1e9, "sweeps times points"});
+  require("World: tolerance", o.solver.tolerance, {0, 1, "of the load"});
+  require("World: threads of contacts", o.contacts.threads, {1, 256, "[1]"});
+  require("World: margin of contacts", o.contacts.margin, {0, 10, "m"});
+  require("World: slack of contacts", o.contacts.slack, {0, 10, "m"});
+  require("World: reuse_distance of contacts", o.contacts.reuse_distance, {0, 10, "m"});
+  require("World: reuse_angle of contacts", o.contacts.reuse_angle, {0, 10, "rad"});
+  require("World: hysteresis of contacts", o.contacts.hysteresis, {0, 10, "m"});
+}
+
+void check(const MaterialTable& materials) {
+  for (int a = 0; a < materials.kinds(); ++a)
+    for (int b = a; b < materials.kinds(); ++b)
+      check(materials.of(a, b),
+            "MaterialTable: kinds " + std::to_string(a) + " and " + std::to_string(b) + ": ");
+}
+
+void check(const RockBody& body, int materials) {
+  if (!body.shape) refuse("World::add_rock: the body has no shape; set RockBody::shape");
+  if (std::holds_alternative<HalfSpace>(*body.shape))
+    refuse("World::add_rock: a half-space has no end and cannot be a rock; give it to add_static()");
+  require("World::add_rock: mass", body.mass, {1e-9, 1e15, "kg"});
+  for (double moment : body.inertia)
+    require("World::add_rock: a moment of inertia", moment, {1e-20, 1e25, "kg m^2"});
+  const double largest = body.inertia.maxCoeff();
+  if (largest > (body.inertia.sum() - largest) * (1 + 1e-6))
+    refuse("World::add_rock: no rigid body has the principal moments " + text(body.inertia) +
+           " kg m^2: the largest exceeds the sum of the others");
+  check_material("World::add_rock", body.material, materials);
+}
+
+void check_material(const char* place, int material, int materials) {
+  if (material < 0 || material >= materials)
+    refuse(std::string(place) + ": there is no material " + std::to_string(material) + "; allowed: 0 to " +
+           std::to_string(materials - 1));
+}
+
+void check_pose(const char* place, const Eigen::Isometry3d& pose) {
+  const Vector3d p = pose.translation();
+  for (double x : p) require(std::string(place) + ": a coordinate of the position", x, {-1e5, 1e5, "m"});
+  const Matrix3d R = pose.linear();
+  if (!((R.transpose() * R - Matrix3d::Identity()).norm() < 1e-6) || !(R.determinant() > 0))
+    refuse(std::string(place) + ": the orientation is no rotation matrix (RᵀR − 1 has norm " +
+           text((R.transpose() * R - Matrix3d::Identity()).norm()) + ", allowed: below 1e-6); normalise it");
+}
+
+void check_velocity(const char* place, const Vector3d& velocity, const Vector3d& angular_velocity) {
+  require(std::string(place) + ": speed of " + text(velocity), velocity.norm(), {0, fastest_input, "m/s"});
+  require(std::string(place) + ": angular speed of " + text(angular_velocity), angular_velocity.norm(),
+          {0, fastest_spin, "rad/s"});
+}
+
+double reach_about_origin(const Shape& shape) {
+  if (const auto* polyhedron = std::get_if<ConvexPolyhedron>(&shape)) return polyhedron->radius();
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    return std::hypot(cylinder->radius, cylinder->half_width);
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace drawpoint::engine::detail

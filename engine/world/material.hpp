@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// Contact materials: what happens between two kinds of surface.
+///
+/// Normal law, selectable: *linear*, f = k δ, with k the stiffness of the pair of bodies shared by the points
+/// of its manifold; *Hertz*, f = k_n δ^(3/2) with k_n = (4/3) E* √R*, shared likewise, R* from the radii of
+/// the spheres of the bodies' volumes. The founding case's Young's modulus E is read as linear with k = E ℓ,
+/// ℓ = 0.1 m for rock on rock (1e9 N/m); see docs/decisions. Friction: Coulomb with a circular cone. Rolling
+/// and spinning resistance: moments of at most μ_r R* and μ_s R* times the normal force, once a pair.
+/// Restitution: Newton's law by an impulse stage before the step, for approaches faster than `impact_speed`.
+namespace drawpoint::engine {
+
+enum class NormalLaw { linear, hertz };
+
+struct Material {
+  double friction = 0;      ///< Coulomb coefficient μ, ≥ 0
+  double rolling = 0;       ///< rolling-resistance coefficient μ_r, ≥ 0
+  double stiffness = 1e9;   ///< linear: k of the pair of bodies [N/m], > 0; Hertz: E* [Pa]
+  double damping_time = 0;  ///< SPOOK relaxation time τ [s]; at least two steps are used
+  double spinning = 0;      ///< spinning-resistance coefficient μ_s, ≥ 0
+  double restitution = 0;   ///< e, 0 to 1
+  NormalLaw law = NormalLaw::linear;
+};
+
+/// Symmetric table of pairs of surface kinds 0 .. kinds-1.
+class MaterialTable {
+ public:
+  /// Both throw std::invalid_argument: for fewer than one kind; for a kind that is not in the table.
+  explicit MaterialTable(int kinds = 1) : kinds_(checked(kinds)), pairs_(kinds * kinds) {}
+  void set(int a, int b, const Material& m) {
+    if (a < 0 || b < 0 || a >= kinds_ || b >= kinds_)
+      throw std::invalid_argument("engine::MaterialTable: there are no kinds " + std::to_string(a) +
+                                  " and " + std::to_string(b) + "; allowed: 0 to " +
+                                  std::to_string(kinds_ - 1));
+    pairs_[a * kinds_ + b] = pairs_[b * kinds_ + a] = m;
+  }
+  const Material& of(int a, int b) const { return pairs_[a * kinds_ + b]; }
+  int kinds() const { return kinds_; }
+
+ private:
+  static int checked(int kinds) {
+    if (kinds >= 1 && kinds <= 1000) return kinds;
+    throw std::invalid_argument("engine::MaterialTable: " + std::to_string(kinds) +
+                                " kinds; allowed: 1 to 1000");
+  }
+
+  int kinds_;
+  std::vector<Material> pairs_;
+};
+
+}  // namespace drawpoint::engine

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/world/checks.h>
+#include <drawpoint/engine/world/state_hash.hpp>
+
+namespace drawpoint::engine {
+namespace {
+
+constexpr std::uint64_t state_mark = 0x326574617473'7044;  // "Dpstate2": the version is the last digit
+
+void add(StateHash& hash, const WorldOptions& o) {
+  hash.add(o.step);
+  hash.add(o.gravity);
+  for (int x : {static_cast<int>(o.solver.method), o.solver.substeps, o.solver.sweeps, o.solver.spare_work})
+    hash.add(static_cast<std::uint64_t>(x));
+  hash.add(o.solver.tolerance);
+  hash.add(o.warm_start);
+  for (double x :
+       {o.freezing.on ? 1.0 : 0.0, o.freezing.hold, o.freezing.distance, o.freezing.tolerance,
+        o.freezing.average, o.freezing.impact, o.freezing.nudge, static_cast<double>(o.freezing.spread)})
+    hash.add(x);
+  for (double x : {o.contacts.margin, o.contacts.slack, o.contacts.reuse_distance, o.contacts.reuse_angle,
+                   o.contacts.hysteresis})
+    hash.add(x);
+}
+
+void add(StateHash& hash, const Material& m) {
+  for (double x : {m.friction, m.rolling, m.stiffness, m.damping_time, m.spinning, m.restitution})
+    hash.add(x);
+  hash.add(static_cast<std::uint64_t>(m.law));
+}
+
+void add(StateHash& hash, const MaterialTable& table) {
+  for (int a = 0; a < table.kinds(); ++a)
+    for (int b = a; b < table.kinds(); ++b) add(hash, table.of(a, b));
+}
+
+void save_freezing(const FreezingState& state, StateWriter& out) {
+  out.put_count(state.rocks.size());
+  for (const FreezingState::Stand& stand : state.rocks) {
+    out.put(stand.frozen);
+    out.put(stand.calm);
+    out.put(stand.anchor);
+    out.put(stand.impulse);
+    out.put(stand.moment);
+  }
+  out.put_count(state.held.size());
+  for (const auto& [pair, held] : state.held) {
+    out.put(pair.first);
+    out.put(pair.second);
+    for (const Eigen::Vector3d& v : {held.impulse, held.moment_a, held.moment_b, held.start.rolling})
+      out.put(v);
+    out.put_count(held.start.points.size());
+    for (const WarmStart::Point& point : held.start.points) {
+      out.put(point.feature);
+      out.put(point.position);
+      out.put(point.impulse);
+    }
+  }
+}
+
+HeldPair restored_pair(StateReader& in, int a, int b) {
+  HeldPair held;
+  held.start.a = a;
+  held.start.b = b;
+  for (Eigen::Vector3d* v : {&held.impulse, &held.moment_a, &held.moment_b, &held.start.rolling}) in.get(*v);
+  held.start.points.resize(in.get_count(52));
+  for (WarmStart::Point& point : held.start.points) {
+    in.get(point.feature);
+    in.get(point.position);
+    in.get(point.impulse);
+    point.used = false;
+  }
+  return held;
+}
+
+FreezingState restored_freezing(StateReader& in, std::size_t rocks) {
+  FreezingState state;
+  if (in.get_count(149) != rocks) in.fail("holds another number of standing rocks");
+  state.rocks.resize(rocks);
+  for (FreezingState::Stand& stand : state.rocks) {
+    in.get(stand.frozen);
+    in.get(stand.calm);
+    if (stand.calm < 0) in.fail("holds a negative number of steps");
+    in.get(stand.anchor);
+    in.get(stand.impulse);
+    in.get(stand.moment);
+  }
+  for (std::size_t left = in.get_count(112); left > 0; --left) {
+    const int a = in.get<int>(), b = in.get<int>();
+    if (!state.held.empty() && state.held.rbegin()->first >= std::pair(a, b))
+      in.fail("holds standing contacts that are not in order");
+    state.held.emplace(std::pair(a, b), restored_pair(in, a, b));
+  }
+  return state;
+}
+
+}  // namespace
+
+void add(StateHash& hash, const Shape& shape) {
+  hash.add(static_cast<std::uint64_t>(shape.index()));
+  if (const auto* plane = std::get_if<HalfSpace>(&shape)) {
+    hash.add(plane->normal);
+    hash.add(plane->offset);
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    hash.add(cylinder->radius);
+    hash.add(cylinder->half_width);
+  } else {
+    const auto& polyhedron = std::get<ConvexPolyhedron>(shape);
+    hash.add(static_cast<std::uint64_t>(polyhedron.faces().size()));
+    for (const Eigen::Vector3d& vertex : polyhedron.vertices()) hash.add(vertex);
+  }
+}
+
+std::uint64_t state_hash(const World& world) {
+  StateHash hash;
+  hash.add(world.time());
+  for (const Rock& rock : world.rocks()) {
+    hash.add(static_cast<std::uint64_t>(rock.present));
+    if (!rock.present) continue;
+    hash.add(rock.pose.linear());
+    hash.add(rock.pose.translation());
+    hash.add(rock.velocity);
+    hash.add(rock.angular_velocity);
+  }
+  if (world.machine())
+    for (double x : world.machine()->state()) hash.add(x);
+  return hash.value();
+}
+
+// No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
+void check_motion(const Rock& rock, const StateReader& in) {
+  constexpr double farthest = 1e9;  // [m]
+  if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
+    in.fail("holds a rock more than 1e9 m from the origin");
+  if (rock.velocity.cwiseAbs().maxCoeff() > detail::fastest_solution ||
+      rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * detail::fastest_solution)
+    in.fail("holds a rock faster than 1e4 m/s or 1e5 rad/s");
+}
+
+// What a state is of: a restore compares them one by one, so that it can say what differs.
+struct World::SceneMarks {
+  std::uint64_t options, materials, surroundings, rocks, machine;
+
+  void save(StateWriter& out) const {
+    for (std::uint64_t x : {options, materials, surroundings, rocks, machine}) out.put(x);
+  }
+  static SceneMarks read(StateReader& in) {
+    SceneMarks marks{};
+    for (std::uint64_t* x :
+         {&marks.options, &marks.materials, &marks.surroundings, &marks.rocks, &marks.machine})
+      in.get(*x);
+    return marks;
+  }
+  // Empty, or in what the scenes differ.
+  std::string difference(const SceneMarks& other) const {
+    if (options != other.options) return "other options (step, gravity, solver or contacts)";
+    if (materials != other.materials) return "other materials";
+    if (surroundings != other.surroundings) return "other fixed surroundings or machine parts";
+    if (rocks != other.rocks) return "other rocks";
+    if (machine != other.machine) return "another machine, or none";
+    return {};
+  }
+};
+
+World::SceneMarks World::scene_marks() const {
+  StateHash options, materials, rocks;
+  add(options, options_);
+  add(materials, materials_);
+  for (const Rock& rock : rocks_) {
+    add(rocks, *rock.body.shape);
+    rocks.add(rock.body.mass);
+    rocks.add(rock.body.inertia);
+    rocks.add(static_cast<std::uint64_t>(rock.body.material));
+    rocks.add(static_cast<std::uint64_t>(rock.collider));
+  }
+  const std::uint64_t parts = machine_ ? 1 + static_cast<std::uint64_t>(machine_->parts()) : 0;
+  return {options.value(), materials.value(), surfaces_mark_.value(), rocks.value(), parts};
+}
+
+// A new finder with this world's colliders, numbered as here, for these rocks.
+ContactFinder World::finder_for(const std::vector<Rock>& rocks) const {
+  ContactFinder finder(options_.contacts, parallel_);
+  for (std::size_t id = 0; id < surfaces_.size(); ++id) {
+    const Surface& surface = surfaces_[id];
+    const bool rock = surface.owner == Owner::rock;
+    const bool gone =
+        rock ? !rocks[surface.index].present : surface.owner == Owner::fixed && surface.index == detached;
+    if (rock)
+      finder.add(rock_collider(rocks[surface.index].body, surface.index));
+    else if (gone)
+      finder.add({std::make_shared<const Shape>(box(Eigen::Vector3d::Ones()))});
+    else
+      finder.add(finder_.collider(static_cast<int>(id)));
+    if (gone) finder.remove(static_cast<int>(id));
+  }
+  return finder;
+}
+
+std::vector<std::byte> World::save() const {
+  StateWriter out;
+  out.put(state_mark);
+  scene_marks().save(out);
+  out.put(time_);
+  out.put(static_cast<std::int64_t>(steps_));
+  out.put_count(rocks_.size());
+  for (const Rock& rock : rocks_) {
+    out.put(rock.present);
+    out.put(rock.pose);
+    out.put(rock.velocity);
+    out.put(rock.angular_velocity);
+  }
+  warm_start_.save(out);
+  save_freezing(freezing_.state(), out);
+  const std::vector<double> machine = machine_ ? machine_->state() : std::vector<double>();
+  out.put_count(machine.size());
+  for (double x : machine) out.put(x);
+  std::vector<std::byte> contacts;
+  finder_.save(contacts);
+  out.put(contacts);
+  return out.take();
+}
+
+void World::restore(std::span<const std::byte> state) {
+  StateReader in(state);
+  if (in.get<std::uint64_t>() != state_mark) in.fail("is none of a world, or of another version,");
+  if (const std::string what = SceneMarks::read(in).difference(scene_marks()); !what.empty())
+    throw std::runtime_error("engine::World::restore: the state is of " + what +
+                             "; build the world by the same calls as the one that was saved");
+  const auto time = in.get<double>();
+  const auto steps = in.get<std::int64_t>();
+  std::vector<Rock> rocks = rocks_;
+  if (in.get_count(145) != rocks.size()) in.fail("holds another number of rocks");
+  for (Rock& rock : rocks) {
+    in.get(rock.present);
+    in.get(rock.pose);
+    in.get(rock.velocity);
+    in.get(rock.angular_velocity);
+    check_motion(rock, in);
+  }
+  WarmStart warm_start;
+  warm_start.restore(in);
+  Freezing freezing(options_.freezing, options_.step, options_.gravity);
+  for (std::size_t k = 0; k < rocks.size(); ++k) freezing.add(static_cast<int>(k), rocks[k]);
+  for (std::size_t k = 0; k < rocks.size(); ++k)
+    if (!rocks[k].present) freezing.remove(static_cast<int>(k));
+  freezing.restore(restored_freezing(in, rocks.size()));
+  std::vector<double> machine(in.get_count(sizeof(double)));
+  for (double& x : machine) in.get(x);
+  const std::span<const std::byte> contacts = in.get_bytes(in.get_count(1));
+  in.expect_end();
+  ContactFinder finder = finder_for(rocks);
+  finder.restore(contacts);
+
+  if (!machine_ && !machine.empty()) in.fail("holds a machine; there is none here:");
+  if (machine_) machine_->set_state(machine);
+  finder_ = std::move(finder);
+  rocks_ = std::move(rocks);
+  warm_start_ = std::move(warm_start);
+  freezing_ = std::move(freezing);
+  time_ = time;
+  steps_ = static_cast<long>(steps);
+}
+
+}  // namespace drawpoint::engine

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// All that makes a Kriging model: the runs and their scales, the correlation, the factor of R and the trend.
+///
+/// Numbers are on the scaled inputs and the standardised response unless their comment says otherwise. A
+/// state without rows in X is a constant: its mean is y_centre, its variance constant_variance. Memory n².
+
+#include <Eigen/Core>
+#include <cmath>
+#include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/options.hpp>
+#include <drawpoint/kriging/detail/training_data.hpp>
+#include <drawpoint/kriging/detail/trend.hpp>
+#include <limits>
+
+namespace drawpoint::kriging::detail {
+
+struct ModelState {
+  InputScale input;
+  double y_centre = 0, y_scale = 1;  ///< y = y_centre + y_scale · standardised
+  Eigen::VectorXd observed;          ///< y of the runs in its unit
+
+  CorrelationFunction correlation;
+  double nugget = 0;       ///< λ
+  Eigen::VectorXd noise;   ///< wᵢ, n entries; empty: all 1
+  double known_noise = 0;  ///< τ²; 0: s² was estimated
+  double noise_unit = 1;   ///< noise variance in natural units that w = 1 stands for
+  TrendFunction trend;
+
+  Eigen::MatrixXd X, F;  ///< n x d and n x q
+  Eigen::VectorXd y;     ///< n
+  Eigen::MatrixXd L;     ///< n x n, lower triangular with zeros above: L Lᵀ = R
+  LeastSquares gls;
+  double process_variance = 0;                                      ///< s²
+  double log_likelihood = std::numeric_limits<double>::infinity();  ///< for y in its unit
+  double constant_variance = 0;                                     ///< unit of y squared
+  FitReport report;
+};
+
+/// What the diagonal of R has beyond that of C: n entries.
+inline Eigen::VectorXd added_noise(const ModelState& s) {
+  if (s.noise.size()) return affine(s.noise, s.nugget, noise_floor);
+  return Eigen::VectorXd::Constant(s.X.rows(), s.nugget);
+}
+
+/// Finds β, α and s² anew from L, F and y, and the likelihood with them.
+inline void estimate(ModelState& s) {
+  const double n = static_cast<double>(s.X.rows());
+  s.gls = least_squares(s.L, s.F, s.y);
+  s.process_variance = s.known_noise > 0 ? s.known_noise / s.nugget : s.gls.sum_of_squares / n;
+  s.log_likelihood =
+      concentrated_log_likelihood(s.L, s.gls.sum_of_squares, s.process_variance) - n * std::log(s.y_scale);
+}
+
+}  // namespace drawpoint::kriging::detail

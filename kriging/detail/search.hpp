@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The search for the likeliest θ, exponents and λ: many short climbs, then Ipopt from the best.
+///
+/// Up to 250 runs every start climbs on all runs (climb.hpp) until it promises less than 1e-3 more, and Ipopt
+/// finishes the best with the exact Hessian (maximize.hpp). Beyond, the climbs see 250 runs, evenly picked:
+/// what they end at, best of the interpolating and best of the noisy explanation, starts Ipopt on all runs
+/// with the curvature that the climb has learnt, scaled by the number of runs. Deterministic. Cost up to 250
+/// runs: candidates · n³/3 + about 15 starts · n³; beyond, about 10 gradients of n³ a search more.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/kriging/detail/climb.hpp>
+#include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/kriging/detail/maximize.hpp>
+#include <drawpoint/kriging/options.hpp>
+#include <drawpoint/kriging/detail/starting_points.hpp>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::kriging::detail {
+
+inline constexpr double agreement = 0.1;  // log likelihood
+inline constexpr double climb_gain = 1e-3;
+
+struct Search {
+  Maximum best;
+  int tried = 0, agreed = 0;
+};
+
+/// Of the runs: at most `many`, evenly picked.
+inline LikelihoodProblem thinned(const LikelihoodProblem& all) {
+  LikelihoodProblem few = all;
+  few.X = thinned(all.X, many);
+  few.y = thinned(all.y, many);
+  if (all.F.size()) few.F = thinned(all.F, many);
+  if (all.noise.size()) few.noise = thinned(all.noise, many);
+  few.threads = 1;
+  return few;
+}
+
+/// All climbs, best first; ties keep the order of the starts.
+inline std::vector<Climb> climbs(Likelihood& likelihood, const Box& box, const FitOptions& options) {
+  std::vector<Climb> all, ranked;
+  std::vector<double> values;
+  for (const Eigen::VectorXd& start : starting_points(likelihood, box, options)) {
+    all.emplace_back(likelihood, box, start);
+    all.back().advance(options.max_iterations, climb_gain);
+    values.push_back(all.back().value());
+  }
+  for (const int i : ranking(values)) ranked.push_back(all[i]);
+  return ranked;
+}
+
+inline int agreeing(const std::vector<Climb>& all) {
+  return static_cast<int>(std::count_if(
+      all.begin(), all.end(), [&](const Climb& c) { return c.value() >= all.front().value() - agreement; }));
+}
+
+/// The best climb and the best of the other explanation of the same data, each with its curvature times
+/// `scale`.
+inline std::vector<SearchStart> best_of_each_explanation(const std::vector<Climb>& ranked, double scale) {
+  const auto noisy = [](const Climb& c) { return c.p()[c.p().size() - 1] >= std::log(interpolation_nugget); };
+  const auto start = [&](const Climb& c) {
+    SearchStart s{c.p(), c.curvature()};
+    std::for_each(s.curvature.data(), s.curvature.data() + s.curvature.size(),
+                  [=](double& b) { b *= scale; });
+    return s;
+  };
+  std::vector<SearchStart> starts{start(ranked.front())};
+  const auto other = std::find_if(ranked.begin(), ranked.end(), [&](const Climb& c) {
+    return std::isfinite(c.value()) && noisy(c) != noisy(ranked.front());
+  });
+  if (other != ranked.end()) starts.push_back(start(*other));
+  return starts;
+}
+
+/// Raises λ tenfold, within the box, until R of all runs can be factored: few runs need less of it.
+inline void make_regular(Likelihood& likelihood, const Box& box, SearchStart& start) {
+  const Eigen::Index last = start.p.size() - 1;
+  while (!std::isfinite(likelihood.value(start.p)) && start.p[last] < box.upper[last])
+    start.p[last] = std::min(start.p[last] + std::log(10.0), box.upper[last]);
+}
+
+/// On all of many runs, from what the climbs on few of them found.
+inline Search search_many(Likelihood& likelihood, const Box& box, const std::vector<Climb>& ranked,
+                          const FitOptions& options) {
+  const double scale = static_cast<double>(likelihood.runs()) / static_cast<double>(many);
+  Search search;
+  for (SearchStart start : best_of_each_explanation(ranked, scale)) {
+    make_regular(likelihood, box, start);
+    const Maximum found = maximize(likelihood, box, start, options.max_iterations);
+    if (found.value > search.best.value) search.best = found;
+  }
+  search.tried = static_cast<int>(ranked.size());
+  search.agreed = agreeing(ranked);
+  return search;
+}
+
+/// Searches the box; the best point has the value −∞ when R is singular wherever it was tried.
+inline Search search(Likelihood& likelihood, const Box& box, const FitOptions& options, int& evaluations) {
+  if (box.lower == box.upper) return {{box.lower, likelihood.value(box.lower), true}, 1, 1};
+  const bool all = likelihood.runs() <= many;
+  Likelihood few(all ? LikelihoodProblem{} : thinned(likelihood.problem()));
+  const std::vector<Climb> ranked = climbs(all ? likelihood : few, box, options);
+  evaluations += all ? 0 : few.factorizations();
+  if (!std::isfinite(ranked.front().value()))
+    return {{ranked.front().p(), ranked.front().value(), false}, static_cast<int>(ranked.size()), 0};
+  if (!all) return search_many(likelihood, box, ranked, options);
+  const Maximum best = maximize(likelihood, box, {ranked.front().p(), {}}, options.max_iterations);
+  return {best, static_cast<int>(ranked.size()), agreeing(ranked)};
+}
+
+}  // namespace drawpoint::kriging::detail

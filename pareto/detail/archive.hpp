@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The best points that a search has met: feasible, mutually non-dominated, at most `capacity` of them.
+///
+/// Controlled elitism gives up part of the best front for the sake of the search; the archive keeps that from
+/// costing result. When it is over full the most crowded points go, half the excess at a time with the
+/// distances computed anew in between, so that a cluster is thinned and not wiped out.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/pareto/crowding.hpp>
+#include <drawpoint/pareto/detail/population.hpp>
+
+namespace drawpoint::pareto::detail {
+
+/// The `count` rows of largest distance, in rising order; the earlier row wins a tie.
+inline std::vector<int> least_crowded(const Eigen::VectorXd& distance, int count) {
+  std::vector<int> rows(static_cast<std::size_t>(distance.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  const auto kept = rows.begin() + count;
+  std::nth_element(rows.begin(), kept, rows.end(), [&](int a, int b) {
+    return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
+  });
+  rows.erase(kept, rows.end());
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+class Archive {
+ public:
+  explicit Archive(int capacity) : capacity_(capacity) {}
+
+  const Population& members() const { return members_; }
+
+  void add(const Population& candidates) {
+    std::vector<int> feasible;
+    for (int i = 0; i < static_cast<int>(candidates.size()); ++i)
+      if (candidates.feasible(i)) feasible.push_back(i);
+    const bool first = members_.U.cols() == 0;
+    Population all =
+        first ? selected(candidates, feasible) : joined(members_, selected(candidates, feasible));
+    members_ = selected(all, thinned(all.Y));
+  }
+
+ private:
+  /// Rows to keep of the n x m objectives.
+  std::vector<int> thinned(const Eigen::MatrixXd& Y) const {
+    std::vector<int> rows = non_dominated(Y);
+    while (static_cast<int>(rows.size()) > capacity_) {
+      const int size = static_cast<int>(rows.size()), excess = size - capacity_;
+      const Eigen::MatrixXd front = Y(rows, Eigen::all);
+      std::vector<int> kept = least_crowded(crowding_distance(front), size - (excess + 1) / 2);
+      for (int& i : kept) i = rows[i];
+      rows = std::move(kept);
+    }
+    return rows;
+  }
+
+  int capacity_;
+  Population members_;
+};
+
+}  // namespace drawpoint::pareto::detail

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// What too few sweeps do to a chain of contacts: a warm-started sweep is a spring without damping. The
+// derivation is in docs/contact-solving.md.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/engine/solver/solver.hpp>
+
+using namespace drawpoint::engine;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double light = 1, heavy = 1000, g = 9.81, kick = -0.01;
+
+// The heavy body on the light one on the floor, carried by their start impulses; the heavy one sinks at
+// 0.01 m/s. The damping time takes position and stiffness out of the law: it only asks for u_n ≥ 0.
+ContactProblem chain(double time) {
+  ContactProblem problem;
+  problem.step = time;
+  problem.bodies.resize(3);
+  for (int k = 1; k <= 2; ++k) {
+    problem.bodies[k].inverse_mass = 1 / (k == 1 ? light : heavy);
+    problem.bodies[k].inverse_inertia = Eigen::Matrix3d::Identity();
+    problem.bodies[k].push = Vector3d(0, 0, -g * time);
+    ContactPair pair;
+    pair.a = k - 1;
+    pair.b = k;
+    pair.first = k - 1;
+    pair.count = 1;
+    problem.pairs.push_back(pair);
+    ContactPoint point;
+    point.position = point.arm_a = point.arm_b = Vector3d::Zero();
+    point.normal = Vector3d::UnitZ();
+    point.gap = -0.1;
+    point.damping_time = 1e12;
+    point.start = Vector3d(0, 0, (k == 1 ? light + heavy : heavy) * g * time);  // S times a substep's share
+    problem.points.push_back(point);
+  }
+  problem.bodies[2].velocity.z() = kick;
+  return problem;
+}
+
+}  // namespace
+
+// The heavy body swings on the spring k = N m_eff / h_s², N visits a substep of h_s, m_eff = m M / (m + M);
+// sweeps alternate, and a contact visited twice on end is visited once, so N is half the sweeps, rounded up:
+// after a quarter of its period it has sunk by v / ω, ω² = k / M, and stands. Substeps resolve the swing to
+// ω h_s, and the light body takes m / M of the motion.
+TEST(UnconvergedChain, IsASpringWithoutDamping) {
+  const double effective = light * heavy / (light + heavy);
+  for (const double h : {1e-2 / 4, 1e-2 / 16})
+    for (const int sweeps : {1, 2, 4}) {
+      const double omega = std::sqrt((sweeps + 1) / 2 * effective / heavy) / h;
+      const int substeps = static_cast<int>(std::lround(M_PI / 2 / omega / h));
+      ContactProblem problem = chain(substeps * h);
+      solve(problem, {.method = Method::sequential, .substeps = substeps, .sweeps = sweeps, .spare_work = 0});
+      const double tolerance = omega * h + light / heavy;
+      EXPECT_NEAR(problem.bodies[2].travel.z() / (kick / omega), 1, tolerance) << h << " s, " << sweeps;
+      EXPECT_LT(std::abs(problem.bodies[2].velocity.z() / kick), 2 * tolerance);
+    }
+}
+
+// Enough sweeps hold the chain: the error of a sweep falls by m_eff / m a sweep, 1/1001 of it left over, so
+// some 5000 sweeps stop the heavy body within a substep, however few.
+TEST(UnconvergedChain, StandsWithEnoughSweeps) {
+  ContactProblem problem = chain(0.02);
+  solve(problem, {.method = Method::sequential, .substeps = 2, .sweeps = 20000, .spare_work = 0});
+  EXPECT_LT(std::abs(problem.bodies[2].velocity.z()), 1e-6);
+}
