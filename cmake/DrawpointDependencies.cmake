@@ -12,7 +12,6 @@ if(DRAWPOINT_BUILD_ENGINE)
 endif()
 if(DRAWPOINT_BUILD_CONTACT)
   find_package(fcl 0.7 REQUIRED)
-  find_package(TBB 2021 REQUIRED COMPONENTS tbb)
   find_package(hwy 1.0 REQUIRED)
   enable_language(C) # FindHDF5 compiles a C program
   set(HDF5_PREFER_PARALLEL OFF)

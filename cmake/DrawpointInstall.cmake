@@ -108,7 +108,7 @@ drawpoint_deb(pareto "Drawpoint: multi-objective search (headers)" ${toolkit})
 if(DRAWPOINT_BUILD_CONTACT)
   list(APPEND CPACK_COMPONENTS_ALL contact)
   drawpoint_deb(contact "Drawpoint: convex rocks and their contacts (library and headers)"
-                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libtbb-dev libhwy-dev libhdf5-dev)
+                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libhwy-dev libhdf5-dev)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
   list(APPEND CPACK_COMPONENTS_ALL engine)

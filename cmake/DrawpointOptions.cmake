@@ -1,7 +1,7 @@
 # What to build. Everything but the toolkit is for people who work on Drawpoint itself, so it is ON only at top level.
 
 option(DRAWPOINT_BUILD_TOOLKIT "Build doe, kriging and pareto (need Ipopt)" ON)
-option(DRAWPOINT_BUILD_CONTACT "Build rocks and contact solving (needs FCL, oneTBB, Highway, HDF5)" ${PROJECT_IS_TOP_LEVEL})
+option(DRAWPOINT_BUILD_CONTACT "Build rocks and contact solving (needs FCL, Highway, HDF5)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_ENGINE "Build machines and the loading case (needs DRAWPOINT_BUILD_CONTACT and Simbody)" ${DRAWPOINT_BUILD_CONTACT})
 option(DRAWPOINT_BUILD_STUDIES "Build the study runner and the studies (needs the engine, SQLite, CLI11)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_TESTS "Build the tests (needs GoogleTest, RapidCheck)" ${PROJECT_IS_TOP_LEVEL})

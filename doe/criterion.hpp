@@ -24,9 +24,9 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/detail/nearest.hpp>
 #include <drawpoint/doe/detail/unit_box.hpp>
+#include <drawpoint/doe/evaluations.hpp>
 
 namespace drawpoint::doe {
 

@@ -26,11 +26,11 @@
 #include <vector>
 
 #include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/doe/detail/scaling.hpp>
+#include <drawpoint/doe/detail/watchdog.hpp>
 #include <drawpoint/doe/evaluate_options.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/run_journal.hpp>
-#include <drawpoint/doe/detail/scaling.hpp>
-#include <drawpoint/doe/detail/watchdog.hpp>
 
 namespace drawpoint::doe {
 

@@ -26,8 +26,8 @@
 #include <utility>
 
 #include <drawpoint/doe/detail/latin_annealing.hpp>
-#include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/detail/lattice.hpp>
+#include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/quality.hpp>
 
 namespace drawpoint::doe {

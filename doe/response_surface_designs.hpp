@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/fractional_factorial.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
+#include <drawpoint/doe/fractional_factorial.hpp>
 
 namespace drawpoint::doe {
 

@@ -16,10 +16,10 @@
 #include <cmath>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
-#include <drawpoint/kriging/model.hpp>
-#include <drawpoint/kriging/options.hpp>
 #include <drawpoint/kriging/detail/search.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/options.hpp>
 #include <limits>
 #include <string>
 #include <utility>

@@ -18,8 +18,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/model_state.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>

@@ -29,8 +29,8 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/atomic_file.hpp>
-#include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/detail/saved_checks.hpp>
+#include <drawpoint/kriging/model.hpp>
 
 namespace drawpoint::kriging {
 

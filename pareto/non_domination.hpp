@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/pareto/draws.hpp>
 #include <drawpoint/pareto/detail/normalized.hpp>
+#include <drawpoint/pareto/draws.hpp>
 
 namespace drawpoint::pareto {
 

@@ -27,8 +27,8 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/detail/scalar_problem.hpp>
+#include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/search.hpp>
 #include <drawpoint/pareto/stationarity.hpp>
 

@@ -195,8 +195,7 @@ json cycles_panel(const LoadingLog& log) {
 }  // namespace
 
 void settle_pile(engine::loading::Scenario scenario) {
-  scenario.world.solver.threads = scenario.world.contacts.threads =
-      static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
+  scenario.world.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
   int told = -1;
   const auto pile = engine::loading::prepared_pile(scenario, [&](double share) {
     const int percent = static_cast<int>(100 * share) / 10 * 10;

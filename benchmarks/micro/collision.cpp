@@ -6,8 +6,8 @@
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision.h>
 
-#include <drawpoint/engine/collision/contact_finder.hpp>
 #include <drawpoint/engine/geometry/convex_contact.h>
+#include <drawpoint/engine/collision/contact_finder.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/tests/support/dense_rocks.hpp>
 #include <map>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
+#include <drawpoint/engine/base/thread_pool.hpp>
+#include <memory>
 #include <stdexcept>
 
 namespace drawpoint::benchmarks {
@@ -9,20 +11,19 @@ namespace {
 
 using engine::ContactProblem;
 using engine::Method;
-using engine::SolverOptions;
 using engine::SolverReport;
 
 template <Method method>
-SolverReport solve_by(ContactProblem& problem, const SolverOptions& options) {
-  SolverOptions chosen = options;
+SolverReport solve_by(ContactProblem& problem, const MethodOptions& options) {
+  engine::SolverOptions chosen = options;
   chosen.method = method;
-  return engine::solve(problem, chosen);
+  return engine::solve(problem, chosen, std::make_shared<const engine::ThreadPool>(options.threads));
 }
 
 // Made on first use, so that files may register in any order.
 std::vector<ContactMethod>& table() {
   static std::vector<ContactMethod> methods{{"sequential", solve_by<Method::sequential>, true},
-                                            {"coloured", solve_by<Method::coloured>, true}};
+                                            {"batched", solve_by<Method::batched>, true}};
   return methods;
 }
 
@@ -43,8 +44,13 @@ ContactMethod contact_method(const std::string& name) {
   throw std::invalid_argument("no method \"" + name + "\"; known: " + known);
 }
 
-SolverOptions fixed_work(int substeps, int sweeps, int threads) {
-  return {.substeps = substeps, .sweeps = sweeps, .spare_work = 0, .threads = threads};
+MethodOptions fixed_work(int substeps, int iterations, int threads) {
+  MethodOptions options;
+  options.substeps = substeps;
+  options.iterations = iterations;
+  options.iteration_budget = 0;
+  options.threads = threads;
+  return options;
 }
 
 RegisteredMethod::RegisteredMethod(const ContactMethod& method) { table().push_back(method); }

@@ -14,8 +14,11 @@
 /// file there.
 namespace drawpoint::benchmarks {
 
-using Solve = engine::SolverReport (*)(engine::ContactProblem&,
-                                                const engine::SolverOptions&);
+struct MethodOptions : engine::SolverOptions {
+  int threads = 1;  ///< for the methods that know them
+};
+
+using Solve = engine::SolverReport (*)(engine::ContactProblem&, const MethodOptions&);
 
 struct ContactMethod {
   std::string name;
@@ -28,8 +31,8 @@ std::vector<ContactMethod> contact_methods();
 /// Throws std::invalid_argument with the known names.
 ContactMethod contact_method(const std::string& name);
 
-/// Just so many substeps and sweeps, whatever they reach.
-engine::SolverOptions fixed_work(int substeps, int sweeps, int threads = 1);
+/// Just so many substeps and iterations, whatever they reach.
+MethodOptions fixed_work(int substeps, int iterations, int threads = 1);
 
 struct RegisteredMethod {
   explicit RegisteredMethod(const ContactMethod& method);

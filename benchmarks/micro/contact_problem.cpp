@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <drawpoint/benchmarks/micro/judged_solve.hpp>
+#include <drawpoint/benchmarks/micro/evaluated_solve.hpp>
 #include <drawpoint/benchmarks/micro/recorded_scenes.hpp>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 struct Arguments {
   std::string file, method = "sequential", scene;
-  SolverOptions options = fixed_work(1, 25);
+  MethodOptions options = fixed_work(1, 25);
   int repeats = 5;
   bool as_json = false;
 };
@@ -36,7 +36,7 @@ void print(const json& object, bool as_json) {
                 (value.is_string() ? value.get<std::string>() : value.dump()).c_str());
 }
 
-json numbers(const Judgement& j) {
+json numbers(const Evaluation& j) {
   return {{"residual", j.residual.contacts()},
           {"complementarity", j.residual.complementarity},
           {"cone", j.residual.cone},
@@ -72,40 +72,42 @@ void solve(const Arguments& arguments) {
   const RecordedProblem recorded = engine::record::read_contact_problem(arguments.file);
   const ContactMethod method = contact_method(arguments.method);
   const auto converged = converged_solution(recorded.problem);
-  json out = numbers(judge(recorded.problem, method, arguments.options, arguments.repeats, converged));
+  json out = numbers(evaluate(recorded.problem, method, arguments.options, arguments.repeats, converged));
   out["method"] = method.name;
   out["contacts"] = recorded.problem.points.size();
   out["substeps"] = arguments.options.substeps;
-  out["sweeps"] = arguments.options.sweeps;
+  out["iterations"] = arguments.options.iterations;
   out["threads"] = arguments.options.threads;
-  out["ns_per_contact_sweep"] =
-      nanoseconds_a_point_a_sweep(recorded.problem, method, arguments.options, arguments.repeats);
+  out["ns_per_contact_iteration"] =
+      nanoseconds_per_point_and_iteration(recorded.problem, method, arguments.options, arguments.repeats);
   print(out, arguments.as_json);
 }
 
-// Every method over a ladder of work: sweeps of whole steps, and substeps of one or two sweeps.
+// Every method over a ladder of work: iterations of whole steps, and substeps of one or two iterations.
 void compare(const Arguments& arguments) {
   const RecordedProblem recorded = engine::record::read_contact_problem(arguments.file);
   const auto converged = converged_solution(recorded.problem);
-  std::vector<std::pair<int, int>> ladder;  // substeps, sweeps
-  for (const int sweeps : {1, 4, 16, 50, 150, 500}) ladder.emplace_back(1, sweeps);
+  std::vector<std::pair<int, int>> ladder;  // substeps, iterations
+  for (const int iterations : {1, 4, 16, 50, 150, 500}) ladder.emplace_back(1, iterations);
   for (const int substeps : {2, 4, 8, 16})
-    for (const int sweeps : {1, 2}) ladder.emplace_back(substeps, sweeps);
+    for (const int iterations : {1, 2}) ladder.emplace_back(substeps, iterations);
   json all = json::array();
   if (!arguments.as_json)
-    std::printf("%-12s %8s %6s %13s %9s %10s %10s %10s\n", "method", "substeps", "sweeps", "point-sweeps",
-                "ms", "residual", "distance", "impulses");
+    std::printf("%-12s %8s %6s %13s %9s %10s %10s %10s\n", "method", "substeps", "iterations",
+                "point-iterations", "ms", "residual", "distance", "impulses");
   for (const ContactMethod& method : contact_methods())
-    for (const auto& [substeps, sweeps] : ladder) {
+    for (const auto& [substeps, iterations] : ladder) {
       if (substeps > 1 && !method.takes_substeps) continue;
-      const SolverOptions options = fixed_work(substeps, sweeps, arguments.options.threads);
-      json row = numbers(judge(recorded.problem, method, options, arguments.repeats, converged));
-      const auto work = recorded.problem.points.size() * substeps * sweeps;
-      row.update(
-          {{"method", method.name}, {"substeps", substeps}, {"sweeps", sweeps}, {"point_sweeps", work}});
+      const MethodOptions options = fixed_work(substeps, iterations, arguments.options.threads);
+      json row = numbers(evaluate(recorded.problem, method, options, arguments.repeats, converged));
+      const auto work = recorded.problem.points.size() * substeps * iterations;
+      row.update({{"method", method.name},
+                  {"substeps", substeps},
+                  {"iterations", iterations},
+                  {"point_iterations", work}});
       if (!arguments.as_json)
-        std::printf("%-12s %8d %6d %13zu %9.3f %10.2e %10.2e %10.2e\n", method.name.c_str(), substeps, sweeps,
-                    work, row["ms"].get<double>(), row["residual"].get<double>(),
+        std::printf("%-12s %8d %6d %13zu %9.3f %10.2e %10.2e %10.2e\n", method.name.c_str(), substeps,
+                    iterations, work, row["ms"].get<double>(), row["residual"].get<double>(),
                     row["distance_to_converged"].get<double>(),
                     row["impulse_distance_to_converged"].get<double>());
       all.push_back(std::move(row));
@@ -137,7 +139,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
   }
   solve_command->add_option("--method", arguments.method);
-  solve_command->add_option("--sweeps", arguments.options.sweeps, "a substep");
+  solve_command->add_option("--iterations", arguments.options.iterations, "a substep");
   solve_command->add_option("--substeps", arguments.options.substeps);
   record_command->add_option("scene", arguments.scene, "settled_pile, bucket_full or bucket_at_breakout")
       ->required();

@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
+#include <drawpoint/engine/solver/batch/iteration_order.h>
+#include <drawpoint/engine/solver/batch/pair_batch.h>
+#include <drawpoint/engine/solver/sequential_iteration.h>
 #include <algorithm>
 #include <chrono>
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
-#include <drawpoint/engine/solver/batch/pair_batch.h>
-#include <drawpoint/engine/solver/sequential_iteration.h>
-#include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <drawpoint/tests/support/rocks.hpp>
 #include <map>
 
-/// Nanoseconds a contact point a sweep, and the share of the memory's speed that the sweeps use.
+/// Nanoseconds a contact point an iteration, and the share of the memory's speed that the iterations use.
 ///
 /// The contacts are those of a heap of rocks in a box, at rest or while a wall pushes through it; a solve is
-/// one substep of many sweeps, so that making it ready hardly counts. `bytes_per_point` is what a sweep
-/// streams through: the constraint data of all points and pairs, bodies not counted, because they are read
-/// again from the cache. `triad` is a[i] = b[i] + s c[i], 24 bytes an element, over arrays that together are
-/// as large; `share_of_triad` is bytes streamed a second over the triad's at the nearest size.
+/// one substep of many iterations, so that making it ready hardly counts. `bytes_per_point` is what an
+/// iteration streams through: the constraint data of all points and pairs, bodies not counted, because they
+/// are read again from the cache. `triad` is a[i] = b[i] + s c[i], 24 bytes an element, over arrays that
+/// together are as large; `share_of_triad` is bytes streamed a second over the triad's at the nearest size.
 using namespace drawpoint;
 using engine::ContactProblem;
 using engine::World;
@@ -58,14 +58,14 @@ const ContactProblem& problem_of(int rocks, bool digging) {
   return made.at(key);
 }
 
-double bytes_of_a_sequential_sweep(const ContactProblem& problem) {
+double bytes_of_a_sequential_iteration(const ContactProblem& problem) {
   return static_cast<double>(problem.points.size() * sizeof(detail::PointBlock) +
                              problem.pairs.size() * sizeof(detail::PairBlock));
 }
 
 // A batch has as many point batches as its largest pair has points.
-double bytes_of_a_coloured_sweep(const ContactProblem& problem) {
-  const detail::SweepOrder order = detail::sweep_order(problem, detail::batch_lanes);
+double bytes_of_a_batched_iteration(const ContactProblem& problem) {
+  const detail::IterationOrder order = detail::iteration_order(problem, detail::batch_lanes);
   double bytes = 0;
   for (std::size_t k = 0; k + 1 < order.batches.size(); ++k)
     bytes += sizeof(detail::PairBatch) +
@@ -89,7 +89,7 @@ double triad_speed(double bytes) {
   return 24.0 * static_cast<double>(length) / least;
 }
 
-void sweeps(benchmark::State& state, const std::string& method, bool digging) {
+void iterations(benchmark::State& state, const std::string& method, bool digging) {
   constexpr int count = 200;
   const ContactProblem& recorded = problem_of(static_cast<int>(state.range(0)), digging);
   const auto solve = benchmarks::contact_method(method).solve;
@@ -100,8 +100,8 @@ void sweeps(benchmark::State& state, const std::string& method, bool digging) {
     benchmark::DoNotOptimize(solve(problem, benchmarks::fixed_work(1, count)));
   }
   const double points = static_cast<double>(recorded.points.size()), work = points * count;
-  const double bytes =
-      method == "sequential" ? bytes_of_a_sequential_sweep(recorded) : bytes_of_a_coloured_sweep(recorded);
+  const double bytes = method == "sequential" ? bytes_of_a_sequential_iteration(recorded)
+                                              : bytes_of_a_batched_iteration(recorded);
   using benchmark::Counter;
   state.counters["points"] = points;
   state.counters["time_per_point_sweep"] =
@@ -119,8 +119,8 @@ void triad(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK_CAPTURE(sweeps, sequential_rest, "sequential", false)->Arg(200)->Arg(800);
-BENCHMARK_CAPTURE(sweeps, sequential_dig, "sequential", true)->Arg(800);
-BENCHMARK_CAPTURE(sweeps, coloured_rest, "coloured", false)->Arg(200)->Arg(800)->Arg(3000);
-BENCHMARK_CAPTURE(sweeps, coloured_dig, "coloured", true)->Arg(800)->Arg(3000);
+BENCHMARK_CAPTURE(iterations, sequential_rest, "sequential", false)->Arg(200)->Arg(800);
+BENCHMARK_CAPTURE(iterations, sequential_dig, "sequential", true)->Arg(800);
+BENCHMARK_CAPTURE(iterations, batched_rest, "batched", false)->Arg(200)->Arg(800)->Arg(3000);
+BENCHMARK_CAPTURE(iterations, batched_dig, "batched", true)->Arg(800)->Arg(3000);
 BENCHMARK(triad)->Arg(1 << 18)->Arg(1 << 21)->Arg(1 << 28)->Iterations(1);

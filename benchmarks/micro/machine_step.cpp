@@ -27,8 +27,8 @@ void machine_on_its_tyres(benchmark::State& state) {
                    Eigen::Isometry3d::Identity(), static_cast<int>(loading::SurfaceKind::terrain));
   for (const auto& s : lhd.surfaces)
     if (s.touches)
-      world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape),
-                           Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
+      world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape), Eigen::Isometry3d::Identity(),
+                           static_cast<int>(s.kind));
   for (auto _ : state) {
     driver.command({0, 0, 0});
     benchmark::DoNotOptimize(world.step());

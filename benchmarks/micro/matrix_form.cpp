@@ -96,7 +96,7 @@ VectorXd velocities(const ContactProblem& problem, bool pushed) {
   VectorXd x(6 * static_cast<Index>(problem.bodies.size()) + freedoms);
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     const SolverBody& body = problem.bodies[k];
-    x.segment<3>(6 * k) = pushed ? Vector3d(body.velocity + body.push) : body.velocity;
+    x.segment<3>(6 * k) = pushed ? Vector3d(body.velocity + body.external_velocity_change) : body.velocity;
     x.segment<3>(6 * k + 3) = body.angular_velocity;
   }
   if (freedoms > 0) x.tail(freedoms) = pushed ? problem.machine->velocity : problem.machine->velocity_before;
@@ -172,8 +172,8 @@ SolverReport MatrixForm::store(ContactProblem& problem, const VectorXd& impulses
     SolverBody& body = problem.bodies[k];
     body.velocity = x.segment<3>(6 * k);
     body.angular_velocity = x.segment<3>(6 * k + 3);
-    body.travel = problem.step * body.velocity;
-    body.turn = problem.step * body.angular_velocity;
+    body.displacement = problem.step * body.velocity;
+    body.rotation_vector = problem.step * body.angular_velocity;
   }
   const std::size_t points = problem.points.size();
   for (std::size_t k = 0; k < points; ++k)

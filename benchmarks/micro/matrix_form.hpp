@@ -25,8 +25,8 @@ struct MatrixForm {
   void project(const engine::ContactProblem& problem, Eigen::VectorXd& impulses) const;
 
   /// Writes the solution into the problem, all "out" fields, and returns the machine's part.
-  engine::SolverReport store(engine::ContactProblem& problem,
-                                      const Eigen::VectorXd& impulses, const Eigen::VectorXd& x) const;
+  engine::SolverReport store(engine::ContactProblem& problem, const Eigen::VectorXd& impulses,
+                             const Eigen::VectorXd& x) const;
 
   Eigen::SparseMatrix<double, Eigen::RowMajor> J, inverse_mass;  ///< rows x velocities, velocities²
   Eigen::VectorXd x_free;                                        ///< after outer forces, before impulses

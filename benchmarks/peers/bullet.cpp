@@ -71,8 +71,7 @@ class Bullet : public Peer {
       const auto& kind = pile.hulls[rock.hull];
       rocks_.push_back(add(hulls[rock.hull], rock.start, {kind.mass, kind.inertia}));
     }
-    for (const auto& wall : pile.walls)
-      add(hull(engine::box({slab, slab, slab})), slab_pose(wall), {});
+    for (const auto& wall : pile.walls) add(hull(engine::box({slab, slab, slab})), slab_pose(wall), {});
     blade_ = add(hull(engine::box(pile.blade.half)),
                  Eigen::Isometry3d(Eigen::Translation3d(pile.blade.start)), {});
     blade_->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);

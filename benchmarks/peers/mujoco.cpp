@@ -20,8 +20,8 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-constexpr int contacts_a_rock = 6;  // a settled pile has three
-constexpr double blade_mass = 1e9;  // [kg]
+constexpr int contacts_per_rock = 6;  // a settled pile has three
+constexpr double blade_mass = 1e9;    // [kg]
 
 /// MuJoCo reads its models as XML.
 class ModelText {
@@ -43,7 +43,7 @@ class ModelText {
 
  private:
   void write_options(const support::RockPile& pile, const PeerOptions& options) {
-    const auto contacts = contacts_a_rock * pile.rocks.size() + 100;
+    const auto contacts = contacts_per_rock * pile.rocks.size() + 100;
     out_ << "<size nconmax='" << contacts << "' njmax='" << 3 * contacts << "'/>\n<option timestep='"
          << options.step << "' gravity='0 0 " << -support::RockPile::gravity << "' iterations='"
          << options.iterations

@@ -7,7 +7,7 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-constexpr double take_up = 0.5, hold = 1.0, window = 0.01, judged = 0.6;  // [s]
+constexpr double take_up = 0.5, hold = 1.0, window = 0.01, evaluated = 0.6;  // [s]
 
 support::RockPile moved_to(const SettledState& settled, double offset) {
   support::RockPile pile = settled.pile;
@@ -20,8 +20,7 @@ support::RockPile moved_to(const SettledState& settled, double offset) {
 
 double mass_moment(const support::PileWorld& world) {
   double sum = 0;
-  for (const engine::Rock& rock : world.world().rocks())
-    sum += rock.body.mass * rock.pose.translation().x();
+  for (const engine::Rock& rock : world.world().rocks()) sum += rock.body.mass * rock.pose.translation().x();
   return sum;
 }
 
@@ -40,7 +39,7 @@ void sample_rest(AccuracySample& sample, support::PileWorld& world, Progress& pr
 
 void sample_dig(AccuracySample& sample, support::PileWorld& world, Progress& progress) {
   const double h = world.world().options().step;
-  const int steps = steps_in(support::RockPile::dig_time, h), skipped = steps - steps_in(judged, h);
+  const int steps = steps_in(support::RockPile::dig_time, h), skipped = steps - steps_in(evaluated, h);
   const double moment = mass_moment(world);
   std::vector<double> drag;
   int step = 0;
@@ -57,8 +56,7 @@ void sample_dig(AccuracySample& sample, support::PileWorld& world, Progress& pro
 
 }  // namespace
 
-SettledState settled(support::RockPile pile, const engine::WorldOptions& options,
-                     Progress& progress) {
+SettledState settled(support::RockPile pile, const engine::WorldOptions& options, Progress& progress) {
   support::PileWorld world(std::move(pile), options);
   run_phase(world, "settle", steps_in(support::RockPile::settle_time, options.step), progress);
   return {world.pile(), world.states()};

@@ -18,8 +18,7 @@ struct SettledState {
 };
 
 /// Settles the pile, whose rocks are at their start poses, for RockPile::settle_time.
-SettledState settled(support::RockPile pile, const engine::WorldOptions& options,
-                     Progress& progress);
+SettledState settled(support::RockPile pile, const engine::WorldOptions& options, Progress& progress);
 
 struct AccuracySample {
   double ms_rest = 0, ms_dig = 0;            ///< wall time a step, median and mean

@@ -8,7 +8,8 @@
 #include "estimate.hpp"
 #include "setting.hpp"
 
-/// Accuracy against cost: how far step, substeps and sweeps are from a converged run of the same pile. See
+/// Accuracy against cost: how far step, substeps and iterations are from a converged run of the same pile.
+/// See
 /// --help.
 using namespace drawpoint;
 using namespace drawpoint::benchmarks;
@@ -17,10 +18,12 @@ namespace {
 
 constexpr const char* about =
     "Accuracy against cost. Each seed's pile is settled once; every setting then goes on from there and is\n"
-    "compared, seed by seed, with a reference of a small step and very many sweeps. The second row is the\n"
+    "compared, seed by seed, with a reference of a small step and very many iterations. The second row is "
+    "the\n"
     "reference's twin, started a micrometre off: what chaos alone does. Intervals: 95 %, Student's t over "
     "the\n"
-    "seeds. A setting is STEPxSUBSTEPSxSWEEPS with the step in milliseconds, and +SPARE for spare work.\n\n"
+    "seeds. A setting is STEPxSUBSTEPSxITERATIONS with the step in milliseconds, and +BUDGET for iteration "
+    "budget.\n\n"
     "  accuracy_study --rocks 200 --seeds 3 --settings 10x16x1,10x16x1+20000,5x1x25\n"
     "                             the pile of pile_scenario: 0.5 s to take up the loads, 1 s at rest, 1 s "
     "of\n"
@@ -75,7 +78,7 @@ struct Configuration {
 std::vector<Configuration> configurations(const Settings& s, engine::WorldOptions options) {
   std::vector<Configuration> all;
   const auto chosen = world_options(s.engine);
-  options.solver.threads = options.contacts.threads = chosen.solver.threads;
+  options.threads = chosen.threads;
   options.freezing.on = chosen.freezing.on;
   const auto add = [&](const std::string& name, const std::string& text, double offset) {
     const Setting setting = setting_of(text);
@@ -277,8 +280,8 @@ int main(int argc, char** argv) {
       ->check(wrong_setting)
       ->capture_default_str();
   app.add_option("--reference-method", s.reference_method,
-                 "sequential: double precision; coloured: a tenth of the time, to 1e-6 of the load")
-      ->check(CLI::IsMember({"sequential", "coloured"}))
+                 "sequential: double precision; batched: a tenth of the time, to 1e-6 of the load")
+      ->check(CLI::IsMember({"sequential", "batched"}))
       ->capture_default_str();
   app.add_option("--jobs", s.jobs, "seeds at a time; more than one makes the times less sure")
       ->check(between(1, 256, "", "no more than there are cores"))

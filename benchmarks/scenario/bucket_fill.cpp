@@ -285,9 +285,10 @@ int main(int argc, char** argv) {
          "Lindmark (2016)")
       ->check(CLI::IsMember({"surface", "slope"}))
       ->capture_default_str();
-  app.add_option("--setting", s.setting,
-                 "how cycles are solved: STEPxSUBSTEPSxSWEEPS with the step in ms, +SPARE for spare work "
-                 "(default: the study's; piles are always poured with that)");
+  app.add_option(
+      "--setting", s.setting,
+      "how cycles are solved: STEPxSUBSTEPSxITERATIONS with the step in ms, +BUDGET for iteration budget "
+      "(default: the study's; piles are always poured with that)");
   app.add_flag("--cold", s.cold, "begin each step's solve from nothing");
   app.add_option("--jobs", s.jobs, "piles at a time")
       ->check(between(1, 256, "", "no more than there are cores"))

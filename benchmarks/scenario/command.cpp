@@ -54,10 +54,10 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 void add_method_flags(CLI::App& app, EngineFlags& flags) {
   flags.method = to_string(flags.world.solver.method);
   flags.freeze = flags.world.freezing.on ? "on" : "off";
-  app.add_option("--method", flags.method, "contact solver: sequential (the reference) or coloured")
+  app.add_option("--method", flags.method, "contact solver: sequential (the reference) or batched")
       ->check(known_method())
       ->capture_default_str();
-  app.add_option("--threads", flags.world.solver.threads, "threads; they change the time only")
+  app.add_option("--threads", flags.world.threads, "threads; they change the time only")
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
   app.add_option("--freeze", flags.freeze,
@@ -73,12 +73,13 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags) {
   app.add_option("--substeps", flags.world.solver.substeps, "substeps of the contact solver a step")
       ->check(between(1, 1000, "", "1 to 16 are usual"))
       ->capture_default_str();
-  app.add_option("--sweeps", flags.world.solver.sweeps, "sweeps of the contact solver a substep, at least")
+  app.add_option("--iterations", flags.world.solver.iterations,
+                 "iterations of the contact solver a substep, at least")
       ->check(between(1, 1e6, "", "1 to 150 are usual, 1000 and more a reference"))
       ->capture_default_str();
-  app.add_option("--spare-work", flags.world.solver.spare_work,
-                 "sweeps times points up to which a substep of a small problem sweeps on; 0: never")
-      ->check(between(0, 1e9, "", "0 keeps to --sweeps"))
+  app.add_option("--iteration-budget", flags.world.solver.iteration_budget,
+                 "iterations times points up to which a substep of a small problem iterations on; 0: never")
+      ->check(between(0, 1e9, "", "0 keeps to --iterations"))
       ->capture_default_str();
   add_method_flags(app, flags);
 }
@@ -95,7 +96,6 @@ void add_material_flags(CLI::App& app, MaterialFlags& flags) {
 engine::WorldOptions world_options(const EngineFlags& flags) {
   engine::WorldOptions options = flags.world;
   options.solver.method = engine::method_named(flags.method);
-  options.contacts.threads = options.solver.threads;
   options.freezing.on = flags.freeze == "on";
   return options;
 }
@@ -104,17 +104,17 @@ nlohmann::json described(const engine::WorldOptions& options) {
   return {{"dt_s", options.step},
           {"method", to_string(options.solver.method)},
           {"substeps", options.solver.substeps},
-          {"sweeps", options.solver.sweeps},
-          {"spare_work", options.solver.spare_work},
-          {"threads", options.solver.threads},
+          {"iterations", options.solver.iterations},
+          {"iteration_budget", options.solver.iteration_budget},
+          {"threads", options.threads},
           {"freeze", options.freezing.on ? "on" : "off"}};
 }
 
 std::string in_words(const nlohmann::json& j) {
   std::ostringstream text;
   text << "dt " << 1e3 * j.at("dt_s").get<double>() << " ms, " << j.at("method").get<std::string>() << ", "
-       << j.at("substeps") << " x " << j.at("sweeps") << " sweeps, threads " << j.at("threads") << ", freeze "
-       << j.at("freeze").get<std::string>();
+       << j.at("substeps") << " x " << j.at("iterations") << " iterations, threads " << j.at("threads")
+       << ", freeze " << j.at("freeze").get<std::string>();
   return text.str();
 }
 

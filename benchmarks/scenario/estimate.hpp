@@ -11,9 +11,9 @@
 /// Means with their confidence, for runs that are chaotic.
 ///
 /// A mean over n independent values (seeds) with a 95 % interval by Student's t: mean ± t(0.975, n−1) s/√n.
-/// One configuration against another is judged on the differences seed by seed, so that what the seeds have
-/// in common cancels. Within one run values are correlated in time: the error of their mean is taken from the
-/// means of blocks that are longer than the correlation, s_b/√(blocks).
+/// One configuration against another is evaluated on the differences seed by seed, so that what the seeds
+/// have in common cancels. Within one run values are correlated in time: the error of their mean is taken
+/// from the means of blocks that are longer than the correlation, s_b/√(blocks).
 namespace drawpoint::benchmarks {
 
 struct Estimate {

@@ -28,10 +28,11 @@ constexpr const char* about =
     "starts\n"
     "a micrometre off: what chaos alone does. A change is resolved only when its interval is narrower than "
     "the\n"
-    "change that is asked about. Both sides are solved with as many sweeps: with spare work, the fewer "
+    "change that is asked about. Both sides are solved with as many iterations: with iteration budget, the "
+    "fewer "
     "rocks\n"
     "that stay awake would be solved better than all of them, and feel stiffer for that alone. A setting is\n"
-    "STEPxSUBSTEPSxSWEEPS with the step in milliseconds, and +SPARE for spare work.";
+    "STEPxSUBSTEPSxITERATIONS with the step in milliseconds, and +BUDGET for iteration budget.";
 
 struct Settings {
   bool cost = false, blade = false;

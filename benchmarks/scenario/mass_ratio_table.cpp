@@ -39,8 +39,7 @@ void build(engine::World& world, const MassRatioTable& table) {
   world.add_static(std::make_shared<const Shape>(engine::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
                    Eigen::Isometry3d::Identity(), 0);
   for (const MassRatioTable::Cube& cube : table.cubes) {
-    const auto shape =
-        std::make_shared<const Shape>(engine::box(Eigen::Vector3d::Constant(cube.half)));
+    const auto shape = std::make_shared<const Shape>(engine::box(Eigen::Vector3d::Constant(cube.half)));
     world.add_rock({shape, cube.mass, Eigen::Vector3d::Constant(cube.inertia), 0},
                    Eigen::Isometry3d(Eigen::Translation3d(cube.start)));
   }
@@ -60,8 +59,9 @@ nlohmann::json run(double ratio, const EngineFlags& flags) {
     const Poses poses = poses_of(world);
     for (const Eigen::Isometry3d& pose : poses)
       if (!pose.matrix().allFinite())
-        throw std::runtime_error("a cube's pose is no longer finite at t = " + std::to_string(world.time()) +
-                                 " s: the contact solution broke down; use a smaller step or more sweeps");
+        throw std::runtime_error(
+            "a cube's pose is no longer finite at t = " + std::to_string(world.time()) +
+            " s: the contact solution broke down; use a smaller step or more iterations");
     peak = std::max(peak, support::table_overlap(table, poses));
     progress.show("step", k + 1, steps);
   }

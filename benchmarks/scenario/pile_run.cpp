@@ -19,7 +19,7 @@ void check_sound(const support::PileWorld& world, const std::string& phase) {
     if (inside > -1 && rock.pose.matrix().allFinite() && rock.velocity.allFinite()) continue;
     throw std::runtime_error("rock " + std::to_string(k) + " left the box during \"" + phase +
                              "\", t = " + std::to_string(world.world().time()) +
-                             " s: the contact solution broke down; use a smaller step or more sweeps");
+                             " s: the contact solution broke down; use a smaller step or more iterations");
   }
 }
 
@@ -54,7 +54,7 @@ engine::StepReport add_step(PhaseTimes& times, engine::World& world) {
     report = world.step();
   } catch (const std::invalid_argument& error) {  // a pose that is not finite, told by the contact finder
     throw std::runtime_error("the contact solution broke down at t = " + std::to_string(world.time()) +
-                             " s; use a smaller step or more sweeps (" + error.what() + ")");
+                             " s; use a smaller step or more iterations (" + error.what() + ")");
   }
   times.wall.push_back(
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());

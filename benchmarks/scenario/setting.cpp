@@ -29,31 +29,32 @@ Setting setting_of(const std::string& text) {
   std::string_view rest = text;
   const bool spare = text.find('+') != std::string::npos;
   const bool known = take(rest, 0.01, 10.0, "x", milliseconds) && take(rest, 1, 1000, "x", s.substeps) &&
-                     take(rest, 1, 1'000'000, spare ? "+" : "", s.sweeps) &&
-                     (!spare || take(rest, 0, 1'000'000'000, "", s.spare_work)) && rest.empty();
+                     take(rest, 1, 1'000'000, spare ? "+" : "", s.iterations) &&
+                     (!spare || take(rest, 0, 1'000'000'000, "", s.iteration_budget)) && rest.empty();
   if (!known)
     throw std::invalid_argument(
         "a setting is \"" + text +
-        "\"; write STEPxSUBSTEPSxSWEEPS or STEPxSUBSTEPSxSWEEPS+SPARE with a step of 0.01 to 10 ms, 1 to "
+        "\"; write STEPxSUBSTEPSxITERATIONS or STEPxSUBSTEPSxITERATIONS+BUDGET with a step of 0.01 to 10 ms, "
+        "1 to "
         "1000 "
-        "substeps, 1 to 1000000 sweeps and spare work of 0 to 1e9, such as 10x16x1+20000");
+        "substeps, 1 to 1000000 iterations and iteration budget of 0 to 1e9, such as 10x16x1+20000");
   s.step = 1e-3 * milliseconds;
   return s;
 }
 
 std::string name_of(const Setting& s) {
   char text[96];
-  std::snprintf(text, sizeof text, "%gx%dx%d", 1e3 * s.step, s.substeps, s.sweeps);
+  std::snprintf(text, sizeof text, "%gx%dx%d", 1e3 * s.step, s.substeps, s.iterations);
   std::string name = text;
-  if (s.spare_work > 0) name.append("+").append(std::to_string(s.spare_work));
+  if (s.iteration_budget > 0) name.append("+").append(std::to_string(s.iteration_budget));
   return name;
 }
 
 engine::WorldOptions with(engine::WorldOptions options, const Setting& setting) {
   options.step = setting.step;
   options.solver.substeps = setting.substeps;
-  options.solver.sweeps = setting.sweeps;
-  options.solver.spare_work = setting.spare_work;
+  options.solver.iterations = setting.iterations;
+  options.solver.iteration_budget = setting.iteration_budget;
   return options;
 }
 

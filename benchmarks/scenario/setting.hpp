@@ -5,17 +5,18 @@
 #include <drawpoint/engine/world/world.hpp>
 #include <string>
 
-/// A choice of step and work of the solver, in one word: STEPxSUBSTEPSxSWEEPS, with +SPARE for spare work.
-/// "10x16x1+20000" is 10 ms, 16 substeps of at least one sweep, and more up to 20 000 sweeps times points.
+/// A choice of step and work of the solver, in one word: STEPxSUBSTEPSxITERATIONS, with +BUDGET for iteration
+/// budget. "10x16x1+20000" is 10 ms, 16 substeps of at least one iteration, and more up to 20 000 iterations
+/// times points.
 namespace drawpoint::benchmarks {
 
 struct Setting {
   double step = 0;  ///< [s]
-  int substeps = 1, sweeps = 1, spare_work = 0;
+  int substeps = 1, iterations = 1, iteration_budget = 0;
 };
 
 /// Throws std::invalid_argument with the text, the form and the ranges: 0.01 to 10 ms, up to 1000 substeps,
-/// 1e6 sweeps, 1e9 spare work.
+/// 1e6 iterations, 1e9 iteration budget.
 Setting setting_of(const std::string& text);
 std::string name_of(const Setting& setting);
 

@@ -47,7 +47,7 @@ double wall_seconds() {
 }
 
 template <class F>
-double points_a_second(const F& predict) {
+double points_per_second(const F& predict) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 5; ++i) {
     const double start = cpu_seconds();
@@ -79,8 +79,8 @@ void add_fit(const Known& c, int threads, drawpoint::doe::Seed seed, Row& row) {
   row.tried = model.report().starts_tried;
   row.evaluations = std::max(row.evaluations, model.report().evaluations);
   if (row.mean_rate > 0) return;
-  row.mean_rate = points_a_second([&] { return model.mean(test.X).sum(); });
-  row.variance_rate = points_a_second([&] { return model.predict(test.X).variance.sum(); });
+  row.mean_rate = points_per_second([&] { return model.mean(test.X).sum(); });
+  row.variance_rate = points_per_second([&] { return model.predict(test.X).variance.sum(); });
 }
 
 void print_row(const Known& c, int seeds, int threads) {

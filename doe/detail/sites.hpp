@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/detail/unit_box.hpp>
+#include <drawpoint/doe/evaluations.hpp>
 
 namespace drawpoint::doe::detail {
 

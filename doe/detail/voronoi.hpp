@@ -17,10 +17,10 @@
 #include <utility>
 
 #include <drawpoint/doe/detail/nearest.hpp>
-#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
-#include <drawpoint/doe/seed.hpp>
 #include <drawpoint/doe/detail/unit_box.hpp>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/doe/seed.hpp>
 
 namespace drawpoint::doe {
 

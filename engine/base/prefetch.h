@@ -11,7 +11,7 @@
 /// inlined: GCC takes a function that only prefetches for one without effect and drops its calls.
 namespace drawpoint::engine::detail {
 
-[[gnu::always_inline]] inline void fetch(const void* data, std::size_t bytes) {
+[[gnu::always_inline]] inline void prefetch(const void* data, std::size_t bytes) {
   constexpr std::size_t line = 64;
   const char* const first = static_cast<const char*>(data);
   for (std::size_t k = 0; k < bytes; k += line) __builtin_prefetch(first + k);

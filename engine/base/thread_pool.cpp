@@ -1,25 +1,24 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <drawpoint/engine/base/publish.h>
-#include <drawpoint/engine/base/thread_pool.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-namespace drawpoint::engine::detail {
+namespace drawpoint::engine {
 namespace {
 
 // Spins this often before it lets other threads of the machine run.
 constexpr int spins_before_yield = 2000;
+constexpr int most_threads = 256;
 
 // The blocks of one thread that are still to be claimed, on a cache line of its own.
 struct alignas(64) Share {
@@ -51,43 +50,56 @@ struct alignas(64) Share {
 
 }  // namespace
 
-struct Parallel::Team {
+struct ThreadPool::Workers {
   using Work = std::function<void(int block, int thread)>;
 
-  explicit Team(int threads)
-      : allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-        arena(threads),
-        shares(static_cast<std::size_t>(threads)) {}
-
-  void gather() {
-    if (shifts++ > 0) return;
-    stop.store(false, std::memory_order_relaxed);
-    const std::uint32_t now = loop.load(std::memory_order_relaxed);
-    hand_over.begin();
+  explicit Workers(int threads) : shares(static_cast<std::size_t>(threads)) {
     try {
-      for (int k = 1; k < static_cast<int>(shares.size()); ++k)
-        arena.execute([this, k, now] { start_helper(k, now); });
+      for (int k = 1; k < threads; ++k) workers.emplace_back([this, k] { serve(k); });
     } catch (...) {
-      dismiss();
+      close();
       throw;
     }
   }
+  ~Workers() { close(); }
 
-  void dismiss() {
-    if (--shifts > 0) return;
-    stop.store(true, std::memory_order_release);
-    arena.execute([this] { group.wait(); });
-    hand_over.end();
+  void close() {
+    closing.store(true, std::memory_order_relaxed);
+    wake();
+    for (std::thread& worker : workers) worker.join();
   }
 
-  void start_helper(int thread, std::uint32_t last) {
-    group.run([this, thread, last] { hand_over.task([&] { help(thread, last); }); });
+  void wake() {
+    region.fetch_add(1, std::memory_order_release);
+    region.notify_all();
   }
 
-  // Loop after loop, from the one after `last`.
-  void help(int thread, std::uint32_t last) {
+  void begin_region() {
+    if (regions++ > 0) return;
+    open.store(true, std::memory_order_relaxed);
+    wake();
+  }
+
+  void end_region() {
+    if (--regions == 0) open.store(false, std::memory_order_relaxed);
+  }
+
+  // Sleeps from region to region.
+  void serve(int thread) {
+    std::uint32_t seen = 0;
+    for (;;) {
+      region.wait(seen, std::memory_order_acquire);
+      seen = region.load(std::memory_order_acquire);
+      if (closing.load(std::memory_order_relaxed)) return;
+      work_in_region(thread);
+    }
+  }
+
+  // Loop after loop. A worker that comes late finds nothing left to claim.
+  void work_in_region(int thread) {
+    std::uint32_t last = 0;
     int spins = 0;
-    while (!stop.load(std::memory_order_acquire)) {
+    while (open.load(std::memory_order_relaxed)) {
       const std::uint32_t now = loop.load(std::memory_order_acquire);
       if (now != last) {
         if (thread < members.load(std::memory_order_relaxed)) work_on(thread, now);
@@ -139,54 +151,55 @@ struct Parallel::Team {
     if (error) std::rethrow_exception(std::exchange(error, {}));
   }
 
-  tbb::global_control allowed;
-  tbb::task_arena arena;
-  tbb::task_group group;
-  HandOver hand_over;
-  int shifts = 0;
+  int regions = 0;            // open, one within the other
   std::vector<Share> shares;  // by thread
-  std::atomic<bool> stop{false};
-  std::atomic<std::uint32_t> loop{0};
-  std::atomic<int> done{0}, members{0};  // blocks; threads that take part
+  std::atomic<bool> open{false}, closing{false};
+  std::atomic<std::uint32_t> region{0}, loop{0};  // the last one that was begun
+  std::atomic<int> done{0}, members{0};           // blocks; threads that take part
   std::atomic<const Work*> work{nullptr};
   std::mutex failing;
   int failed = 0;            // the first block of those that have thrown
   std::exception_ptr error;  // what it threw
+  std::vector<std::thread> workers;
 };
 
-Parallel::Parallel(int threads) : threads_(threads) {
-  if (threads > 1) team_ = std::make_unique<Team>(threads);
+ThreadPool::ThreadPool(int threads) : threads_(threads) {
+  if (threads < 1 || threads > most_threads)
+    throw std::invalid_argument("engine::ThreadPool: threads is " + std::to_string(threads) +
+                                "; allowed: 1 to " + std::to_string(most_threads));
+  if (threads > 1) workers_ = std::make_unique<Workers>(threads);
 }
-Parallel::~Parallel() = default;
+ThreadPool::~ThreadPool() = default;
 
-Parallel::Shift::Shift(const Parallel& parallel) : parallel_(parallel) {
-  if (parallel_.team_) parallel_.team_->gather();
+ThreadPool::Region::Region(const ThreadPool& pool) : pool_(pool) {
+  if (pool_.workers_) pool_.workers_->begin_region();
 }
-Parallel::Shift::~Shift() {
-  if (parallel_.team_) parallel_.team_->dismiss();
+ThreadPool::Region::~Region() {
+  if (pool_.workers_) pool_.workers_->end_region();
 }
 
-void Parallel::run(int blocks, int threads, const std::function<void(int)>& work) const {
-  if (!team_ || threads == 1 || blocks <= 1) {
+void ThreadPool::run(int blocks, int threads, const std::function<void(int)>& work) const {
+  if (!workers_ || threads == 1 || blocks <= 1) {
     for (int block = 0; block < blocks; ++block) work(block);
     return;
   }
-  const Shift shift(*this);
-  team_->run(blocks, std::min(threads, threads_), [&](int block, int) { work(block); });
+  const Region region(*this);
+  workers_->run(blocks, std::min(threads, threads_), [&](int block, int) { work(block); });
 }
 
-void Parallel::blocks(int count, int block, const std::function<void(int, int)>& work) const {
+void ThreadPool::blocks(int count, int block, const std::function<void(int, int)>& work) const {
   blocks_by_thread(count, block, [&](int begin, int end, int) { work(begin, end); });
 }
 
-void Parallel::blocks_by_thread(int count, int block, const std::function<void(int, int, int)>& work) const {
-  if (!team_ || count <= block) {
+void ThreadPool::blocks_by_thread(int count, int block,
+                                  const std::function<void(int, int, int)>& work) const {
+  if (!workers_ || count <= block) {
     if (count > 0) work(0, count, 0);
     return;
   }
-  const Shift shift(*this);
-  team_->run((count + block - 1) / block, threads_,
-             [&](int k, int thread) { work(k * block, std::min(count, (k + 1) * block), thread); });
+  const Region region(*this);
+  workers_->run((count + block - 1) / block, threads_,
+                [&](int k, int thread) { work(k * block, std::min(count, (k + 1) * block), thread); });
 }
 
-}  // namespace drawpoint::engine::detail
+}  // namespace drawpoint::engine

@@ -3,9 +3,9 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/sphere.h>
 
-#include <algorithm>
 #include <drawpoint/engine/collision/broad_phase.h>
 #include <drawpoint/engine/collision/pair_sorter.h>
+#include <algorithm>
 #include <functional>
 
 namespace drawpoint::engine::detail {
@@ -17,10 +17,10 @@ using Eigen::Vector3d;
 // FCL takes boxes that differ by round-off for equal and keeps the older one. Its boxes are larger by this
 // [m], and what it finds is checked against the true ones.
 constexpr double round_off = 1e-6;
-// Where one box in so many has changed, a sweep of the trees is cheaper than single look-ups.
+// Where one box in so many has changed, an iteration of the trees is cheaper than single look-ups.
 constexpr int sweep_share = 3;
-constexpr int most_trees = 8;         // a look-up asks each of them
-constexpr int look_ups_a_block = 64;  // that a thread takes at a time
+constexpr int most_trees = 8;           // a look-up asks each of them
+constexpr int look_ups_per_block = 64;  // that a thread takes at a time
 
 // An FCL object that is nothing but its box: FCL would compute the box of a turned shape from its bounding
 // sphere.
@@ -71,8 +71,8 @@ class BroadPhase::Impl {
   explicit Impl(int threads)
       : moving_(static_cast<std::size_t>(std::min(threads, most_trees))), moved_(moving_.size()) {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j) sweeps_.emplace_back(&moving_[i], &moving_[j]);
-      sweeps_.emplace_back(&moving_[i], &fixed_);
+      for (std::size_t j = 0; j <= i; ++j) iterations_.emplace_back(&moving_[i], &moving_[j]);
+      iterations_.emplace_back(&moving_[i], &fixed_);
     }
   }
 
@@ -141,7 +141,7 @@ class BroadPhase::Impl {
     mark(id);
   }
 
-  Changes update(const Parallel& parallel) {
+  Changes update(const ThreadPool& pool) {
     for (int id : before_) at(id).changed_before = false;
     before_.swap(changed_);
     changed_.clear();
@@ -156,11 +156,11 @@ class BroadPhase::Impl {
         (entry.moves ? moved_[share_of(id)] : fixed_moved_).push_back(entry.object.get());
       entry.dirty = false;
     }
-    parallel.blocks(static_cast<int>(moving_.size()), 1, [this](int begin, int end) {
+    pool.blocks(static_cast<int>(moving_.size()), 1, [this](int begin, int end) {
       for (int k = begin; k < end; ++k) refresh(moving_[k], moved_[k]);
     });
     refresh(fixed_, fixed_moved_);
-    return look_up(parallel);
+    return look_up(pool);
   }
 
   bool changed(int id) const { return entries_[static_cast<std::size_t>(id)].changed_before; }
@@ -169,7 +169,7 @@ class BroadPhase::Impl {
 
   void set_pending(const std::vector<int>& ids) {
     // The trees must take the boxes over all the same.
-    update(Parallel(1));
+    update(ThreadPool(1));
     for (int id : ids) mark(id);
   }
 
@@ -193,17 +193,17 @@ class BroadPhase::Impl {
   }
 
   // FCL's trees do not change while they are asked.
-  void sweep_all(const Parallel& parallel) {
-    const std::size_t sweeps = sweeps_.size();
-    collect_blocks(parallel, sweeps + plane_ids_.size(), 1, [&](std::size_t k, std::vector<Pair>& found) {
-      if (k < sweeps)
-        sweep(*sweeps_[k].first, *sweeps_[k].second, found);
+  void sweep_all(const ThreadPool& pool) {
+    const std::size_t iterations = iterations_.size();
+    collect_blocks(pool, iterations + plane_ids_.size(), 1, [&](std::size_t k, std::vector<Pair>& found) {
+      if (k < iterations)
+        iteration(*iterations_[k].first, *iterations_[k].second, found);
       else
-        meet_all(plane_ids_[k - sweeps], found);
+        meet_all(plane_ids_[k - iterations], found);
     });
   }
 
-  void sweep(Tree& first, Tree& second, std::vector<Pair>& found) const {
+  void iteration(Tree& first, Tree& second, std::vector<Pair>& found) const {
     Collector collector{boxes_, found};
     if (&first == &second)
       first.collide(&collector, collect);
@@ -221,34 +221,34 @@ class BroadPhase::Impl {
     for (int plane : plane_ids_) meet_plane(plane, id, pairs);
   }
 
-  void look_up_changed(const Parallel& parallel) {
-    collect_blocks(parallel, before_.size(), look_ups_a_block,
+  void look_up_changed(const ThreadPool& pool) {
+    collect_blocks(pool, before_.size(), look_ups_per_block,
                    [&](std::size_t k, std::vector<Pair>& found) { look_up_one(before_[k], found); });
   }
 
   // What `find(k, found)` adds for each k, block by block in their order.
   template <class Find>
-  void collect_blocks(const Parallel& parallel, std::size_t count, int block, const Find& find) {
+  void collect_blocks(const ThreadPool& pool, std::size_t count, int block, const Find& find) {
     const std::size_t blocks = (count + block - 1) / block;
     if (found_.size() < blocks) found_.resize(blocks);
     for (std::size_t k = 0; k < blocks; ++k) found_[k].clear();
     const auto find_all = [&](int begin, int end) {
       for (int k = begin; k < end; ++k) find(static_cast<std::size_t>(k), found_[begin / block]);
     };
-    parallel.blocks(static_cast<int>(count), block, std::ref(find_all));  // by reference: no memory
+    pool.blocks(static_cast<int>(count), block, std::ref(find_all));  // by reference: no memory
     for (std::size_t k = 0; k < blocks; ++k) pairs_.insert(pairs_.end(), found_[k].begin(), found_[k].end());
   }
 
-  Changes look_up(const Parallel& parallel) {
+  Changes look_up(const ThreadPool& pool) {
     pairs_.clear();
     if (before_.empty()) return {false, false, pairs_};
     std::size_t size = fixed_.size();
     for (const Tree& tree : moving_) size += tree.size();
     const bool everything = before_.size() * sweep_share > size;
     if (everything)
-      sweep_all(parallel);
+      sweep_all(pool);
     else
-      look_up_changed(parallel);
+      look_up_changed(pool);
     sorter_.sort(pairs_, entries_.size());
     return {true, everything, pairs_};
   }
@@ -260,7 +260,7 @@ class BroadPhase::Impl {
   std::vector<int> plane_ids_;
   std::vector<Tree> moving_;  // each a thread's share, brought up to date side by side
   Tree fixed_;
-  std::vector<std::pair<Tree*, Tree*>> sweeps_;  // of a tree with itself or another, that find all pairs
+  std::vector<std::pair<Tree*, Tree*>> iterations_;  // of a tree with itself or another, that find all pairs
   std::vector<int> changed_, before_;
   std::vector<Objects> moved_;
   Objects fixed_moved_;
@@ -280,7 +280,7 @@ void BroadPhase::remove(int id) { impl_->remove(id); }
 void BroadPhase::set_box(int id, const AlignedBox3d& box) { impl_->set_box(id, box); }
 void BroadPhase::set_plane(int id, const Plane& plane) { impl_->set_plane(id, plane); }
 void BroadPhase::set_moves(int id, bool moves) { impl_->set_moves(id, moves); }
-BroadPhase::Changes BroadPhase::update(const Parallel& parallel) { return impl_->update(parallel); }
+BroadPhase::Changes BroadPhase::update(const ThreadPool& pool) { return impl_->update(pool); }
 bool BroadPhase::changed(int id) const { return impl_->changed(id); }
 const AlignedBox3d& BroadPhase::box(int id) const { return impl_->box(id); }
 const std::vector<int>& BroadPhase::pending() const { return impl_->pending(); }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
-#include <drawpoint/engine/base/thread_pool.h>
 #include <drawpoint/engine/geometry/plane_contact.h>
+#include <Eigen/Dense>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -42,7 +42,7 @@ class BroadPhase {
   };
   /// The pairs of all that was added or changed since the last call.
   /// `parallel` may have any number of threads.
-  Changes update(const Parallel& parallel);
+  Changes update(const ThreadPool& pool);
   /// Whether something was added, changed or removed before the last update().
   bool changed(int id) const;
 

@@ -21,7 +21,7 @@ struct Collider {
 struct ColliderMove {
   int collider;
   Eigen::Isometry3d X_WB;
-  double reach;  ///< [m]
+  double speculative_margin;  ///< [m]
 };
 
 }  // namespace drawpoint::engine

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/collision/contact_finder.hpp>
 
-#include <chrono>
-#include <cmath>
 #include <drawpoint/engine/collision/fat_boxes.h>
 #include <drawpoint/engine/collision/finder_state.h>
 #include <drawpoint/engine/collision/narrow_phase.h>
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -19,7 +19,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int moves_a_block = 128, boxes_a_block = 64;  // that a thread takes at a time
+constexpr int moves_per_block = 128, boxes_per_block = 64;  // that a thread takes at a time
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("engine::ContactFinder: " + what);
@@ -36,8 +36,6 @@ void check(const ContactFinderOptions& options) {
   at_least_zero("reuse_distance", options.reuse_distance, "m");
   at_least_zero("reuse_angle", options.reuse_angle, "rad");
   at_least_zero("hysteresis", options.hysteresis, "m");
-  if (options.threads < 1 || options.threads > 256)
-    refuse("threads is " + std::to_string(options.threads) + "; give 1 to 256");
 }
 
 void check(int collider, const Isometry3d& pose) {
@@ -53,10 +51,10 @@ void check(int collider, const Isometry3d& pose) {
   refuse(text.str() + "give a rigid motion");
 }
 
-void check_reach(int collider, double reach) {
-  if (!(reach >= 0) || !std::isfinite(reach))
-    refuse("the reach of collider " + std::to_string(collider) + " is " + std::to_string(reach) +
-           " m; give a finite value of at least 0");
+void check_speculative_margin(int collider, double distance) {
+  if (!(distance >= 0) || !std::isfinite(distance))
+    refuse("the speculative margin of collider " + std::to_string(collider) + " is " +
+           std::to_string(distance) + " m; give a finite value of at least 0");
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -67,12 +65,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 class ContactFinder::Impl {
  public:
-  Impl(const ContactFinderOptions& options, std::shared_ptr<const detail::Parallel> parallel)
+  Impl(const ContactFinderOptions& options, std::shared_ptr<const ThreadPool> pool)
       : options_((check(options), options)),
         fat_(0.5 * (options.margin + options.reuse_distance), options.slack),
-        parallel_(std::move(parallel)),
-        boxes_(parallel_->threads()),
-        narrow_(options, parallel_->threads()) {}
+        pool_(pool ? std::move(pool) : std::make_shared<const ThreadPool>(1)),
+        boxes_(pool_->threads()),
+        narrow_(options, pool_->threads()) {}
 
   int add(const Collider& collider) {
     const int id = items_.size();
@@ -103,28 +101,28 @@ class ContactFinder::Impl {
     check_box(id);
   }
 
-  void set_reach(int id, double reach) {
+  void set_speculative_margin(int id, double reach) {
     require(id);
-    check_reach(id, reach);
+    check_speculative_margin(id, reach);
     items_.extend(id, reach);
     check_box(id);
   }
 
   void move(std::span<const ColliderMove> moves) {
-    const detail::Parallel::Shift shift(*parallel_);
+    const ThreadPool::Region region(*pool_);
     const int count = static_cast<int>(moves.size());
     leaves_.resize(moves.size());
-    parallel_->blocks(count, moves_a_block, [&](int begin, int end) {
+    pool_->blocks(count, moves_per_block, [&](int begin, int end) {
       for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
         require(move.collider);
         check(move.collider, move.X_WB);
-        check_reach(move.collider, move.reach);
+        check_speculative_margin(move.collider, move.speculative_margin);
       }
     });
-    parallel_->blocks(count, moves_a_block, [&](int begin, int end) {
+    pool_->blocks(count, moves_per_block, [&](int begin, int end) {
       for (const ColliderMove& move : moves.subspan(begin, end - begin)) {
         items_.place(move.collider, move.X_WB);
-        items_.extend(move.collider, move.reach);
+        items_.extend(move.collider, move.speculative_margin);
       }
       for (int k = begin; k < end; ++k) leaves_[k] = leaves_box(moves[k].collider);
     });
@@ -140,13 +138,13 @@ class ContactFinder::Impl {
   }
 
   const std::vector<Manifold>& find() {
-    const detail::Parallel::Shift shift(*parallel_);
+    const ThreadPool::Region region(*pool_);
     times_ = {};
     const auto start = std::chrono::steady_clock::now();
     broad_phase();
     times_.broad = seconds_since(start);
     const auto middle = std::chrono::steady_clock::now();
-    times_.computed = narrow_.run(items_, pairs_, manifolds_, *parallel_);
+    times_.computed = narrow_.run(items_, pairs_, manifolds_, *pool_);
     times_.narrow = seconds_since(middle);
     return manifolds_;
   }
@@ -154,7 +152,7 @@ class ContactFinder::Impl {
   void forget() {
     pairs_.forget();
     for (int id = 0; id < items_.size(); ++id) {
-      items_.travelled[id] = 0;
+      items_.motion_bound[id] = 0;
       if (items_.item[id].hull) boxes_.set_box(id, fat_.first(items_, id));
     }
   }
@@ -165,24 +163,24 @@ class ContactFinder::Impl {
 
   void restore(std::span<const std::byte> bytes) {
     const detail::FinderState state = detail::read_state({options_, items_, boxes_, pairs_}, bytes);
-    restless_.clear();
+    dirty_.clear();
     for (int id = 0; id < items_.size(); ++id) {
       if (!items_.traits[id].alive) continue;
       const auto& saved = state.colliders[id];
       set_moves(id, saved.moves);
       items_.placed[id].R = saved.R, items_.placed[id].p = saved.p, items_.placed[id].centre = saved.centre;
-      items_.travelled[id] = saved.travelled;
-      items_.reach[id] = saved.reach;
+      items_.motion_bound[id] = saved.motion_bound;
+      items_.speculative_margin[id] = saved.speculative_margin;
       items_.item[id].boxed_at = saved.boxed_at;
-      items_.item[id].restless = saved.restless;
-      if (saved.restless) restless_.push_back(id);
+      items_.item[id].dirty = saved.dirty;
+      if (saved.dirty) dirty_.push_back(id);
       if (items_.item[id].hull)
         boxes_.set_box(id, saved.box);
       else
         boxes_.set_plane(id, fat_.plane(items_, id));
     }
     boxes_.set_pending(state.pending);
-    pairs_.assign(state.entries, state.parked, state.pairs);
+    pairs_.assign(state.entries, state.inactive, state.pairs);
   }
 
   const FinderTimes& times() const { return times_; }
@@ -194,28 +192,27 @@ class ContactFinder::Impl {
              "; use a number that add() gave and remove() has not taken");
   }
 
-  bool leaves_box(int id) { return !items_.item[id].restless && fat_.has_left(items_, id, boxes_.box(id)); }
+  bool leaves_box(int id) { return !items_.item[id].dirty && fat_.has_left(items_, id, boxes_.box(id)); }
 
   void check_box(int id) {
     if (leaves_box(id)) renew_box(id);
   }
 
   void renew_box(int id) {
-    items_.item[id].restless = true;
-    restless_.push_back(id);
+    items_.item[id].dirty = true;
+    dirty_.push_back(id);
   }
 
   void broad_phase() {
-    new_boxes_.resize(restless_.size());
-    parallel_->blocks(static_cast<int>(restless_.size()), boxes_a_block, [&](int begin, int end) {
+    new_boxes_.resize(dirty_.size());
+    pool_->blocks(static_cast<int>(dirty_.size()), boxes_per_block, [&](int begin, int end) {
       for (int k = begin; k < end; ++k)
-        if (items_.item[restless_[k]].hull)
-          new_boxes_[k] = fat_.next(items_, restless_[k], boxes_.box(restless_[k]));
+        if (items_.item[dirty_[k]].hull) new_boxes_[k] = fat_.next(items_, dirty_[k], boxes_.box(dirty_[k]));
     });
-    for (std::size_t k = 0; k < restless_.size(); ++k) {
-      const int id = restless_[k];
+    for (std::size_t k = 0; k < dirty_.size(); ++k) {
+      const int id = dirty_[k];
       if (!items_.traits[id].alive) continue;
-      items_.item[id].restless = false;
+      items_.item[id].dirty = false;
       if (items_.item[id].hull) {
         boxes_.set_box(id, new_boxes_[k]);
       } else {
@@ -223,8 +220,8 @@ class ContactFinder::Impl {
         pairs_.forget(id);
       }
     }
-    restless_.clear();
-    const auto changes = boxes_.update(*parallel_);
+    dirty_.clear();
+    const auto changes = boxes_.update(*pool_);
     if (changes.any)
       pairs_.update(
           boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); },
@@ -236,22 +233,19 @@ class ContactFinder::Impl {
   detail::FatBoxes fat_;
   detail::Items items_;
   detail::HullLibrary hulls_;
-  std::shared_ptr<const detail::Parallel> parallel_;
+  std::shared_ptr<const ThreadPool> pool_;
   detail::BroadPhase boxes_;
   detail::PairCache pairs_;
   detail::NarrowPhase narrow_;
   std::vector<char> leaves_;                    // by move: leaves its box
-  std::vector<int> restless_;                   // have left their boxes, or are half-spaces that were moved
+  std::vector<int> dirty_;                      // have left their boxes, or are half-spaces that were moved
   std::vector<Eigen::AlignedBox3d> new_boxes_;  // theirs
   std::vector<Manifold> manifolds_;
   FinderTimes times_;
 };
 
-ContactFinder::ContactFinder(const ContactFinderOptions& options)
-    : ContactFinder(options, std::make_shared<const detail::Parallel>((check(options), options.threads))) {}
-ContactFinder::ContactFinder(const ContactFinderOptions& options,
-                             std::shared_ptr<const detail::Parallel> parallel)
-    : impl_(std::make_unique<Impl>(options, std::move(parallel))) {}
+ContactFinder::ContactFinder(const ContactFinderOptions& options, std::shared_ptr<const ThreadPool> pool)
+    : impl_(std::make_unique<Impl>(options, std::move(pool))) {}
 ContactFinder::~ContactFinder() = default;
 ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
 ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
@@ -260,7 +254,9 @@ int ContactFinder::add(const Collider& collider) { return impl_->add(collider); 
 void ContactFinder::remove(int collider) { impl_->remove(collider); }
 const Collider& ContactFinder::collider(int collider) const { return impl_->collider(collider); }
 void ContactFinder::set_pose(int collider, const Isometry3d& X_WB) { impl_->set_pose(collider, X_WB); }
-void ContactFinder::set_reach(int collider, double reach) { impl_->set_reach(collider, reach); }
+void ContactFinder::set_speculative_margin(int collider, double reach) {
+  impl_->set_speculative_margin(collider, reach);
+}
 void ContactFinder::move(std::span<const ColliderMove> moves) { impl_->move(moves); }
 void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }

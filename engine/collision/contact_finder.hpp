@@ -32,9 +32,7 @@
 /// about 0.07 µs a pair at rest and 0.9 µs a pair computed (benchmarks/micro/collision, find_in_pile).
 namespace drawpoint::engine {
 
-namespace detail {
-class Parallel;
-}
+class ThreadPool;
 
 /// Of the last find().
 struct FinderTimes {
@@ -45,9 +43,10 @@ struct FinderTimes {
 
 class ContactFinder {
  public:
-  explicit ContactFinder(const ContactFinderOptions& options = {});
-  /// On threads that it shares with others, in place of the options' own; one of them at a time.
-  ContactFinder(const ContactFinderOptions& options, std::shared_ptr<const detail::Parallel> parallel);
+  /// On the threads of `pool`, which it may share with a solver, one of them at a time; without one, on the
+  /// caller's.
+  explicit ContactFinder(const ContactFinderOptions& options = {},
+                         std::shared_ptr<const ThreadPool> pool = nullptr);
   ~ContactFinder();
   ContactFinder(ContactFinder&&) noexcept;
   ContactFinder& operator=(ContactFinder&&) noexcept;
@@ -63,8 +62,8 @@ class ContactFinder {
   /// 1e-6.
   void set_pose(int collider, const Eigen::Isometry3d& X_WB);
   /// How much farther than the margin the collider looks [m], ≥ 0 and 0 until set: a pair is searched as far
-  /// as the margin and both reaches. For what moves fast: the way that it may go in the coming step.
-  void set_reach(int collider, double reach);
+  /// as the margin and both speculative margins. For what moves fast: the way that it may go in the coming step.
+  void set_speculative_margin(int collider, double distance);
   /// Both for many colliders, on all threads; each collider at most once. Throws as those
   /// do, and then has moved nothing.
   void move(std::span<const ColliderMove> moves);
@@ -78,7 +77,7 @@ class ContactFinder {
   /// Drops everything remembered between calls (manifolds, axes, boxes).
   void forget();
 
-  /// Appends the state to `bytes`: poses, boxes, odometers, pairs and their contacts, in this machine's
+  /// Appends the state to `bytes`: poses, boxes, motion bounds, pairs and their contacts, in this machine's
   /// number format. A finder with the same options and colliders that restores it goes on with the same bits.
   void save(std::vector<std::byte>& bytes) const;
   /// Takes over a state. Throws std::runtime_error, and leaves the finder as it was, when the bytes are not

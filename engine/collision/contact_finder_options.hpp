@@ -12,7 +12,6 @@ struct ContactFinderOptions {
   double reuse_distance = 1e-3;  ///< [m] ≥ 0; relative motion below which a manifold is carried along
   double reuse_angle = 2e-3;     ///< [rad] ≥ 0; the same for rotation
   double hysteresis = 1e-4;  ///< [m] ≥ 0; last time's axis is kept while its overlap is the least within this
-  int threads = 1;           ///< 1 to 256; the results do not depend on it
 };
 
 }  // namespace drawpoint::engine

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <drawpoint/engine/collision/fat_boxes.h>
+#include <algorithm>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -16,27 +16,27 @@ AlignedBox3d grown(const AlignedBox3d& box, double by) {
 }  // namespace
 
 AlignedBox3d FatBoxes::needed(const Items& items, int id) const {
-  return grown(items.box(id), growth_ + items.reach[id]);
+  return grown(items.box(id), growth_ + items.speculative_margin[id]);
 }
 
 bool FatBoxes::has_left(Items& items, int id, const AlignedBox3d& last) const {
   Item& item = items.item[id];
   if (!item.hull) return true;
-  if (items.travelled[id] - item.boxed_at <= slack_) return false;
+  if (items.motion_bound[id] - item.boxed_at <= slack_) return false;
   const AlignedBox3d box = needed(items, id);
   const double room = std::min((box.min() - last.min()).minCoeff(), (last.max() - box.max()).minCoeff());
   if (!(room > 0)) return true;
-  item.boxed_at = items.travelled[id] + room - slack_;
+  item.boxed_at = items.motion_bound[id] + room - slack_;
   return false;
 }
 
 AlignedBox3d FatBoxes::first(Items& items, int id) const {
-  items.item[id].boxed_at = items.travelled[id];
+  items.item[id].boxed_at = items.motion_bound[id];
   return grown(needed(items, id), slack_);
 }
 
 AlignedBox3d FatBoxes::next(Items& items, int id, const AlignedBox3d& last) const {
-  items.item[id].boxed_at = items.travelled[id];
+  items.item[id].boxed_at = items.motion_bound[id];
   const AlignedBox3d box = needed(items, id);
   AlignedBox3d result = grown(box, slack_);
   if (!box.intersects(last)) return result;  // it was put elsewhere
@@ -49,7 +49,7 @@ AlignedBox3d FatBoxes::next(Items& items, int id, const AlignedBox3d& last) cons
 
 Plane FatBoxes::plane(const Items& items, int id) const {
   Plane plane = items.plane(id);
-  plane.offset += growth_ + items.reach[id];
+  plane.offset += growth_ + items.speculative_margin[id];
   return plane;
 }
 

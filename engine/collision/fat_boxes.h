@@ -8,8 +8,8 @@
 /// The boxes of the broad phase: larger than the colliders by a slack, so that few of them are changed in a
 /// step.
 ///
-/// A box must hold its collider, grown by half of how near shapes must come to be searched and by its reach.
-/// The odometer rules out that a collider has left its box; it counts turns and detours in full, so those
+/// A box must hold its collider, grown by half of how near shapes must come to be searched and by its speculative margin.
+/// The motion bound rules out that a collider has left its box; it counts turns and detours in full, so those
 /// that it lets through are measured, and go on from the room that they have. A box that has been left gets
 /// twice the slack on the sides that were crossed: there the collider will go on. Larger boxes give more
 /// pairs to look at and lose no contact; a pair that is remembered for longer may keep another axis within
@@ -20,10 +20,11 @@ class FatBoxes {
  public:
   FatBoxes(double growth, double slack) : growth_(growth), slack_(slack) {}
 
-  /// Whether a collider needs another box than `last`; half-spaces always do. May move its odometer's mark.
+  /// Whether a collider needs another box than `last`; half-spaces always do. May move its motion bound's
+  /// mark.
   bool has_left(Items& items, int id, const Eigen::AlignedBox3d& last) const;
 
-  /// A box around a hull where it is now; marks its odometer.
+  /// A box around a hull where it is now; marks its motion bound.
   Eigen::AlignedBox3d first(Items& items, int id) const;
   Eigen::AlignedBox3d next(Items& items, int id, const Eigen::AlignedBox3d& last) const;
 

@@ -43,8 +43,8 @@ void Items::add(Item added) {
   traits.push_back({c.body, c.family, c.moves, true, half_space ? 0 : 1 / radius});
   placed.emplace_back();
   placed.back().hull = added.hull.get();
-  travelled.push_back(0);
-  reach.push_back(0);
+  motion_bound.push_back(0);
+  speculative_margin.push_back(0);
   item.push_back(std::move(added));
   place(size() - 1, Eigen::Isometry3d::Identity());
 }
@@ -63,14 +63,14 @@ void Items::place(int id, const Eigen::Isometry3d& X_WB) {
   here.p = X_WB * X_BC.translation();
   if (!here.hull) return;
   const Eigen::Vector3d moved = here.at(here.hull->centre);
-  travelled[id] +=
+  motion_bound[id] +=
       (moved - here.centre).norm() + (here.R - before).norm() / std::numbers::sqrt2 * here.hull->radius;
   here.centre = moved;
 }
 
 void Items::extend(int id, double to) {
-  travelled[id] += std::abs(to - reach[id]);
-  reach[id] = to;
+  motion_bound[id] += std::abs(to - speculative_margin[id]);
+  speculative_margin[id] = to;
 }
 
 Eigen::AlignedBox3d Items::box(int id) const {

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <drawpoint/engine/geometry/collision_hull.h>
+#include <drawpoint/engine/geometry/plane_contact.h>
+#include <Eigen/Dense>
 #include <drawpoint/engine/collision/collider.hpp>
 #include <drawpoint/engine/collision/contact_finder_options.hpp>
 #include <drawpoint/engine/collision/manifold.hpp>
-#include <drawpoint/engine/geometry/plane_contact.h>
 #include <map>
 #include <memory>
 #include <vector>
 
-/// Colliders as the finder keeps them, apart by how often they are read: odometers for every pair at every
-/// step, placements for every contact, the rest now and then.
+/// Colliders as the finder keeps them, apart by how often they are read: motion bounds for every pair at
+/// every step, placements for every contact, the rest now and then.
 namespace drawpoint::engine::detail {
 
 /// Where a collider is and what it looks like; two cache lines.
@@ -37,8 +37,8 @@ struct Item {
   std::shared_ptr<const CollisionHull> hull;
   const Cylinder* cylinder = nullptr;  ///< set for cylinders, beside the hull
   const HalfSpace* plane = nullptr;    ///< set for half-spaces
-  double boxed_at = 0;                 ///< odometer from which the slack of its box counts [m]
-  bool restless = false;               ///< has left that box
+  double boxed_at = 0;                 ///< motion bound from which the slack of its box counts [m]
+  bool dirty = false;                  ///< has left that box
 };
 
 struct Items {
@@ -46,16 +46,16 @@ struct Items {
   std::vector<Placement> placed;
   std::vector<Traits> traits;
   /// Bound on the way of every point of a shape so far: Σ |Δcentre| + ‖ΔR‖ radius [m].
-  std::vector<double> travelled;
-  std::vector<double> reach;  ///< beyond the margin [m]
+  std::vector<double> motion_bound;
+  std::vector<double> speculative_margin;  ///< beyond the margin [m]
 
   int size() const { return static_cast<int>(item.size()); }
   void add(Item item);
   void remove(int id);
   void place(int id, const Eigen::Isometry3d& X_WB);
-  /// Sets the reach. Its change counts as travel: it brings others nearer, or makes the box too large, by as
+  /// Sets the speculative margin. Its change counts as motion: it brings others nearer, or makes the box too large, by as
   /// much.
-  void extend(int id, double reach);
+  void extend(int id, double to);
   Eigen::AlignedBox3d box(int id) const;  ///< tight, in the world
   Plane plane(int id) const;              ///< in the world
   bool may_touch(int a, int b) const {

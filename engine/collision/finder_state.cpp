@@ -120,10 +120,10 @@ void save_collider(const FinderParts& parts, int id, Writer& out) {
   const Placement& placed = parts.items.placed[id];
   out.number(vertices_of(parts.items, id));
   out.flag(parts.items.traits[id].moves);
-  out.flag(parts.items.item[id].restless);
+  out.flag(parts.items.item[id].dirty);
   out.matrix(placed.R), out.matrix(placed.p), out.matrix(placed.centre);
-  out.raw(parts.items.travelled[id]), out.raw(parts.items.item[id].boxed_at);
-  out.raw(parts.items.reach[id]);
+  out.raw(parts.items.motion_bound[id]), out.raw(parts.items.item[id].boxed_at);
+  out.raw(parts.items.speculative_margin[id]);
   if (placed.hull) out.matrix(parts.boxes.box(id).min()), out.matrix(parts.boxes.box(id).max());
 }
 
@@ -133,19 +133,19 @@ ColliderState read_collider(const FinderParts& parts, int id, Reader& in) {
   in.number("the number of vertices", vertices, vertices);
   ColliderState state;
   state.moves = in.flag("a collider's moves");
-  state.restless = in.flag("a collider's restlessness");
+  state.dirty = in.flag("a collider's dirty flag");
   state.R = in.rotation("a collider's orientation");
   state.p = in.vector("a collider's position"), state.centre = in.vector("a collider's centre");
-  state.travelled = in.finite("an odometer"), state.boxed_at = in.finite("an odometer");
-  state.reach = in.finite("the reach of a collider");
-  if (state.reach < 0) refuse(in.place("the reach of a collider") + " is negative");
+  state.motion_bound = in.finite("a motion bound"), state.boxed_at = in.finite("a motion bound");
+  state.speculative_margin = in.finite("the reach of a collider");
+  if (state.speculative_margin < 0) refuse(in.place("the reach of a collider") + " is negative");
   if (!hull) return state;
   if (!((state.R * hull->centre + state.p - state.centre).norm() <= round_off))
     refuse(in.place("a collider's centre") + " is not where its pose puts it");
   state.box.min() = in.vector("a box"), state.box.max() = in.vector("a box");
   const Vector3d slack = Vector3d::Constant(round_off);
   const Eigen::AlignedBox3d roomy(state.box.min() - slack, state.box.max() + slack);
-  if (state.restless) return state;
+  if (state.dirty) return state;
   for (const Vector3d& v : hull->vertices)
     if (!roomy.contains(Vector3d(state.R * v + state.p)))
       refuse(in.place("a box") + " does not hold its shape");
@@ -155,7 +155,7 @@ ColliderState read_collider(const FinderParts& parts, int id, Reader& in) {
 void save_pair(const PairEntry& entry, const PairState& state, Writer& out) {
   const ConvexContact& c = state.contact;
   out.number(entry.a), out.number(entry.b), out.number(entry.count), out.raw(entry.limit);
-  out.matrix(c.normal), out.raw(c.separation), out.raw(c.reach), out.flag(c.normal_of_b);
+  out.matrix(c.normal), out.raw(c.separation), out.raw(c.support), out.flag(c.normal_of_b);
   out.number(static_cast<int>(c.feature.kind)), out.number(c.feature.a), out.number(c.feature.b);
   for (int k = 0; k < entry.count; ++k) {
     const Anchors& point = c.points[static_cast<std::size_t>(k)];
@@ -199,7 +199,7 @@ PairEntry read_pair(const Items& items, Reader& in, PairState& state) {
     refuse(in.place("the limit of a pair") + " is not a number below infinity");
   ConvexContact& c = state.contact;
   c.normal = in.vector("the normal of a pair");
-  c.separation = in.finite("the separation of a pair"), c.reach = in.finite("the reach of a pair");
+  c.separation = in.finite("the separation of a pair"), c.support = in.finite("the reach of a pair");
   c.normal_of_b = in.flag("the owner of a normal");
   c.feature = read_feature(a, b, in);
   c.count = entry.count;
@@ -251,8 +251,8 @@ void save_state(const FinderParts& parts, std::vector<std::byte>& bytes) {
   out.count(pairs);
   for (const PairEntry& entry : parts.pairs.entries())
     if (alive(entry)) save_pair(entry, parts.pairs.state(entry), out);
-  out.count(parts.pairs.parked().size());
-  for (const auto& [pair, entry] : parts.pairs.parked()) save_pair(entry, parts.pairs.state(entry), out);
+  out.count(parts.pairs.inactive().size());
+  for (const auto& [pair, entry] : parts.pairs.inactive()) save_pair(entry, parts.pairs.state(entry), out);
   out.raw(checksum(std::span(bytes).subspan(start)));
 }
 
@@ -280,7 +280,7 @@ FinderState read_state(const FinderParts& parts, std::span<const std::byte> byte
   }
   for (std::size_t k = in.count("the number of boxes to look up", 4); k > 0; --k)
     state.pending.push_back(in.number("a box to look up", 0, size - 1));
-  for (std::vector<PairEntry>* entries : {&state.entries, &state.parked})
+  for (std::vector<PairEntry>* entries : {&state.entries, &state.inactive})
     *entries = read_pairs(parts.items, in, state.pairs);
   if (!in.at_end()) refuse(in.place("the end") + " is followed by more");
   return state;

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <drawpoint/engine/collision/broad_phase.h>
 #include <drawpoint/engine/collision/finder_items.h>
 #include <drawpoint/engine/collision/pair_cache.h>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 /// The state of a contact finder as bytes.
 ///
-/// Saved is all that later results depend on: options, poses, odometers and boxes of the colliders, what has
-/// left its box, what the broad phase has yet to look up, and for each pair, parked ones included, its
+/// Saved is all that later results depend on: options, poses, motion bounds and boxes of the colliders, what
+/// has left its box, what the broad phase has yet to look up, and for each pair, inactive ones included, its
 /// contact, where the shapes stood and until when that holds. Not saved, because results do not depend on it:
 /// the shape of the box trees (the pairs are filtered by the exact boxes and sorted), the slots of the pairs
 /// (they are only storage), buffers of the workers (cleared before use), pairs with a removed collider (the
@@ -26,16 +26,16 @@ namespace drawpoint::engine::detail {
 struct ColliderState {
   Eigen::Matrix3d R;
   Eigen::Vector3d p, centre;
-  double travelled, boxed_at, reach;
+  double motion_bound, boxed_at, speculative_margin;
   Eigen::AlignedBox3d box;
-  bool moves, restless;
+  bool moves, dirty;
 };
 
 struct FinderState {
   std::vector<ColliderState> colliders;  ///< of removed ones: not set
   std::vector<int> pending;              ///< colliders that the broad phase is to look up
-  std::vector<PairEntry> entries, parked;
-  std::vector<PairState> pairs;  ///< in the order of the entries, then of the parked
+  std::vector<PairEntry> entries, inactive;
+  std::vector<PairState> pairs;  ///< in the order of the entries, then of the inactive
 };
 
 /// The parts of a finder.

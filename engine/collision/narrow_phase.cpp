@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/base/prefetch.h>
+#include <drawpoint/engine/collision/narrow_phase.h>
+#include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/base/prefetch.h>
-#include <drawpoint/engine/geometry/hull_extremes.h>
-#include <drawpoint/engine/collision/narrow_phase.h>
 #include <numbers>
 
 namespace drawpoint::engine::detail {
@@ -76,78 +76,79 @@ struct NarrowPhase::Worker {
   void process(const Items& items, PairCache& pairs, int first, int last, std::vector<Manifold>& found) {
     Manifolds manifolds(found);
     for (int k = first; k < last; ++k) {
-      fetch_ahead(items, pairs, k, last);
+      prefetch_ahead(items, pairs, k, last);
       process(items, pairs.entries()[k], pairs.state(pairs.entries()[k]), manifolds);
     }
   }
 
   // What the pairs after this one need: where they are and their contacts, then the hulls of those that have
   // moved. Each of the three reads what the one before it has brought.
-  [[gnu::always_inline]] static void fetch_ahead(const Items& items, const PairCache& pairs, int k,
-                                                 int last) {
+  [[gnu::always_inline]] static void prefetch_ahead(const Items& items, const PairCache& pairs, int k,
+                                                    int last) {
     const std::vector<PairEntry>& entries = pairs.entries();
     constexpr int first = 6, second = 3, third = 1;  // pairs ahead
     if (k + first < last) {
       const PairEntry& soon = entries[k + first];
-      fetch(&items.placed[soon.b], sizeof(Placement));
-      if (soon.count > 0) fetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
+      prefetch(&items.placed[soon.b], sizeof(Placement));
+      if (soon.count > 0) prefetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
     }
     if (k + second < last && moved(items, entries[k + second])) {
-      fetch(items.placed[entries[k + second].b].hull, sizeof(CollisionHull));
-      fetch(&pairs.state(entries[k + second]), sizeof(PairState));
+      prefetch(items.placed[entries[k + second].b].hull, sizeof(CollisionHull));
+      prefetch(&pairs.state(entries[k + second]), sizeof(PairState));
     }
     if (k + third < last && moved(items, entries[k + third])) {
       const CollisionHull& hull = *items.placed[entries[k + third].b].hull;
       for (const auto* numbers : {&hull.x, &hull.y, &hull.z, &hull.nx, &hull.ny, &hull.nz, &hull.no})
-        fetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
+        prefetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
     }
   }
 
   // Whether a pair of two hulls has to be looked at again.
   static bool moved(const Items& items, const PairEntry& entry) {
     return items.placed[entry.a].hull && items.placed[entry.b].hull &&
-           items.travelled[entry.a] + items.travelled[entry.b] > entry.limit;
+           items.motion_bound[entry.a] + items.motion_bound[entry.b] > entry.limit;
   }
 
   // Brings a pair up to date and appends its manifold, if there is one.
   void process(const Items& items, PairEntry& entry, PairState& state, Manifolds& manifolds) {
-    const double travelled = items.travelled[entry.a] + items.travelled[entry.b];
+    const double motion_bound = items.motion_bound[entry.a] + items.motion_bound[entry.b];
     const bool with_plane = !items.placed[entry.a].hull || !items.placed[entry.b].hull;
     if (with_plane) {
-      touch_plane(items, entry, travelled, manifolds);
+      touch_plane(items, entry, motion_bound, manifolds);
       return;
     }
-    if (travelled > entry.limit) {
+    if (motion_bound > entry.limit) {
       margin = margin_of(items, entry);
-      refresh(items.placed[entry.a], items.placed[entry.b], travelled, entry, state);
+      refresh(items.placed[entry.a], items.placed[entry.b], motion_bound, entry, state);
     }
     if (entry.count > 0) carry_along(items, entry, state.contact, manifolds);
   }
 
   // How near the shapes of a pair must come to be reported.
   double margin_of(const Items& items, const PairEntry& entry) const {
-    return options.margin + items.reach[entry.a] + items.reach[entry.b];
+    return options.margin + items.speculative_margin[entry.a] + items.speculative_margin[entry.b];
   }
 
-  void refresh(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
+  void refresh(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
+               PairState& state) {
     const bool known = entry.limit != PairEntry::at_once;
-    if (known && entry.count > 0 && still_stands(a, b, travelled, entry, state)) return;
-    if (known && entry.count == 0 && still_apart(a, b, travelled, entry, state.contact)) return;
-    compute(a, b, travelled, entry, state);
+    if (known && entry.count > 0 && still_stands(a, b, motion_bound, entry, state)) return;
+    if (known && entry.count == 0 && still_apart(a, b, motion_bound, entry, state.contact)) return;
+    compute(a, b, motion_bound, entry, state);
   }
 
   // The plane on A that separated the shapes last time.
-  bool still_apart(const Placement& a, const Placement& b, double travelled, PairEntry& entry,
+  bool still_apart(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
                    const ConvexContact& contact) const {
     const Vector3d normal = a.R * contact.normal;
     const double least = lowest(*b.hull, b.R.transpose() * normal).height + normal.dot(b.p - a.p);
-    const double separation = least - contact.reach;
+    const double separation = least - contact.support;
     if (!(separation > margin + options.reuse_distance)) return false;
-    entry.limit = travelled + (separation - margin);
+    entry.limit = motion_bound + (separation - margin);
     return true;
   }
 
-  bool still_stands(const Placement& a, const Placement& b, double travelled, PairEntry& entry,
+  bool still_stands(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
                     const PairState& state) const {
     if (margin > state.margin) return false;
     const Stand now(a, b);
@@ -157,23 +158,24 @@ struct NarrowPhase::Worker {
     const double turn = (now.orientation - state.orientation).norm() / std::numbers::sqrt2;
     if (turn > options.reuse_angle) return false;
     entry.limit =
-        travelled + std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius);
+        motion_bound + std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius);
     return true;
   }
 
-  void compute(const Placement& a, const Placement& b, double travelled, PairEntry& entry, PairState& state) {
+  void compute(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
+               PairState& state) {
     ++computed;
     convex.find({*a.hull, *b.hull, pose_against(a, b)},
                 {margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin},
                 state.contact);
     entry.count = state.contact.count;
     if (entry.count == 0) {
-      entry.limit = travelled + (state.contact.separation - margin);
+      entry.limit = motion_bound + (state.contact.separation - margin);
       return;
     }
     const Stand now(a, b);
     state.centre = now.centre, state.orientation = now.orientation, state.margin = margin;
-    entry.limit = travelled + std::min(options.reuse_distance, options.reuse_angle * now.radius);
+    entry.limit = motion_bound + std::min(options.reuse_distance, options.reuse_angle * now.radius);
   }
 
   // The remembered contact at the present poses.
@@ -195,16 +197,16 @@ struct NarrowPhase::Worker {
   }
 
   // Half-spaces have closed forms; only how long nothing can happen is remembered.
-  void touch_plane(const Items& items, PairEntry& entry, double travelled, Manifolds& manifolds) {
+  void touch_plane(const Items& items, PairEntry& entry, double motion_bound, Manifolds& manifolds) {
     const bool first = !items.placed[entry.a].hull;
     const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
     const Placement& shape = items.placed[shape_id];
-    // The odometer of a half-space stands still: a moved one makes the pair new.
-    if (travelled <= entry.limit) return;
+    // The motion bound of a half-space stands still: a moved one makes the pair new.
+    if (motion_bound <= entry.limit) return;
     const Plane plane = items.plane(plane_id);
     const double height = plane.normal.dot(shape.centre) - plane.offset - shape.hull->radius;
     margin = margin_of(items, entry);
-    entry.limit = height > margin ? travelled + (height - margin) : PairEntry::at_once;
+    entry.limit = height > margin ? motion_bound + (height - margin) : PairEntry::at_once;
     if (height > margin) return;
     Eigen::Isometry3d X_WC;
     X_WC.linear() = shape.R, X_WC.translation() = shape.p, X_WC.makeAffine();
@@ -234,10 +236,10 @@ NarrowPhase::NarrowPhase(const ContactFinderOptions& options, int threads) {
 NarrowPhase::~NarrowPhase() = default;
 
 int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
-                     const Parallel& parallel) {
+                     const ThreadPool& pool) {
   for (auto& worker : workers_) worker->computed = 0;
-  if (parallel.threads() > 1)
-    run_in_blocks(items, pairs, manifolds, parallel);
+  if (pool.threads() > 1)
+    run_in_blocks(items, pairs, manifolds, pool);
   else
     run_alone(items, pairs, manifolds);
   int computed = 0;
@@ -250,11 +252,11 @@ void NarrowPhase::run_alone(const Items& items, PairCache& pairs, std::vector<Ma
 }
 
 void NarrowPhase::run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
-                                const Parallel& parallel) {
+                                const ThreadPool& pool) {
   const int count = static_cast<int>(pairs.entries().size());
   const std::size_t blocks = static_cast<std::size_t>((count + block_size - 1) / block_size);
   if (found_.size() < blocks) found_.resize(blocks);
-  parallel.blocks_by_thread(count, block_size, [&](int begin, int end, int thread) {
+  pool.blocks_by_thread(count, block_size, [&](int begin, int end, int thread) {
     for (int first = begin; first < end; first += block_size) {
       std::vector<Manifold>& found = found_[static_cast<std::size_t>(first / block_size)];
       workers_[static_cast<std::size_t>(thread)]->process(items, pairs, first,
@@ -266,7 +268,7 @@ void NarrowPhase::run_in_blocks(const Items& items, PairCache& pairs, std::vecto
   for (std::size_t block = 0; block < blocks; ++block)
     starts_.push_back(total), total += found_[block].size();
   manifolds.resize(total);
-  parallel.blocks(static_cast<int>(blocks), 1, [&](int begin, int end) {
+  pool.blocks(static_cast<int>(blocks), 1, [&](int begin, int end) {
     for (int block = begin; block < end; ++block)
       std::copy(found_[block].begin(), found_[block].end(),
                 manifolds.begin() + static_cast<std::ptrdiff_t>(starts_[block]));

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/collision/finder_items.h>
+#include <drawpoint/engine/collision/pair_cache.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/collision/collider.hpp>
 #include <drawpoint/engine/collision/contact_finder_options.hpp>
 #include <drawpoint/engine/collision/manifold.hpp>
-#include <drawpoint/engine/collision/finder_items.h>
-#include <drawpoint/engine/collision/pair_cache.h>
-#include <drawpoint/engine/base/thread_pool.h>
 #include <memory>
 #include <vector>
 
@@ -15,7 +15,7 @@
 /// not, and carries contacts along to the present poses.
 ///
 /// A pair is asked at three levels, each only when the one before does not settle it: have both shapes
-/// travelled too little to matter (two numbers); for shapes apart, does last time's separating plane still
+/// motion_bound too little to matter (two numbers); for shapes apart, does last time's separating plane still
 /// separate (one support point), and for shapes in contact, do they stand against each other as before (two
 /// poses); the full search. Pairs are worked on in blocks of fixed size by as many threads as asked for; each
 /// pair is on its own, so the result depends neither on blocks nor on threads. Cost: see
@@ -29,13 +29,13 @@ class NarrowPhase {
 
   /// Updates the pairs and replaces `manifolds` by their contacts, in the order of the pairs. Returns how
   /// many pairs were computed.
-  int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds, const Parallel& parallel);
+  int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds, const ThreadPool& pool);
 
  private:
   struct Worker;
   void run_alone(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds);
   void run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
-                     const Parallel& parallel);
+                     const ThreadPool& pool);
 
   std::vector<std::unique_ptr<Worker>> workers_;  // one a thread
   std::vector<std::vector<Manifold>> found_;      // by block

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <drawpoint/engine/collision/broad_phase.h>
 #include <drawpoint/engine/geometry/convex_contact.h>
+#include <Eigen/Dense>
 #include <limits>
 #include <map>
 #include <vector>
@@ -14,7 +14,7 @@
 /// state: the contact, and where the shapes stood against each other when it was computed. Memory is reused,
 /// not returned.
 ///
-/// Pairs of two colliders that have stopped moving are parked: no step touches them, and they come back as
+/// Pairs of two colliders that have stopped moving are inactive: no step touches them, and they come back as
 /// they were once one of the two moves. A contact computed anew has other points and gaps, within the
 /// tolerance of its reuse, and a pile that stands on the old ones would be kicked.
 namespace drawpoint::engine::detail {
@@ -33,12 +33,12 @@ struct PairEntry {
   int a, b;  ///< a < b
   int slot;
   int count = 0;           ///< points of the contact
-  double limit = at_once;  ///< sum of both odometers up to which what is remembered holds [m]
+  double limit = at_once;  ///< sum of both motion bounds up to which what is remembered holds [m]
 };
 
 class PairCache {
  public:
-  using Parked = std::map<BroadPhase::Pair, PairEntry>;
+  using Inactive = std::map<BroadPhase::Pair, PairEntry>;
 
   std::vector<PairEntry>& entries() { return entries_; }
   const std::vector<PairEntry>& entries() const { return entries_; }
@@ -47,10 +47,10 @@ class PairCache {
     return states_[static_cast<std::size_t>(entry.slot)];
   }
 
-  const Parked& parked() const { return parked_; }
+  const Inactive& inactive() const { return inactive_; }
 
   /// Takes over the changes; `allowed(a, b)` says which pairs count, `stands(a, b)` which of the others are
-  /// parked.
+  /// inactive.
   template <class Allowed, class Stands>
   void update(const BroadPhase& boxes, const BroadPhase::Changes& changes, const Allowed& allowed,
               const Stands& stands) {
@@ -67,7 +67,7 @@ class PairCache {
       if (again || !(changes.everything || boxes.changed(entry.a) || boxes.changed(entry.b)))
         merged_.push_back(entry);
       else if (stands(entry.a, entry.b))
-        parked_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry);
+        inactive_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry);
       else
         free_.push_back(entry.slot);
     }
@@ -77,34 +77,34 @@ class PairCache {
 
   void forget() {
     for (PairEntry& entry : entries_) forget(entry);
-    for (auto& [pair, entry] : parked_) forget(entry);
+    for (auto& [pair, entry] : inactive_) forget(entry);
   }
   /// The pairs of one collider only.
   void forget(int id) {
     for (PairEntry& entry : entries_)
       if (entry.a == id || entry.b == id) forget(entry);
   }
-  /// Drops the parked pairs of a collider that is taken away.
+  /// Drops the inactive pairs of a collider that is taken away.
   void remove(int id) {
-    for (auto place = parked_.begin(); place != parked_.end();) {
+    for (auto place = inactive_.begin(); place != inactive_.end();) {
       const bool mine = place->first.first == id || place->first.second == id;
       if (mine) free_.push_back(place->second.slot);
-      place = mine ? parked_.erase(place) : std::next(place);
+      place = mine ? inactive_.erase(place) : std::next(place);
     }
   }
 
-  /// Replaces all pairs by these; states are those of the entries, then of the parked ones. Slots are given
+  /// Replaces all pairs by these; states are those of the entries, then of the inactive ones. Slots are given
   /// anew.
-  void assign(const std::vector<PairEntry>& entries, const std::vector<PairEntry>& parked,
+  void assign(const std::vector<PairEntry>& entries, const std::vector<PairEntry>& inactive,
               const std::vector<PairState>& states) {
     entries_ = entries;
     states_ = states;
     free_.clear();
-    parked_.clear();
+    inactive_.clear();
     int slot = 0;
     for (PairEntry& entry : entries_) entry.slot = slot++;
-    for (const PairEntry& entry : parked)
-      parked_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry).first->second.slot = slot++;
+    for (const PairEntry& entry : inactive)
+      inactive_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry).first->second.slot = slot++;
   }
 
  private:
@@ -115,10 +115,10 @@ class PairCache {
   }
 
   PairEntry entry_of(const BroadPhase::Pair& pair) {
-    const auto known = parked_.find(pair);
-    if (known == parked_.end()) return {pair.first, pair.second, new_slot()};
+    const auto known = inactive_.find(pair);
+    if (known == inactive_.end()) return {pair.first, pair.second, new_slot()};
     const PairEntry entry = known->second;
-    parked_.erase(known);
+    inactive_.erase(known);
     return entry;
   }
 
@@ -134,7 +134,7 @@ class PairCache {
   }
 
   std::vector<PairEntry> entries_, merged_;
-  Parked parked_;
+  Inactive inactive_;
   std::vector<PairState> states_;
   std::vector<int> free_;
 };

@@ -53,7 +53,7 @@ int reduce_to_four(std::vector<ClipPoint>& points, const Vector3d& along) {
 void Clipper::cut(const HullCorner& side, std::uint32_t group) {
   bool crosses = false;
   for (Node& node : polygon_) {
-    node.beyond = side.outward.dot(node.position) - side.reach;
+    node.beyond = side.outward.dot(node.position) - side.offset;
     crosses = crosses || node.beyond > 0;
   }
   if (!crosses) return;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/geometry/collision_hull.h>
 #include <Eigen/Dense>
 #include <cstdint>
-#include <drawpoint/engine/geometry/collision_hull.h>
 #include <vector>
 
 /// Facing polygons clipped to a manifold (Sutherland and Hodgman 1974) and the choice of four points.

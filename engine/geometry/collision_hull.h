@@ -24,7 +24,7 @@ struct HullEdge {
 struct HullCorner {
   int vertex;
   Eigen::Vector3d outward;  ///< unit, in the plane of the face
-  double reach;             ///< outward·x <= reach in the face's prism
+  double offset;            ///< outward·x <= offset in the face's prism
 };
 
 struct CollisionHull {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/convex_contact.h>
 
-#include <algorithm>
-#include <cmath>
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <drawpoint/engine/geometry/segments.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace drawpoint::engine::detail {
@@ -75,12 +75,12 @@ void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, d
   const bool on_a = axis.feature.kind == FeatureKind::face_a;
   const CollisionHull& incident = on_a ? pair.b : pair.a;
   const Vector3d n = on_a ? Vector3d(pair.X_AB.linear().transpose() * axis.normal) : Vector3d(-axis.normal);
-  const int other = facing(incident, axis.support, n);
+  const int other = facing(incident, axis.vertex, n);
   clip_against(pair, axis, other, margin, contact);
   if (axis.separation > 0 || least_gap(pair, contact) <= axis.separation + coincident) return;
   // An edge or a face parallel to the reference face is lowest, and the lowest vertex lies beside the
   // reference face: the polygon that goes down deepest is that of another face around the vertex.
-  for (int f : incident.faces_around(axis.support)) {
+  for (int f : incident.faces_around(axis.vertex)) {
     if (f == other) continue;
     spare_ = contact;
     clip_against(pair, axis, f, margin, spare_);
@@ -122,7 +122,7 @@ void ConvexContactSearch::touch(const HullPair& pair, const Axis& axis, double m
   contact.normal = axis.normal;
   contact.normal_of_b = axis.feature.kind == FeatureKind::face_b;
   contact.separation = axis.separation;
-  contact.reach = axis.reach;
+  contact.support = axis.support;
   contact.feature = axis.feature;
   if (axis.separation > margin) return;
   if (axis.feature.kind == FeatureKind::edges)

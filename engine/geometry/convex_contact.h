@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <drawpoint/engine/geometry/clipping.h>
 #include <drawpoint/engine/geometry/separation.h>
+#include <array>
 
 /// Contact of two convex polyhedra as anchors on both of them, so that it can be carried along while they
 /// move little.
@@ -12,8 +12,8 @@
 /// Face axis: the facing polygon of the other shape is clipped to the face's prism and reduced to four
 /// points. Edge axis: the nearest points of the two edges. Separated shapes whose polygons do not face each
 /// other: the nearest points of their edges, if within the margin. So shapes nearer than the margin always
-/// give a point, and shapes farther apart never. When there is no point, the normal is A's and n·x = reach is
-/// a plane on A that B was clear of.
+/// give a point, and shapes farther apart never. When there is no point, the normal is A's and n·x = support
+/// is a plane on A that B was clear of.
 namespace drawpoint::engine::detail {
 
 struct Anchors {
@@ -25,7 +25,7 @@ struct Anchors {
 struct ConvexContact {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< from A to B, in the frame of its owner
   double separation = 0;  ///< lower bound on the distance when count = 0, separation along the axis otherwise
-  double reach = 0;       ///< of A along the normal
+  double support = 0;     ///< of A along the normal
   int count = 0;
   bool normal_of_b = false;  ///< the face that gives the normal belongs to B
   Feature feature;           ///< hint for next time

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 
+#include <drawpoint/engine/geometry/hull.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/geometry/hull.h>
 #include <numbers>
 #include <stdexcept>
 #include <string>

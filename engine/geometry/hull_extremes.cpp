@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstddef>
 #include <drawpoint/engine/geometry/hull_extremes.h>
+#include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "drawpoint/engine/geometry/hull_extremes.cpp"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <drawpoint/engine/geometry/clipping.h>
 #include <drawpoint/engine/geometry/collision_hull.h>
+#include <Eigen/Dense>
 #include <drawpoint/engine/geometry/shape.hpp>
 #include <vector>
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/separation.h>
 
-#include <algorithm>
-#include <cmath>
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <drawpoint/engine/geometry/segments.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace drawpoint::engine::detail {
@@ -27,7 +27,7 @@ Vector3d within(const CollisionHull& hull, int face, const Vector3d& p) {
   const Vector3d &middle = hull.middles[face], out = p - middle;
   double share = 1;
   for (const HullCorner& corner : hull.corners(face)) {
-    const double across = corner.outward.dot(out), room = corner.reach - corner.outward.dot(middle);
+    const double across = corner.outward.dot(out), room = corner.offset - corner.outward.dot(middle);
     if (across * share > room) share = room / across;
   }
   return middle + share * out;
@@ -51,10 +51,10 @@ Axis AxisSearch::face_of_a(const HullPair& pair, int face) const {
   Axis axis;
   axis.feature = {FeatureKind::face_a, face, -1};
   axis.normal = pair.a.normals[face];
-  axis.reach = pair.a.offsets[face];
+  axis.support = pair.a.offsets[face];
   const Support low = lowest(pair.b, pair.X_AB.linear().transpose() * axis.normal);
-  axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.reach;
-  axis.support = low.vertex;
+  axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.support;
+  axis.vertex = low.vertex;
   return axis;
 }
 
@@ -64,9 +64,9 @@ Axis AxisSearch::face_of_b(const HullPair& pair, int face) const {
   const Vector3d inward = pair.X_AB.linear() * pair.b.normals[face];
   axis.normal = -inward;
   const Support low = lowest(pair.a, inward);
-  axis.reach = -low.height;
+  axis.support = -low.height;
   axis.separation = low.height - inward.dot(pair.X_AB.translation()) - pair.b.offsets[face];
-  axis.support = low.vertex;
+  axis.vertex = low.vertex;
   return axis;
 }
 
@@ -87,8 +87,8 @@ bool AxisSearch::edge_axis(const HullPair& pair, const EdgeOfA& first, const Edg
   if (n.dot(pair.a.normals[ea.left] + pair.a.normals[ea.right]) < 0) n = -n;
   axis.feature = {FeatureKind::edges, first.edge, second.edge};
   axis.normal = n;
-  axis.reach = n.dot(pair.a.vertices[ea.start]);
-  axis.separation = n.dot(second.start) - axis.reach;
+  axis.support = n.dot(pair.a.vertices[ea.start]);
+  axis.separation = n.dot(second.start) - axis.support;
   return true;
 }
 
@@ -108,11 +108,11 @@ Axis AxisSearch::axis_of(const HullPair& pair, const Feature& feature) const {
 
 AxisSearch::Witness AxisSearch::witness_of(const HullPair& pair, const Axis& axis) const {
   if (axis.feature.kind == FeatureKind::face_a) {
-    const Vector3d on_b = pair.vertex_b(axis.support);
+    const Vector3d on_b = pair.vertex_b(axis.vertex);
     return {within(pair.a, axis.feature.a, on_b - axis.separation * axis.normal), on_b};
   }
   if (axis.feature.kind == FeatureKind::face_b) {
-    const Vector3d on_a = pair.a.vertices[axis.support];
+    const Vector3d on_a = pair.a.vertices[axis.vertex];
     const Vector3d in_b =
         pair.X_AB.linear().transpose() * (on_a + axis.separation * axis.normal - pair.X_AB.translation());
     return {on_a, pair.X_AB * within(pair.b, axis.feature.b, in_b)};
@@ -137,8 +137,8 @@ Axis AxisSearch::guess(const HullPair& pair, Witness& witness) {
   axis.normal = length > concentric ? Vector3d(line / length) : Vector3d::UnitZ();
   const Support high = lowest(pair.a, -axis.normal),
                 low = lowest(pair.b, pair.X_AB.linear().transpose() * axis.normal);
-  axis.reach = -high.height;
-  axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.reach;
+  axis.support = -high.height;
+  axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.support;
   floor_ = std::min(axis.separation, 0.0) - face_preference;
   witness = {pair.a.vertices[high.vertex], pair.vertex_b(low.vertex)};
   return axis;
@@ -157,13 +157,13 @@ bool AxisSearch::sweep_faces(const HullPair& pair, const Witness& witness) {
   const auto see_a = [&](int f) {
     const bool known = best_.feature.kind == FeatureKind::face_a && best_.feature.a == f;
     const Axis axis = known ? best_ : face_of_a(pair, f);
-    bounds_a_.see(f, axis.separation, pair.vertex_b(axis.support));
+    bounds_a_.see(f, axis.separation, pair.vertex_b(axis.vertex));
     return note(axis);
   };
   const auto see_b = [&](int f) {
     const bool known = best_.feature.kind == FeatureKind::face_b && best_.feature.b == f;
     const Axis axis = known ? best_ : face_of_b(pair, f);
-    bounds_b_.see(f, axis.separation, pair.in_b(pair.a.vertices[axis.support]));
+    bounds_b_.see(f, axis.separation, pair.in_b(pair.a.vertices[axis.vertex]));
     return note(axis);
   };
   bounds_a_.measure(pair.a, witness.on_b);
@@ -223,10 +223,10 @@ bool AxisSearch::nearest_edges(const HullPair& pair, const Axis& axis, double ma
   const Vector3d n_b = pair.X_AB.linear().transpose() * axis.normal;
   const double over = axis.normal.dot(pair.X_AB.translation());
   const auto high = [&](int v) {
-    return axis.normal.dot(pair.a.vertices[v]) >= axis.reach + axis.separation - margin - height_round_off;
+    return axis.normal.dot(pair.a.vertices[v]) >= axis.support + axis.separation - margin - height_round_off;
   };
   const auto low = [&](int v) {
-    return n_b.dot(pair.b.vertices[v]) + over <= axis.reach + margin + height_round_off;
+    return n_b.dot(pair.b.vertices[v]) + over <= axis.support + margin + height_round_off;
   };
   edges_b_.clear();
   for (std::size_t e = 0; e < pair.b.edges.size(); ++e) {

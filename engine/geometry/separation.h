@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/geometry/separation_bounds.h>
 #include <Eigen/Dense>
 #include <cstdint>
-#include <drawpoint/engine/geometry/separation_bounds.h>
 #include <limits>
 #include <vector>
 
@@ -35,8 +35,8 @@ struct Axis {
   Feature feature;  ///< none: the line of centres separates by more than the margin
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< from A to B, in A's frame
   double separation = 0;
-  double reach = 0;  ///< of A along the normal
-  int support = -1;  ///< face axes: the vertex of the other shape nearest to the face
+  double support = 0;  ///< of A along the normal
+  int vertex = -1;     ///< face axes: the vertex of the other shape nearest to the face
 };
 
 /// Two hulls and the pose of B in A's frame.

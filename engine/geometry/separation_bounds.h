@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/geometry/hull_extremes.h>
 #include <vector>
 
 /// By how much the faces and edges of one hull can separate it from another shape, at most, from a few points

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
-#include <drawpoint/engine/base/random.hpp>
 
 namespace drawpoint::engine::granular {
 
@@ -62,8 +62,8 @@ Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t se
       sampler_(seed, density),
       next_(sampler_.next()) {}
 
-std::vector<int> Emitter::emit(engine::World& world, const RockLibrary& library,
-                               std::vector<RockSpec>& specs, double mass) {
+std::vector<int> Emitter::emit(engine::World& world, const RockLibrary& library, std::vector<RockSpec>& specs,
+                               double mass) {
   std::vector<int> born;
   if (mass <= 0 || world.time() < due_) return born;
   due_ = world.time() + options_.interval;

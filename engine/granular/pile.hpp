@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <drawpoint/engine/world/world.hpp>
-#include <drawpoint/engine/granular/size_distribution.hpp>
 #include <drawpoint/engine/base/random.hpp>
+#include <drawpoint/engine/granular/size_distribution.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <vector>
 
 /// Rocks as data, the emitter that pours them and the settling of a pile.

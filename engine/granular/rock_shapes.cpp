@@ -11,9 +11,9 @@
 namespace drawpoint::engine::granular {
 namespace {
 
-using engine::ConvexPolyhedron;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using engine::ConvexPolyhedron;
 
 // a x + b y + c z ≤ d. The first six are the sides of a block, the others cut its corners and edges.
 struct HalfSpace {

@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
-#include <drawpoint/engine/base/random.hpp>
 #include <stdexcept>
 #include <string>
 
 namespace drawpoint::engine::loading {
 namespace {
 
+using Eigen::Vector3d;
 using engine::ConvexPolyhedron;
 using engine::HalfSpace;
 using engine::Shape;
-using Eigen::Vector3d;
 
 constexpr int terrain = static_cast<int>(SurfaceKind::terrain);
 constexpr double slab = 0.5;  // thickness of the roof [m]

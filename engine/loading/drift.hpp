@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
+#include <drawpoint/engine/world/world.hpp>
 
 /// The drift: floor, two walls, rough back wall, a roof that opens at the end into a conical raise.
 ///

@@ -43,8 +43,8 @@ void check(const ExecutorOptions& options) {
 // Time that an actuator has been slow, after a step of dt.
 double slow_for(double before, double dt, double set, double actual, const ExecutorOptions& options,
                 double least) {
-  const bool judged = std::abs(set) > least;
-  const bool slow = judged && actual * std::copysign(1.0, set) < options.slow_share * std::abs(set);
+  const bool checked = std::abs(set) > least;
+  const bool slow = checked && actual * std::copysign(1.0, set) < options.slow_share * std::abs(set);
   return slow ? before + dt : 0.0;
 }
 

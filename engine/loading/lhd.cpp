@@ -6,10 +6,10 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-using engine::ConvexPolyhedron;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using engine::ConvexPolyhedron;
 using machine::BodySpec;
 using machine::JointKind;
 

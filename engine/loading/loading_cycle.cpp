@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/scene_recorder.h>
+#include <drawpoint/engine/loading/signals.h>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
-#include <drawpoint/engine/loading/scene_recorder.h>
-#include <drawpoint/engine/loading/signals.h>
 #include <exception>
 #include <numeric>
 
@@ -26,7 +26,7 @@ class LoadingRun {
         scene_(site_, scenario.drift) {
     site_.world().before_solve(hooks.before_solve);
     describe();
-    log_.texts["pile_recipe"] = pile.recipe.empty() ? "given by the caller" : pile.recipe;
+    log_.texts["pile_recipe"] = pile.provenance.empty() ? "given by the caller" : pile.provenance;
   }
 
   LoadingLog run() {
@@ -35,7 +35,8 @@ class LoadingRun {
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
     log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
-    log_.numbers["most_sweeps_a_substep"] = engine::most_sweeps(scenario_.world.solver, most_points_);
+    log_.numbers["most_iterations_per_substep"] =
+        engine::most_iterations(scenario_.world.solver, most_points_);
     log_.signals = signals_.take();
     log_.scene = scene_.take();
     return std::move(log_);
@@ -94,8 +95,8 @@ void LoadingRun::describe() {
                   {"steel_rolling", s.materials.rock_steel.rolling},
                   {"step", s.world.step},
                   {"substeps", s.world.solver.substeps},
-                  {"sweeps", s.world.solver.sweeps},
-                  {"spare_work", s.world.solver.spare_work},
+                  {"iterations", s.world.solver.iterations},
+                  {"iteration_budget", s.world.solver.iteration_budget},
                   {"warm_start", s.world.warm_start},
                   {"freezing", s.world.freezing.on ? 1.0 : 0.0},
                   {"freezing_tolerance", s.world.freezing.tolerance},

@@ -12,21 +12,21 @@ namespace {
 
 const record::FileKind pile_kind{"drawpoint settled pile", 1};
 
-void add_number(std::string& recipe, const std::string& name, double value) {
+void add_number(std::string& provenance, const std::string& name, double value) {
   char text[32];
   std::snprintf(text, sizeof text, "=%.17g ", value);
-  recipe += name + text;
+  provenance += name + text;
 }
 
 // The machine's pairs are no part of it: it comes when the pile lies.
-void add_material(std::string& recipe, const std::string& pair, const engine::Material& m) {
-  add_number(recipe, pair + "_friction", m.friction);
-  add_number(recipe, pair + "_rolling", m.rolling);
-  add_number(recipe, pair + "_spinning", m.spinning);
-  add_number(recipe, pair + "_stiffness", m.stiffness);
-  add_number(recipe, pair + "_damping_time", m.damping_time);
-  add_number(recipe, pair + "_restitution", m.restitution);
-  add_number(recipe, pair + "_law", static_cast<int>(m.law));
+void add_material(std::string& provenance, const std::string& pair, const engine::Material& m) {
+  add_number(provenance, pair + "_friction", m.friction);
+  add_number(provenance, pair + "_rolling", m.rolling);
+  add_number(provenance, pair + "_spinning", m.spinning);
+  add_number(provenance, pair + "_stiffness", m.stiffness);
+  add_number(provenance, pair + "_damping_time", m.damping_time);
+  add_number(provenance, pair + "_restitution", m.restitution);
+  add_number(provenance, pair + "_law", static_cast<int>(m.law));
 }
 
 double pile_height(const engine::World& world) {
@@ -38,49 +38,49 @@ double pile_height(const engine::World& world) {
 
 }  // namespace
 
-std::string pile_recipe(const Scenario& s) {
-  std::string recipe;
+std::string pile_provenance(const Scenario& s) {
+  std::string provenance;
   const Drift& d = s.drift;
-  add_number(recipe, "length", d.length);
-  add_number(recipe, "width", d.width);
-  add_number(recipe, "height", d.height);
-  add_number(recipe, "raise_radius", d.raise_radius);
-  add_number(recipe, "raise_widening", d.raise_widening);
-  add_number(recipe, "raise_height", d.raise_height);
-  add_number(recipe, "wall_roughness", d.wall_roughness);
-  add_number(recipe, "mass", s.pile.mass);
-  add_number(recipe, "density", s.pile.density);
-  add_number(recipe, "max_height", s.pile.max_height);
-  recipe += "seed=" + std::to_string(s.pile.seed) + " ";
+  add_number(provenance, "length", d.length);
+  add_number(provenance, "width", d.width);
+  add_number(provenance, "height", d.height);
+  add_number(provenance, "raise_radius", d.raise_radius);
+  add_number(provenance, "raise_widening", d.raise_widening);
+  add_number(provenance, "raise_height", d.raise_height);
+  add_number(provenance, "wall_roughness", d.wall_roughness);
+  add_number(provenance, "mass", s.pile.mass);
+  add_number(provenance, "density", s.pile.density);
+  add_number(provenance, "max_height", s.pile.max_height);
+  provenance += "seed=" + std::to_string(s.pile.seed) + " ";
   const granular::EmitterOptions emitter = emitter_of(d);
-  add_number(recipe, "release_radius", emitter.radius);
-  add_number(recipe, "release_spacing", emitter.spacing);
-  add_number(recipe, "release_clearance", emitter.clearance);
-  add_number(recipe, "release_interval", emitter.interval);
-  add_material(recipe, "rock_rock", s.materials.rock_rock);
-  add_material(recipe, "rock_terrain", s.materials.rock_terrain);
-  add_number(recipe, "step", s.world.step);
-  recipe += "method=" + std::string(engine::to_string(s.world.solver.method)) + " ";
-  add_number(recipe, "substeps", s.world.solver.substeps);
-  add_number(recipe, "sweeps", s.world.solver.sweeps);
-  add_number(recipe, "spare_work", s.world.solver.spare_work);
-  add_number(recipe, "tolerance", s.world.solver.tolerance);
-  add_number(recipe, "warm_start", s.world.warm_start);
-  add_number(recipe, "gravity", s.world.gravity.norm());
-  add_number(recipe, "margin", s.world.contacts.margin);
-  add_number(recipe, "reuse_distance", s.world.contacts.reuse_distance);
-  add_number(recipe, "rest_speed", s.pile.rest.fastest);
-  add_number(recipe, "rest_energy", s.pile.rest.mean_energy);
+  add_number(provenance, "release_radius", emitter.radius);
+  add_number(provenance, "release_spacing", emitter.spacing);
+  add_number(provenance, "release_clearance", emitter.clearance);
+  add_number(provenance, "release_interval", emitter.interval);
+  add_material(provenance, "rock_rock", s.materials.rock_rock);
+  add_material(provenance, "rock_terrain", s.materials.rock_terrain);
+  add_number(provenance, "step", s.world.step);
+  provenance += "method=" + std::string(engine::to_string(s.world.solver.method)) + " ";
+  add_number(provenance, "substeps", s.world.solver.substeps);
+  add_number(provenance, "iterations", s.world.solver.iterations);
+  add_number(provenance, "iteration_budget", s.world.solver.iteration_budget);
+  add_number(provenance, "tolerance", s.world.solver.tolerance);
+  add_number(provenance, "warm_start", s.world.warm_start);
+  add_number(provenance, "gravity", s.world.gravity.norm());
+  add_number(provenance, "margin", s.world.contacts.margin);
+  add_number(provenance, "reuse_distance", s.world.contacts.reuse_distance);
+  add_number(provenance, "rest_speed", s.pile.rest.fastest);
+  add_number(provenance, "rest_energy", s.pile.rest.mean_energy);
   if (const engine::FreezingOptions& f = s.world.freezing; f.on) {
-    add_number(recipe, "freeze_hold", f.hold);
-    add_number(recipe, "freeze_distance", f.distance);
-    add_number(recipe, "freeze_tolerance", f.tolerance);
-    add_number(recipe, "freeze_average", f.average);
-    add_number(recipe, "freeze_impact", f.impact);
-    add_number(recipe, "freeze_nudge", f.nudge);
-    add_number(recipe, "freeze_spread", f.spread);
+    add_number(provenance, "freeze_hold", f.hold);
+    add_number(provenance, "freeze_distance", f.distance);
+    add_number(provenance, "freeze_tolerance", f.tolerance);
+    add_number(provenance, "freeze_average", f.average);
+    add_number(provenance, "freeze_impact", f.impact);
+    add_number(provenance, "freeze_nudge", f.nudge);
+    add_number(provenance, "freeze_spread", f.spread);
   }
-  return recipe;
+  return provenance;
 }
 
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress,
@@ -113,7 +113,7 @@ SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)
   do step_world();
   while (!watch.at_rest(world));
   if (progress) progress(1.0);
-  SettledPile pile{{}, world.time(), watch.timed_out(), pile_recipe(scenario)};
+  SettledPile pile{{}, world.time(), watch.timed_out(), pile_provenance(scenario)};
   for (std::size_t k = 0; k < specs.size(); ++k) pile.rocks.push_back({specs[k], world.rocks()[k].pose});
   return pile;
 }
@@ -128,7 +128,7 @@ void write_pile(const std::filesystem::path& path, const SettledPile& pile, cons
       for (int column = 0; column < 4; ++column) poses.push_back(rock.pose.matrix()(row, column));
   }
   record::Writer file(path, pile_kind);
-  file.text("/", "recipe", pile_recipe(scenario));
+  file.text("/", "recipe", pile_provenance(scenario));
   file.number("/", "poured_s", pile.poured_s);
   file.integer("/", "timed_out", pile.timed_out);
   file.array("/shape", std::span<const std::int32_t>(shapes));
@@ -139,7 +139,7 @@ void write_pile(const std::filesystem::path& path, const SettledPile& pile, cons
 
 SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario) {
   const record::Reader file(path, pile_kind);
-  if (file.text("/", "recipe") != pile_recipe(scenario))
+  if (file.text("/", "recipe") != pile_provenance(scenario))
     throw std::runtime_error("loading::read_pile: " + path.string() +
                              " was made for another drift, pile, rock material or solver; remove it to pour "
                              "a new one, or name another file");

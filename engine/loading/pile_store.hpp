@@ -21,13 +21,13 @@ namespace drawpoint::engine::loading {
 
 struct SettledPile {
   std::vector<granular::PlacedRock> rocks;
-  double poured_s = 0;      ///< simulated time to pour and settle [s]
-  bool timed_out = false;   ///< still creeping when the rest criterion's cap was reached
-  std::string recipe = {};  ///< what it was made from; empty: not by pour_pile()
+  double poured_s = 0;          ///< simulated time to pour and settle [s]
+  bool timed_out = false;       ///< still creeping when the rest criterion's cap was reached
+  std::string provenance = {};  ///< what it was made from; empty: not by pour_pile()
 };
 
 /// What decides the pile, as text.
-std::string pile_recipe(const Scenario& scenario);
+std::string pile_provenance(const Scenario& scenario);
 
 /// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once a simulated second.
 /// Stops early when the pile reaches max_height or the raise is full.

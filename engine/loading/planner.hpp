@@ -9,7 +9,7 @@
 /// Strategy and pile to trajectory.
 ///
 /// The bucket takes a slice of constant horizontal thickness d up to height h and the sector that the tip
-/// sweeps when it breaks out: w_b (d h + ½ θ d²) = α V_b. Positive root of ½ θ d² + h d − A = 0 without
+/// iterations when it breaks out: w_b (d h + ½ θ d²) = α V_b. Positive root of ½ θ d² + h d − A = 0 without
 /// cancellation, A = α V_b / w_b:
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper

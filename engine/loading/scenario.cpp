@@ -29,7 +29,8 @@ Scenario lh621_at_thesis_scale() {
   s.drift.raise_radius = 3.0;
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
-  s.world.solver.spare_work *= 4;  // as many sweeps a substep for its points as the smaller scene has
+  s.world.solver.iteration_budget *=
+      4;  // as many iterations a substep for its points as the smaller scene has
   return s;
 }
 

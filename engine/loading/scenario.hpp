@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/executor.hpp>
 #include <drawpoint/engine/loading/lhd.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/loading/planner.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <filesystem>
 
 /// Everything that decides a loading simulation. Equal scenarios give equal logs, bit for bit.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/scene_recorder.h>
+#include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <limits>
 
 namespace drawpoint::engine::loading {
@@ -9,7 +9,7 @@ namespace {
 
 using engine::ConvexPolyhedron;
 
-constexpr int values_a_pose = 7;
+constexpr int values_per_pose = 7;
 constexpr int wheel_sides = 32;
 const char* rock_colors[] = {"#6b6f76", "#7d7468", "#8a8378", "#5e6066", "#77706a", "#6f7a80"};
 
@@ -32,7 +32,7 @@ void append_pose(std::vector<float>& poses, const Eigen::Isometry3d& X) {
 }
 
 void append_hidden(std::vector<float>& poses) {
-  poses.insert(poses.end(), values_a_pose, std::numeric_limits<float>::quiet_NaN());
+  poses.insert(poses.end(), values_per_pose, std::numeric_limits<float>::quiet_NaN());
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void SceneRecorder::frame(const Site& site, int cycle, const std::string& label)
 
 SceneRecord SceneRecorder::take() {
   for (SceneFrame& frame : scene_.frames)
-    while (frame.poses.size() < values_a_pose * scene_.bodies.size()) append_hidden(frame.poses);
+    while (frame.poses.size() < values_per_pose * scene_.bodies.size()) append_hidden(frame.poses);
   return std::move(scene_);
 }
 

@@ -105,7 +105,7 @@ std::string Site::trouble() const {
                         p.z() < 3 * drift_.raise_height;
     if (!p.allFinite() || !rock.velocity.allFinite() || !inside)
       return "rock " + std::to_string(k) + " left the drift at t = " + std::to_string(world_.time()) +
-             " s: the contact solution broke down; use a smaller step or more sweeps";
+             " s: the contact solution broke down; use a smaller step or more iterations";
   }
   if (!driver_.read().front_axle.allFinite())
     return "the machine's position is not finite at t = " + std::to_string(world_.time()) +

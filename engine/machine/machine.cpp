@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/machine/reactions.h>
 
-#include <algorithm>
 #include <drawpoint/engine/machine/constrained_response.h>
-#include <drawpoint/engine/machine/machine.hpp>
 #include <drawpoint/engine/machine/machine_rows.h>
+#include <algorithm>
+#include <drawpoint/engine/machine/machine.hpp>
 #include <stdexcept>
 
 namespace drawpoint::engine::machine {

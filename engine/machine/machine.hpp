@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/world/articulated_body.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
+#include <drawpoint/engine/world/articulated_body.hpp>
 #include <memory>
 
 /// An articulated machine on Simbody, stepped as a super-body of the contact solver.

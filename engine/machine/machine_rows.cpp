@@ -16,7 +16,7 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate) {
 }
 
 engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
-                                double h, double start) {
+                               double h, double start) {
   const double limit = motor.max_force * h;
   engine::SuperBodyRow row;
   row.jacobian = joints.transpose();
@@ -28,7 +28,7 @@ engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd&
 }
 
 engine::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
-                               double h, double start) {
+                              double h, double start) {
   engine::SuperBodyRow row;
   row.kind = engine::SuperBodyRow::Kind::stop;
   row.jacobian = side.sign * joints.transpose();

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/world/articulated_body.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
+#include <drawpoint/engine/world/articulated_body.hpp>
 
 /// A machine's own rows in the solve: velocity motors with force limits and joint stops.
 ///
@@ -24,8 +24,8 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate);
 /// `joints`: sum of the rows of N for the motor's or stop's joints; `start`: impulse to start from [N s] or
 /// [N m s].
 engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
-                                double h, double start);
-engine::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
                                double h, double start);
+engine::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
+                              double h, double start);
 
 }  // namespace drawpoint::engine::machine

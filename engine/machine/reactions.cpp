@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/machine/reactions.h>
 #include <drawpoint/engine/machine/joint_forces.h>
+#include <drawpoint/engine/machine/reactions.h>
 
 namespace drawpoint::engine::machine {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/record/contact_problem_check.h>
 #include <cmath>
 #include <cstdio>
-#include <drawpoint/engine/record/contact_problem_check.h>
 
 namespace drawpoint::engine::record::detail {
 namespace {
@@ -53,7 +53,7 @@ class Finding {
 void check_body(const SolverBody& body, Finding& find) {
   find.finite(body.velocity, "velocity");
   find.finite(body.angular_velocity, "angular_velocity");
-  find.finite(body.push, "push");
+  find.finite(body.external_velocity_change, "push");
   find.not_negative(body.inverse_mass, "inverse_mass");
   find.finite(body.inverse_inertia, "inverse_inertia");
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <bit>
 #include <drawpoint/engine/record/contact_problem_check.h>
+#include <bit>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <stdexcept>
@@ -9,6 +9,9 @@
 namespace drawpoint::engine::record {
 namespace {
 
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 using engine::ContactPair;
 using engine::ContactPoint;
 using engine::ContactProblem;
@@ -16,9 +19,6 @@ using engine::SolverBody;
 using engine::SpatialMap;
 using engine::SuperBody;
 using engine::SuperBodyRow;
-using Eigen::Index;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 const FileKind problem_kind{"drawpoint contact problem", 1};
 
@@ -110,7 +110,7 @@ void bodies(Fields& f, std::vector<SolverBody>& items) {
   f.vectors(
       "bodies/angular_velocity", items, 3, [](auto& b) -> auto& { return b.angular_velocity; });
   f.vectors(
-      "bodies/push", items, 3, [](auto& b) -> auto& { return b.push; });
+      "bodies/push", items, 3, [](auto& b) -> auto& { return b.external_velocity_change; });
   f.numbers(
       "bodies/inverse_mass", items, [](auto& b) -> auto& { return b.inverse_mass; });
   f.vectors(

@@ -23,7 +23,7 @@ namespace drawpoint::engine::record {
 struct RecordedProblem {
   engine::ContactProblem problem;
   std::shared_ptr<const engine::SuperBody> machine;  ///< none: nullptr
-  std::string note;                                   ///< where the problem comes from
+  std::string note;                                  ///< where the problem comes from
 };
 
 /// Before it is solved: World::before_solve gives it. Throws std::invalid_argument if it contradicts itself,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <hdf5.h>
 
-#include <algorithm>
 #include <drawpoint/engine/record/hdf5_support.h>
+#include <algorithm>
 #include <type_traits>
 
 namespace drawpoint::engine::record::detail {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <hdf5.h>
 
-#include <algorithm>
-#include <drawpoint/engine/record/file.hpp>
 #include <drawpoint/engine/record/hdf5_support.h>
 #include <drawpoint/engine/record/trailer.h>
+#include <algorithm>
+#include <drawpoint/engine/record/file.hpp>
 #include <functional>
 #include <numeric>
 #include <optional>

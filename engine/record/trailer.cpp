@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/record/trailer.h>
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <drawpoint/engine/record/trailer.h>
 #include <fstream>
 #include <span>
 #include <system_error>

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <hdf5.h>
 
+#include <drawpoint/engine/record/hdf5_support.h>
+#include <drawpoint/engine/record/trailer.h>
 #include <algorithm>
 #include <drawpoint/engine/base/atomic_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
-#include <drawpoint/engine/record/hdf5_support.h>
-#include <drawpoint/engine/record/trailer.h>
 #include <functional>
 #include <numeric>
 #include <stdexcept>

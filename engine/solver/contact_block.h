@@ -6,8 +6,8 @@
 #include <cmath>
 #include <drawpoint/engine/solver/contact_law.hpp>
 
-/// The unknowns of a point or of a pair in the sequential sweeps, with the step that a sweep takes on its
-/// tangents.
+/// The unknowns of a point or of a pair in the sequential iterations, with the step that an iteration takes
+/// on its tangents.
 ///
 /// A block holds the impulse λ of a point (the moment of a pair) in the frame (n, t1, t2) and its response
 /// W = J M⁻¹ Jᵀ, so that λ changes the velocity there by W Δλ. With the velocity u the normal's step is
@@ -23,7 +23,7 @@ struct ContactBlock {
   double inverse_tt[3] = {};  ///< of the tangents' 2 x 2 block: xx, xy, yy
   double inverse_rho = 0;     ///< 1 / λ_max of that block
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), total = Eigen::Vector3d::Zero();  ///< in the frame
-  Eigen::Vector3d correction = Eigen::Vector3d::Zero();  ///< of the start impulse, for a blow
+  Eigen::Vector3d correction = Eigen::Vector3d::Zero();  ///< of the start impulse, for an impact
   int rows_a = -1, rows_b = -1;  ///< index of a side's rows (super_body_motion.hpp), if it is a machine part
 
   /// Fills the inverses from W and Σ.
@@ -36,7 +36,7 @@ struct PointBlock : ContactBlock {
   int a, b;
   Eigen::Vector3d arm_a, arm_b;
   double friction, gap, target;
-  double begun;  ///< the normal impulse that the substep began with
+  double initial_impulse;  ///< the normal impulse that the substep began with
   SpookTerms law;
 };
 

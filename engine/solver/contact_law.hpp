@@ -43,10 +43,11 @@ inline double spook_target(double gap, double approach, double upsilon, double h
 
 /// What a substep's normal impulse λ leaves for the next one to start from, as a share of it. Load that is
 /// there to stay at most doubles in a substep, or grows by what stops an approach of `impact_speed`; more
-/// than that is a blow, which is over. To start from it would strike again, and the sweeps that take it back
-/// shake the pile. `begun` is what the substep itself started from, `inverse_nn` = 1/(W_nn + Σ).
-inline double carried_share(double impulse, double begun, double inverse_nn) {
-  const double most = 2 * begun + impact_speed * inverse_nn;
+/// than that is an impact, which is over. To start from it would strike again, and the iterations that take
+/// it back shake the pile. `initial_impulse` is what the substep itself started from, `inverse_nn` = 1/(W_nn
+/// + Σ).
+inline double warm_start_fraction(double impulse, double initial_impulse, double inverse_nn) {
+  const double most = 2 * initial_impulse + impact_speed * inverse_nn;
   return impulse > most ? most / impulse : 1.0;
 }
 

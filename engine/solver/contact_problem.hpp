@@ -23,11 +23,13 @@ namespace drawpoint::engine {
 struct SolverBody {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero(),
                   angular_velocity = Eigen::Vector3d::Zero();  ///< in: before the step; out: after
-  Eigen::Vector3d push = Eigen::Vector3d::Zero();              ///< Δv by outer forces over the step [m/s]
+  Eigen::Vector3d external_velocity_change =
+      Eigen::Vector3d::Zero();  ///< Δv by outer forces over the step [m/s]
   double inverse_mass = 0;
   Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< world axes, about the centre of mass
-  Eigen::Vector3d travel = Eigen::Vector3d::Zero(),
-                  turn = Eigen::Vector3d::Zero();  ///< out: ∫ v dt [m] and ∫ ω dt [rad] over the step
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero(),
+                  rotation_vector =
+                      Eigen::Vector3d::Zero();  ///< out: ∫ v dt [m] and ∫ ω dt [rad] over the step
 };
 
 /// A side of a contact: a rigid body (index ≥ 0) or part p of the machine (index −1 − p).
@@ -47,7 +49,8 @@ struct ContactPoint {
   /// On B, world axes, of the substep that starts (in) or ended (out) the step, times S [N s].
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< out: on B, world axes, over the step [N s]
-  double carried = 1;  ///< out: share of `start` that the next step may start from (carried_share)
+  double warm_start_fraction =
+      1;  ///< out: share of `start` that the next step may start from (warm_start_fraction)
 };
 
 /// Two bodies that touch, with their points [first, first + count) and the moment between them.

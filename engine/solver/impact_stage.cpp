@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
-#include <drawpoint/engine/solver/contact_law.hpp>
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
+#include <atomic>
+#include <drawpoint/engine/solver/contact_law.hpp>
 
 namespace drawpoint::engine::detail {
 namespace {
 
-constexpr int pairs_a_block = 256;  // that a thread takes at a time
-constexpr int most_sweeps = 10000;
-constexpr double small_change = 1e-12;  // of a sweep, relative to the load
+constexpr int pairs_per_block = 256;  // that a thread takes at a time
+constexpr int most_iterations = 10000;
+constexpr double small_change = 1e-12;  // of an iteration, relative to the load
 constexpr double rigid = 1e300;         // [N/m]
-constexpr double touching = 1e-6;       // [m] a gap of round-off must not keep a contact out of the blow
+constexpr double touching = 1e-6;       // [m] a gap of round-off must not keep a contact out of the impact
 
 }  // namespace
 
@@ -37,9 +37,9 @@ bool ImpactStage::rebounds(const ContactProblem& problem, const ContactPair& pai
   return false;
 }
 
-bool ImpactStage::needed(const ContactProblem& problem, const Parallel& parallel) const {
+bool ImpactStage::needed(const ContactProblem& problem, const ThreadPool& pool) const {
   std::atomic<bool> found{false};
-  parallel.blocks(static_cast<int>(problem.pairs.size()), pairs_a_block, [&](int first, int last) {
+  pool.blocks(static_cast<int>(problem.pairs.size()), pairs_per_block, [&](int first, int last) {
     for (int k = first; k < last && !found.load(std::memory_order_relaxed); ++k)
       if (rebounds(problem, problem.pairs[k])) found.store(true, std::memory_order_relaxed);
   });
@@ -72,9 +72,9 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
   }
 }
 
-void ImpactStage::run(ContactProblem& problem, const Parallel& parallel) {
+void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
   machine_ = problem.machine;
-  ran_ = needed(problem, parallel);
+  ran_ = needed(problem, pool);
   if (!ran_) return;
   choose_points(problem);
   stage_.step = problem.step;
@@ -85,13 +85,13 @@ void ImpactStage::run(ContactProblem& problem, const Parallel& parallel) {
     bare_.rows.clear();
     stage_.machine = &bare_;
   }
-  SequentialSweeper sweeper(stage_, 1);
-  sweeper.aim(targets_);
+  SequentialIteration iteration(stage_, 1);
+  iteration.set_bias_velocities(targets_);
   double change = 1;
-  for (int k = 0; k < most_sweeps && change > small_change * sweeper.normal_load(); ++k)
-    change = sweeper.sweep(k % 2 == 0);
-  sweeper.finish();
-  solution_ = sweeper.store();
+  for (int k = 0; k < most_iterations && change > small_change * iteration.normal_load(); ++k)
+    change = iteration.iteration(k % 2 == 0);
+  iteration.finish();
+  solution_ = iteration.store();
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     problem.bodies[k].velocity = stage_.bodies[k].velocity;
     problem.bodies[k].angular_velocity = stage_.bodies[k].angular_velocity;

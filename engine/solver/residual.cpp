@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/received_impulses.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/solver/contact_frame.h>
 #include <drawpoint/engine/solver/contact_law.hpp>
-#include <drawpoint/engine/solver/received_impulses.h>
 #include <drawpoint/engine/solver/residual.hpp>
 #include <stdexcept>
 #include <string>
@@ -66,9 +66,9 @@ class LastSubstep {
   const Side& side(int index) const { return index < 0 ? parts_[part_of(index)] : bodies_[index]; }
   Matrix3d response(int index, const Vector3d& arm) const;
   Matrix3d angular_response(int index) const;
-  double judge(const ContactPair& pair, const ContactPoint& point);  // returns λ_n
-  void judge_moment(const ContactPair& pair, double load);
-  double judge_rows() const;
+  double evaluate(const ContactPair& pair, const ContactPoint& point);  // returns λ_n
+  void evaluate_moment(const ContactPair& pair, double load);
+  double evaluate_rows() const;
 
   const ContactProblem& problem_;
   const SuperBodySolution& machine_;
@@ -85,8 +85,8 @@ void LastSubstep::add_bodies(const detail::ReceivedImpulses& received) {
     Side s;
     s.after = {b.angular_velocity, b.velocity};
     s.before = {b.angular_velocity - b.inverse_inertia * received.angular[k],
-                b.velocity - b.push / substeps_ - b.inverse_mass * received.linear[k]};
-    s.shift = {b.turn - h_ * b.angular_velocity, b.travel - h_ * b.velocity};
+                b.velocity - b.external_velocity_change / substeps_ - b.inverse_mass * received.linear[k]};
+    s.shift = {b.rotation_vector - h_ * b.angular_velocity, b.displacement - h_ * b.velocity};
     bodies_.push_back(s);
   }
 }
@@ -118,7 +118,7 @@ Matrix3d LastSubstep::angular_response(int index) const {
                     : Matrix3d(part_responses_[part_of(index)].topLeftCorner<3, 3>());
 }
 
-double LastSubstep::judge(const ContactPair& pair, const ContactPoint& p) {
+double LastSubstep::evaluate(const ContactPair& pair, const ContactPoint& p) {
   const Side &a = side(pair.a), &b = side(pair.b);
   const Vector3d& n = p.normal;
   const Vector3d impulse = p.start / substeps_, u = b.after.at(p.arm_b) - a.after.at(p.arm_a);
@@ -139,7 +139,7 @@ double LastSubstep::judge(const ContactPair& pair, const ContactPoint& p) {
   return normal;
 }
 
-void LastSubstep::judge_moment(const ContactPair& pair, double load) {
+void LastSubstep::evaluate_moment(const ContactPair& pair, double load) {
   const Vector3d& n = problem_.points[pair.first].normal;
   const Vector3d moment = pair.start / substeps_, u = side(pair.b).after.angular - side(pair.a).after.angular;
   const Answers W = answers(angular_response(pair.a) + angular_response(pair.b), n);
@@ -156,7 +156,7 @@ void LastSubstep::judge_moment(const ContactPair& pair, double load) {
 }
 
 // A row's impulse λ changes w by J λ, so |J| r has one unit for slides and hinges.
-double LastSubstep::judge_rows() const {
+double LastSubstep::evaluate_rows() const {
   const Eigen::VectorXd& w = machine_.velocity;
   const Eigen::VectorXd shift = problem_.step * machine_.mean_velocity - h_ * w;
   double off = 0, all = 0;
@@ -180,12 +180,12 @@ double LastSubstep::judge_rows() const {
 Residual LastSubstep::residual() {
   for (const ContactPair& pair : problem_.pairs) {
     double load = 0;
-    for (int k = pair.first; k < pair.first + pair.count; ++k) load += judge(pair, problem_.points[k]);
-    judge_moment(pair, std::max(0.0, load));
+    for (int k = pair.first; k < pair.first + pair.count; ++k) load += evaluate(pair, problem_.points[k]);
+    evaluate_moment(pair, std::max(0.0, load));
   }
   Residual r;
   if (load_ > 0) r = {normal_ / load_, friction_ / load_, moment_ / load_, 0};
-  if (problem_.machine) r.rows = judge_rows();
+  if (problem_.machine) r.rows = evaluate_rows();
   return r;
 }
 

@@ -15,10 +15,11 @@
 /// a solution and stays positive where all impulses are missing.
 ///
 /// Nothing need be kept while solving: what the substep started from follows from what it ended with,
-/// v⁻ = v − push/S − M⁻¹ Jᵀ λ and travel⁻ = travel − v h/S, to round-off (single precision for a method that
-/// works in it). S = 1 is the textbook solve. Impulse stages for restitution are not judged. The law jumps
-/// where an approach passes the speed of an impact and where a gap closes; a point within round-off of a jump
-/// may be judged by the other side. Cost: linear, about two sweeps of the sequential method.
+/// v⁻ = v − push/S − M⁻¹ Jᵀ λ and displacement⁻ = displacement − v h/S, to round-off (single precision for a
+/// method that works in it). S = 1 is the textbook solve. Impulse stages for restitution are not evaluated.
+/// The law jumps where an approach passes the speed of an impact and where a gap closes; a point within
+/// round-off of a jump may be evaluated by the other side. Cost: linear, about two iterations of the
+/// sequential method.
 namespace drawpoint::engine {
 
 /// Relative to the contact load; 0 when there is no load.

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
 #include <drawpoint/engine/solver/contact_frame.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
+#include <algorithm>
+#include <cmath>
 
 namespace drawpoint::engine::detail {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-SequentialSweeper::SequentialSweeper(ContactProblem& problem, int substeps)
+SequentialIteration::SequentialIteration(ContactProblem& problem, int substeps)
     : problem_(problem),
       substeps_(substeps),
       h_(problem.step / substeps),
@@ -19,19 +19,19 @@ SequentialSweeper::SequentialSweeper(ContactProblem& problem, int substeps)
   for (const ContactPair& pair : problem.pairs) add_pair(pair);
 }
 
-Matrix3d SequentialSweeper::response(int index, const Vector3d& arm, const Matrix3d& frame) const {
+Matrix3d SequentialIteration::response(int index, const Vector3d& arm, const Matrix3d& frame) const {
   const SolverBody& body = problem_.bodies[index];
   const Matrix3d X = cross_matrix(arm);
   return frame * (body.inverse_mass * Matrix3d::Identity() - X * body.inverse_inertia * X) *
          frame.transpose();
 }
 
-void SequentialSweeper::add_part_response(ContactBlock& block) const {
+void SequentialIteration::add_part_response(ContactBlock& block) const {
   for (const int rows : {block.rows_a, block.rows_b})
     if (rows >= 0) block.W += machine_.rows(rows) * machine_.rows(rows).transpose();
 }
 
-void SequentialSweeper::add_pair(const ContactPair& pair) {
+void SequentialIteration::add_pair(const ContactPair& pair) {
   for (int k = pair.first; k < pair.first + pair.count; ++k) add_point(pair, problem_.points[k]);
   PairBlock r;
   r.a = pair.a;
@@ -52,7 +52,7 @@ void SequentialSweeper::add_pair(const ContactPair& pair) {
   pairs_.push_back(r);
 }
 
-void SequentialSweeper::add_point(const ContactPair& pair, const ContactPoint& point) {
+void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint& point) {
   PointBlock p;
   p.a = pair.a;
   p.b = pair.b;
@@ -70,11 +70,11 @@ void SequentialSweeper::add_point(const ContactPair& pair, const ContactPoint& p
   add_part_response(p);
   p.invert(p.law.sigma);
   p.impulse = start_impulse(point, p.frame, substeps_);
-  p.begun = p.impulse[0];
+  p.initial_impulse = p.impulse[0];
   points_.push_back(p);
 }
 
-Vector3d SequentialSweeper::velocity(const PointBlock& p) const {
+Vector3d SequentialIteration::velocity(const PointBlock& p) const {
   Vector3d u = Vector3d::Zero();
   if (p.a >= 0) {
     const SolverBody& body = problem_.bodies[p.a];
@@ -91,14 +91,14 @@ Vector3d SequentialSweeper::velocity(const PointBlock& p) const {
   return u;
 }
 
-Vector3d SequentialSweeper::spin(const PairBlock& r) const {
+Vector3d SequentialIteration::spin(const PairBlock& r) const {
   Vector3d u = Vector3d::Zero();
   u -= r.a >= 0 ? Vector3d(r.frame * problem_.bodies[r.a].angular_velocity) : machine_.velocity(r.rows_a);
   u += r.b >= 0 ? Vector3d(r.frame * problem_.bodies[r.b].angular_velocity) : machine_.velocity(r.rows_b);
   return u;
 }
 
-void SequentialSweeper::apply(const PointBlock& p, const Vector3d& delta) {
+void SequentialIteration::apply(const PointBlock& p, const Vector3d& delta) {
   const Vector3d impulse = p.frame.transpose() * delta;
   if (p.a >= 0) {
     SolverBody& body = problem_.bodies[p.a];
@@ -116,7 +116,7 @@ void SequentialSweeper::apply(const PointBlock& p, const Vector3d& delta) {
   }
 }
 
-void SequentialSweeper::apply(const PairBlock& r, const Vector3d& delta) {
+void SequentialIteration::apply(const PairBlock& r, const Vector3d& delta) {
   if (r.a >= 0)
     problem_.bodies[r.a].angular_velocity -=
         problem_.bodies[r.a].inverse_inertia * (r.frame.transpose() * delta);
@@ -129,17 +129,17 @@ void SequentialSweeper::apply(const PairBlock& r, const Vector3d& delta) {
     machine_.push(r.rows_b, delta);
 }
 
-// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).
-void SequentialSweeper::carry_over() {
+// Load that has built up carries over to the next substep; an impact does not (contact_law.hpp).
+void SequentialIteration::carry_over() {
   for (PairBlock& r : pairs_) {
     double force = 0, kept = 0;
     for (int k = r.first; k < r.first + r.count; ++k) {
       PointBlock& p = points_[k];
-      const double share = carried_share(p.impulse[0], p.begun, p.inverse_nn);
+      const double share = warm_start_fraction(p.impulse[0], p.initial_impulse, p.inverse_nn);
       p.correction = (share - 1) * p.impulse;
       force += p.impulse[0];
       p.impulse += p.correction;
-      p.begun = p.impulse[0];
+      p.initial_impulse = p.impulse[0];
       kept += p.impulse[0];
     }
     r.correction = force > kept ? Vector3d((kept / force - 1) * r.impulse) : Vector3d::Zero().eval();
@@ -147,7 +147,7 @@ void SequentialSweeper::carry_over() {
   }
 }
 
-void SequentialSweeper::refresh() {
+void SequentialIteration::refresh() {
   if (!fresh_) carry_over();
   for (PointBlock& p : points_) {
     const double approach = velocity(p)[0];
@@ -155,27 +155,27 @@ void SequentialSweeper::refresh() {
     p.target = spook_target(p.gap, approach, p.law.upsilon, h_);
   }
   fresh_ = false;
-  machine_.aim();
+  machine_.set_bias_velocities();
 }
 
-void SequentialSweeper::correct() {
+void SequentialIteration::correct() {
   for (const PointBlock& p : points_) apply(p, p.correction);
   for (const PairBlock& r : pairs_) apply(r, r.correction);
 }
 
-void SequentialSweeper::aim(const std::vector<double>& targets) {
+void SequentialIteration::set_bias_velocities(const std::vector<double>& targets) {
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k].target = targets[k];
 }
 
-void SequentialSweeper::start() {
+void SequentialIteration::start() {
   machine_.start();
   for (const PointBlock& p : points_) apply(p, p.impulse);
   for (const PairBlock& r : pairs_) apply(r, r.impulse);
 }
 
-double SequentialSweeper::sweep(bool forward) {
+double SequentialIteration::iteration(bool forward) {
   change_ = 0;
-  machine_.sweep();
+  machine_.iteration();
   const int n = static_cast<int>(pairs_.size());
   for (int k = 0; k < n; ++k) {
     PairBlock& r = pairs_[forward ? k : n - 1 - k];
@@ -185,7 +185,7 @@ double SequentialSweeper::sweep(bool forward) {
   return change_;
 }
 
-void SequentialSweeper::solve_point(PointBlock& p) {
+void SequentialIteration::solve_point(PointBlock& p) {
   const Vector3d u = velocity(p);
   const Vector3d before = p.impulse;
   p.impulse[0] = std::max(0.0, before[0] - p.inverse_nn * (u[0] + p.law.sigma * before[0] - p.target));
@@ -198,7 +198,7 @@ void SequentialSweeper::solve_point(PointBlock& p) {
   apply(p, delta);
 }
 
-void SequentialSweeper::solve_pair(PairBlock& r) {
+void SequentialIteration::solve_pair(PairBlock& r) {
   double load = 0;
   for (int k = r.first; k < r.first + r.count; ++k) load += points_[k].impulse[0];
   if (r.rolling_arm == 0 && r.spinning_arm == 0) return;
@@ -211,20 +211,20 @@ void SequentialSweeper::solve_pair(PairBlock& r) {
   apply(r, r.impulse - before);
 }
 
-void SequentialSweeper::finish() {
+void SequentialIteration::finish() {
   machine_.finish();
   for (PointBlock& p : points_) p.total += p.impulse;
   for (PairBlock& r : pairs_) r.total += r.impulse;
 }
 
-double SequentialSweeper::normal_load() const {
+double SequentialIteration::normal_load() const {
   double sum = 0;
   for (const PointBlock& p : points_) sum += p.impulse[0];
   return sum;
 }
 
-Misfit SequentialSweeper::misfit() const {
-  Misfit sum;
+ResidualSums SequentialIteration::residual_sums() const {
+  ResidualSums sum;
   for (const PointBlock& p : points_) {
     const Vector3d u = velocity(p);
     const double normal = p.impulse[0], rest = u[0] + p.law.sigma * normal - p.target;
@@ -239,7 +239,7 @@ Misfit SequentialSweeper::misfit() const {
   return sum;
 }
 
-SuperBodySolution SequentialSweeper::store() {
+SuperBodySolution SequentialIteration::store() {
   SuperBodySolution solution = machine_.store();
   const auto add = [&](int part, double sign, const Vector3d& arm, const Vector3d& impulse,
                        const Vector3d& moment) {
@@ -251,7 +251,8 @@ SuperBodySolution SequentialSweeper::store() {
     const Vector3d impulse = p.frame.transpose() * p.total;
     problem_.points[k].impulse = impulse;
     problem_.points[k].start = substeps_ * (p.frame.transpose() * p.impulse);
-    problem_.points[k].carried = carried_share(p.impulse[0], p.begun, p.inverse_nn);
+    problem_.points[k].warm_start_fraction =
+        warm_start_fraction(p.impulse[0], p.initial_impulse, p.inverse_nn);
     if (p.a < 0) add(part_of(p.a), -1, p.arm_a, impulse, Vector3d::Zero());
     if (p.b < 0) add(part_of(p.b), +1, p.arm_b, impulse, Vector3d::Zero());
   }

@@ -3,53 +3,53 @@
 #pragma once
 
 #include <drawpoint/engine/solver/contact_block.h>
+#include <drawpoint/engine/solver/super_body_motion.h>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <drawpoint/engine/solver/solver_options.hpp>
 #include <drawpoint/engine/solver/solver_report.hpp>
-#include <drawpoint/engine/solver/super_body_motion.h>
 #include <vector>
 
-/// Gauss-Seidel sweeps over the points, pairs and machine rows of a ContactProblem, in double precision.
+/// Gauss-Seidel iterations over the points, pairs and machine rows of a ContactProblem, in double precision.
 ///
 /// Works on the bodies' velocities in the problem and on the machine's w. A substep is: refresh(); then
-/// either start() in the first substep or extrapolate() in the others; sweep() as often as wanted; and
+/// either start() in the first substep or extrapolate() in the others; iteration() as often as wanted; and
 /// finish(). Extrapolating, v = 2 v_end − v_begin of the last substep, adds the outer forces' share and last
 /// substep's contact impulses to every body at once, because that is what changed it.
 namespace drawpoint::engine::detail {
 
 /// Sums over points of the natural map of their law (residual.hpp) [N s].
-struct Misfit {
+struct ResidualSums {
   double normal = 0, tangent = 0;
   double load = 0;  ///< what they are relative to
 };
 
-inline void report_misfit(const Misfit& misfit, SolverReport& report) {
-  if (misfit.load <= 0) return;
-  report.complementarity = misfit.normal / misfit.load;
-  report.cone = misfit.tangent / misfit.load;
+inline void report_residual(const ResidualSums& residual_sums, SolverReport& report) {
+  if (residual_sums.load <= 0) return;
+  report.complementarity = residual_sums.normal / residual_sums.load;
+  report.cone = residual_sums.tangent / residual_sums.load;
 }
 
-class SequentialSweeper {
+class SequentialIteration {
  public:
-  SequentialSweeper(ContactProblem& problem, int substeps);
+  SequentialIteration(ContactProblem& problem, int substeps);
 
   /// Gaps and targets from the bodies' velocities, which are those at the end of the last substep.
   void refresh();
   /// In place of refresh(): the velocities that the points' normals must reach [m/s].
-  void aim(const std::vector<double>& targets);
+  void set_bias_velocities(const std::vector<double>& targets);
   /// First substep: the machine's outer forces, and the start impulses on bodies and machine.
   void start();
   /// Other substeps: the machine's w; the bodies are the caller's.
   void extrapolate() { machine_.extrapolate(); }
-  /// After extrapolating: takes back the blows that it repeated.
+  /// After extrapolating: takes back the impacts that it repeated.
   void correct();
   /// Returns Σ|Δλ| over the points.
-  double sweep(bool forward);
-  /// Adds the substep's impulses and the machine's travel to the step's.
+  double iteration(bool forward);
+  /// Adds the substep's impulses and the machine's displacement to the step's.
   void finish();
 
-  double normal_load() const;  ///< Σ λ_n of the substep [N s]
-  Misfit misfit() const;       ///< of the points, at the velocities reached
+  double normal_load() const;          ///< Σ λ_n of the substep [N s]
+  ResidualSums residual_sums() const;  ///< of the points, at the velocities reached
 
   /// Writes the impulses into the problem and returns the machine's part.
   SuperBodySolution store();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/solver/sequential_solver.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
+#include <drawpoint/engine/solver/sequential_solver.h>
 
 namespace drawpoint::engine {
 namespace {
@@ -11,7 +11,7 @@ struct Motion {
 };
 
 void add_push(std::vector<SolverBody>& bodies, int substeps) {
-  for (SolverBody& body : bodies) body.velocity += body.push / substeps;
+  for (SolverBody& body : bodies) body.velocity += body.external_velocity_change / substeps;
 }
 
 // What changed a body in the last substep acts again: outer forces and contact impulses.
@@ -26,38 +26,38 @@ void extrapolate(std::vector<SolverBody>& bodies, const std::vector<Motion>& beg
 
 SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options) {
   const double h = problem.step / options.substeps;
-  for (SolverBody& body : problem.bodies) body.travel.setZero(), body.turn.setZero();
-  detail::SequentialSweeper sweeper(problem, options.substeps);
+  for (SolverBody& body : problem.bodies) body.displacement.setZero(), body.rotation_vector.setZero();
+  detail::SequentialIteration iteration(problem, options.substeps);
   std::vector<Motion> begin(problem.bodies.size()), now(problem.bodies.size());
   double change = 0;
   for (int s = 0; s < options.substeps; ++s) {
-    sweeper.refresh();
+    iteration.refresh();
     for (std::size_t k = 0; k < now.size(); ++k)
       now[k] = {problem.bodies[k].velocity, problem.bodies[k].angular_velocity};
     if (s == 0) {
       add_push(problem.bodies, options.substeps);
-      sweeper.start();
+      iteration.start();
     } else {
       extrapolate(problem.bodies, begin);
-      sweeper.extrapolate();
-      sweeper.correct();
+      iteration.extrapolate();
+      iteration.correct();
     }
     begin.swap(now);
-    for (int k = 0; k < most_sweeps(options, problem.points.size()); ++k) {
-      if (k >= options.sweeps && change <= options.tolerance * sweeper.normal_load()) break;
-      change = sweeper.sweep(k % 2 == 0);
+    for (int k = 0; k < most_iterations(options, problem.points.size()); ++k) {
+      if (k >= options.iterations && change <= options.tolerance * iteration.normal_load()) break;
+      change = iteration.iteration(k % 2 == 0);
     }
-    sweeper.finish();
+    iteration.finish();
     for (SolverBody& body : problem.bodies) {
-      body.travel += h * body.velocity;
-      body.turn += h * body.angular_velocity;
+      body.displacement += h * body.velocity;
+      body.rotation_vector += h * body.angular_velocity;
     }
   }
-  const double load = sweeper.normal_load();
+  const double load = iteration.normal_load();
   SolverReport report;
   if (load > 0) report.last_change = change / load;
-  detail::report_misfit(sweeper.misfit(), report);
-  report.machine = sweeper.store();
+  detail::report_residual(iteration.residual_sums(), report);
+  report.machine = iteration.store();
   return report;
 }
 

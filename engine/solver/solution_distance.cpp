@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <drawpoint/engine/solver/received_impulses.h>
+#include <cmath>
 #include <drawpoint/engine/solver/solution_distance.hpp>
 
 namespace drawpoint::engine {
@@ -53,7 +53,9 @@ double momentum_defect(const ContactProblem& unsolved, const ContactProblem& sol
   for (std::size_t k = 0; k < solved.bodies.size(); ++k) {
     const SolverBody &before = unsolved.bodies[k], &after = solved.bodies[k];
     off += kinetic(
-        after, after.velocity - before.velocity - before.push - after.inverse_mass * received.linear[k],
+        after,
+        after.velocity - before.velocity - before.external_velocity_change -
+            after.inverse_mass * received.linear[k],
         after.angular_velocity - before.angular_velocity - after.inverse_inertia * received.angular[k]);
   }
   return relative(off, contact_energy(solved, machine));

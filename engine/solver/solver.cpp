@@ -3,43 +3,62 @@
 #include <drawpoint/engine/solver/batch/batched_solver.h>
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace drawpoint::engine {
+namespace {
 
-std::string_view to_string(Method method) { return method == Method::sequential ? "sequential" : "coloured"; }
-
-Method method_named(std::string_view name) {
-  for (const Method method : {Method::sequential, Method::coloured})
-    if (name == to_string(method)) return method;
-  throw std::invalid_argument("engine::method_named: no method \"" + std::string(name) +
-                              "\"; known: sequential, coloured");
+void require(const char* name, double value, double lower, double upper, const char* unit) {
+  if (value >= lower && value <= upper) return;  // false for what is not a number
+  std::ostringstream text;
+  text << "engine::ContactSolver: " << name << " is " << value << " " << unit << "; allowed: " << lower
+       << " to " << upper << " " << unit;
+  throw std::invalid_argument(text.str());
 }
 
-ContactSolver::ContactSolver(const SolverOptions& options)
-    : ContactSolver(options, std::make_shared<const detail::Parallel>(options.threads)) {}
+void check(const SolverOptions& options) {
+  require("substeps", options.substeps, 1, 1e4, "per step");
+  require("iterations", options.iterations, 1, 1e6, "per substep");
+  require("iteration_budget", options.iteration_budget, 0, 1e9, "iterations times points");
+  require("tolerance", options.tolerance, 0, 1, "of the load");
+}
 
-ContactSolver::ContactSolver(const SolverOptions& options, std::shared_ptr<const detail::Parallel> parallel)
-    : options_(options),
-      parallel_(std::move(parallel)),
-      coloured_(std::make_unique<detail::ColouredSolver>(options, parallel_)),
+}  // namespace
+
+std::string_view to_string(Method method) { return method == Method::sequential ? "sequential" : "batched"; }
+
+Method method_named(std::string_view name) {
+  for (const Method method : {Method::sequential, Method::batched})
+    if (name == to_string(method)) return method;
+  throw std::invalid_argument("engine::method_named: no method \"" + std::string(name) +
+                              "\"; known: sequential, batched");
+}
+
+ContactSolver::ContactSolver(const SolverOptions& options, std::shared_ptr<const ThreadPool> pool)
+    : options_((check(options), options)),
+      pool_(pool ? std::move(pool) : std::make_shared<const ThreadPool>(1)),
+      batched_(std::make_unique<detail::BatchedSolver>(options, pool_)),
       impacts_(std::make_unique<detail::ImpactStage>()) {}
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 
 SolverReport ContactSolver::solve(ContactProblem& problem) {
-  impacts_->run(problem, *parallel_);
+  impacts_->run(problem, *pool_);
   SolverReport report =
-      options_.method == Method::coloured ? coloured_->solve(problem) : solve_sequentially(problem, options_);
+      options_.method == Method::batched ? batched_->solve(problem) : solve_sequentially(problem, options_);
   impacts_->finish(problem, report.machine);
   return report;
 }
 
-SolverReport solve(ContactProblem& problem, const SolverOptions& options) {
-  return ContactSolver(options).solve(problem);
+SolverReport solve(ContactProblem& problem, const SolverOptions& options,
+                   std::shared_ptr<const ThreadPool> pool) {
+  return ContactSolver(options, std::move(pool)).solve(problem);
 }
 
 }  // namespace drawpoint::engine

@@ -8,7 +8,7 @@
 namespace drawpoint::engine {
 
 struct SolverReport {
-  double last_change = 0;  ///< Σ|Δλ| of the last sweep over Σ λ_n (0 when there is no load)
+  double last_change = 0;  ///< Σ|Δλ| of the last iteration over Σ λ_n (0 when there is no load)
   /// Of the points in the last substep, relative to Σ λ_n (0 when there is no load): see residual.hpp.
   double complementarity = 0, cone = 0;
   SuperBodySolution machine;

@@ -11,7 +11,7 @@
 /// speeds with Δu = A p,  A = M⁻¹ − M⁻¹Gᵀ(G M⁻¹Gᵀ)⁻¹G M⁻¹ = N Nᵀ,  N: n x r of rank r, the true degrees of
 /// freedom. With u = N w the machine is a body of r velocity coordinates w and unit mass: a row J u of any
 /// part becomes the row (J N) w, and an impulse λ on it changes w by (J N)ᵀ λ. Joints hold to round-off
-/// whatever the solver's number of sweeps.
+/// whatever the solver's number of iterations.
 ///
 /// Frames: world. Spatial vectors are (angular; linear), taken at the part's origin. SI units.
 namespace drawpoint::engine {

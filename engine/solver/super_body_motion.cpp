@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <drawpoint/engine/solver/contact_frame.h>
 #include <drawpoint/engine/solver/super_body_motion.h>
+#include <algorithm>
 
 namespace drawpoint::engine::detail {
 
@@ -40,7 +40,7 @@ double SuperBodyMotion::target(const SuperBodyRow& row) const {
   return gap >= 0 ? -gap / h_ : -gap / row.recovery;
 }
 
-void SuperBodyMotion::aim() {
+void SuperBodyMotion::set_bias_velocities() {
   for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].target = target(machine_->rows[k]);
 }
 
@@ -55,7 +55,7 @@ void SuperBodyMotion::extrapolate() {
   w_ = next;
 }
 
-void SuperBodyMotion::sweep() {
+void SuperBodyMotion::iteration() {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const SuperBodyRow& row = machine_->rows[k];
     Row& r = rows_[k];

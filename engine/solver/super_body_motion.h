@@ -10,8 +10,8 @@
 /// The machine is a body of unit mass in w (articulated_body.hpp). Where it takes part in a contact, rows R
 /// of the part give u = R w, and an impulse λ there changes w by Rᵀ λ. A motor or stop row J takes the step
 /// λ ← clamp(λ − (J w − b) / |J|², λ_min, λ_max), with b the motor's speed, or for a stop with gap g the −g/h
-/// that closes it, −g / recovery past the end; g follows ∫ w dt. h is the substep. Cost of a sweep: the sum
-/// of the rows' lengths.
+/// that closes it, −g / recovery past the end; g follows ∫ w dt. h is the substep. Cost of an iteration: the
+/// sum of the rows' lengths.
 namespace drawpoint::engine::detail {
 
 using PartRows = Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>>;
@@ -33,14 +33,14 @@ class SuperBodyMotion {
   void push(int index, const Eigen::Vector3d& impulse) { w_ += rows(index).transpose().lazyProduct(impulse); }
 
   /// Velocities that motors and stops must reach in this substep.
-  void aim();
+  void set_bias_velocities();
   /// First substep: outer forces, and the start impulses of motors and stops.
   void start();
   /// Other substeps: what changed w in the last one acts again.
   void extrapolate();
   /// One step of every motor and stop.
-  void sweep();
-  /// Adds the substep's travel and impulses to the step's.
+  void iteration();
+  /// Adds the substep's displacement and impulses to the step's.
   void finish();
 
   /// The machine's part of the solution, but for contact impulses on its parts: these are zero.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <drawpoint/engine/world/checks.h>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -52,12 +52,7 @@ void check(const WorldOptions& o) {
            " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
   require("World: size of gravity", o.gravity.norm(), {0, 1e3, "m/s^2"});
   require("World: warm_start", o.warm_start, {0, 1, "[1]"});
-  require("World: sweeps", o.solver.sweeps, {1, 1e6, "a substep"});
-  require("World: substeps", o.solver.substeps, {1, 1e4, "a step"});
-  require("World: threads", o.solver.threads, {1, 1024, "[1]"});
-  require("World: spare_work", o.solver.spare_work, {0, 1e9, "sweeps times points"});
-  require("World: tolerance", o.solver.tolerance, {0, 1, "of the load"});
-  require("World: threads of contacts", o.contacts.threads, {1, 256, "[1]"});
+  require("World: threads", o.threads, {1, 256, "[1]"});
   require("World: margin of contacts", o.contacts.margin, {0, 10, "m"});
   require("World: slack of contacts", o.contacts.slack, {0, 10, "m"});
   require("World: reuse_distance of contacts", o.contacts.reuse_distance, {0, 10, "m"});
@@ -107,7 +102,7 @@ void check_velocity(const char* place, const Vector3d& velocity, const Vector3d&
           {0, fastest_spin, "rad/s"});
 }
 
-double reach_about_origin(const Shape& shape) {
+double radius_about_origin(const Shape& shape) {
   if (const auto* polyhedron = std::get_if<ConvexPolyhedron>(&shape)) return polyhedron->radius();
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
     return std::hypot(cylinder->radius, cylinder->half_width);

@@ -24,6 +24,6 @@ void check_velocity(const char* place, const Eigen::Vector3d& velocity,
                     const Eigen::Vector3d& angular_velocity);
 
 /// Largest distance of a point of the shape from the origin [m]; infinite for a half-space.
-double reach_about_origin(const Shape& shape);
+double radius_about_origin(const Shape& shape);
 
 }  // namespace drawpoint::engine::detail

@@ -22,15 +22,15 @@ namespace drawpoint::engine {
 /// [rad] A smaller turn, times √(largest over least moment), is made in one: an energy error of 1e-10 a step.
 constexpr double gyroscopic_angle = 1e-5;
 
-inline Eigen::Quaterniond turn_of(const Eigen::Vector3d& turn) {
+inline Eigen::Quaterniond rotation_of(const Eigen::Vector3d& turn) {
   const double angle = turn.norm();
   if (angle == 0) return Eigen::Quaterniond::Identity();
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle));
 }
 
 /// The attitude q after a time h of free rotation with angular momentum L [N m s] in the world.
-inline Eigen::Quaterniond freely_turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& inertia,
-                                        const Eigen::Vector3d& momentum, double h) {
+inline Eigen::Quaterniond freely_rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& inertia,
+                                         const Eigen::Vector3d& momentum, double h) {
   const Eigen::Vector3d inverse = inertia.cwiseInverse();
   const auto apart = [&](int k) { return std::abs(inverse[(k + 1) % 3] - inverse[(k + 2) % 3]); };
   int s = 0;  // opposite to the nearest pair
@@ -45,24 +45,24 @@ inline Eigen::Quaterniond freely_turned(const Eigen::Quaterniond& q, const Eigen
   turn_about(s, inverse[s] - inverse[p], 0.5 * h);
   turn_about(j, inverse[j] - inverse[p], h);
   turn_about(s, inverse[s] - inverse[p], 0.5 * h);
-  return turn_of(h * inverse[p] * momentum) * body;
+  return rotation_of(h * inverse[p] * momentum) * body;
 }
 
 /// q: attitude; inertia: principal [kg m²]; w: angular velocity in the world after the step's impulses
 /// [rad/s]; turn: the solver's ∫ω dt [rad]; h [s]. Changes q and w.
-inline void turn_freely(Eigen::Quaterniond& q, const Eigen::Vector3d& inertia, Eigen::Vector3d& w,
-                        const Eigen::Vector3d& turn, double h) {
+inline void rotate_freely(Eigen::Quaterniond& q, const Eigen::Vector3d& inertia, Eigen::Vector3d& w,
+                          const Eigen::Vector3d& turn, double h) {
   if (turn.squaredNorm() == 0) return;
   Eigen::Vector3d momentum = q * inertia.cwiseProduct(q.conjugate() * w);
   const double energy = w.dot(momentum);
   const auto rate = [&] { return Eigen::Vector3d(q * (q.conjugate() * momentum).cwiseQuotient(inertia)); };
   if (turn.squaredNorm() * inertia.maxCoeff() < gyroscopic_angle * gyroscopic_angle * inertia.minCoeff()) {
-    q = (turn_of(turn) * q).normalized();
+    q = (rotation_of(turn) * q).normalized();
     w = rate();
     return;
   }
-  const Eigen::Quaterniond extra = turn_of(turn - h * w);
-  q = (extra * freely_turned(q, inertia, momentum, h)).normalized();
+  const Eigen::Quaterniond extra = rotation_of(turn - h * w);
+  q = (extra * freely_rotated(q, inertia, momentum, h)).normalized();
   w = rate();
   if (w.dot(momentum) <= 1.1 * energy) return;
   momentum = extra * momentum;

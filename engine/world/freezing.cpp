@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/world/freezing.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/world/freezing.h>
-#include <drawpoint/engine/world/world.hpp>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -134,11 +133,11 @@ double Freezing::unbalance(int rock) const {
   return relative(rock, loads_[k].impulse + bodies_[k].mass * weight_, loads_[k].moment);
 }
 
-std::vector<int> Freezing::struck(int reach) const {
+std::vector<int> Freezing::struck(int contacts_away) const {
   std::vector<int> found;
   for (const int rock : weighed_)
     if (frozen(rock) && unbalance(rock) > options_.impact) found.push_back(rock);
-  return spread_from(std::move(found), reach);
+  return spread_from(std::move(found), contacts_away);
 }
 
 std::vector<int> Freezing::unbalanced() {

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
-#include <drawpoint/engine/solver/contact_problem.hpp>
-#include <drawpoint/engine/collision/manifold.hpp>
 #include <drawpoint/engine/world/warm_start.h>
+#include <Eigen/Dense>
+#include <drawpoint/engine/collision/manifold.hpp>
+#include <drawpoint/engine/solver/contact_problem.hpp>
+#include <drawpoint/engine/world/freezing_options.hpp>
+#include <drawpoint/engine/world/rock.hpp>
 #include <map>
 #include <utility>
 #include <vector>
@@ -36,19 +38,6 @@
 /// Pure function of the calls: same bits for any number of threads. Cost: 50 ns an awake rock and 10 ns a
 /// solved point a step; some µs a change; nothing for a frozen rock. A step that is solved again costs twice.
 namespace drawpoint::engine {
-
-struct Rock;
-
-struct FreezingOptions {
-  bool on = false;
-  double hold = 0.5;       ///< stood still for this long [s] > 0; a throw's top lasts 0.02 s
-  double distance = 5e-4;  ///< [m] > 0; moved less in that time, turns counted at the radius of gyration
-  double tolerance = 0.1;  ///< of the balance, relative to the load carried; above 0, at most 1
-  double average = 0.05;   ///< time over which loads are averaged [s], above 0
-  double impact = 0.75;    ///< unbalance in a single step that is solved again, at least tolerance [1]
-  double nudge = 0.02;     ///< speed of a rock that thaws those it touches [m/s]
-  int spread = 2;          ///< contacts from an overloaded rock over which others thaw with it, 0 to 100
-};
 
 /// A contact between two bodies that stand still, with the impulses of the last step that solved it.
 struct HeldPair {
@@ -88,9 +77,9 @@ class Freezing {
 
   /// Takes the impulses of a solved step, which may be solved again.
   void weigh(const ContactProblem& problem);
-  /// Frozen rocks beyond `impact` in the step that was weighed last, and their neighbours over `reach`
-  /// contacts.
-  std::vector<int> struck(int reach) const;
+  /// Frozen rocks beyond `impact` in the step that was weighed last, and their neighbours over
+  /// `contacts_away` contacts.
+  std::vector<int> struck(int contacts_away) const;
   /// Takes the step that was weighed last into the means. Returns the frozen rocks that have left their
   /// balance, and their neighbours over `spread` contacts.
   std::vector<int> unbalanced();
@@ -101,7 +90,8 @@ class Freezing {
 
   /// Thaws frozen rocks. Returns the contacts that must be solved again, in order.
   std::vector<WarmStart::Entry> thaw(const std::vector<int>& rocks);
-  /// Judges the awake rocks after the step that was weighed last. Returns those that freeze now; they stand.
+  /// Evaluates the awake rocks after the step that was weighed last. Returns those that freeze now; they
+  /// stand.
   std::vector<int> freeze(const std::vector<Rock>& rocks, const ContactProblem& problem);
 
   const FreezingOptions& options() const { return options_; }
@@ -130,7 +120,7 @@ class Freezing {
   void hold(const ContactProblem& problem);
   void drop(const std::pair<int, int>& pair);
   void sum_held(int rock);
-  std::vector<int> spread_from(std::vector<int> rocks, int reach) const;
+  std::vector<int> spread_from(std::vector<int> rocks, int contacts_away) const;
   double speed(int rock, const Rock& body) const;
   void watch(int rock, const Rock& body);
   double relative(int rock, const Eigen::Vector3d& P, const Eigen::Vector3d& L) const;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 // The contacts that are held between bodies that stand still: kept, handed back, followed from rock to rock.
-#include <algorithm>
 #include <drawpoint/engine/world/freezing.h>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -47,12 +47,12 @@ std::vector<int> Freezing::remove(int rock) {
   return neighbours;
 }
 
-// The rocks and the frozen ones that they bear or that bear them, over `reach` contacts; ascending.
-std::vector<int> Freezing::spread_from(std::vector<int> rocks, int reach) const {
+// The rocks and the frozen ones that they bear or that bear them, over `contacts_away` contacts; ascending.
+std::vector<int> Freezing::spread_from(std::vector<int> rocks, int contacts_away) const {
   std::sort(rocks.begin(), rocks.end());
   rocks.erase(std::unique(rocks.begin(), rocks.end()), rocks.end());
   std::vector<int> front = rocks, next;
-  for (int k = 0; k < reach && !front.empty(); ++k) {
+  for (int k = 0; k < contacts_away && !front.empty(); ++k) {
     next.clear();
     for (const int rock : front) {
       const Body& body = bodies_[static_cast<std::size_t>(rock)];

@@ -35,9 +35,8 @@ class MaterialTable {
   explicit MaterialTable(int kinds = 1) : kinds_(checked(kinds)), pairs_(kinds * kinds) {}
   void set(int a, int b, const Material& m) {
     if (a < 0 || b < 0 || a >= kinds_ || b >= kinds_)
-      throw std::invalid_argument("engine::MaterialTable: there are no kinds " + std::to_string(a) +
-                                  " and " + std::to_string(b) + "; allowed: 0 to " +
-                                  std::to_string(kinds_ - 1));
+      throw std::invalid_argument("engine::MaterialTable: there are no kinds " + std::to_string(a) + " and " +
+                                  std::to_string(b) + "; allowed: 0 to " + std::to_string(kinds_ - 1));
     pairs_[a * kinds_ + b] = pairs_[b * kinds_ + a] = m;
   }
   const Material& of(int a, int b) const { return pairs_[a * kinds_ + b]; }

@@ -1,73 +1,76 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/world/world.hpp>
+
+#include <drawpoint/engine/world/scene.h>
+
 #include <drawpoint/engine/world/checks.h>
-#include <drawpoint/engine/world/state_hash.hpp>
+#include <cmath>
+#include <drawpoint/engine/base/thread_pool.hpp>
+#include <drawpoint/engine/solver/contact_problem.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-namespace drawpoint::engine {
+namespace drawpoint::engine::detail {
 namespace {
 
 using Eigen::Vector3d;
 
 constexpr int world_body = 0;  // fixed surroundings are one body
 constexpr int no_family = 0, fixed_family = 1, machine_family = 2;
+constexpr int detached = -2;          // index of a part's surface whose machine was detached
+constexpr int rocks_per_block = 128;  // that a thread takes at a time
+
+Collider rock_collider(const RockBody& body, int rock) {
+  return {body.shape, rock + 1, body.material, no_family, true, Eigen::Isometry3d::Identity()};
+}
 
 }  // namespace
 
-int World::add_surface(const Surface& surface, const Collider& collider) {
+Scene::Scene(const WorldOptions& options, const MaterialTable& materials,
+             std::shared_ptr<const ThreadPool> pool)
+    : options_(options), materials_(materials), pool_(std::move(pool)), finder_(options.contacts, pool_) {}
+
+int Scene::add_surface(const Surface& surface, const Collider& collider) {
   const int id = finder_.add(collider);
-  if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1, {Owner::fixed, -1, 0});
+  if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1);
   surfaces_[id] = surface;
   return id;
 }
 
-Collider World::rock_collider(const RockBody& body, int rock) {
-  return {body.shape, rock + 1, body.material, no_family, true, Eigen::Isometry3d::Identity()};
-}
-
-int World::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const Vector3d& velocity,
+int Scene::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const Vector3d& velocity,
                     const Vector3d& angular_velocity) {
-  detail::check(body, materials_.kinds());
-  detail::check_pose("World::add_rock", pose);
-  detail::check_velocity("World::add_rock", velocity, angular_velocity);
+  check(body, materials_.kinds());
+  check_pose("World::add_rock", pose);
+  check_velocity("World::add_rock", velocity, angular_velocity);
   const int index = static_cast<int>(rocks_.size());
-  const int id = add_surface({Owner::rock, index, body.material, detail::reach_about_origin(*body.shape)},
+  const int id = add_surface({Owner::rock, index, body.material, radius_about_origin(*body.shape)},
                              rock_collider(body, index));
   rocks_.push_back({body, pose, velocity, angular_velocity, true, id});
   finder_.set_pose(id, pose);
-  freezing_.add(index, rocks_.back());
   return index;
 }
 
-int World::checked(int rock, const char* place) const {
+Rock& Scene::rock(int rock, const char* place) {
   if (rock < 0 || rock >= static_cast<int>(rocks_.size()))
     throw std::invalid_argument(std::string("engine::World::") + place + ": there is no rock " +
                                 std::to_string(rock) + "; there are " + std::to_string(rocks_.size()));
-  if (!rocks_[rock].present)
+  return rocks_[rock];
+}
+
+Rock& Scene::present_rock(int rock, const char* place) {
+  if (!this->rock(rock, place).present)
     throw std::invalid_argument(std::string("engine::World::") + place + ": rock " + std::to_string(rock) +
                                 " was removed; look at Rock::present first");
-  return rock;
+  return rocks_[rock];
 }
 
-void World::remove_rock(int rock) {
-  Rock& r = rocks_[checked(rock, "remove_rock")];
-  const std::vector<int> neighbours = freezing_.remove(rock);
-  finder_.remove(r.collider);
-  r.present = false;
-  thaw(neighbours);
+void Scene::remove_rock(int rock) {
+  finder_.remove(rocks_[rock].collider);
+  rocks_[rock].present = false;
 }
 
-void World::set_rock_velocity(int rock, const Vector3d& velocity, const Vector3d& angular_velocity) {
-  Rock& r = rocks_[checked(rock, "set_rock_velocity")];
-  detail::check_velocity("World::set_rock_velocity", velocity, angular_velocity);
-  if (frozen(rock)) thaw({rock});
-  r.velocity = velocity;
-  r.angular_velocity = angular_velocity;
-}
-
-void World::attach(ArticulatedBody* machine) {
+void Scene::attach(ArticulatedBody* machine) {
   for (std::size_t id = 0; id < surfaces_.size(); ++id) {
     Surface& surface = surfaces_[id];
     if (surface.owner != Owner::part) continue;
@@ -78,49 +81,132 @@ void World::attach(ArticulatedBody* machine) {
                                   std::to_string(surface.index) + " has a shape; detach with nullptr first");
     finder_.remove(static_cast<int>(id));
     surface = {Owner::fixed, detached, 0};
-    surfaces_mark_.add(static_cast<std::uint64_t>(id));
+    surroundings_.add(static_cast<std::uint64_t>(id));
   }
   machine_ = machine;
 }
 
-int World::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material) {
-  detail::check_pose("World::add_static", pose);
-  detail::check_material("World::add_static", material, materials_.kinds());
+int Scene::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material) {
+  check_pose("World::add_static", pose);
+  check_material("World::add_static", material, materials_.kinds());
   const Shape* added = shape.get();
   const int id = add_surface(
       {Owner::fixed, -1, material},
       {std::move(shape), world_body, material, fixed_family, false, Eigen::Isometry3d::Identity()});
   finder_.set_pose(id, pose);
-  mark_surface(id, *added, pose);
+  hash_surface(id, *added, pose);
   return id;
 }
 
-void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
+void Scene::add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
                            int material) {
   const int parts = machine_ ? machine_->parts() : 0;
   if (part < 0 || part >= parts)
     throw std::invalid_argument("engine::World::add_part_shape: there is no part " + std::to_string(part) +
                                 "; the attached machine has " + std::to_string(parts));
-  detail::check_pose("World::add_part_shape", X_PS);
-  detail::check_material("World::add_part_shape", material, materials_.kinds());
+  check_pose("World::add_part_shape", X_PS);
+  check_material("World::add_part_shape", material, materials_.kinds());
   if (!shape || std::holds_alternative<HalfSpace>(*shape))
     throw std::invalid_argument("engine::World::add_part_shape: part " + std::to_string(part) +
                                 " has no shape or a half-space; give a polyhedron or a cylinder");
   const Shape* added = shape.get();
-  const double radius = detail::reach_about_origin(*shape) + X_PS.translation().norm();
+  const double radius = radius_about_origin(*shape) + X_PS.translation().norm();
   const int id = add_surface({Owner::part, part, material, radius},
                              {std::move(shape), machine_part(part), material, machine_family, true, X_PS});
   finder_.set_pose(id, machine_->part_pose(part));
-  mark_surface(id, *added, X_PS);
+  hash_surface(id, *added, X_PS);
 }
 
-void World::mark_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose) {
+void Scene::hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose) {
   const Surface& surface = surfaces_[id];
   for (int x : {id, static_cast<int>(surface.owner), surface.index, surface.material})
-    surfaces_mark_.add(static_cast<std::uint64_t>(x));
-  add(surfaces_mark_, shape);
-  surfaces_mark_.add(pose.linear());
-  surfaces_mark_.add(pose.translation());
+    surroundings_.add(static_cast<std::uint64_t>(x));
+  add(surroundings_, shape);
+  surroundings_.add(pose.linear());
+  surroundings_.add(pose.translation());
 }
 
-}  // namespace drawpoint::engine
+void Scene::set_moves(int rock, bool moves) { finder_.set_moves(rocks_[rock].collider, moves); }
+
+const SuperBody* Scene::linearise() {
+  super_ = machine_ ? &machine_->linearise(options_.step, options_.gravity) : nullptr;
+  return super_;
+}
+
+Vector3d Scene::origin_of(const Surface& surface) const {
+  if (surface.owner == Owner::rock) return rocks_[surface.index].pose.translation();
+  return surface.owner == Owner::part ? super_->origins[surface.index] : Vector3d(Vector3d::Zero());
+}
+
+Side Scene::side_of(const Surface& surface) const {
+  if (surface.owner == Owner::part) {
+    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
+    return {super_->origins[surface.index], V.tail<3>(), V.head<3>()};
+  }
+  if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+  const Rock& rock = rocks_[surface.index];
+  return {rock.pose.translation(), rock.velocity, rock.angular_velocity};
+}
+
+// How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its
+// speculative margins and the margin, so no contact is missed at any speed. In steps of `resolution`, so that
+// a speed that wavers does not make contacts be searched anew.
+double Scene::speculative_margin_of(const Surface& surface) const {
+  constexpr double resolution = 5e-3;  // [m]
+  const double fall = options_.step * options_.gravity.norm();
+  double speed = 0;
+  if (surface.owner == Owner::rock) {
+    const Rock& rock = rocks_[surface.index];
+    speed = rock.velocity.norm() + rock.angular_velocity.norm() * surface.radius + fall;
+  } else if (surface.owner == Owner::part) {
+    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
+    speed = V.tail<3>().norm() + V.head<3>().norm() * surface.radius + fall;
+  }
+  return resolution *
+         std::ceil(std::max(0.0, options_.step * speed - 0.5 * options_.contacts.margin) / resolution);
+}
+
+void Scene::place_colliders(const std::vector<int>& awake) {
+  moves_.resize(awake.size());
+  pool_->blocks(static_cast<int>(awake.size()), rocks_per_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) {
+      const Rock& rock = rocks_[awake[k]];
+      moves_[k] = {rock.collider, rock.pose, speculative_margin_of(surfaces_[rock.collider])};
+    }
+  });
+  for (std::size_t id = 0; id < surfaces_.size(); ++id)
+    if (surfaces_[id].owner == Owner::part)
+      moves_.push_back({static_cast<int>(id), machine_->part_pose(surfaces_[id].index),
+                        speculative_margin_of(surfaces_[id])});
+  finder_.move(moves_);
+}
+
+const std::vector<Manifold>& Scene::find_contacts(const std::vector<int>& awake) {
+  place_colliders(awake);
+  return finder_.find();
+}
+
+ContactFinder Scene::finder_for(const std::vector<Rock>& rocks) const {
+  ContactFinder finder(options_.contacts, pool_);
+  for (std::size_t id = 0; id < surfaces_.size(); ++id) {
+    const Surface& surface = surfaces_[id];
+    const bool rock = surface.owner == Owner::rock;
+    const bool gone =
+        rock ? !rocks[surface.index].present : surface.owner == Owner::fixed && surface.index == detached;
+    if (rock)
+      finder.add(rock_collider(rocks[surface.index].body, surface.index));
+    else if (gone)
+      finder.add({std::make_shared<const Shape>(box(Eigen::Vector3d::Ones()))});
+    else
+      finder.add(finder_.collider(static_cast<int>(id)));
+    if (gone) finder.remove(static_cast<int>(id));
+  }
+  return finder;
+}
+
+void Scene::replace(std::vector<Rock> rocks, ContactFinder finder) {
+  finder_ = std::move(finder);
+  rocks_ = std::move(rocks);
+}
+
+}  // namespace drawpoint::engine::detail

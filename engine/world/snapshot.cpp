@@ -1,7 +1,15 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+
+// A world as bytes and back: World::save() and World::restore().
+
 #include <drawpoint/engine/world/checks.h>
+#include <drawpoint/engine/world/world_impl.h>
+#include <drawpoint/engine/base/bytes.hpp>
 #include <drawpoint/engine/world/state_hash.hpp>
+
+#include <string>
+#include <utility>
 
 namespace drawpoint::engine {
 namespace {
@@ -11,7 +19,8 @@ constexpr std::uint64_t state_mark = 0x326574617473'7044;  // "Dpstate2": the ve
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);
   hash.add(o.gravity);
-  for (int x : {static_cast<int>(o.solver.method), o.solver.substeps, o.solver.sweeps, o.solver.spare_work})
+  for (int x :
+       {static_cast<int>(o.solver.method), o.solver.substeps, o.solver.iterations, o.solver.iteration_budget})
     hash.add(static_cast<std::uint64_t>(x));
   hash.add(o.solver.tolerance);
   hash.add(o.warm_start);
@@ -95,6 +104,56 @@ FreezingState restored_freezing(StateReader& in, std::size_t rocks) {
   return state;
 }
 
+// No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
+void check_motion(const Rock& rock, const StateReader& in) {
+  constexpr double farthest = 1e9;  // [m]
+  if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
+    in.fail("holds a rock more than 1e9 m from the origin");
+  if (rock.velocity.cwiseAbs().maxCoeff() > detail::fastest_solution ||
+      rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * detail::fastest_solution)
+    in.fail("holds a rock faster than 1e4 m/s or 1e5 rad/s");
+}
+
+// What a state is of: a restore compares them one by one, so that it can say what differs.
+struct SceneHashes {
+  std::uint64_t options, materials, surroundings, rocks, machine;
+
+  void save(StateWriter& out) const {
+    for (std::uint64_t x : {options, materials, surroundings, rocks, machine}) out.put(x);
+  }
+  static SceneHashes read(StateReader& in) {
+    SceneHashes hashes{};
+    for (std::uint64_t* x :
+         {&hashes.options, &hashes.materials, &hashes.surroundings, &hashes.rocks, &hashes.machine})
+      in.get(*x);
+    return hashes;
+  }
+  // Empty, or in what the scenes differ.
+  std::string difference(const SceneHashes& other) const {
+    if (options != other.options) return "other options (step, gravity, solver or contacts)";
+    if (materials != other.materials) return "other materials";
+    if (surroundings != other.surroundings) return "other fixed surroundings or machine parts";
+    if (rocks != other.rocks) return "other rocks";
+    if (machine != other.machine) return "another machine, or none";
+    return {};
+  }
+};
+
+SceneHashes hashes_of(const WorldOptions& world_options, const detail::Scene& scene) {
+  StateHash options, materials, rocks;
+  add(options, world_options);
+  add(materials, scene.materials());
+  for (const Rock& rock : scene.rocks()) {
+    add(rocks, *rock.body.shape);
+    rocks.add(rock.body.mass);
+    rocks.add(rock.body.inertia);
+    rocks.add(static_cast<std::uint64_t>(rock.body.material));
+    rocks.add(static_cast<std::uint64_t>(rock.collider));
+  }
+  const std::uint64_t parts = scene.machine() ? 1 + static_cast<std::uint64_t>(scene.machine()->parts()) : 0;
+  return {options.value(), materials.value(), scene.surroundings_hash(), rocks.value(), parts};
+}
+
 }  // namespace
 
 void add(StateHash& hash, const Shape& shape) {
@@ -128,95 +187,26 @@ std::uint64_t state_hash(const World& world) {
   return hash.value();
 }
 
-// No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
-void check_motion(const Rock& rock, const StateReader& in) {
-  constexpr double farthest = 1e9;  // [m]
-  if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
-    in.fail("holds a rock more than 1e9 m from the origin");
-  if (rock.velocity.cwiseAbs().maxCoeff() > detail::fastest_solution ||
-      rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * detail::fastest_solution)
-    in.fail("holds a rock faster than 1e4 m/s or 1e5 rad/s");
-}
-
-// What a state is of: a restore compares them one by one, so that it can say what differs.
-struct World::SceneMarks {
-  std::uint64_t options, materials, surroundings, rocks, machine;
-
-  void save(StateWriter& out) const {
-    for (std::uint64_t x : {options, materials, surroundings, rocks, machine}) out.put(x);
-  }
-  static SceneMarks read(StateReader& in) {
-    SceneMarks marks{};
-    for (std::uint64_t* x :
-         {&marks.options, &marks.materials, &marks.surroundings, &marks.rocks, &marks.machine})
-      in.get(*x);
-    return marks;
-  }
-  // Empty, or in what the scenes differ.
-  std::string difference(const SceneMarks& other) const {
-    if (options != other.options) return "other options (step, gravity, solver or contacts)";
-    if (materials != other.materials) return "other materials";
-    if (surroundings != other.surroundings) return "other fixed surroundings or machine parts";
-    if (rocks != other.rocks) return "other rocks";
-    if (machine != other.machine) return "another machine, or none";
-    return {};
-  }
-};
-
-World::SceneMarks World::scene_marks() const {
-  StateHash options, materials, rocks;
-  add(options, options_);
-  add(materials, materials_);
-  for (const Rock& rock : rocks_) {
-    add(rocks, *rock.body.shape);
-    rocks.add(rock.body.mass);
-    rocks.add(rock.body.inertia);
-    rocks.add(static_cast<std::uint64_t>(rock.body.material));
-    rocks.add(static_cast<std::uint64_t>(rock.collider));
-  }
-  const std::uint64_t parts = machine_ ? 1 + static_cast<std::uint64_t>(machine_->parts()) : 0;
-  return {options.value(), materials.value(), surfaces_mark_.value(), rocks.value(), parts};
-}
-
-// A new finder with this world's colliders, numbered as here, for these rocks.
-ContactFinder World::finder_for(const std::vector<Rock>& rocks) const {
-  ContactFinder finder(options_.contacts, parallel_);
-  for (std::size_t id = 0; id < surfaces_.size(); ++id) {
-    const Surface& surface = surfaces_[id];
-    const bool rock = surface.owner == Owner::rock;
-    const bool gone =
-        rock ? !rocks[surface.index].present : surface.owner == Owner::fixed && surface.index == detached;
-    if (rock)
-      finder.add(rock_collider(rocks[surface.index].body, surface.index));
-    else if (gone)
-      finder.add({std::make_shared<const Shape>(box(Eigen::Vector3d::Ones()))});
-    else
-      finder.add(finder_.collider(static_cast<int>(id)));
-    if (gone) finder.remove(static_cast<int>(id));
-  }
-  return finder;
-}
-
 std::vector<std::byte> World::save() const {
   StateWriter out;
   out.put(state_mark);
-  scene_marks().save(out);
-  out.put(time_);
-  out.put(static_cast<std::int64_t>(steps_));
-  out.put_count(rocks_.size());
-  for (const Rock& rock : rocks_) {
+  hashes_of(impl_->options, impl_->scene).save(out);
+  out.put(impl_->time);
+  out.put(static_cast<std::int64_t>(impl_->steps));
+  out.put_count(rocks().size());
+  for (const Rock& rock : rocks()) {
     out.put(rock.present);
     out.put(rock.pose);
     out.put(rock.velocity);
     out.put(rock.angular_velocity);
   }
-  warm_start_.save(out);
-  save_freezing(freezing_.state(), out);
-  const std::vector<double> machine = machine_ ? machine_->state() : std::vector<double>();
+  impl_->contacts.warm_start().save(out);
+  save_freezing(impl_->freezing.state(), out);
+  const std::vector<double> machine = this->machine() ? this->machine()->state() : std::vector<double>();
   out.put_count(machine.size());
   for (double x : machine) out.put(x);
   std::vector<std::byte> contacts;
-  finder_.save(contacts);
+  impl_->scene.finder().save(contacts);
   out.put(contacts);
   return out.take();
 }
@@ -224,12 +214,13 @@ std::vector<std::byte> World::save() const {
 void World::restore(std::span<const std::byte> state) {
   StateReader in(state);
   if (in.get<std::uint64_t>() != state_mark) in.fail("is none of a world, or of another version,");
-  if (const std::string what = SceneMarks::read(in).difference(scene_marks()); !what.empty())
+  if (const std::string what = SceneHashes::read(in).difference(hashes_of(impl_->options, impl_->scene));
+      !what.empty())
     throw std::runtime_error("engine::World::restore: the state is of " + what +
                              "; build the world by the same calls as the one that was saved");
   const auto time = in.get<double>();
   const auto steps = in.get<std::int64_t>();
-  std::vector<Rock> rocks = rocks_;
+  std::vector<Rock> rocks = impl_->scene.rocks();
   if (in.get_count(145) != rocks.size()) in.fail("holds another number of rocks");
   for (Rock& rock : rocks) {
     in.get(rock.present);
@@ -240,7 +231,7 @@ void World::restore(std::span<const std::byte> state) {
   }
   WarmStart warm_start;
   warm_start.restore(in);
-  Freezing freezing(options_.freezing, options_.step, options_.gravity);
+  Freezing freezing(impl_->options.freezing, impl_->options.step, impl_->options.gravity);
   for (std::size_t k = 0; k < rocks.size(); ++k) freezing.add(static_cast<int>(k), rocks[k]);
   for (std::size_t k = 0; k < rocks.size(); ++k)
     if (!rocks[k].present) freezing.remove(static_cast<int>(k));
@@ -249,17 +240,17 @@ void World::restore(std::span<const std::byte> state) {
   for (double& x : machine) in.get(x);
   const std::span<const std::byte> contacts = in.get_bytes(in.get_count(1));
   in.expect_end();
-  ContactFinder finder = finder_for(rocks);
+  ContactFinder finder = impl_->scene.finder_for(rocks);
   finder.restore(contacts);
 
-  if (!machine_ && !machine.empty()) in.fail("holds a machine; there is none here:");
-  if (machine_) machine_->set_state(machine);
-  finder_ = std::move(finder);
-  rocks_ = std::move(rocks);
-  warm_start_ = std::move(warm_start);
-  freezing_ = std::move(freezing);
-  time_ = time;
-  steps_ = static_cast<long>(steps);
+  ArticulatedBody* const attached = impl_->scene.machine();
+  if (!attached && !machine.empty()) in.fail("holds a machine; there is none here:");
+  if (attached) attached->set_state(machine);
+  impl_->scene.replace(std::move(rocks), std::move(finder));
+  impl_->contacts.warm_start() = std::move(warm_start);
+  impl_->freezing = std::move(freezing);
+  impl_->time = time;
+  impl_->steps = static_cast<long>(steps);
 }
 
 }  // namespace drawpoint::engine

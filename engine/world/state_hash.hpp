@@ -15,7 +15,4 @@ namespace drawpoint::engine {
 
 std::uint64_t state_hash(const World& world);
 
-/// Adds a shape's defining numbers to a hash.
-void add(StateHash& hash, const Shape& shape);
-
 }  // namespace drawpoint::engine

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <drawpoint/engine/world/warm_start.h>
+#include <algorithm>
 #include <utility>
 
 namespace drawpoint::engine {
@@ -52,7 +52,7 @@ Eigen::Vector3d WarmStart::Reader::point(std::uint32_t feature, const Eigen::Vec
   if (!found_) return Eigen::Vector3d::Zero();
   const Pair& pair = store_.pairs_[cursor_];
   Point* best = nullptr;
-  double best_distance = reach * reach;
+  double best_distance = match_distance * match_distance;
   for (std::size_t k = pair.first; k < pair.first + pair.count; ++k) {
     Point& old = store_.points_[k];
     if (old.used) continue;

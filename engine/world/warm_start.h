@@ -10,8 +10,8 @@
 /// Last step's impulses, found again by pair and feature, so that a resting pile starts from its own load.
 ///
 /// Pairs are stored in ascending order, so looking them up in ascending order is a merge: linear in the
-/// pairs. A point that matches no feature takes the nearest unmatched point of its pair within `reach`.
-/// A step may look its pairs up several times before it stores: rewind() starts over.
+/// pairs. A point that matches no feature takes the nearest unmatched point of its pair within
+/// `match_distance`. A step may look its pairs up several times before it stores: rewind() starts over.
 namespace drawpoint::engine {
 
 class WarmStart {
@@ -33,7 +33,7 @@ class WarmStart {
     Eigen::Vector3d rolling;
     std::vector<Point> points;
   };
-  static constexpr double reach = 0.03;  ///< [m], a tenth of the smallest rock
+  static constexpr double match_distance = 0.03;  ///< [m], a tenth of the smallest rock
 
   /// Makes every point free to be found again.
   void rewind();

@@ -23,8 +23,8 @@
 #include <limits>
 #include <utility>
 
-#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
 
 namespace drawpoint::kriging {

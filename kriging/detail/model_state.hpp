@@ -11,9 +11,9 @@
 #include <cmath>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
-#include <drawpoint/kriging/options.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/detail/trend.hpp>
+#include <drawpoint/kriging/options.hpp>
 #include <limits>
 
 namespace drawpoint::kriging::detail {

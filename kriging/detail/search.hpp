@@ -16,8 +16,8 @@
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/kriging/detail/maximize.hpp>
-#include <drawpoint/kriging/options.hpp>
 #include <drawpoint/kriging/detail/starting_points.hpp>
+#include <drawpoint/kriging/options.hpp>
 #include <utility>
 #include <vector>
 

@@ -15,8 +15,8 @@
 
 #include <drawpoint/doe/black_box.hpp>
 #include <drawpoint/pareto/detail/population.hpp>
-#include <drawpoint/pareto/search.hpp>
 #include <drawpoint/pareto/detail/search_space.hpp>
+#include <drawpoint/pareto/search.hpp>
 
 namespace drawpoint::pareto::detail {
 

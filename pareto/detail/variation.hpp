@@ -24,8 +24,8 @@
 
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/pareto/detail/population.hpp>
-#include <drawpoint/pareto/search.hpp>
 #include <drawpoint/pareto/detail/search_space.hpp>
+#include <drawpoint/pareto/search.hpp>
 
 namespace drawpoint::pareto {
 

@@ -26,7 +26,7 @@ TEST(Halton, BasesArePrimes) {
 }
 
 /// Whether the rows first..first+b^k-1 of u meet each of b^k strata once.
-bool one_a_stratum(const Eigen::VectorXd& u, int strata, Eigen::Index first) {
+bool one_per_stratum(const Eigen::VectorXd& u, int strata, Eigen::Index first) {
   std::vector<int> held(static_cast<std::size_t>(strata), 0);
   for (Eigen::Index i = first; i < first + strata; ++i)
     ++held[static_cast<std::size_t>(
@@ -39,19 +39,19 @@ bool one_a_stratum(const Eigen::VectorXd& u, int strata, Eigen::Index first) {
 TEST(Halton, EveryBlockMeetsEachStratumOnce) {
   const Eigen::MatrixXd X = halton(support::unit_problem(4), 4 * 343, 8);
   for (int block = 0; block < 4; ++block) {
-    EXPECT_TRUE(one_a_stratum(X.col(0), 256, 256 * block));
-    EXPECT_TRUE(one_a_stratum(X.col(1), 243, 243 * block));
-    EXPECT_TRUE(one_a_stratum(X.col(2), 125, 125 * block));
-    EXPECT_TRUE(one_a_stratum(X.col(3), 343, 343 * block));
+    EXPECT_TRUE(one_per_stratum(X.col(0), 256, 256 * block));
+    EXPECT_TRUE(one_per_stratum(X.col(1), 243, 243 * block));
+    EXPECT_TRUE(one_per_stratum(X.col(2), 125, 125 * block));
+    EXPECT_TRUE(one_per_stratum(X.col(3), 343, 343 * block));
   }
 }
 
 // A block of any start meets each stratum once too, for the random start need not be a multiple.
 TEST(Halton, ARandomStartKeepsTheStrata) {
   const Eigen::MatrixXd X = halton(support::unit_problem(3), 400, 8, {HaltonKind::random_start});
-  EXPECT_TRUE(one_a_stratum(X.col(0), 256, 0));
-  EXPECT_TRUE(one_a_stratum(X.col(1), 243, 100));
-  EXPECT_TRUE(one_a_stratum(X.col(2), 125, 31));
+  EXPECT_TRUE(one_per_stratum(X.col(0), 256, 0));
+  EXPECT_TRUE(one_per_stratum(X.col(1), 243, 100));
+  EXPECT_TRUE(one_per_stratum(X.col(2), 125, 31));
 }
 
 // With bases 59 to 71 fifty plain runs only rise, all variables alike. Scrambled, two of the four columns

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/tests/end_to_end/support.hpp>
 
 using namespace drawpoint;
@@ -49,8 +49,8 @@ TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
   EXPECT_EQ(j.at("dt_s"), options.step);
   EXPECT_EQ(j.at("method"), to_string(options.solver.method));
   EXPECT_EQ(j.at("substeps"), options.solver.substeps);
-  EXPECT_EQ(j.at("sweeps"), options.solver.sweeps);
-  EXPECT_EQ(j.at("threads"), options.solver.threads);
+  EXPECT_EQ(j.at("iterations"), options.solver.iterations);
+  EXPECT_EQ(j.at("threads"), options.threads);
   EXPECT_EQ(j.at("freeze"), options.freezing.on ? "on" : "off");
 }
 
@@ -70,7 +70,7 @@ TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
   EXPECT_EQ(hash(""), once);
   EXPECT_EQ(hash(" --threads 2"), once);
   for (const char* flags :
-       {" --seed 2", " --rolling 0", " --spinning 0.1", " --sweeps 10", " --substeps 2", " --dt 0.004"})
+       {" --seed 2", " --rolling 0", " --spinning 0.1", " --iterations 10", " --substeps 2", " --dt 0.004"})
     EXPECT_NE(hash(flags), once) << flags;
 }
 
@@ -89,10 +89,11 @@ TEST_F(ScenarioCommands, PileWithoutJsonPrintsATable) {
 }
 
 // Each leg carries less than 1 kN at 1:1, which presses a pair of bodies of 1e9 N/m by less than 1e-6 m. The
-// solver adds about 3 n/N g h² for n = 2 bodies on top of each other and N sweeps: 6e-5 m with 25 sweeps at 5
-// ms. Both together are below 1e-4 m at each of the two joints: 5e-4 of the small cube, and 2e-4 m in height.
+// solver adds about 3 n/N g h² for n = 2 bodies on top of each other and N iterations: 6e-5 m with 25
+// iterations at 5 ms. Both together are below 1e-4 m at each of the two joints: 5e-4 of the small cube, and
+// 2e-4 m in height.
 TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
-  const Ended run = this->run(table + " --ratio 1 --dt 0.005 --substeps 1 --sweeps 25 --json");
+  const Ended run = this->run(table + " --ratio 1 --dt 0.005 --substeps 1 --iterations 25 --json");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json j = run.json();
   EXPECT_DOUBLE_EQ(j.at("expected_height_m"), 0.32);
@@ -104,18 +105,18 @@ TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
 TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
   const Ended run = this->run(study +
                               " --rocks 20 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json"
-                              " --reference-method coloured --freeze on --jobs 2");
+                              " --reference-method batched --freeze on --jobs 2");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json rows = run.json().at("configurations");
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].at("name"), "reference");
   EXPECT_EQ(rows[0].at("mass_moved_kg_difference").at("mean"), 0);
   EXPECT_EQ(rows[1].at("name"), "twin");
-  EXPECT_EQ(rows[2].at("sweeps"), 5);
+  EXPECT_EQ(rows[2].at("iterations"), 5);
   EXPECT_EQ(rows[3].at("setting"), "10x4x1+50");
-  EXPECT_EQ(rows[3].at("spare_work"), 50);
+  EXPECT_EQ(rows[3].at("iteration_budget"), 50);
   for (const nlohmann::json& row : rows) {
-    EXPECT_EQ(row.at("method"), "coloured");
+    EXPECT_EQ(row.at("method"), "batched");
     EXPECT_EQ(row.at("freeze"), "on");
   }
   EXPECT_TRUE(rows[2].at("drag_n").at("half_width").is_number());
@@ -150,9 +151,9 @@ TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
   refused(pile + " --dt 0.5", "--dt: \"0.5\"", "1e-05 to 0.1 s");
   refused(pile + " --dt nan", "--dt: \"nan\"", "1e-05 to 0.1 s");
   refused(pile + " --settle -1", "--settle: \"-1\"", "1 to 1e+07 steps");
-  refused(pile + " --sweeps 0", "--sweeps: \"0\"", "1 to 1e+06");
+  refused(pile + " --iterations 0", "--iterations: \"0\"", "1 to 1e+06");
   refused(pile + " --threads 0", "--threads: \"0\"", "1 to 256");
-  refused(pile + " --method fastest", "\"fastest\"", "sequential, coloured");
+  refused(pile + " --method fastest", "\"fastest\"", "sequential, batched");
   refused(pile + " --freeze maybe", "maybe", "on,off");
   refused(pile + " --rock 5", "--rock", "--help");
   refused(pile + " --rolling -1", "--rolling: \"-1\"", "0 to 2");
@@ -160,8 +161,8 @@ TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
   refused(fill + " --seeds 1", "--piles", "--help");
   refused(table + " --ratio 0", "--ratio: \"0\"", "0.001 to 1e+06");
   refused(study + " --settings 10x16x1,20x1x1", "\"20x1x1\"", "0.01 to 10 ms");
-  refused(study + " --settings 10x16", "\"10x16\"", "STEPxSUBSTEPSxSWEEPS");
-  refused(study + " --reference 10x1x0", "\"10x1x0\"", "1 to 1000000 sweeps");
+  refused(study + " --settings 10x16", "\"10x16\"", "STEPxSUBSTEPSxITERATIONS");
+  refused(study + " --reference 10x1x0", "\"10x1x0\"", "1 to 1000000 iterations");
 }
 
 TEST_F(ScenarioCommands, HelpTeaches) {

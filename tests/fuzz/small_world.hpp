@@ -5,15 +5,16 @@
 #include <drawpoint/tests/support/scenes.hpp>
 
 /// The world whose snapshots are fuzzed: five boxes that fall on a floor beside a wall, one of them removed.
-/// Two sweeps a substep: the reader is fuzzed, not the solver's accuracy. No cylinder: its record is that of
-/// any hull, and each restore would make its prism of 48 sides anew, at a hundred times the cost of all else.
+/// Two iterations a substep: the reader is fuzzed, not the solver's accuracy. No cylinder: its record is that
+/// of any hull, and each restore would make its prism of 48 sides anew, at a hundred times the cost of all
+/// else.
 namespace drawpoint::fuzz {
 
 inline std::unique_ptr<engine::World> small_world() {
   using namespace drawpoint::support;
   engine::WorldOptions options;
-  options.solver.sweeps = 2;
-  options.solver.spare_work = 0;
+  options.solver.iterations = 2;
+  options.solver.iteration_budget = 0;
   auto world = std::make_unique<engine::World>(
       options, one_material({.friction = 0.5, .rolling = 0.02, .stiffness = 1e8}));
   add_floor(*world);

@@ -7,8 +7,8 @@
 // checksum. Odd: the state behind it; the custom mutator puts the checksum of the contact finder's part right
 // after each mutation, so that what is mutated is the meaning and not the sum.
 #include <cstring>
-#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/engine/record/snapshot_file.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/fuzz/small_world.hpp>
 
 using namespace drawpoint;

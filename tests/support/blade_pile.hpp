@@ -35,8 +35,7 @@ class BladePile {
     world_.add_static(shared(engine::box({0.2, 3, 3})), at(2.2, 0, 3), 0);
     world_.attach(&blade_);
     world_.add_part_shape(0, shared(engine::box({0.05, 1.4, 0.4})), at(0, 0, 0), 0);
-    const std::array<engine::RockBody, 3> bodies{rock_body(0, 0.3), rock_body(2, 0.4),
-                                                          rock_body(4, 0.6)};
+    const std::array<engine::RockBody, 3> bodies{rock_body(0, 0.3), rock_body(2, 0.4), rock_body(4, 0.6)};
     engine::CounterRandom turns(seed);
     for (int k = 0; k < rocks; ++k) {
       Eigen::Isometry3d pose(turns.rotation());

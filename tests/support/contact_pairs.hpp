@@ -39,8 +39,7 @@ struct Placed {
 };
 
 /// The manifolds of two shapes with nothing remembered: none or one.
-inline std::vector<engine::Manifold> contact_of(const Placed& a, const Placed& b,
-                                                         double margin = 0.01) {
+inline std::vector<engine::Manifold> contact_of(const Placed& a, const Placed& b, double margin = 0.01) {
   engine::ContactFinderOptions options;
   options.margin = margin;
   engine::ContactFinder finder(options);

@@ -4,7 +4,7 @@
 
 #include <drawpoint/tests/support/scenes.hpp>
 
-/// Contact problems, not yet solved, for tests of what solves and judges them.
+/// Contact problems, not yet solved, for tests of what solves and evaluates them.
 namespace drawpoint::support {
 
 /// A step of a little heap of boxes, before it is solved: 4 x 3 boxes fallen on each other askew, in motion.
@@ -12,7 +12,7 @@ inline engine::ContactProblem heap_of_boxes() {
   engine::WorldOptions options;
   options.step = 0.005;
   options.solver = {
-      .method = engine::Method::sequential, .substeps = 1, .sweeps = 25, .spare_work = 0};
+      .method = engine::Method::sequential, .substeps = 1, .iterations = 25, .iteration_budget = 0};
   engine::World world(options, one_material({0.6, 0.2, 1e8, 0, 0.05}));
   add_floor(world);
   for (int k = 0; k < 12; ++k) {

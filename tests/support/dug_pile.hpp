@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/engine/record/snapshot_file.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/blade_pile.hpp>
 #include <memory>
 
@@ -16,8 +16,7 @@ class DugPile {
  public:
   static constexpr long stroke = 250;  ///< steps between two turns of the blade
 
-  DugPile(int rocks, const engine::WorldOptions& options,
-          const engine::Material& material = BladePile::stone)
+  DugPile(int rocks, const engine::WorldOptions& options, const engine::Material& material = BladePile::stone)
       : rocks_(rocks), options_(options), material_(material), pile_(built()) {}
 
   void run(long steps) {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-/// Slow and plain answers about two convex polyhedra in the world, to judge the contact finder by. Nothing is
-/// pruned: all face normals and all edge pairs are axes, and the distance is the least over all vertex-face
-/// and edge-edge pairs.
+/// Slow and plain answers about two convex polyhedra in the world, to evaluate the contact finder by. Nothing
+/// is pruned: all face normals and all edge pairs are axes, and the distance is the least over all
+/// vertex-face and edge-edge pairs.
 namespace drawpoint::support {
 
 using Eigen::Vector3d;

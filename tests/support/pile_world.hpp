@@ -63,8 +63,7 @@ class PileWorld {
   PileWorld(RockPile pile, const engine::WorldOptions& options)
       : pile_(std::move(pile)), blade_(pile_.blade.start), world_(options, pile_materials(pile_.material)) {
     for (const PileWall& wall : pile_.walls)
-      world_.add_static(shape(engine::HalfSpace{wall.normal, wall.offset}),
-                        Eigen::Isometry3d::Identity(), 0);
+      world_.add_static(shape(engine::HalfSpace{wall.normal, wall.offset}), Eigen::Isometry3d::Identity(), 0);
     world_.attach(&blade_);
     world_.add_part_shape(0, shape(engine::box(pile_.blade.half)), Eigen::Isometry3d::Identity(), 0);
     std::vector<engine::RockBody> bodies;

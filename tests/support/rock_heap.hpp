@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/tests/support/rock_pairs.hpp>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -21,8 +23,8 @@ inline Eigen::Isometry3d moved(const Eigen::Isometry3d& X, std::mt19937& rng, do
 
 class RockHeap {
  public:
-  RockHeap(int count, unsigned seed, const engine::ContactFinderOptions& options = {})
-      : rng_(seed), finder_(options) {
+  RockHeap(int count, unsigned seed, const engine::ContactFinderOptions& options = {}, int threads = 1)
+      : rng_(seed), finder_(options, std::make_shared<const engine::ThreadPool>(threads)) {
     finder_.add(collider_of(share(engine::HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
     for (int k = 0; k < count; ++k) {
       shapes_.push_back(share(rock(k).scaled(k % 2 == 0 ? 0.4 : 0.5)));
@@ -59,8 +61,7 @@ class RockHeap {
   std::vector<int> ids_;
 };
 
-inline bool same_bits(const std::vector<engine::Manifold>& x,
-                      const std::vector<engine::Manifold>& y) {
+inline bool same_bits(const std::vector<engine::Manifold>& x, const std::vector<engine::Manifold>& y) {
   if (x.size() != y.size()) return false;
   for (std::size_t m = 0; m < x.size(); ++m) {
     bool same = x[m].collider_a == y[m].collider_a && x[m].collider_b == y[m].collider_b &&

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/granular/size_distribution.hpp>
-#include <drawpoint/engine/base/random.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -33,8 +33,8 @@ namespace drawpoint::support {
 /// One of the (at most 24) different rocks: a shape at a size.
 struct PileHull {
   engine::ConvexPolyhedron hull;  ///< vertices in the rock's frame [m]
-  double mass;                             ///< [kg]
-  Eigen::Vector3d inertia;                 ///< principal moments [kg m²]
+  double mass;                    ///< [kg]
+  Eigen::Vector3d inertia;        ///< principal moments [kg m²]
 };
 
 struct PileRock {

@@ -30,8 +30,7 @@ inline engine::RockBody box_body(const Vector3d& half, double density = 2500) {
 }
 
 inline void add_floor(engine::World& world) {
-  world.add_static(shared(engine::HalfSpace{Vector3d::UnitZ(), 0}), Eigen::Isometry3d::Identity(),
-                   0);
+  world.add_static(shared(engine::HalfSpace{Vector3d::UnitZ(), 0}), Eigen::Isometry3d::Identity(), 0);
 }
 
 inline Eigen::Isometry3d at(double x, double y, double z) {

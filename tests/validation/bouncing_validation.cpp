@@ -50,8 +50,8 @@ std::array<double, 2> bounces(double e, double height) {
 
 }  // namespace
 
-// The blow falls up to a step early, at the height d ≤ v h. Between blows the stepper keeps v²/2 + g z − g h
-// v/2 exactly: v²/2 = g (H − d) − g h |v|/2 on the way down, and the top is d + e² v²/(2g) − h e |v|/2.
+// The impact falls up to a step early, at the height d ≤ v h. Between impacts the stepper keeps v²/2 + g z −
+// g h v/2 exactly: v²/2 = g (H − d) − g h |v|/2 on the way down, and the top is d + e² v²/(2g) − h e |v|/2.
 // Together e² H + d (1 − e²) − (e² + e) h |v|/2, with |v| ≤ √(2 g H), seen at a step: g h²/8 lower. An error
 // of one top is passed on to the next times e².
 TEST(Bouncing, Heights) {
@@ -62,18 +62,19 @@ TEST(Bouncing, Heights) {
       const double fall = std::sqrt(2 * g * (exact + error));
       error = e * e * error + h * fall * ((1 - e * e) + (e * e + e) / 2) + g * h * h / 8;
       exact *= e * e;
-      record(bouncing,
-             {.quantity =
-                  std::string(k == 0 ? "height of the first bounce, e = " : "height of the second, e = ") +
-                  (e < 0.6 ? "0.5" : "0.9"),
-              .unit = "m",
-              .expected = exact,
-              .source = "e² H a bounce",
-              .measured = tops[k],
-              .budget = error,
-              .budget_reason =
-                  "Heights: the blow falls up to v h above the floor and the stepper's energy is off by g h "
-                  "v/2 before and after: h v (1 − e²) + h v (e² + e)/2 a bounce, passed on times e²."});
+      record(
+          bouncing,
+          {.quantity =
+               std::string(k == 0 ? "height of the first bounce, e = " : "height of the second, e = ") +
+               (e < 0.6 ? "0.5" : "0.9"),
+           .unit = "m",
+           .expected = exact,
+           .source = "e² H a bounce",
+           .measured = tops[k],
+           .budget = error,
+           .budget_reason =
+               "Heights: the impact falls up to v h above the floor and the stepper's energy is off by g h "
+               "v/2 before and after: h v (1 − e²) + h v (e² + e)/2 a bounce, passed on times e²."});
     }
   }
 }

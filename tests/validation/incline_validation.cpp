@@ -41,7 +41,7 @@ const engine::Rock& after(World& world, double time) {
 // Half a second is left for the load to shift to the lower edge, which turns the block by m g / k over its
 // length. After that it must not move. A row of the solve is off by its last change, which converges
 // geometrically to the round-off of an impulse, 1e-16 m g h: speeds of 1e-16 g h = 5e-18 m/s and, over 2 s,
-// 1e-17 m; a thousand times that covers the sum over points and sweeps.
+// 1e-17 m; a thousand times that covers the sum over points and iterations.
 TEST(Incline, Sticks) {
   for (const double degrees : {15.0, 30.9}) {
     World world = block_on_slope(degrees * degree);

@@ -14,10 +14,10 @@ namespace {
 const validation::Problem newtons_cradle{
     "newtons_cradle", validation::Group::impact, "Newton's cradle",
     "Cubes of 0.5 m in a row, face to face and without friction or gravity; one arrives with 2 m/s. "
-    "Touching: all blows fall in "
+    "Touching: all impacts fall in "
     "one step and are shared at once (Newton's law of impact, all contacts together), where a real cradle "
     "passes "
-    "them on. 0.1 m apart: one blow after the other. Default steps and sweeps."};
+    "them on. 0.1 m apart: one impact after the other. Default steps and iterations."};
 
 constexpr double side = 0.5, v = 2;  // halves and quarters: touching faces have a gap of exactly zero
 
@@ -67,8 +67,8 @@ void run(World& world, const std::string& which) {
 
 // Newton's law with all contacts at once: the struck contact separates with e v, the others, at rest before,
 // do not open as all push: v2 = ... = vn = w, w − v1 = e v and v1 + (n − 1) w = v, so w = (1 + e) v / n and
-// v1 = w − e v. Energy is kept for e = 1 with any n: (2/n − 1)² + (n − 1) 4/n² = 1. A Gauss-Seidel sweep that
-// took each blow as it came would pass it on: (0, 0, v).
+// v1 = w − e v. Energy is kept for e = 1 with any n: (2/n − 1)² + (n − 1) 4/n² = 1. A Gauss-Seidel iteration
+// that took each impact as it came would pass it on: (0, 0, v).
 TEST(NewtonsCradle, SharesTheBlowAtOnceWhenTouching) {
   const std::string law = "Newton's law, all contacts at once";
   for (double e : {1.0, 0.5}) {
@@ -86,10 +86,10 @@ TEST(NewtonsCradle, SharesTheBlowAtOnceWhenTouching) {
   record_velocity(five, "5 touching, e = 1.0", 4, 0.4 * v, law);
 }
 
-// 0.1 m apart a cube needs five steps from one to the next: the blows come one by one, each swaps two
+// 0.1 m apart a cube needs five steps from one to the next: the impacts come one by one, each swaps two
 // velocities.
 TEST(NewtonsCradle, PassesTheBlowOnWhenApart) {
-  const std::string which = "3 apart, e = 1.0", law = "one blow after the other";
+  const std::string which = "3 apart, e = 1.0", law = "one impact after the other";
   World world = cradle(3, 1, 0.1);
   run(world, which);
   record_velocity(world, which, 0, 0, law);

@@ -20,7 +20,7 @@ const validation::Problem passive_wedge{
     "between smooth "
     "walls and about 1 m deep on a rough floor, and is pushed in at 0.2 m/s, by 0.5 m; force and surface "
     "height are means "
-    "over the way from 0.2 to 0.5 m. Two seeds, default steps and sweeps."};
+    "over the way from 0.2 to 0.5 m. Two seeds, default steps and iterations."};
 
 constexpr double length = 6, width = 1.2, size = 0.3, speed = 0.2, g = 9.81;
 constexpr int rocks = 685;

@@ -23,7 +23,7 @@ struct Problem {
   std::string name;  ///< the file's, without _validation.cpp
   Group group;
   std::string title;
-  std::string simulated;  ///< plain words: what was simulated, with step and sweeps
+  std::string simulated;  ///< plain words: what was simulated, with step and iterations
 };
 
 struct Comparison {

@@ -21,7 +21,7 @@ const validation::Problem repose_ledge{
     "410 rocks of 0.3 m, the six shapes in turn (μ_r = 0.5), in a bin 2.4 m long and 0.9 m wide with smooth "
     "sides; its end is "
     "taken away and what slides off the ledge is gone. μ = 0.1 and 0.9, six seeds each, default steps and "
-    "sweeps; the angle "
+    "iterations; the angle "
     "of what is left, from half a rock above the ledge to one rock below the crest. Four rocks of height "
     "over the edge "
     "and three across: the bank is a small one, steeper than a high one would stand."};

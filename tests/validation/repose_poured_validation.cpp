@@ -19,7 +19,7 @@ const validation::Problem repose_poured{
     "300 rocks of 0.3 m, the six shapes in turn (μ_r = 0.5, as in the mine), let go in layers of nine some "
     "0.7 m over the "
     "heap's top, on a floor as rough as they are; μ = 0.3, 0.6 and 0.9, eight seeds each, default steps and "
-    "sweeps. The angle "
+    "iterations. The angle "
     "is that of the cone's sections, from one rock above the floor to one rock below the tip."};
 
 constexpr double size = 0.3;
@@ -56,9 +56,10 @@ constexpr double student_of_mean = 3.00, student = 2.62;
 // Heaps of eight seeds scatter by some degrees each, as heaps do. A rise of the angle is stated where it
 // exceeds what chance gives in one case of a hundred; from 0.6 to 0.9 none is expected beyond that, as rough
 // blocks at 0.6 roll and tip before they slide, and a fall beyond chance would be wrong. The band: a
-// published sweep of discrete-element heaps spans 33.8 to 47.2 deg, blasted rock 35 to 42 deg is quoted for
-// the field; both are for other rocks, so 32 to 47 deg is plausibility, not accuracy. The rocks of the test
-// lie at its edge: solved five times as hard they pour to 46 to 48 deg. So the scatter of the mean counts.
+// published iteration of discrete-element heaps spans 33.8 to 47.2 deg, blasted rock 35 to 42 deg is quoted
+// for the field; both are for other rocks, so 32 to 47 deg is plausibility, not accuracy. The rocks of the
+// test lie at its edge: solved five times as hard they pour to 46 to 48 deg. So the scatter of the mean
+// counts.
 TEST(ReposePoured, IsPlausibleAndRisesWithFriction) {
   const Estimate smooth = poured_angle(0.3), middle = poured_angle(0.6), rough = poured_angle(0.9);
   record(

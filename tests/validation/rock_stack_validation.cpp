@@ -16,7 +16,8 @@ namespace {
 const validation::Problem rock_stack{
     "rock_stack", validation::Group::assembly, "Stack of ten blocks",
     "Ten cubes of 0.3 m and 67.5 kg, one on the other on the floor, let go with all faces just touching, for "
-    "10 s with default steps and sweeps; once with the rocks' stiffness of 1e9 N/m and once with 1e7 N/m."};
+    "10 s with default steps and iterations; once with the rocks' stiffness of 1e9 N/m and once with 1e7 "
+    "N/m."};
 
 constexpr int n = 10;
 constexpr double side = 0.3, g = 9.81, run_time = 10;
@@ -48,8 +49,8 @@ struct Stack {
   validation::EnergyLedger ledger;
 };
 
-// What the solver may leave. It stops when a sweep changes the impulses by less than `tolerance` of the load
-// of all interfaces, Σ = n (n + 1) / 2 · m g h in a substep of h. The sweep contracts errors by ρ =
+// What the solver may leave. It stops when an iteration changes the impulses by less than `tolerance` of the
+// load of all interfaces, Σ = n (n + 1) / 2 · m g h in a substep of h. The iteration contracts errors by ρ =
 // cos²(π/(2n + 1)) (Gauss-Seidel on a chain with one fixed end), so an impulse is off by at most tolerance Σ
 // / (1 − ρ), and a cube between two such has a residual velocity of 2/m times that. At rest the law turns a
 // residual velocity u into an overlap error of u (h + 4τ)/4, with τ = 2 steps.
@@ -62,7 +63,7 @@ double solver_overlap() {
 }
 
 const char* const solver_reason =
-    "The law is exact at rest; sweeps that stop at a relative change of 1e-5, with the contraction of a "
+    "The law is exact at rest; iterations that stop at a relative change of 1e-5, with the contraction of a "
     "chain of ten, leave "
     "a residual velocity u and so an overlap error of u (h + 4τ)/4.";
 

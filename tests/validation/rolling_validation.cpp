@@ -26,8 +26,8 @@ constexpr double g = 9.81, R = 0.5, half_width = 0.3, mass = 1000, stiffness = 1
 
 engine::RockBody cylinder() {
   const double across = mass * (R * R / 4 + half_width * half_width / 3);
-  return {support::shared(engine::Cylinder{R, half_width}), mass,
-          Vector3d(across, mass * R * R / 2, across), 0};
+  return {support::shared(engine::Cylinder{R, half_width}), mass, Vector3d(across, mass * R * R / 2, across),
+          0};
 }
 
 double radius_of_volume(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }

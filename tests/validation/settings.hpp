@@ -5,8 +5,8 @@
 #include <drawpoint/engine/world/world.hpp>
 
 /// The settings with which laws are validated: the reference method in double precision, one substep of 25
-/// sweeps, started from all of the last step's impulses, so that the solver's answers to the same problem
-/// converge from step to step and only the law and the time step are left to judge. The engine's defaults,
+/// iterations, started from all of the last step's impulses, so that the solver's answers to the same problem
+/// converge from step to step and only the law and the time step are left to evaluate. The engine's defaults,
 /// which trade some of that for speed, have lines of their own.
 namespace drawpoint::validation {
 
@@ -15,7 +15,7 @@ inline engine::WorldOptions reference_settings(double step = 0.005) {
   options.step = step;
   options.solver.method = engine::Method::sequential;
   options.solver.substeps = 1;
-  options.solver.sweeps = 25;
+  options.solver.iterations = 25;
   options.warm_start = 1;
   return options;
 }

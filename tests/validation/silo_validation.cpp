@@ -22,7 +22,7 @@ const validation::Problem silo{"silo", validation::Group::granular, "Silo agains
                                "with rough walls (μ = 0.5); the floor sinks "
                                "at 2 cm/s so that the walls carry what they can. Loads are means over 2 s "
                                "after the first 1 s. Two seeds, "
-                               "default steps and sweeps."};
+                               "default steps and iterations."};
 
 constexpr double D = 1.2, size = 0.3, wall_friction = 0.5, g = 9.81;
 constexpr int slices = 40;  // of one rock size up the walls

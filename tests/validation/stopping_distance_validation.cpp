@@ -17,7 +17,7 @@ const validation::Problem stopping{"stopping_distance", validation::Group::singl
                                    "Stopping distance of a sliding block",
                                    "A block of 0.8 m x 0.8 m x 0.2 m is thrown over a level floor (friction "
                                    "0.5) at 2 m/s in 16 directions; default "
-                                   "step, substeps and sweeps."};
+                                   "step, substeps and iterations."};
 
 constexpr double g = 9.81, mu = 0.5, speed = 2, stiffness = 1e8;
 

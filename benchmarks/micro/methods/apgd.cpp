@@ -4,7 +4,7 @@
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
 #include <drawpoint/benchmarks/micro/matrix_form.hpp>
 
-/// Accelerated projected gradient descent, double precision, S = 1; a sweep is one step of the gradient.
+/// Accelerated projected gradient descent, double precision, S = 1; an iteration is one step of the gradient.
 ///
 /// H. Mazhar, T. Heyn, D. Negrut, A. Tasora, "Using Nesterov's method to accelerate multibody dynamics with
 /// friction and contact", 2015: a Nesterov step from an extrapolated point y, λ⁺ = P(y − D g(y) / L), with
@@ -78,10 +78,10 @@ class Apgd {
   double theta_ = 1, bound_ = 1;
 };
 
-SolverReport solve_apgd(ContactProblem& problem, const SolverOptions& options) {
+SolverReport solve_apgd(ContactProblem& problem, const MethodOptions& options) {
   const MatrixForm form(problem);
   Apgd method(problem, form);
-  for (int k = 0; k < options.sweeps; ++k) method.step();
+  for (int k = 0; k < options.iterations; ++k) method.step();
   return form.store(problem, method.impulses(), method.velocities());
 }
 

@@ -48,35 +48,36 @@ HWY_NOINLINE void prepare_lanes(const BatchArrays& arrays, int batch, int at) {
   store(inverse.rho, pair.moment_inverse_rho, at);
 }
 
-// What of a pair's load carries over to the next substep goes to `begun`; returns what does not: blows.
+// What of a pair's load carries over to the next substep goes to `initial_impulse`; returns what does not:
+// impacts.
 HWY_INLINE V add_to_totals(const BatchArrays& arrays, PairBatch& pair, int at) {
-  V blows = all(0);
+  V impacts = all(0);
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 end = load(p.impulse, at);
     store(load(p.total, at) + end, p.total, at);
-    const V most =
-        all(2.0f) * load(p.begun, at) + all(static_cast<float>(impact_speed)) * load(p.inverse_nn, at);
+    const V most = all(2.0f) * load(p.initial_impulse, at) +
+                   all(static_cast<float>(impact_speed)) * load(p.inverse_nn, at);
     const V kept = min(end.x, most);
-    store(kept, p.begun, at);
-    blows = blows + (end.x - kept);
+    store(kept, p.initial_impulse, at);
+    impacts = impacts + (end.x - kept);
   }
   store(load(pair.moment_total, at) + load(pair.moment, at), pair.moment_total, at);
-  return blows;
+  return impacts;
 }
 
-// Load that has built up carries over to the next substep; a blow does not (contact_law.hpp).
-HWY_NOINLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) {
+// Load that has built up carries over to the next substep; an impact does not (contact_law.hpp).
+HWY_NOINLINE void end_substep_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
-  const V blows = add_to_totals(arrays, pair, at);
-  if (all_zero(blows)) return;
+  const V impacts = add_to_totals(arrays, pair, at);
+  if (all_zero(impacts)) return;
   Pairs corrections(arrays, batch, at);
   corrections.gather(arrays.corrections);
   V force = all(0);
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 end = load(p.impulse, at);
-    const V kept = load(p.begun, at), share = select(end.x > kept, kept / end.x, all(1.0f));
+    const V kept = load(p.initial_impulse, at), share = select(end.x > kept, kept / end.x, all(1.0f));
     const V3 carried = {kept, share * end.y, share * end.z};
     store(carried, p.impulse, at);
     corrections.push(load(p.arm, at), carried - end);
@@ -84,7 +85,7 @@ HWY_NOINLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) 
   }
   if (pair.resists) {
     const V3 moment = load(pair.moment, at);
-    const V3 correction = select_or_zero(blows > all(0), -blows / force) * moment;
+    const V3 correction = select_or_zero(impacts > all(0), -impacts / force) * moment;
     store(moment + correction, pair.moment, at);
     corrections.twist(correction);
   }
@@ -92,19 +93,19 @@ HWY_NOINLINE void hand_over_lanes(const BatchArrays& arrays, int batch, int at) 
 }
 
 // Gaps and targets of a substep, from the velocities at the end of the last one.
-HWY_NOINLINE void aim_lanes(const BatchArrays& arrays, int batch, int at, const Sweep& sweep) {
+HWY_NOINLINE void bias_lanes(const BatchArrays& arrays, int batch, int at, const Iteration& iteration) {
   const PairBatch& pair = arrays.pairs[batch];
   const V3 n = load(pair.normal, at), offset = load(pair.offset, at);
   const Motion a = gather_motion(arrays.begin, pair.a + at), b = gather_motion(arrays.begin, pair.b + at);
-  const V h = all(sweep.h), rate = all(-1.0f / sweep.h), four = all(4.0f);
+  const V h = all(iteration.h), rate = all(-1.0f / iteration.h), four = all(4.0f);
   const V impact = all(static_cast<float>(-impact_speed)), zero = all(0);
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 arm = load(p.arm, at);
     const V approach = dot(n, (b.v + cross(b.w, arm + offset)) - (a.v + cross(a.w, arm)));
     V gap = load(p.gap, at);
-    if (sweep.first_substep) {
-      store(load(p.impulse[0], at), p.begun, at);
+    if (iteration.first_substep) {
+      store(load(p.impulse[0], at), p.initial_impulse, at);
     } else {
       gap = gap + h * approach;
       store(gap, p.gap, at);
@@ -145,7 +146,7 @@ HWY_INLINE void project_tangents(V& l1, V& l2, V u1, V u2, const TangentStep& in
 
 HWY_INLINE V magnitude(const V3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-// What a sweep changes and carries, lane by lane.
+// What an iteration changes and carries, lane by lane.
 struct alignas(64) LaneSums {
   Lanes change, normal_load;
 };
@@ -195,7 +196,7 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
 HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
 
 // The natural map of the points' law at the velocities reached: how far each impulse is from its step.
-HWY_NOINLINE void judge_lanes(const BatchArrays& arrays, int batch, int at) {
+HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
@@ -235,19 +236,19 @@ void prepare(const BatchArrays& arrays, BatchRange range) {
 void start(const BatchArrays& arrays, BatchRange range) {
   over_lanes(range, [&](int batch, int at) { start_lanes(arrays, batch, at); });
 }
-void hand_over(const BatchArrays& arrays, BatchRange range) {
-  over_lanes(range, [&](int batch, int at) { hand_over_lanes(arrays, batch, at); });
+void end_substep(const BatchArrays& arrays, BatchRange range) {
+  over_lanes(range, [&](int batch, int at) { end_substep_lanes(arrays, batch, at); });
 }
-void judge(const BatchArrays& arrays, BatchRange range) {
-  over_lanes(range, [&](int batch, int at) { judge_lanes(arrays, batch, at); });
+void evaluate(const BatchArrays& arrays, BatchRange range) {
+  over_lanes(range, [&](int batch, int at) { evaluate_lanes(arrays, batch, at); });
 }
-void sweep(const BatchArrays& arrays, BatchRange range, const Sweep& this_sweep) {
+void iteration(const BatchArrays& arrays, BatchRange range, const Iteration& this_iteration) {
   LaneSums sums;
   over(range, [&](int batch) {
     for (int at = 0; at < batch_lanes; at += width) {
-      if (this_sweep.first) aim_lanes(arrays, batch, at, this_sweep);
+      if (this_iteration.first) bias_lanes(arrays, batch, at, this_iteration);
       sweep_lanes(arrays, batch, at, sums);
-      if (this_sweep.last) hand_over_lanes(arrays, batch, at);
+      if (this_iteration.last) end_substep_lanes(arrays, batch, at);
     }
     arrays.sums[batch] = {sum_of(sums.change), sum_of(sums.normal_load)};
   });
@@ -261,9 +262,9 @@ namespace drawpoint::engine::detail {
 
 HWY_EXPORT(prepare);
 HWY_EXPORT(start);
-HWY_EXPORT(sweep);
-HWY_EXPORT(judge);
-HWY_EXPORT(hand_over);
+HWY_EXPORT(iteration);
+HWY_EXPORT(evaluate);
+HWY_EXPORT(end_substep);
 
 void prepare_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(prepare)(arrays, range);
@@ -271,14 +272,14 @@ void prepare_batches(const BatchArrays& arrays, BatchRange range) {
 void start_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(start)(arrays, range);
 }
-void sweep_batches(const BatchArrays& arrays, BatchRange range, const Sweep& this_sweep) {
-  HWY_DYNAMIC_DISPATCH(sweep)(arrays, range, this_sweep);
+void iterate_batches(const BatchArrays& arrays, BatchRange range, const Iteration& this_iteration) {
+  HWY_DYNAMIC_DISPATCH(iteration)(arrays, range, this_iteration);
 }
-void hand_over_batches(const BatchArrays& arrays, BatchRange range) {
-  HWY_DYNAMIC_DISPATCH(hand_over)(arrays, range);
+void end_substep_batches(const BatchArrays& arrays, BatchRange range) {
+  HWY_DYNAMIC_DISPATCH(end_substep)(arrays, range);
 }
-void judge_batches(const BatchArrays& arrays, BatchRange range) {
-  HWY_DYNAMIC_DISPATCH(judge)(arrays, range);
+void evaluate_batches(const BatchArrays& arrays, BatchRange range) {
+  HWY_DYNAMIC_DISPATCH(evaluate)(arrays, range);
 }
 
 }  // namespace drawpoint::engine::detail

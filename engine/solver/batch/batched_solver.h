@@ -4,27 +4,27 @@
 
 #include <drawpoint/engine/solver/batch/machine_pairs.h>
 #include <drawpoint/engine/solver/batch/pair_batches.h>
-#include <drawpoint/engine/base/thread_pool.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <drawpoint/engine/solver/solver_options.hpp>
 #include <drawpoint/engine/solver/solver_report.hpp>
 #include <memory>
 #include <optional>
 
-/// The fast method: sixteen pairs at a time that share no body, zones of the scene on threads, single
+/// The fast method: sixteen pairs at a time that share no body, subdomains of the scene on threads, single
 /// precision.
 ///
 /// Pairs that touch the machine are swept one after another in double precision before the others
-/// (sweep_order.hpp), on the same velocities. Bodies that touch nothing keep double precision. Velocities and
-/// impulses of the others have 24 bits: a residual below about 1e-6 of the load is round-off, and momentum is
-/// kept to 6e-8 of a body's own a sweep. Positions stay in double precision outside. Cost and figures:
-/// docs/contact-solving.md.
+/// (iteration_order.hpp), on the same velocities. Bodies that touch nothing keep double precision. Velocities
+/// and impulses of the others have 24 bits: a residual below about 1e-6 of the load is round-off, and
+/// momentum is kept to 6e-8 of a body's own an iteration. Positions stay in double precision outside. Cost
+/// and figures: docs/contact-solving.md.
 namespace drawpoint::engine::detail {
 
-class ColouredSolver {
+class BatchedSolver {
  public:
-  ColouredSolver(const SolverOptions& options, std::shared_ptr<const Parallel> parallel)
-      : options_(options), parallel_(std::move(parallel)) {}
+  BatchedSolver(const SolverOptions& options, std::shared_ptr<const ThreadPool> pool)
+      : options_(options), pool_(std::move(pool)) {}
 
   SolverReport solve(ContactProblem& problem);
 
@@ -39,8 +39,8 @@ class ColouredSolver {
   void run_substep(int number);
   void start();
   void extrapolate();
-  void sweep(bool forward, const Sweep& this_sweep);
-  void travel(int row);
+  void iteration(bool forward, const Iteration& this_iteration);
+  void displacement(int row);
   void store_bodies();
   void store_body(int index);
   SolverReport report();
@@ -49,7 +49,7 @@ class ColouredSolver {
   double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
 
   SolverOptions options_;
-  std::shared_ptr<const Parallel> parallel_;
+  std::shared_ptr<const ThreadPool> pool_;
   PairBatches batches_;
   std::vector<BodyRow> travel_;  // by row: ∫ v dt, ∫ ω dt
   std::vector<char> touched_;    // by body: in a pair
@@ -58,7 +58,7 @@ class ColouredSolver {
   ContactProblem* problem_ = nullptr;
   std::optional<MachinePairs> machine_;
   int threads_ = 1;
-  double machine_change_ = 0;  // of the machine's pairs in the last sweep
+  double machine_change_ = 0;  // of the machine's pairs in the last iteration
 };
 
 }  // namespace drawpoint::engine::detail

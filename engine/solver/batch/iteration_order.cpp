@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -14,7 +14,7 @@ namespace drawpoint::engine::detail {
 
 namespace {
 
-constexpr int slabs = 256;  // among whose borders those of the zones are chosen
+constexpr int slabs = 256;  // among whose borders those of the subdomains are chosen
 
 bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
 
@@ -95,11 +95,11 @@ std::vector<int> slabs_of(const std::vector<Place>& places) {
   return result;
 }
 
-// Which zone each body is in. Zones hold about as many sides of pairs each; their number is a power of two,
-// so that two, four or eight threads have as many each.
-class Zones {
+// Which subdomain each body is in. Subdomains hold about as many sides of pairs each; their number is a power
+// of two, so that two, four or eight threads have as many each.
+class Subdomains {
  public:
-  Zones(std::size_t pairs, const std::vector<Place>& places, const std::vector<int>& slab_of, int least)
+  Subdomains(std::size_t pairs, const std::vector<Place>& places, const std::vector<int>& slab_of, int least)
       : slab_of_(slab_of) {
     count_ = static_cast<int>(std::bit_floor(std::max<std::size_t>(1, pairs / least)));
     std::vector<double> sides(slabs, 0);
@@ -107,49 +107,50 @@ class Zones {
     double total = 0, passed = 0;
     for (const double n : sides) total += n;
     for (int slab = 0; slab < slabs; ++slab) {
-      zone_of_slab_[slab] = std::min(count_ - 1, static_cast<int>(count_ * passed / std::max(total, 1.0)));
+      subdomain_of_slab_[slab] =
+          std::min(count_ - 1, static_cast<int>(count_ * passed / std::max(total, 1.0)));
       passed += sides[slab];
     }
   }
 
   int count() const { return count_; }
-  int of(int body) const { return zone_of_slab_[slab_of_[body]]; }
+  int of(int body) const { return subdomain_of_slab_[slab_of_[body]]; }
 
  private:
   int count_;
   const std::vector<int>& slab_of_;
-  int zone_of_slab_[slabs];
+  int subdomain_of_slab_[slabs];
 };
 
-// The parts in their order: beyond neighbours, borders after even zones, after odd ones, zones.
-class Parts {
+// The tasks in their order: beyond neighbours, borders after even subdomains, after odd ones, subdomains.
+class Tasks {
  public:
-  explicit Parts(int zones) : zones_(zones) {}
+  explicit Tasks(int subdomains) : subdomains_(subdomains) {}
 
-  int of(int zone, int other) const {
-    const int low = std::min(zone, other), apart = std::abs(zone - other);
-    if (apart == 0) return zones_ + low;
+  int of(int subdomain, int other) const {
+    const int low = std::min(subdomain, other), apart = std::abs(subdomain - other);
+    if (apart == 0) return subdomains_ + low;
     if (apart > 1) return 0;
-    return low % 2 == 0 ? 1 + low / 2 : 1 + zones_ / 2 + low / 2;
+    return low % 2 == 0 ? 1 + low / 2 : 1 + subdomains_ / 2 + low / 2;
   }
-  int count() const { return 2 * zones_; }
-  std::vector<int> last_of_stages() const { return {0, zones_ / 2, zones_ - 1, count() - 1}; }
+  int count() const { return 2 * subdomains_; }
+  std::vector<int> last_of_stages() const { return {0, subdomains_ / 2, subdomains_ - 1, count() - 1}; }
 
  private:
-  int zones_;
+  int subdomains_;
 };
 
-// Deals pairs to batches: each to the first open batch that none of its moving bodies is in, or to a new one.
-// Full batches are closed.
-class Dealer {
+// Assigns pairs to batches: each to the first open batch that none of its moving bodies is in, or to a new
+// one. Full batches are closed.
+class BatchAssigner {
  public:
-  Dealer(const std::vector<Ends>& ends, const std::vector<Place>& places, int most)
+  BatchAssigner(const std::vector<Ends>& ends, const std::vector<Place>& places, int most)
       : ends_(ends), places_(places), most_(most), open_in_(places.size(), 0) {}
 
   std::vector<int> sizes;  // of the batches, in the order in which they were opened
 
   // Returns the batch.
-  int deal(int index) {
+  int assign(int index) {
     const Ends& pair = ends_[index];
     const std::uint64_t room = open_ & ~(batches_of(pair.a) | batches_of(pair.b));
     if (room == 0 && ~open_ == 0) return put(open_batch());  // alone
@@ -200,21 +201,21 @@ class Dealer {
   int batch_in_[slots] = {};
 };
 
-// Twice the part of each pair, and one for pairs with the world; -1 for those that are not in the order.
+// Twice the task of each pair, and one for pairs with the world; -1 for those that are not in the order.
 std::vector<int> groups_of(const std::vector<Ends>& ends, const std::vector<Place>& places,
-                           const Zones& zones, const Parts& parts) {
+                           const Subdomains& subdomains, const Tasks& tasks) {
   std::vector<int> result(ends.size(), -1);
   for (std::size_t k = 0; k < result.size(); ++k) {
     const auto& [a, b, points] = ends[k];
     if (!ends[k].in_order()) continue;
     const bool fixed_a = places[a].fixed, fixed_b = places[b].fixed;
-    const int part = parts.of(zones.of(fixed_a ? b : a), zones.of(fixed_b ? a : b));
-    result[k] = 2 * part + (fixed_a || fixed_b);
+    const int task = tasks.of(subdomains.of(fixed_a ? b : a), subdomains.of(fixed_b ? a : b));
+    result[k] = 2 * task + (fixed_a || fixed_b);
   }
   return result;
 }
 
-// The pairs in the order in which they are dealt: group after group, in each by falling number of points.
+// The pairs in the order in which they are assigned: group after group, in each by falling number of points.
 std::vector<int> queue_of(const std::vector<Ends>& ends, const std::vector<int>& group_of, int groups) {
   int most = 0;
   for (const Ends& pair : ends) most = std::max(most, pair.points);
@@ -223,66 +224,69 @@ std::vector<int> queue_of(const std::vector<Ends>& ends, const std::vector<int>&
   });
 }
 
-// The pairs of a part, batch after batch, and how many each batch has.
-struct DealtPart {
+// The pairs of a task, batch after batch, and how many each batch has.
+struct AssignedTask {
   std::vector<int> pairs, sizes;
 };
 
-DealtPart deal_part(std::span<const int> queue, const std::vector<int>& group_of, Dealer dealer) {
+AssignedTask assign_task(std::span<const int> queue, const std::vector<int>& group_of,
+                         BatchAssigner assigner) {
   std::vector<int> batch_of(queue.size());
   for (std::size_t k = 0; k < queue.size(); ++k) {
-    if (k > 0 && group_of[queue[k]] != group_of[queue[k - 1]]) dealer.close_all();
-    batch_of[k] = dealer.deal(queue[k]);
+    if (k > 0 && group_of[queue[k]] != group_of[queue[k - 1]]) assigner.close_all();
+    batch_of[k] = assigner.assign(queue[k]);
   }
-  DealtPart part;
-  part.sizes = std::move(dealer.sizes);
-  part.pairs =
-      sorted(below(queue.size()), static_cast<int>(part.sizes.size()), [&](int k) { return batch_of[k]; });
-  for (int& place : part.pairs) place = queue[place];
-  return part;
+  AssignedTask task;
+  task.sizes = std::move(assigner.sizes);
+  task.pairs =
+      sorted(below(queue.size()), static_cast<int>(task.sizes.size()), [&](int k) { return batch_of[k]; });
+  for (int& place : task.pairs) place = queue[place];
+  return task;
 }
 
-// Parts share nothing: threads deal them side by side.
-std::vector<DealtPart> deal_parts(const std::vector<int>& queue, const std::vector<int>& group_of,
-                                  const Dealer& dealer, int parts, const Parallel& parallel) {
-  const auto first_of = [&](int part) {
-    return std::partition_point(queue.begin(), queue.end(), [&](int k) { return group_of[k] < 2 * part; });
+// Tasks share nothing: threads assign them side by side.
+std::vector<AssignedTask> assign_tasks(const std::vector<int>& queue, const std::vector<int>& group_of,
+                                       const BatchAssigner& assigner, int tasks, const ThreadPool& pool) {
+  const auto first_of = [&](int task) {
+    return std::partition_point(queue.begin(), queue.end(), [&](int k) { return group_of[k] < 2 * task; });
   };
-  std::vector<DealtPart> dealt(static_cast<std::size_t>(parts));
-  parallel.run(parts, parallel.threads(), [&](int part) {
-    const std::span<const int> own(first_of(part), first_of(part + 1));
-    if (!own.empty()) dealt[part] = deal_part(own, group_of, dealer);
+  std::vector<AssignedTask> assigned(static_cast<std::size_t>(tasks));
+  pool.run(tasks, pool.threads(), [&](int task) {
+    const std::span<const int> own(first_of(task), first_of(task + 1));
+    if (!own.empty()) assigned[task] = assign_task(own, group_of, assigner);
   });
-  return dealt;
+  return assigned;
 }
 
 }  // namespace
 
-SweepOrder sweep_order(const ContactProblem& problem, int most, int least_a_zone, const Parallel& parallel) {
+IterationOrder iteration_order(const ContactProblem& problem, int most, int least_per_subdomain,
+                               const ThreadPool& pool) {
   const std::vector<Ends> ends = ends_of(problem);
   const std::vector<Place> places = places_of(problem, ends);
   const std::vector<int> slab_of = slabs_of(places);
-  const Zones zones(std::count_if(ends.begin(), ends.end(), std::mem_fn(&Ends::in_order)), places, slab_of,
-                    least_a_zone);
-  const Parts parts(zones.count());
-  const std::vector<int> group_of = groups_of(ends, places, zones, parts);
-  const std::vector<int> queue = queue_of(ends, group_of, 2 * parts.count());
+  const Subdomains subdomains(std::count_if(ends.begin(), ends.end(), std::mem_fn(&Ends::in_order)), places,
+                              slab_of, least_per_subdomain);
+  const Tasks tasks(subdomains.count());
+  const std::vector<int> group_of = groups_of(ends, places, subdomains, tasks);
+  const std::vector<int> queue = queue_of(ends, group_of, 2 * tasks.count());
 
-  SweepOrder order;
+  IterationOrder order;
   order.bodies = sorted(below(places.size()), slabs, [&](int body) { return slab_of[body]; });
   for (const Place& place : places) order.fixed.push_back(place.fixed);
   order.pairs.reserve(queue.size());
-  order.batches = order.parts = order.stages = {0};
-  int part = 0;
-  const std::vector<int> last_of_stages = parts.last_of_stages();
+  order.batches = order.tasks = order.stages = {0};
+  int task = 0;
+  const std::vector<int> last_of_stages = tasks.last_of_stages();
   auto last = last_of_stages.begin();
-  for (const DealtPart& dealt : deal_parts(queue, group_of, {ends, places, most}, parts.count(), parallel)) {
-    order.pairs.insert(order.pairs.end(), dealt.pairs.begin(), dealt.pairs.end());
-    for (const int size : dealt.sizes) order.batches.push_back(order.batches.back() + size);
-    if (!dealt.sizes.empty()) order.parts.push_back(static_cast<int>(order.batches.size()) - 1);
-    for (; last != last_of_stages.end() && *last == part; ++last)
-      order.stages.push_back(static_cast<int>(order.parts.size()) - 1);
-    ++part;
+  for (const AssignedTask& assigned :
+       assign_tasks(queue, group_of, {ends, places, most}, tasks.count(), pool)) {
+    order.pairs.insert(order.pairs.end(), assigned.pairs.begin(), assigned.pairs.end());
+    for (const int size : assigned.sizes) order.batches.push_back(order.batches.back() + size);
+    if (!assigned.sizes.empty()) order.tasks.push_back(static_cast<int>(order.batches.size()) - 1);
+    for (; last != last_of_stages.end() && *last == task; ++last)
+      order.stages.push_back(static_cast<int>(order.tasks.size()) - 1);
+    ++task;
   }
   return order;
 }

@@ -5,7 +5,7 @@
 namespace drawpoint::engine::detail {
 
 MachinePairs::MachinePairs(const ContactProblem& problem, const std::vector<int>& row_of, int substeps)
-    : part_(part_of_problem(problem, row_of, rows_, members_)), sweeper_(part_, substeps) {}
+    : part_(part_of_problem(problem, row_of, rows_, members_)), iteration_(part_, substeps) {}
 
 ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, const std::vector<int>& row_of,
                                              std::vector<int>& rows, std::vector<int>& members) {
@@ -36,7 +36,7 @@ ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, cons
   return part;
 }
 
-void MachinePairs::fetch(const std::vector<BodyRow>& bodies) {
+void MachinePairs::gather_bodies(const std::vector<BodyRow>& bodies) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const BodyRow& row = bodies[rows_[k]];
     part_.bodies[k].velocity = {row.velocity[0], row.velocity[1], row.velocity[2]};
@@ -54,36 +54,36 @@ void MachinePairs::put_back(std::vector<BodyRow>& bodies) const {
 }
 
 void MachinePairs::refresh(const std::vector<BodyRow>& end) {
-  fetch(end);
-  sweeper_.refresh();
+  gather_bodies(end);
+  iteration_.refresh();
 }
 
 void MachinePairs::start(std::vector<BodyRow>& bodies) {
-  fetch(bodies);
-  sweeper_.start();
+  gather_bodies(bodies);
+  iteration_.start();
   put_back(bodies);
 }
 
 void MachinePairs::correct(std::vector<BodyRow>& bodies) {
-  fetch(bodies);
-  sweeper_.correct();
+  gather_bodies(bodies);
+  iteration_.correct();
   put_back(bodies);
 }
 
-double MachinePairs::sweep(std::vector<BodyRow>& bodies, bool forward) {
-  fetch(bodies);
-  const double change = sweeper_.sweep(forward);
+double MachinePairs::iteration(std::vector<BodyRow>& bodies, bool forward) {
+  gather_bodies(bodies);
+  const double change = iteration_.iteration(forward);
   put_back(bodies);
   return change;
 }
 
-Misfit MachinePairs::misfit(const std::vector<BodyRow>& bodies) {
-  fetch(bodies);
-  return sweeper_.misfit();
+ResidualSums MachinePairs::residual_sums(const std::vector<BodyRow>& bodies) {
+  gather_bodies(bodies);
+  return iteration_.residual_sums();
 }
 
 SuperBodySolution MachinePairs::store(ContactProblem& problem) {
-  const SuperBodySolution solution = sweeper_.store();
+  const SuperBodySolution solution = iteration_.store();
   for (std::size_t k = 0; k < members_.size(); ++k) {
     ContactPair& pair = problem.pairs[members_[k]];
     pair.start = part_.pairs[k].start;
@@ -91,7 +91,8 @@ SuperBodySolution MachinePairs::store(ContactProblem& problem) {
     for (int i = 0; i < pair.count; ++i) {
       problem.points[pair.first + i].start = part_.points[part_.pairs[k].first + i].start;
       problem.points[pair.first + i].impulse = part_.points[part_.pairs[k].first + i].impulse;
-      problem.points[pair.first + i].carried = part_.points[part_.pairs[k].first + i].carried;
+      problem.points[pair.first + i].warm_start_fraction =
+          part_.points[part_.pairs[k].first + i].warm_start_fraction;
     }
   }
   return solution;

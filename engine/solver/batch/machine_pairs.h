@@ -16,23 +16,23 @@ class MachinePairs {
 
   void refresh(const std::vector<BodyRow>& end);
   void start(std::vector<BodyRow>& bodies);
-  void extrapolate() { sweeper_.extrapolate(); }
+  void extrapolate() { iteration_.extrapolate(); }
   void correct(std::vector<BodyRow>& bodies);
-  double sweep(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
-  void finish() { sweeper_.finish(); }
-  double normal_load() const { return sweeper_.normal_load(); }
-  Misfit misfit(const std::vector<BodyRow>& bodies);
+  double iteration(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
+  void finish() { iteration_.finish(); }
+  double normal_load() const { return iteration_.normal_load(); }
+  ResidualSums residual_sums(const std::vector<BodyRow>& bodies);
   SuperBodySolution store(ContactProblem& problem);
 
  private:
   static ContactProblem part_of_problem(const ContactProblem& problem, const std::vector<int>& row_of,
                                         std::vector<int>& rows, std::vector<int>& members);
-  void fetch(const std::vector<BodyRow>& bodies);
+  void gather_bodies(const std::vector<BodyRow>& bodies);
   void put_back(std::vector<BodyRow>& bodies) const;
 
   std::vector<int> rows_, members_;  // body row of each body, pair of each pair of the part
   ContactProblem part_;
-  SequentialSweeper sweeper_;
+  SequentialIteration iteration_;
 };
 
 }  // namespace drawpoint::engine::detail

@@ -31,7 +31,7 @@ struct alignas(64) PointBatch {
   Lanes gap, upsilon, sigma, target;
   Lanes inverse_nn, inverse_tt[3], inverse_rho, w10, w20;
   Lanes impulse[3], total[3];  // in the frame; of the substep, of the step
-  Lanes begun;                 // the normal impulse that the substep began with
+  Lanes initial_impulse;       // the normal impulse that the substep began with
 };
 
 struct alignas(64) PairBatch {
@@ -43,12 +43,12 @@ struct alignas(64) PairBatch {
   Lanes rolling_arm, spinning_arm;
   Lanes moment_inverse_nn, moment_inverse_tt[3], moment_inverse_rho, moment_w10, moment_w20;
   Lanes moment[3], moment_total[3];       // in the frame
-  Lanes normal_miss, tangent_miss, load;  // after judge: residuals, and their load (residual.hpp)
+  Lanes normal_miss, tangent_miss, load;  // after evaluate: residuals, and their load (residual.hpp)
   std::int32_t first, points;             // point batches
   bool resists;                           // any rolling or spinning
 };
 
-/// Of a batch in the last sweep: Σ|Δλ|, Σ λ_n [N s].
+/// Of a batch in the last iteration: Σ|Δλ|, Σ λ_n [N s].
 struct BatchSums {
   float change = 0, normal_load = 0;
 };
@@ -64,11 +64,11 @@ struct BatchArrays {
   BatchSums* sums;
 };
 
-/// What a sweep is in its substep. The first one finds gaps and targets before a pair is solved, the last one
-/// hands its impulses over to the next substep after: a pair's data pass through the cache once.
-struct Sweep {
+/// What an iteration is in its substep. The first one finds gaps and targets before a pair is solved, the
+/// last one hands its impulses over to the next substep after: a pair's data pass through the cache once.
+struct Iteration {
   float h;             // of the substep [s]
-  bool first, last;    // sweep of the substep
+  bool first, last;    // iteration of the substep
   bool first_substep;  // of the step: gaps are those of its start
 };
 
@@ -84,12 +84,12 @@ struct BatchRange {
 void prepare_batches(const BatchArrays& arrays, BatchRange range);
 /// Start impulses on the bodies.
 void start_batches(const BatchArrays& arrays, BatchRange range);
-void sweep_batches(const BatchArrays& arrays, BatchRange range, const Sweep& sweep);
-/// What the last sweep of a substep does at its end, where it was not known to be the last: adds the impulses
-/// to the totals and leaves start impulses without blows; what extrapolation would repeat of these goes into
-/// the corrections.
-void hand_over_batches(const BatchArrays& arrays, BatchRange range);
+void iterate_batches(const BatchArrays& arrays, BatchRange range, const Iteration& iteration);
+/// What the last iteration of a substep does at its end, where it was not known to be the last: adds the
+/// impulses to the totals and leaves start impulses without impacts; what extrapolation would repeat of these
+/// goes into the corrections.
+void end_substep_batches(const BatchArrays& arrays, BatchRange range);
 /// The natural map of the law in the substep that has just ended (residual.hpp), summed over a pair's points.
-void judge_batches(const BatchArrays& arrays, BatchRange range);
+void evaluate_batches(const BatchArrays& arrays, BatchRange range);
 
 }  // namespace drawpoint::engine::detail

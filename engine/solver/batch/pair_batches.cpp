@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <drawpoint/engine/solver/contact_frame.h>
-#include <drawpoint/engine/solver/contact_law.hpp>
 #include <drawpoint/engine/base/prefetch.h>
 #include <drawpoint/engine/solver/batch/pair_batches.h>
+#include <drawpoint/engine/solver/contact_frame.h>
+#include <algorithm>
+#include <drawpoint/engine/solver/contact_law.hpp>
 #include <utility>
 
 namespace drawpoint::engine::detail {
@@ -13,7 +13,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int bodies_a_block = 256, batches_a_block = 8;
+constexpr int bodies_per_block = 256, batches_per_block = 8;
 
 void put(const Vector3d& v, Lanes (&lanes)[3], int lane) {
   for (int k = 0; k < 3; ++k) lanes[k][lane] = static_cast<float>(v[k]);
@@ -27,12 +27,12 @@ void grow(std::vector<T>& buffer, std::size_t size) {
 
 }  // namespace
 
-void PairBatches::fill(const ContactProblem& problem, SweepOrder order, int substeps,
-                       const Parallel& parallel) {
+void PairBatches::fill(const ContactProblem& problem, IterationOrder order, int substeps,
+                       const ThreadPool& pool) {
   order_ = std::move(order);
   plan(problem);
-  fill_bodies(problem, parallel);
-  parallel.blocks(count(), batches_a_block, [&](int first, int last) {
+  fill_bodies(problem, pool);
+  pool.blocks(count(), batches_per_block, [&](int first, int last) {
     for (int batch = first; batch < last; ++batch) fill_batch(problem, batch, substeps);
   });
   begin = bodies;
@@ -65,11 +65,11 @@ void PairBatches::plan(const ContactProblem& problem) {
   grow(points_, static_cast<std::size_t>(point_batches_));
 }
 
-void PairBatches::fill_bodies(const ContactProblem& problem, const Parallel& parallel) {
+void PairBatches::fill_bodies(const ContactProblem& problem, const ThreadPool& pool) {
   bodies.assign(static_cast<std::size_t>(rows_), BodyRow());
   responses_.assign(static_cast<std::size_t>(rows_), BodyResponse());
   row_of.resize(problem.bodies.size());
-  parallel.blocks(static_cast<int>(problem.bodies.size()), bodies_a_block, [&](int first, int last) {
+  pool.blocks(static_cast<int>(problem.bodies.size()), bodies_per_block, [&](int first, int last) {
     for (int row = first; row < last; ++row) {
       row_of[order_.bodies[row]] = row;
       fill_row(row, problem.bodies[order_.bodies[row]]);
@@ -91,13 +91,13 @@ void PairBatches::fill_row(int row, const SolverBody& body) {
 
 // The pair in this lane of the batch after the next, and the points of the one in the next: pairs of a batch
 // lie far apart in a problem. Storing takes 0.4 of the time.
-[[gnu::always_inline]] inline void PairBatches::fetch_ahead(const ContactProblem& problem, int index,
-                                                            int lane) const {
+[[gnu::always_inline]] inline void PairBatches::prefetch_ahead(const ContactProblem& problem, int index,
+                                                               int lane) const {
   if (index + 2 < count() && lane < plans_[index + 2].pairs)
-    fetch(&problem.pairs[plans_[index + 2].members[lane]], sizeof(ContactPair));
+    prefetch(&problem.pairs[plans_[index + 2].members[lane]], sizeof(ContactPair));
   if (index + 1 >= count() || lane >= plans_[index + 1].pairs) return;
   const ContactPair& next = problem.pairs[plans_[index + 1].members[lane]];
-  fetch(&problem.points[next.first], sizeof(ContactPoint) * static_cast<std::size_t>(next.count));
+  prefetch(&problem.points[next.first], sizeof(ContactPoint) * static_cast<std::size_t>(next.count));
 }
 
 void PairBatches::fill_batch(const ContactProblem& problem, int index, int substeps) {
@@ -118,7 +118,7 @@ void PairBatches::fill_batch(const ContactProblem& problem, int index, int subst
     return own_row++;
   };
   for (int lane = 0; lane < plan.pairs; ++lane) {
-    fetch_ahead(problem, index, lane);
+    prefetch_ahead(problem, index, lane);
     const ContactPair& pair = problem.pairs[plan.members[lane]];
     batch.a[lane] = place(pair.a);
     batch.b[lane] = place(pair.b);
@@ -167,8 +167,8 @@ double PairBatches::normal_load() const {
   return sum;
 }
 
-Misfit PairBatches::misfit() const {
-  Misfit sum;
+ResidualSums PairBatches::residual_sums() const {
+  ResidualSums sum;
   for (int batch = 0; batch < count(); ++batch)
     for (int lane = 0; lane < batch_lanes; ++lane) {
       sum.normal += pairs_[batch].normal_miss[lane];
@@ -178,11 +178,11 @@ Misfit PairBatches::misfit() const {
   return sum;
 }
 
-void PairBatches::store(ContactProblem& problem, int substeps, const Parallel& parallel) const {
-  parallel.blocks(count(), batches_a_block, [&](int first, int last) {
+void PairBatches::store(ContactProblem& problem, int substeps, const ThreadPool& pool) const {
+  pool.blocks(count(), batches_per_block, [&](int first, int last) {
     for (int batch = first; batch < last; ++batch) {
       for (int lane = 0; lane < plans_[batch].pairs; ++lane) {
-        fetch_ahead(problem, batch, lane);
+        prefetch_ahead(problem, batch, lane);
         store_lane(problem, pairs_[batch], lane, problem.pairs[plans_[batch].members[lane]], substeps);
       }
     }
@@ -200,7 +200,7 @@ void PairBatches::store_lane(ContactProblem& problem, const PairBatch& batch, in
     ContactPoint& point = problem.points[pair.first + i];
     const Vector3d impulse = get(p.impulse, lane);
     point.start = substeps * (to_world * impulse);
-    point.carried = carried_share(impulse[0], p.begun[lane], p.inverse_nn[lane]);
+    point.warm_start_fraction = warm_start_fraction(impulse[0], p.initial_impulse[lane], p.inverse_nn[lane]);
     point.impulse = to_world * (get(p.total, lane) + impulse);
   }
 }

@@ -110,7 +110,7 @@ struct TangentInverse {
   V xx, xy, yy, rho;
 };
 
-// As the sequential sweeper's, with the bound of single precision on what is singular.
+// As the sequential iteration's, with the bound of single precision on what is singular.
 HWY_INLINE TangentInverse invert_tangents(const Symmetric& W) {
   const V a = W.m[3], b = W.m[4], c = W.m[5], half = all(0.5f);
   const V difference = half * (a - c);

@@ -3,21 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <drawpoint/engine/base/thread_pool.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 // Every block is done once, by one of the threads that were asked for, and what it wrote is there afterwards.
-using drawpoint::engine::detail::Parallel;
+using drawpoint::engine::ThreadPool;
 
 namespace {
 
 constexpr int thread_counts[] = {1, 2, 3, 8};
 
 // Blocks of one loop write plainly, as those of the engine do: the caller must see it all at the end.
-void expect_each_once(const Parallel& parallel, int count, int block) {
+void expect_each_once(const ThreadPool& parallel, int count, int block) {
   std::vector<int> visits(static_cast<std::size_t>(count), 0);
   parallel.blocks(count, block, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) ++visits[static_cast<std::size_t>(k)];
@@ -27,12 +27,12 @@ void expect_each_once(const Parallel& parallel, int count, int block) {
 
 }  // namespace
 
-TEST(Parallel, DoesEachBlockOnce) {
+TEST(ThreadPool, DoesEachBlockOnce) {
   for (const int threads : thread_counts) {
-    const Parallel parallel(threads);
-    for (const bool in_a_shift : {false, true}) {
-      std::optional<Parallel::Shift> shift;
-      if (in_a_shift) shift.emplace(parallel);
+    const ThreadPool parallel(threads);
+    for (const bool in_a_region : {false, true}) {
+      std::optional<ThreadPool::Region> region;
+      if (in_a_region) region.emplace(parallel);
       for (int count = 0; count < 200; count += 7)
         for (const int block : {1, 8, 64}) expect_each_once(parallel, count, block);
     }
@@ -40,11 +40,11 @@ TEST(Parallel, DoesEachBlockOnce) {
 }
 
 // Loop k + 1 reads what others wrote in loop k.
-TEST(Parallel, EndsALoopBeforeTheNext) {
+TEST(ThreadPool, EndsALoopBeforeTheNext) {
   constexpr int cells = 64, loops = 2000;
   for (const int threads : thread_counts) {
-    const Parallel parallel(threads);
-    const Parallel::Shift shift(parallel);
+    const ThreadPool parallel(threads);
+    const ThreadPool::Region region(parallel);
     std::vector<int> now(cells, 0), next(cells, 0);
     for (int loop = 0; loop < loops; ++loop) {
       parallel.run(cells, threads, [&](int k) {
@@ -56,10 +56,10 @@ TEST(Parallel, EndsALoopBeforeTheNext) {
   }
 }
 
-TEST(Parallel, NumbersItsThreads) {
+TEST(ThreadPool, NumbersItsThreads) {
   constexpr int count = 5000;
   for (const int threads : thread_counts) {
-    const Parallel parallel(threads);
+    const ThreadPool parallel(threads);
     std::vector<int> sums(static_cast<std::size_t>(threads), 0);
     for (int loop = 0; loop < 50; ++loop)
       parallel.blocks_by_thread(count, 16, [&](int begin, int end, int thread) {
@@ -73,10 +73,10 @@ TEST(Parallel, NumbersItsThreads) {
   }
 }
 
-TEST(Parallel, HandsOnWhatABlockThrowsAndGoesOn) {
+TEST(ThreadPool, HandsOnWhatABlockThrowsAndGoesOn) {
   for (const int threads : thread_counts) {
-    const Parallel parallel(threads);
-    const Parallel::Shift shift(parallel);
+    const ThreadPool parallel(threads);
+    const ThreadPool::Region region(parallel);
     for (int loop = 0; loop < 100; ++loop) {
       const int bad = loop % 20;
       try {
@@ -93,9 +93,9 @@ TEST(Parallel, HandsOnWhatABlockThrowsAndGoesOn) {
 }
 
 // Whoever comes to it first: of two blocks that throw, what the earlier one throws comes out.
-TEST(Parallel, HandsOnWhatTheFirstBlockThrows) {
+TEST(ThreadPool, HandsOnWhatTheFirstBlockThrows) {
   for (const int threads : thread_counts) {
-    const Parallel parallel(threads);
+    const ThreadPool parallel(threads);
     for (int loop = 0; loop < 100; ++loop) {
       std::string seen;
       try {
@@ -110,30 +110,30 @@ TEST(Parallel, HandsOnWhatTheFirstBlockThrows) {
   }
 }
 
-// The second may find no helpers while the first is on shift.
-TEST(Parallel, TeamsMayBeOnShiftTogether) {
-  const Parallel one(3), other(2);
-  const Parallel::Shift first(one), second(other);
+// The second may find no helpers while the first is on region.
+TEST(ThreadPool, TeamsMayBeOnShiftTogether) {
+  const ThreadPool one(3), other(2);
+  const ThreadPool::Region first(one), second(other);
   for (int k = 0; k < 100; ++k) {
     expect_each_once(one, 50, 2);
     expect_each_once(other, 50, 2);
   }
 }
 
-TEST(Parallel, ShiftsMayLieWithinOneAnother) {
-  const Parallel parallel(3);
-  const Parallel::Shift outer(parallel);
+TEST(ThreadPool, ShiftsMayLieWithinOneAnother) {
+  const ThreadPool parallel(3);
+  const ThreadPool::Region outer(parallel);
   for (int k = 0; k < 100; ++k) {
-    const Parallel::Shift inner(parallel);
+    const ThreadPool::Region inner(parallel);
     expect_each_once(parallel, 50, 2);
   }
   expect_each_once(parallel, 50, 2);
 }
 
 // A loop may be kept to fewer threads than there are.
-TEST(Parallel, KeepsToTheThreadsThatALoopMayHave) {
-  const Parallel parallel(8);
-  const Parallel::Shift shift(parallel);
+TEST(ThreadPool, KeepsToTheThreadsThatALoopMayHave) {
+  const ThreadPool parallel(8);
+  const ThreadPool::Region region(parallel);
   std::atomic<int> inside{0}, most{0};
   for (int loop = 0; loop < 200; ++loop)
     parallel.run(64, 2, [&](int) {

@@ -36,8 +36,7 @@ using engine::ContactFinder;
 TEST(ContactFinder, AsksForNoMemoryOnceItRuns) {
   std::mt19937 rng(4);
   ContactFinder finder;
-  finder.add(
-      support::collider_of(support::share(engine::HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
+  finder.add(support::collider_of(support::share(engine::HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
   std::vector<Eigen::Isometry3d> poses;
   for (int k = 0; k < 64; ++k) {
     const Vector3d cell(k % 4, k / 4 % 4, k / 16);

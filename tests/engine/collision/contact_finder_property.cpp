@@ -124,7 +124,7 @@ TEST(ContactFinder, LooksAsFarAsTheReachOfEitherSide) {
       const int above = finder.add(collider_of(share(box(0.5 * Vector3d::Ones())), 0));
       finder.set_pose(above, Isometry3d(Eigen::Translation3d(0, 0, 1.06)));
       EXPECT_TRUE(finder.find().empty());
-      finder.set_reach(upper ? above : below, 0.055);
+      finder.set_speculative_margin(upper ? above : below, 0.055);
       ASSERT_EQ(finder.find().size(), 1u) << "over a plane " << over_plane << ", upper " << upper;
       EXPECT_NEAR(finder.find()[0].points[0].gap, 0.06, 1e-12);
     }

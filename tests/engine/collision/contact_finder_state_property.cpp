@@ -56,7 +56,7 @@ TEST(ContactFinderThreads, ChangeNoBit) {
   }
   EXPECT_GT(one.finder().times().pairs, 300) << "too few pairs for more than one block";
   for (int threads : {2, 3, 8}) {
-    RockHeap other(rocks, 31, ContactFinderOptions{.threads = threads});
+    RockHeap other(rocks, 31, {}, threads);
     for (int k = 0; k < steps; ++k) {
       step(other, k);
       ASSERT_TRUE(same_bits(expected[k], other.finder().find())) << threads << " threads, step " << k;
@@ -65,8 +65,8 @@ TEST(ContactFinderThreads, ChangeNoBit) {
 }
 
 TEST(ContactFinderThreads, MustBeAtLeastOne) {
-  EXPECT_THROW(ContactFinder{ContactFinderOptions{.threads = 0}}, std::invalid_argument);
-  EXPECT_THROW(ContactFinder{ContactFinderOptions{.threads = 257}}, std::invalid_argument);
+  EXPECT_THROW(ThreadPool{0}, std::invalid_argument);
+  EXPECT_THROW(ThreadPool{257}, std::invalid_argument);
 }
 
 // At every step of a run, before find() as well as after it: what is restored goes on as if nothing had been,
@@ -74,8 +74,7 @@ TEST(ContactFinderThreads, MustBeAtLeastOne) {
 TEST(ContactFinderState, ContinuesWithTheSameBits) {
   for (const bool before_find : {false, true})
     for (int at : {0, 3, 9, 12, 17}) {
-      const ContactFinderOptions alone, shared{.threads = 3};
-      RockHeap whole(rocks, 32, before_find ? shared : alone), copy(rocks, 32, before_find ? alone : shared);
+      RockHeap whole(rocks, 32, {}, before_find ? 3 : 1), copy(rocks, 32, {}, before_find ? 1 : 3);
       if (at > 9) copy.finder().remove(100), copy.drop(99);
       for (int k = 0; k < at + 9; ++k) {
         step(whole, k);
@@ -126,8 +125,7 @@ TEST(ContactFinderState, RefusesTheStateOfAnotherFinder) {
   EXPECT_NE(refusal(removed.finder(), bytes).find("collider 4 is removed on one side only"),
             std::string::npos);
   ContactFinder shapes;
-  for (int k = 0; k < 21; ++k)
-    shapes.add(support::collider_of(support::share(engine::box({1, 1, 1})), k));
+  for (int k = 0; k < 21; ++k) shapes.add(support::collider_of(support::share(engine::box({1, 1, 1})), k));
   EXPECT_NE(refusal(shapes, bytes).find("the number of vertices"), std::string::npos);
 }
 

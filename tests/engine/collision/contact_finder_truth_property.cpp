@@ -23,7 +23,7 @@ using engine::Manifold;
 namespace {
 
 constexpr double margin = 0.01, doubt = 1e-9, depth_error = 1e-6, normal_error = 1e-3, point_error = 1.2e-5;
-constexpr int pairs_a_scene = 500, scenes = 2000;
+constexpr int pairs_per_scene = 500, scenes = 2000;
 
 struct Tally {
   int touching = 0, near = 0, apart = 0, tied = 0;
@@ -93,14 +93,14 @@ TEST(ContactFinderTruth, HoldsForAMillionPairsOfRocks) {
   // Two colliders a pair; the pairs stand 4 m apart, so that they do not meet.
   engine::ContactFinder finder;
   std::vector<int> rock_of;
-  for (int id = 0; id < 2 * pairs_a_scene; ++id) {
+  for (int id = 0; id < 2 * pairs_per_scene; ++id) {
     rock_of.push_back(static_cast<int>(pairs.rng()() % rocks.size()));
     finder.add(support::collider_of(shapes[rock_of.back()], id));
   }
   Tally tally;
   std::vector<Eigen::Isometry3d> poses(rock_of.size());
   for (int scene = 0; scene < scenes; ++scene) {
-    for (int pair = 0; pair < pairs_a_scene; ++pair) {
+    for (int pair = 0; pair < pairs_per_scene; ++pair) {
       const int a = 2 * pair, b = a + 1;
       poses[a] = support::pose_at(4 * Vector3d(pair % 8, pair / 8 % 8, pair / 64),
                                   support::random_rotation(pairs.rng()));
@@ -110,7 +110,7 @@ TEST(ContactFinderTruth, HoldsForAMillionPairsOfRocks) {
     finder.forget();
     const auto& found = finder.find();
     std::size_t at = 0;
-    for (int pair = 0; pair < pairs_a_scene; ++pair) {
+    for (int pair = 0; pair < pairs_per_scene; ++pair) {
       const int a = 2 * pair, b = a + 1;
       const bool here = at < found.size() && found[at].collider_a == a && found[at].collider_b == b;
       check(rocks[rock_of[a]].transformed(poses[a]), rocks[rock_of[b]].transformed(poses[b]),
@@ -121,7 +121,7 @@ TEST(ContactFinderTruth, HoldsForAMillionPairsOfRocks) {
     ASSERT_EQ(at, found.size()) << "rocks of different pairs touch in scene " << scene;
   }
   // The sample must hold enough of each kind to mean something.
-  const int total = pairs_a_scene * scenes;
+  const int total = pairs_per_scene * scenes;
   EXPECT_GT(tally.touching, total / 3);
   EXPECT_GT(tally.near, total / 8);
   EXPECT_GT(tally.apart, total / 10);

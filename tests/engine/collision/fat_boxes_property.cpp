@@ -60,7 +60,7 @@ double room(const Walker& walker) {
 }  // namespace
 
 TEST(FatBoxes, HoldWhatTheyMustUntilTheyAreLeft) {
-  constexpr double round_off = 1e-12;  // of an odometer that sums metres, some thousand steps long
+  constexpr double round_off = 1e-12;  // of a motion bound that sums metres, some thousand steps long
   constexpr double ways[] = {1e-4, 0.003, 0.015, 0.05}, turns[] = {0, 0.002, 0.02, 0.2};
   std::mt19937 rng(5);
   std::uniform_real_distribution<double> reaches(0, 0.01);
@@ -96,7 +96,7 @@ TEST(FatBoxes, LookAhead) {
   EXPECT_EQ(renewals, 11);
 }
 
-// Its odometer runs on, but it stays within 1 mm.
+// Its motion bound runs on, but it stays within 1 mm.
 TEST(FatBoxes, AreKeptByWhatTrembles) {
   Walker walker;
   for (int step = 0; step < 1000; ++step) {

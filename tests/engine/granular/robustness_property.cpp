@@ -105,7 +105,7 @@ TEST(ThrownRock, IsCaughtByAPile) {
 // separating speed Υ (u + 4 d/hs) with Υ = 1/(1 + 4τ/hs), τ ≥ 2h; u can so grow to no more than its fixed
 // point 4 d/hs · Υ/(1 − Υ) = d/τ ≤ d/2h, d the overlap at birth. Impulses that push only, from rest, give the
 // velocities of least kinetic energy that separate all points that fast; drawing the rocks apart without
-// turning along the axis of least overlap is one way to do that and costs ½ (m/2) (d/2h)². One sweep a
+// turning along the axis of least overlap is one way to do that and costs ½ (m/2) (d/2h)². One iteration a
 // substep may overshoot where a manifold's points work against each other: 5 %.
 TEST(OverlappingRocks, PartWithBoundedSpeed) {
   for (int shape = 0; shape < 6; ++shape) {
@@ -186,7 +186,7 @@ TEST(Crowd, OfTwentyThousand) {
   add_floor(world);
   CounterRandom turns(5);
   const std::array<RockBody, 6> bodies{rock_body(0, 0.3), rock_body(1, 0.3), rock_body(2, 0.3),
-                                                rock_body(3, 0.3), rock_body(4, 0.3), rock_body(5, 0.3)};
+                                       rock_body(3, 0.3), rock_body(4, 0.3), rock_body(5, 0.3)};
   for (int k = 0; k < 20000; ++k) {
     Eigen::Isometry3d pose(turns.rotation());
     pose.translation() = Vector3d(0.27 * (k % 50), 0.27 * (k / 50 % 40), 0.15 + 0.27 * (k / 2000));

@@ -17,7 +17,7 @@ constexpr int rocks = 60, half = 150;
 WorldOptions options(int threads = 1, Method method = Method::sequential) {
   WorldOptions o;
   o.solver.method = method;
-  o.solver.threads = o.contacts.threads = threads;
+  o.threads = threads;
   return o;
 }
 
@@ -75,8 +75,7 @@ TEST_P(SameBits, AcrossSaveAndRestoreWithChangesPending) {
   EXPECT_EQ(hash_after(fresh, half), end);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, SameBits,
-                         testing::Values(Method::sequential, Method::coloured),
+INSTANTIATE_TEST_SUITE_P(Methods, SameBits, testing::Values(Method::sequential, Method::batched),
                          [](const auto& info) { return std::string(to_string(info.param)); });
 
 // The hash must see any single bit of any rock.
@@ -109,8 +108,8 @@ TEST(Restore, RefusesAnotherScene) {
   WorldOptions finer = options();
   finer.step = 0.004;
   BladePile other_options(10, finer), more_rocks(11, options()), another_wall(10, options());
-  another_wall.world().add_static(drawpoint::support::shared(box({1, 1, 1})),
-                                  drawpoint::support::at(0, 0, 9), 0);
+  another_wall.world().add_static(drawpoint::support::shared(box({1, 1, 1})), drawpoint::support::at(0, 0, 9),
+                                  0);
   EXPECT_NE(told(other_options).find("other options"), std::string::npos) << told(other_options);
   EXPECT_NE(told(more_rocks).find("other rocks"), std::string::npos) << told(more_rocks);
   EXPECT_NE(told(another_wall).find("other fixed surroundings"), std::string::npos) << told(another_wall);

@@ -4,8 +4,8 @@
 // is refused.
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/base/random.hpp>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 
 using namespace drawpoint::engine;
@@ -42,9 +42,8 @@ RockBody body_of(const ConvexPolyhedron& shape) {
 
 std::vector<RockBody> slivers() {
   const std::vector<Vector3d> sliver{{0, 0, 0}, {0.4, 0, 0}, {0.2, 0.3, 0}, {0.2, 0.1, 1e-3}};
-  return {body_of(box({0.3, 0.3, 5e-5})), body_of(box({0.4, 1e-3, 1e-3})),
-          body_of(prism(0.3, 1e-4, 24)), body_of(ConvexPolyhedron::hull_of(sliver)),
-          body_of(box({0.4, 1e-4, 1e-4}))};
+  return {body_of(box({0.3, 0.3, 5e-5})), body_of(box({0.4, 1e-3, 1e-3})), body_of(prism(0.3, 1e-4, 24)),
+          body_of(ConvexPolyhedron::hull_of(sliver)), body_of(box({0.4, 1e-4, 1e-4}))};
 }
 
 // Sheets, needles and slivers, as thin as 2e-4 of their width or 1/4000 of their length, in free flight at 3

@@ -12,8 +12,8 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-using engine::ConvexPolyhedron;
 using Eigen::Vector3d;
+using engine::ConvexPolyhedron;
 
 Eigen::Isometry3d at(double x, double y, double z) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));

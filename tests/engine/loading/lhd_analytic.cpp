@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <drawpoint/engine/world/world.hpp>
 #include <numeric>
 
 using namespace drawpoint::engine;
@@ -29,8 +29,8 @@ struct Yard {
     world.attach(&machine);
     for (const LhdSurface& s : lhd.surfaces)
       if (s.touches)
-        world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape),
-                             Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
+        world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape), Eigen::Isometry3d::Identity(),
+                             static_cast<int>(s.kind));
   }
   /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce
   /// to die down.

@@ -43,8 +43,8 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
   EXPECT_DOUBLE_EQ(sum, cycle.loaded_mass);
   EXPECT_LE(cycle.loaded_mass + cycle.spilled_mass, log.numbers.at("pile_mass"));
   EXPECT_GT(log.numbers.at("most_contact_points"), 0);
-  EXPECT_EQ(log.numbers.at("most_sweeps_a_substep"),
-            most_sweeps(small_case().world.solver, log.numbers.at("most_contact_points")));
+  EXPECT_EQ(log.numbers.at("most_iterations_per_substep"),
+            most_iterations(small_case().world.solver, log.numbers.at("most_contact_points")));
   EXPECT_EQ(cycle.stages.size(), 4u);
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
 }
@@ -110,7 +110,7 @@ TEST(LoadingCycle, SpillIsWhatTheRunLeft) {
   EXPECT_GE(cycle.front_mass, cycle.spilled_mass + mass - 1e-9);
   EXPECT_GE(cycle.spilled_mass, 0);
   EXPECT_DOUBLE_EQ(rock_spill(log), cycle.spilled_mass / 10e3);
-  EXPECT_EQ(log.texts.at("pile_recipe"), pile.recipe);
+  EXPECT_EQ(log.texts.at("pile_recipe"), pile.provenance);
 }
 
 TEST(LoadingCycle, RefusesABadScenarioByName) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
+#include <drawpoint/engine/world/world.hpp>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::engine::loading;

@@ -73,7 +73,7 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 
 TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
   Scenario scenario = lh621_in_a_drift();
-  scenario.world.solver.threads = scenario.world.contacts.threads = 2;  // for time only
+  scenario.world.threads = 2;  // for time only
   const SettledPile pile = pour_pile(scenario);
   const PileShape shape = pile_shape(pile, scenario);
   EXPECT_FALSE(pile.timed_out);
@@ -104,11 +104,11 @@ TEST(SettledPile, BelongsToItsMaterials) {
   const Scenario own = small_pile(20e3);
   Scenario other = own;
   other.materials.rock_steel.friction += 0.1;
-  EXPECT_EQ(pile_recipe(other), pile_recipe(own));
+  EXPECT_EQ(pile_provenance(other), pile_provenance(own));
   other.materials = lindmark2016_materials();
-  EXPECT_NE(pile_recipe(other), pile_recipe(own));
+  EXPECT_NE(pile_provenance(other), pile_provenance(own));
   other.materials = with_resistance(own.materials, own.materials.rock_rock.rolling, 0.1);
-  EXPECT_NE(pile_recipe(other), pile_recipe(own));
+  EXPECT_NE(pile_provenance(other), pile_provenance(own));
 }
 
 TEST(SettledPile, IsTheSameBitForBitWhenPouredAgain) {
@@ -118,7 +118,7 @@ TEST(SettledPile, IsTheSameBitForBitWhenPouredAgain) {
     EXPECT_TRUE(a.rocks[k].pose.matrix() == b.rocks[k].pose.matrix());
 }
 
-TEST(SettledPile, IsReadBackExactlyAndOnlyForItsOwnRecipe) {
+TEST(SettledPile, IsReadBackExactlyAndOnlyForItsOwnProvenance) {
   const auto path = std::filesystem::path(testing::TempDir()) / "drawpoint_pile.h5";
   const Scenario scenario = small_pile(20e3);
   write_pile(path, twenty_tonnes(), scenario);

@@ -32,8 +32,8 @@ TEST(Wall, StopsTheLoaderAtFullForce) {
   world.attach(&machine);
   for (const LhdSurface& s : lhd.surfaces)
     if (s.touches)
-      world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape),
-                           Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
+      world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape), Eigen::Isometry3d::Identity(),
+                           static_cast<int>(s.kind));
   const auto stand = [&](double seconds) {
     for (double t = 0; t < seconds; t += world.options().step) world.step();
   };

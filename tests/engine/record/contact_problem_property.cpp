@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <drawpoint/engine/solver/solver.hpp>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
+#include <drawpoint/engine/solver/solver.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 #include <fstream>
 #include <functional>
@@ -109,13 +109,13 @@ TEST_F(ContactProblemFile, IsSolvedToTheSameBits) {
   const RecordedProblem stored = read_contact_problem(file());
   RecordedProblem read = stored;  // a copy stays whole
   EXPECT_EQ(read.note, "six boxes and a sled");
-  const SolverOptions options{.substeps = 3, .sweeps = 7};
+  const SolverOptions options{.substeps = 3, .iterations = 7};
   const SolverReport a = solve(scene.problem, options), b = solve(read.problem, options);
   EXPECT_TRUE(same(a.machine.velocity, b.machine.velocity));
   EXPECT_TRUE(same(a.machine.row_impulses, b.machine.row_impulses));
   for (std::size_t k = 0; k < scene.problem.bodies.size(); ++k) {
     EXPECT_TRUE(same(scene.problem.bodies[k].velocity, read.problem.bodies[k].velocity));
-    EXPECT_TRUE(same(scene.problem.bodies[k].turn, read.problem.bodies[k].turn));
+    EXPECT_TRUE(same(scene.problem.bodies[k].rotation_vector, read.problem.bodies[k].rotation_vector));
   }
   for (std::size_t k = 0; k < scene.problem.points.size(); ++k)
     EXPECT_TRUE(same(scene.problem.points[k].impulse, read.problem.points[k].impulse));

@@ -22,7 +22,7 @@ std::filesystem::path scratch() {
 /// never.
 std::vector<std::uint64_t> hashes(int threads, bool freezing, int restart_at = -1) {
   engine::WorldOptions options;
-  options.solver.threads = options.contacts.threads = threads;
+  options.threads = threads;
   options.freezing.on = freezing;
   support::DugPile pile(rocks, options);
   std::vector<std::uint64_t> result;

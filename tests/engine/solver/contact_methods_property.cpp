@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Every method of the benchmarks' table solves the same law: given enough sweeps, its residual goes away and
-// its velocities are those of the reference. The example of docs/contact-solving.md is one of them.
+// Every method of the benchmarks' table solves the same law: given enough iterations, its residual goes away
+// and its velocities are those of the reference. The example of docs/contact-solving.md is one of them.
 #include <gtest/gtest.h>
 
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>
@@ -18,9 +18,9 @@ namespace {
 // which a chain of contacts multiplies.
 constexpr double converged = 1e-4;
 constexpr int enough = 20000;
-// Single precision rounds each velocity that a sweep writes by 6e-8 of it: 1 m/s where contacts change 0.05
-// m/s, some four times a body a sweep. As a random walk over the sweeps: 6e-8 · 20 · sqrt(4 · 20000)
-// = 3.4e-4, times three.
+// Single precision rounds each velocity that an iteration writes by 6e-8 of it: 1 m/s where contacts change
+// 0.05 m/s, some four times a body an iteration. As a random walk over the iterations: 6e-8 · 20 · sqrt(4 ·
+// 20000) = 3.4e-4, times three.
 constexpr double rounded_momentum = 1e-3;
 
 // The heap with a sled of one freedom behind it, its motor set to push with less than it would take to keep
@@ -66,7 +66,7 @@ class Heap {
 TEST(ContactMethods, AreNamedOnceAndIncludeTheEngines) {
   std::vector<std::string> names;
   for (const auto& method : benchmarks::contact_methods()) names.push_back(method.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"apgd", "coloured", "jacobi", "sequential"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"apgd", "batched", "jacobi", "sequential"}));
   EXPECT_THROW(benchmarks::contact_method("newton"), std::invalid_argument);
 }
 

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <algorithm>
 #include <cstring>
+#include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
-#include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <random>
 #include <set>
 
 using namespace drawpoint::engine;
-using detail::SweepOrder;
+using detail::IterationOrder;
 using Eigen::Vector3d;
 
 namespace {
@@ -60,7 +61,7 @@ class Beam {
   void add_body() {
     SolverBody body;
     body.velocity = 0.1 * Vector3d(uniform(), uniform(), uniform());
-    body.push = {0, 0, -0.0981};
+    body.external_velocity_change = {0, 0, -0.0981};
     body.inverse_mass = 1e-3, body.inverse_inertia = 0.025 * Eigen::Matrix3d::Identity();
     problem.bodies.push_back(body);
   }
@@ -77,7 +78,8 @@ class Beam {
   std::mt19937_64 random_{7};
 };
 
-std::vector<int> moving_bodies(const ContactProblem& problem, const SweepOrder& order, int first, int last) {
+std::vector<int> moving_bodies(const ContactProblem& problem, const IterationOrder& order, int first,
+                               int last) {
   std::vector<int> bodies;
   for (int k = first; k < last; ++k)
     for (const int body : {problem.pairs[order.pairs[k]].a, problem.pairs[order.pairs[k]].b})
@@ -85,7 +87,7 @@ std::vector<int> moving_bodies(const ContactProblem& problem, const SweepOrder& 
   return bodies;
 }
 
-void check_batch(const ContactProblem& problem, const SweepOrder& order, int first, int last) {
+void check_batch(const ContactProblem& problem, const IterationOrder& order, int first, int last) {
   ASSERT_TRUE(first < last && last <= first + batch);
   const std::vector<int> bodies = moving_bodies(problem, order, first, last);
   EXPECT_EQ(std::set<int>(bodies.begin(), bodies.end()).size(), bodies.size()) << "batch at pair " << first;
@@ -93,17 +95,17 @@ void check_batch(const ContactProblem& problem, const SweepOrder& order, int fir
     EXPECT_GE(problem.pairs[order.pairs[i - 1]].count, problem.pairs[order.pairs[i]].count);
 }
 
-// What is solved at the same time must not share a moving body: the pairs of a batch, the parts of a stage.
-void check(const ContactProblem& problem, const SweepOrder& order) {
+// What is solved at the same time must not share a moving body: the pairs of a batch, the tasks of a stage.
+void check(const ContactProblem& problem, const IterationOrder& order) {
   for (std::size_t k = 0; k + 1 < order.batches.size(); ++k)
     check_batch(problem, order, order.batches[k], order.batches[k + 1]);
   for (std::size_t stage = 0; stage + 1 < order.stages.size(); ++stage) {
     std::set<int> taken;
-    for (int part = order.stages[stage]; part < order.stages[stage + 1]; ++part) {
-      const std::vector<int> all = moving_bodies(problem, order, order.batches[order.parts[part]],
-                                                 order.batches[order.parts[part + 1]]);
+    for (int task = order.stages[stage]; task < order.stages[stage + 1]; ++task) {
+      const std::vector<int> all = moving_bodies(problem, order, order.batches[order.tasks[task]],
+                                                 order.batches[order.tasks[task + 1]]);
       for (const int body : std::set<int>(all.begin(), all.end()))
-        EXPECT_TRUE(taken.insert(body).second) << "body " << body << " is in two parts of stage " << stage;
+        EXPECT_TRUE(taken.insert(body).second) << "body " << body << " is in two tasks of stage " << stage;
     }
   }
 }
@@ -122,42 +124,43 @@ bool same_bits(const T& a, const T& b) {
 
 }  // namespace
 
-TEST(SweepOrder, PartsAndBatchesShareNoMovingBody) {
+TEST(IterationOrder, PartsAndBatchesShareNoMovingBody) {
   Beam beam;
   beam.add_pair(body_at(0, 0, 0), body_at(63, 9, 9), Vector3d(0, 0, 0), Vector3d(63, 9, 9));
   const int ordinary = static_cast<int>(beam.problem.pairs.size());
   beam.add_pair(machine_part(0), body_at(5, 5, 9), Vector3d(5, 5, 10), Vector3d(5, 5, 9));
   const ContactProblem& problem = beam.problem;
-  for (const int least : {100, 900, 1800, 100000}) {  // zones thinner than a body, sixteen, eight, one
-    const SweepOrder order = detail::sweep_order(problem, batch, least);
+  for (const int least : {100, 900, 1800, 100000}) {  // subdomains thinner than a body, sixteen, eight, one
+    const IterationOrder order = detail::iteration_order(problem, batch, least);
     check(problem, order);
     EXPECT_TRUE(is_permutation(order.pairs, ordinary));
     EXPECT_TRUE(is_permutation(order.bodies, static_cast<int>(problem.bodies.size())));
   }
-  const SweepOrder eight = detail::sweep_order(problem, batch, 1800);
-  EXPECT_EQ(eight.parts.size() - 1, 1u + 7u + 8u);  // beyond neighbours, borders, zones
+  const IterationOrder eight = detail::iteration_order(problem, batch, 1800);
+  EXPECT_EQ(eight.tasks.size() - 1, 1u + 7u + 8u);  // beyond neighbours, borders, subdomains
 }
 
-TEST(SweepOrder, NumbersThatAreNoneStayInBounds) {
+TEST(IterationOrder, NumbersThatAreNoneStayInBounds) {
   Beam beam;
   beam.problem.points[7].position.setConstant(std::nan(""));
-  check(beam.problem, detail::sweep_order(beam.problem, batch));
+  check(beam.problem, detail::iteration_order(beam.problem, batch));
 }
 
-// Sixteen zones on 1, 2, 3 and 8 threads, without and with sweeps added while the beam is not solved.
-TEST(SweepOrder, ThreadsChangeNoBit) {
-  for (const int spare_work : {0, 100000}) {
+// Sixteen subdomains on 1, 2, 3 and 8 threads, without and with iterations added while the beam is not
+// solved.
+TEST(IterationOrder, ThreadsChangeNoBit) {
+  for (const int iteration_budget : {0, 100000}) {
     ContactProblem alone = Beam().problem;
-    SolverOptions options{.substeps = 4, .spare_work = spare_work};
+    const SolverOptions options{.substeps = 4, .iteration_budget = iteration_budget};
     const SolverReport report = solve(alone, options);
     EXPECT_GT(report.complementarity, 0);
     for (const int threads : {2, 3, 8}) {
       ContactProblem shared = Beam().problem;
-      options.threads = threads;
-      EXPECT_EQ(solve(shared, options).complementarity, report.complementarity);
+      const auto pool = std::make_shared<const ThreadPool>(threads);
+      EXPECT_EQ(solve(shared, options, pool).complementarity, report.complementarity);
       for (std::size_t k = 0; k < alone.bodies.size(); ++k)
         ASSERT_TRUE(same_bits(alone.bodies[k].velocity, shared.bodies[k].velocity) &&
-                    same_bits(alone.bodies[k].turn, shared.bodies[k].turn))
+                    same_bits(alone.bodies[k].rotation_vector, shared.bodies[k].rotation_vector))
             << "body " << k << ", " << threads << " threads";
       for (std::size_t k = 0; k < alone.points.size(); ++k)
         ASSERT_TRUE(same_bits(alone.points[k].impulse, shared.points[k].impulse)) << "point " << k;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// The residual is zero at solutions, has the value that a known error gives it, and falls as sweeps add up.
+// The residual is zero at solutions, has the value that a known error gives it, and falls as iterations add
+// up.
 #include <gtest/gtest.h>
 
 #include <drawpoint/engine/solver/residual.hpp>
@@ -19,8 +20,8 @@ constexpr double round_off = 1e-13;
 constexpr double mass = 50, inertia = 0.5, friction = 0.6, arm = 0.1;
 
 // A body that meets the floor with a point at its own centre, so that the normal, the friction and the moment
-// are three problems apart, each solved by one sweep. It sinks fast (an impact: no damping in its target),
-// slides and spins fast enough to reach the limits of friction and of the moment.
+// are three problems apart, each solved by one iteration. It sinks fast (an impact: no damping in its
+// target), slides and spins fast enough to reach the limits of friction and of the moment.
 ContactProblem landing() {
   ContactProblem problem;
   problem.step = 0.01;
@@ -29,7 +30,7 @@ ContactProblem landing() {
   problem.bodies[1].inverse_inertia = Eigen::Matrix3d::Identity() / inertia;
   problem.bodies[1].velocity = Vector3d(3, 4, -1);
   problem.bodies[1].angular_velocity = Vector3d(0, 0, 100);
-  problem.bodies[1].push = Vector3d(0, 0, -0.0981);
+  problem.bodies[1].external_velocity_change = Vector3d(0, 0, -0.0981);
   ContactPoint point;
   point.position = point.arm_a = point.arm_b = Vector3d::Zero();
   point.normal = Vector3d::UnitZ();
@@ -49,22 +50,23 @@ void change_impulse(ContactProblem& problem, const Vector3d& delta) {
   problem.points[0].impulse += delta;
   problem.points[0].start += delta;
   problem.bodies[1].velocity += delta / mass;
-  problem.bodies[1].travel += problem.step * delta / mass;
+  problem.bodies[1].displacement += problem.step * delta / mass;
 }
 
-SolverReport reference(ContactProblem& problem, int substeps, int sweeps) {
-  return solve(problem,
-               {.method = Method::sequential, .substeps = substeps, .sweeps = sweeps, .spare_work = 0});
+SolverReport reference(ContactProblem& problem, int substeps, int iterations) {
+  return solve(
+      problem,
+      {.method = Method::sequential, .substeps = substeps, .iterations = iterations, .iteration_budget = 0});
 }
 
-double contacts_after(ContactProblem problem, int substeps, int sweeps) {
-  const SolverReport report = reference(problem, substeps, sweeps);
+double contacts_after(ContactProblem problem, int substeps, int iterations) {
+  const SolverReport report = reference(problem, substeps, iterations);
   return residual(problem, report.machine, substeps).contacts();
 }
 
 }  // namespace
 
-TEST(Residual, IsZeroWhereASweepSolvesExactly) {
+TEST(Residual, IsZeroWhereAnIterationSolvesExactly) {
   for (const int substeps : {1, 2, 5}) {
     ContactProblem problem = landing();
     const SolverReport report = reference(problem, substeps, 2);
@@ -132,33 +134,33 @@ TEST(Residual, MeasuresAnErrorOfTheMoment) {
 }
 
 // Gauss-Seidel converges linearly once sticking and sliding are settled, and slowly where boxes rest on
-// several corners. Between rungs of four times the sweeps the residual falls; at the end it has fallen by six
-// powers of ten. Below 1e-8 only the slowest modes are left, which need not show over one rung.
-TEST(Residual, FallsWithSweeps) {
+// several corners. Between rungs of four times the iterations the residual falls; at the end it has fallen by
+// six powers of ten. Below 1e-8 only the slowest modes are left, which need not show over one rung.
+TEST(Residual, FallsWithIterations) {
   const ContactProblem unsolved = support::heap_of_boxes();
   ASSERT_GT(unsolved.points.size(), 20u);
   for (const int substeps : {1, 4}) {
     double last = contacts_after(unsolved, substeps, 1);
     const double first = last;
     EXPECT_GT(first, 1e-6);
-    for (int sweeps = 4; sweeps <= 4096; sweeps *= 4) {
-      const double now = contacts_after(unsolved, substeps, sweeps);
-      EXPECT_LT(now, std::max(last, 1e-8)) << substeps << " substeps, " << sweeps << " sweeps";
+    for (int iterations = 4; iterations <= 4096; iterations *= 4) {
+      const double now = contacts_after(unsolved, substeps, iterations);
+      EXPECT_LT(now, std::max(last, 1e-8)) << substeps << " substeps, " << iterations << " iterations";
       last = now;
     }
     EXPECT_LT(last, 1e-6 * first);
   }
 }
 
-TEST(Distance, FallsWithSweepsAndIsZeroToItself) {
+TEST(Distance, FallsWithIterationsAndIsZeroToItself) {
   const ContactProblem unsolved = support::heap_of_boxes();
   ContactProblem converged = unsolved;
   const SolverReport best = reference(converged, 1, 10000);
   EXPECT_EQ(distance(converged, best.machine, converged, best.machine).impulses, 0);
   double last = 10;
-  for (const int sweeps : {1, 10, 100, 1000}) {
+  for (const int iterations : {1, 10, 100, 1000}) {
     ContactProblem problem = unsolved;
-    const SolverReport report = reference(problem, 1, sweeps);
+    const SolverReport report = reference(problem, 1, iterations);
     const Distance d = distance(problem, report.machine, converged, best.machine);
     EXPECT_LT(d.velocities, last);
     EXPECT_GE(d.velocities, 0);

@@ -55,21 +55,21 @@ SuperBodyRow motor(double speed, double limit) {
   return row;
 }
 
-// One step, so many plain sweeps in double precision: what the bounds below count.
-SolverOptions plain(int sweeps) {
+// One step, so many plain iterations in double precision: what the bounds below count.
+SolverOptions plain(int iterations) {
   SolverOptions options;
   options.method = Method::sequential;
   options.substeps = 1;
-  options.sweeps = sweeps;
-  options.spare_work = 0;
+  options.iterations = iterations;
+  options.iteration_budget = 0;
   return options;
 }
 
 }  // namespace
 
 // One contact row between 57 t and 50 kg: Gauss-Seidel solves a single row at once, v = M/(M + m). A later
-// sweep changes nothing but round-off: 1e-12.
-TEST(SuperBody, PushesARockAtAMassRatioOfAThousandInOneSweep) {
+// iteration changes nothing but round-off: 1e-12.
+TEST(SuperBody, PushesARockAtAMassRatioOfAThousandInOneIteration) {
   const SuperBody machine = sled(1);
   ContactProblem problem = push(machine);
   const SolverReport report = solve(problem, plain(2));
@@ -81,8 +81,8 @@ TEST(SuperBody, PushesARockAtAMassRatioOfAThousandInOneSweep) {
 }
 
 // A motor that may push as hard as it likes keeps the speed and pays the rock's momentum, 50 N s. Motor and
-// contact are two rows on one coordinate: a sweep reduces the error by m/(M + m) = 9e-4, so five sweeps leave
-// less than 1e-15.
+// contact are two rows on one coordinate: an iteration reduces the error by m/(M + m) = 9e-4, so five
+// iterations leave less than 1e-15.
 TEST(SuperBody, MotorKeepsItsSpeedAndPaysForIt) {
   SuperBody machine = sled(1);
   machine.rows = {motor(1, 1e9)};

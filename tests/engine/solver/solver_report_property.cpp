@@ -32,11 +32,11 @@ ContactProblem falling_rocks(int steps) {
 // of a substep stands for make 1e-4 of the load.
 TEST(SolverReport, SaysWhatTheResidualIs) {
   for (const int steps : {20, 60, 200}) {
-    for (const Method method : {Method::sequential, Method::coloured}) {
+    for (const Method method : {Method::sequential, Method::batched}) {
       ContactProblem problem = falling_rocks(steps);
       SolverOptions options;
       options.method = method;
-      options.spare_work = 0;
+      options.iteration_budget = 0;
       const SolverReport report = solve(problem, options);
       const Residual found = residual(problem, report.machine, options.substeps);
       EXPECT_GT(found.contacts(), 0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// What too few sweeps do to a chain of contacts: a warm-started sweep is a spring without damping. The
-// derivation is in docs/contact-solving.md.
+// What too few iterations do to a chain of contacts: a warm-started iteration is a spring without damping.
+// The derivation is in docs/contact-solving.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ ContactProblem chain(double time) {
   for (int k = 1; k <= 2; ++k) {
     problem.bodies[k].inverse_mass = 1 / (k == 1 ? light : heavy);
     problem.bodies[k].inverse_inertia = Eigen::Matrix3d::Identity();
-    problem.bodies[k].push = Vector3d(0, 0, -g * time);
+    problem.bodies[k].external_velocity_change = Vector3d(0, 0, -g * time);
     ContactPair pair;
     pair.a = k - 1;
     pair.b = k;
@@ -45,27 +45,31 @@ ContactProblem chain(double time) {
 }  // namespace
 
 // The heavy body swings on the spring k = N m_eff / h_s², N visits a substep of h_s, m_eff = m M / (m + M);
-// sweeps alternate, and a contact visited twice on end is visited once, so N is half the sweeps, rounded up:
-// after a quarter of its period it has sunk by v / ω, ω² = k / M, and stands. Substeps resolve the swing to
-// ω h_s, and the light body takes m / M of the motion.
+// iterations alternate, and a contact visited twice on end is visited once, so N is half the iterations,
+// rounded up: after a quarter of its period it has sunk by v / ω, ω² = k / M, and stands. Substeps resolve
+// the swing to ω h_s, and the light body takes m / M of the motion.
 TEST(UnconvergedChain, IsASpringWithoutDamping) {
   const double effective = light * heavy / (light + heavy);
   for (const double h : {1e-2 / 4, 1e-2 / 16})
-    for (const int sweeps : {1, 2, 4}) {
-      const double omega = std::sqrt((sweeps + 1) / 2 * effective / heavy) / h;
+    for (const int iterations : {1, 2, 4}) {
+      const double omega = std::sqrt((iterations + 1) / 2 * effective / heavy) / h;
       const int substeps = static_cast<int>(std::lround(M_PI / 2 / omega / h));
       ContactProblem problem = chain(substeps * h);
-      solve(problem, {.method = Method::sequential, .substeps = substeps, .sweeps = sweeps, .spare_work = 0});
+      solve(problem, {.method = Method::sequential,
+                      .substeps = substeps,
+                      .iterations = iterations,
+                      .iteration_budget = 0});
       const double tolerance = omega * h + light / heavy;
-      EXPECT_NEAR(problem.bodies[2].travel.z() / (kick / omega), 1, tolerance) << h << " s, " << sweeps;
+      EXPECT_NEAR(problem.bodies[2].displacement.z() / (kick / omega), 1, tolerance)
+          << h << " s, " << iterations;
       EXPECT_LT(std::abs(problem.bodies[2].velocity.z() / kick), 2 * tolerance);
     }
 }
 
-// Enough sweeps hold the chain: the error of a sweep falls by m_eff / m a sweep, 1/1001 of it left over, so
-// some 5000 sweeps stop the heavy body within a substep, however few.
-TEST(UnconvergedChain, StandsWithEnoughSweeps) {
+// Enough iterations hold the chain: the error of an iteration falls by m_eff / m an iteration, 1/1001 of it
+// left over, so some 5000 iterations stop the heavy body within a substep, however few.
+TEST(UnconvergedChain, StandsWithEnoughIterations) {
   ContactProblem problem = chain(0.02);
-  solve(problem, {.method = Method::sequential, .substeps = 2, .sweeps = 20000, .spare_work = 0});
+  solve(problem, {.method = Method::sequential, .substeps = 2, .iterations = 20000, .iteration_budget = 0});
   EXPECT_LT(std::abs(problem.bodies[2].velocity.z()), 1e-6);
 }

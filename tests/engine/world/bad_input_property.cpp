@@ -182,10 +182,9 @@ TEST(BadOptions, AreRefusedByName) {
     }
   for (int x : {0, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
     const std::vector<std::pair<const char*, std::function<void(WorldOptions&)>>> counts{
-        {"sweeps", [x](WorldOptions& o) { o.solver.sweeps = x; }},
+        {"iterations", [x](WorldOptions& o) { o.solver.iterations = x; }},
         {"substeps", [x](WorldOptions& o) { o.solver.substeps = x; }},
-        {"threads", [x](WorldOptions& o) { o.solver.threads = x; }},
-        {"threads", [x](WorldOptions& o) { o.contacts.threads = x; }}};
+        {"threads", [x](WorldOptions& o) { o.threads = x; }}};
     for (const auto& [name, set] : counts) {
       WorldOptions options;
       set(options);

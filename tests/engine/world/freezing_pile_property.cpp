@@ -17,7 +17,7 @@ namespace {
 WorldOptions freezing_options(int threads = 1) {
   WorldOptions options;
   options.freezing.on = true;
-  options.solver.threads = options.contacts.threads = threads;
+  options.threads = threads;
   return options;
 }
 
@@ -108,8 +108,7 @@ TEST(FreezingPile, IsNotMovedByWaking) {
 // A pair that stood still comes back as it was: its contact is carried along, not searched anew, which gives
 // other points (forget() does just that).
 TEST(FreezingPile, StandingPairsComeBackWithTheSameContact) {
-  const auto cube =
-      std::make_shared<const engine::Shape>(engine::box(Eigen::Vector3d::Constant(0.15)));
+  const auto cube = std::make_shared<const engine::Shape>(engine::box(Eigen::Vector3d::Constant(0.15)));
   engine::ContactFinder finder;
   const int low = finder.add({cube, 1}), high = finder.add({cube, 2});
   Eigen::Isometry3d pose(Eigen::Translation3d(0.05, 0.03, 0.2999));
@@ -174,8 +173,7 @@ TEST(FreezingPile, GoesOnFromAStateInMidRunWithTheSameBits) {
     fresh.run(1);
     const auto is = frozen(original.world());
     for (int r = 0; r < rocks; ++r) woke |= was[r] && !is[r], froze |= !was[r] && is[r];
-    ASSERT_EQ(engine::state_hash(fresh.world()), engine::state_hash(original.world()))
-        << "step " << k;
+    ASSERT_EQ(engine::state_hash(fresh.world()), engine::state_hash(original.world())) << "step " << k;
     ASSERT_EQ(frozen(fresh.world()), is) << "step " << k;
   }
   EXPECT_TRUE(woke && froze);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/world/world_impl.h>
 #include <cmath>
 #include <drawpoint/tests/support/scenes.hpp>
 #include <numbers>
@@ -104,7 +105,7 @@ TEST(Freezing, HoldsImpulsesThatBalanceEveryRock) {
   ASSERT_TRUE(freeze_all(world));
   const double weight = world.rocks()[0].body.mass * g * world.options().step;
   std::vector<Vector3d> sum(3, Vector3d::Zero());
-  for (const auto& [pair, held] : world.freezing().state().held)
+  for (const auto& [pair, held] : detail::WorldAccess::freezing(world).state().held)
     for (int k = 0; k < 3; ++k) {
       if (world.rocks()[k].collider == pair.second) sum[k] += held.impulse;
       if (world.rocks()[k].collider == pair.first) sum[k] -= held.impulse;
@@ -162,9 +163,9 @@ TEST(Freezing, NeverFreezesInTheAir) {
 
 // Without friction the floor takes no horizontal momentum. A cube of 1 m/s runs into a frozen one; the step
 // of the impact is solved with both awake, so momentum stays to single precision and the far row of cubes
-// stays frozen. A sweep rounds a velocity some twelve times at 6e-8 of it; 16 substeps of at most 20 000 / 8
-// sweeps make √(16 · 2500 · 12) · 6e-8 = 4e-5 in a step that does not converge; all 40 steps may: √40 times
-// that.
+// stays frozen. An iteration rounds a velocity some twelve times at 6e-8 of it; 16 substeps of at most 20 000
+// / 8 iterations make √(16 · 2500 · 12) · 6e-8 = 4e-5 in a step that does not converge; all 40 steps may: √40
+// times that.
 TEST(Freezing, WakesWhatIsHitAndKeepsMomentum) {
   World world = floor_world(freezing_options(), 0);
   const int target = add_cube(world, 0, 0, side / 2);
@@ -212,7 +213,7 @@ TEST(Freezing, DoesNotHoldARockThatMustSlide) {
 
 TEST(Freezing, GivesTheSameBitsForAnyNumberOfThreads) {
   WorldOptions one = freezing_options(), three = freezing_options();
-  three.solver.threads = three.contacts.threads = 3;
+  three.threads = 3;
   World a = floor_world(one), b = floor_world(three);
   for (World* world : {&a, &b}) {
     add_stack(*world, 3);
@@ -261,8 +262,8 @@ TEST(Freezing, RefusesTheStateOfAnotherWorld) {
   World three = floor_world(freezing_options());
   add_stack(three, 3);
   ASSERT_TRUE(freeze_all(three));
-  const auto state = three.freezing().state();
-  engine::Freezing other = three.freezing();
+  const auto state = detail::WorldAccess::freezing(three).state();
+  Freezing other = detail::WorldAccess::freezing(three);
   EXPECT_NO_THROW(other.restore(state));
   EXPECT_EQ(other.state().held.size(), state.held.size());
   auto awake = state;

@@ -3,7 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
-#include <drawpoint/benchmarks/micro/judged_solve.hpp>
+#include <drawpoint/benchmarks/micro/evaluated_solve.hpp>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -21,7 +21,7 @@ double now(int threads) {
 }
 
 // Of one solve [s]; `solved` gets the solution.
-double time_of(const ContactProblem& problem, const ContactMethod& method, const SolverOptions& options,
+double time_of(const ContactProblem& problem, const ContactMethod& method, const MethodOptions& options,
                Solved& solved) {
   solved.problem = problem;
   const double start = now(options.threads);
@@ -38,9 +38,9 @@ void repeat(int least, const Run& run) {
   for (int k = 0; k < least || spent < least_time; ++k) spent += run();
 }
 
-void check(const ContactMethod& method, const SolverOptions& options, int repeats) {
-  if (options.sweeps < 1 || options.substeps < 1 || options.threads < 1 || repeats < 1)
-    throw std::invalid_argument("sweeps, substeps, threads and repeats must be at least 1");
+void check(const ContactMethod& method, const MethodOptions& options, int repeats) {
+  if (options.iterations < 1 || options.substeps < 1 || options.threads < 1 || repeats < 1)
+    throw std::invalid_argument("iterations, substeps, threads and repeats must be at least 1");
   if (options.substeps > 1 && !method.takes_substeps)
     throw std::invalid_argument("method \"" + method.name + "\" solves whole steps; give --substeps 1");
 }
@@ -51,19 +51,19 @@ Solved converged_solution(const ContactProblem& problem) {
   constexpr int most = 10000, first = 625;
   constexpr double settled = 1e-14;
   Solved solved;
-  for (int sweeps = first; sweeps <= most; sweeps *= 2) {
+  for (int iterations = first; iterations <= most; iterations *= 2) {
     solved.problem = problem;
-    solved.report = contact_method("sequential").solve(solved.problem, fixed_work(1, sweeps));
+    solved.report = contact_method("sequential").solve(solved.problem, fixed_work(1, iterations));
     if (solved.report.last_change < settled) break;
   }
   return solved;
 }
 
-Judgement judge(const ContactProblem& problem, const ContactMethod& method, const SolverOptions& options,
-                int repeats, const Solved& converged) {
+Evaluation evaluate(const ContactProblem& problem, const ContactMethod& method, const MethodOptions& options,
+                    int repeats, const Solved& converged) {
   check(method, options, repeats);
   Solved solved;
-  Judgement j;
+  Evaluation j;
   j.milliseconds = std::numeric_limits<double>::infinity();
   repeat(repeats, [&] {
     const double time = time_of(problem, method, options, solved);
@@ -76,12 +76,12 @@ Judgement judge(const ContactProblem& problem, const ContactMethod& method, cons
   return j;
 }
 
-double nanoseconds_a_point_a_sweep(const ContactProblem& problem, const ContactMethod& method,
-                                   const SolverOptions& options, int repeats) {
+double nanoseconds_per_point_and_iteration(const ContactProblem& problem, const ContactMethod& method,
+                                           const MethodOptions& options, int repeats) {
   check(method, options, repeats);
   if (problem.points.empty()) return 0;
   SolverOptions more = options;
-  more.sweeps += std::max(50, options.sweeps);
+  more.iterations += std::max(50, options.iterations);
   Solved solved;
   // Of a long solve and a short one just before, at about the same speed of the machine.
   std::vector<double> differences;
@@ -94,7 +94,7 @@ double nanoseconds_a_point_a_sweep(const ContactProblem& problem, const ContactM
   const auto median = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), median, differences.end());
   const double work =
-      static_cast<double>(problem.points.size()) * options.substeps * (more.sweeps - options.sweeps);
+      static_cast<double>(problem.points.size()) * options.substeps * (more.iterations - options.iterations);
   return 1e9 * std::max(0.0, *median) / work;
 }
 

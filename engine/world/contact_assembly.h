@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/world/scene.h>
+#include <drawpoint/engine/world/warm_start.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
+#include <drawpoint/engine/solver/contact_problem.hpp>
+#include <memory>
+#include <vector>
+
+/// From manifolds to the contact problem of a step, and from its impulses to what the next step starts from.
+///
+/// Points that may come to bear within the step join the problem: those that overlap or are within 1 mm, and
+/// those that could close in at twice their present speed. Owns the problem and the remembered impulses.
+namespace drawpoint::engine::detail {
+
+class ContactAssembly {
+ public:
+  /// The scene must outlive it.
+  ContactAssembly(const WorldOptions& options, const Scene& scene, std::shared_ptr<const ThreadPool> pool);
+
+  /// Makes problem() but for its machine: bodies are the world, then the rocks that are awake.
+  void fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake);
+  /// Takes over the impulses of the solved problem.
+  void keep_impulses();
+  /// Of a rock in anything, at the start of the step [m].
+  double deepest_overlap();
+
+  ContactProblem& problem() { return problem_; }
+  const ContactProblem& problem() const { return problem_; }
+  WarmStart& warm_start() { return warm_start_; }
+  const WarmStart& warm_start() const { return warm_start_; }
+
+ private:
+  // Where the next pair and the next point go in the problem; at first, how many a block of manifolds has.
+  struct ContactPlace {
+    int pair = 0, point = 0;
+  };
+
+  void fill_bodies(const std::vector<int>& awake);
+  void fill_contacts();
+  unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
+  void count_joining(int first, int last);    // of these manifolds
+  void fill_pairs(int first, int last);
+  void fill_pair(const Manifold& m, unsigned joins, ContactPlace place, WarmStart::Reader& reader);
+  int solver_index(const Surface& surface) const;
+  inline void prefetch_origins(const Manifold& m) const;
+
+  const WorldOptions& options_;
+  const Scene& scene_;
+  std::shared_ptr<const ThreadPool> pool_;
+  const std::vector<Manifold>* manifolds_ = nullptr;
+  std::vector<int> body_of_rock_;     // in the problem
+  std::vector<unsigned> joins_;       // by manifold
+  std::vector<double> deepest_;       // overlap by block of manifolds [m]
+  std::vector<ContactPlace> places_;  // by block of manifolds
+  ContactProblem problem_;
+  WarmStart warm_start_;
+};
+
+}  // namespace drawpoint::engine::detail

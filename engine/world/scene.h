@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/base/bytes.hpp>
+#include <drawpoint/engine/collision/contact_finder.hpp>
+#include <drawpoint/engine/world/articulated_body.hpp>
+#include <drawpoint/engine/world/material.hpp>
+#include <drawpoint/engine/world/rock.hpp>
+#include <drawpoint/engine/world/world_options.hpp>
+#include <memory>
+#include <vector>
+
+/// What is in a world: rocks, fixed surroundings, the machine with its parts' shapes, and the finder of their
+/// contacts. It alone knows which collider belongs to what.
+namespace drawpoint::engine {
+
+/// Adds a shape's defining numbers to a hash.
+void add(StateHash& hash, const Shape& shape);
+
+namespace detail {
+
+enum class Owner { fixed, rock, part };
+
+/// What a collider is the surface of.
+struct Surface {
+  Owner owner = Owner::fixed;
+  int index = -1;  ///< of the rock or the part
+  int material = 0;
+  double radius = 0;  ///< that holds the shape, about the body's origin [m]
+};
+
+/// A body at the start of the step, as a contact sees it.
+struct Side {
+  Eigen::Vector3d origin, velocity, angular_velocity;
+  Eigen::Vector3d at(const Eigen::Vector3d& position) const {
+    return velocity + angular_velocity.cross(position - origin);
+  }
+};
+
+class Scene {
+ public:
+  Scene(const WorldOptions& options, const MaterialTable& materials, std::shared_ptr<const ThreadPool> pool);
+
+  /// As World's functions of these names.
+  int add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const Eigen::Vector3d& velocity,
+               const Eigen::Vector3d& angular_velocity);
+  int add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& pose, int material);
+  void attach(ArticulatedBody* machine);
+  void add_part_shape(int part, std::shared_ptr<const Shape> shape, const Eigen::Isometry3d& X_PS,
+                      int material);
+  void remove_rock(int rock);
+
+  /// The rock of this number, which may be a removed one in the first; else std::invalid_argument that names
+  /// the function `place` of World.
+  Rock& rock(int rock, const char* place);
+  Rock& present_rock(int rock, const char* place);
+
+  /// Finds the contacts of the rocks that are awake, ascending, and the machine's parts with everything. Valid
+  /// until the next call.
+  const std::vector<Manifold>& find_contacts(const std::vector<int>& awake);
+  const FinderTimes& finder_times() const { return finder_.times(); }
+  /// Between two colliders that do not move nothing is searched.
+  void set_moves(int rock, bool moves);
+
+  /// The machine's super-body for the coming step; nullptr without a machine.
+  const SuperBody* linearise();
+
+  std::vector<Rock>& rocks() { return rocks_; }
+  const std::vector<Rock>& rocks() const { return rocks_; }
+  const Surface& surface(int collider) const { return surfaces_[static_cast<std::size_t>(collider)]; }
+  const MaterialTable& materials() const { return materials_; }
+  ArticulatedBody* machine() const { return machine_; }
+  Eigen::Vector3d origin_of(const Surface& surface) const;
+  Side side_of(const Surface& surface) const;
+
+  const ContactFinder& finder() const { return finder_; }
+  /// A new finder with these colliders, numbered as here, for these rocks.
+  ContactFinder finder_for(const std::vector<Rock>& rocks) const;
+  void replace(std::vector<Rock> rocks, ContactFinder finder);
+
+  /// Hash of the calls that made the surroundings and parts.
+  std::uint64_t surroundings_hash() const { return surroundings_.value(); }
+
+ private:
+  int add_surface(const Surface& surface, const Collider& collider);
+  void hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose);
+  void place_colliders(const std::vector<int>& awake);
+  double speculative_margin_of(const Surface& surface) const;
+
+  WorldOptions options_;
+  MaterialTable materials_;
+  std::shared_ptr<const ThreadPool> pool_;
+  ContactFinder finder_;
+  std::vector<Surface> surfaces_;  // by collider
+  std::vector<Rock> rocks_;
+  ArticulatedBody* machine_ = nullptr;
+  const SuperBody* super_ = nullptr;
+  std::vector<ColliderMove> moves_;  // of this step
+  StateHash surroundings_;
+};
+
+}  // namespace detail
+}  // namespace drawpoint::engine

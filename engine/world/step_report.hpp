@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+/// What a step of a world did and where its time went.
+namespace drawpoint::engine {
+
+struct StepReport {
+  int manifolds = 0, points = 0;         ///< of the problem that was solved
+  double last_change = 0;                ///< of the solver's last iteration, relative to the normal load
+  double complementarity = 0, cone = 0;  ///< residual of the contact law, relative to the normal load
+  double max_overlap = 0;                ///< [m]
+  int awake = 0;                         ///< rocks that were solved
+  int solves = 0;  ///< 1, and one more for each time that the load on frozen rocks changed too much
+  double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;  ///< wall time [s]
+};
+
+/// The solution of a step came out not finite or absurdly fast.
+class SolutionBroken : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace drawpoint::engine

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/world/contact_assembly.h>
+#include <drawpoint/engine/world/freezing.h>
+#include <drawpoint/engine/world/scene.h>
+#include <drawpoint/engine/base/thread_pool.hpp>
+#include <drawpoint/engine/solver/solver.hpp>
+#include <drawpoint/engine/world/world.hpp>
+#include <memory>
+#include <vector>
+
+/// The pipeline of a step and its owners: the scene, the assembly of its contacts, the solver, freezing.
+namespace drawpoint::engine {
+
+struct World::Impl {
+  Impl(const WorldOptions& options, const MaterialTable& materials);
+
+  StepReport step();
+  const std::vector<Manifold>& find_contacts(StepReport& report);
+  SolverReport solve(const std::vector<Manifold>& manifolds, StepReport& report);
+  void check_solution(const SuperBodySolution& solved) const;
+
+  void thaw(const std::vector<int>& rocks);
+  void thaw_all();
+  const std::vector<Manifold>& with_thawed_near_machine(const std::vector<Manifold>& manifolds,
+                                                        StepReport& report);
+  bool thaw_struck(int round);
+  void settle_frozen();
+
+  WorldOptions options;
+  std::shared_ptr<const ThreadPool> pool;
+  detail::Scene scene;
+  detail::ContactAssembly contacts;
+  ContactSolver solver;
+  Freezing freezing;
+  Observer before_solve;
+  long steps = 0;
+  double time = 0;
+};
+
+namespace detail {
+
+/// For tests of what is inside.
+struct WorldAccess {
+  static const Freezing& freezing(const World& world) { return world.impl_->freezing; }
+};
+
+}  // namespace detail
+}  // namespace drawpoint::engine
