@@ -13,19 +13,73 @@ function(drawpoint_header_module name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
 endfunction()
 
-# drawpoint_test(MODULE FILE_STEM LIBRARY...): one executable and one ctest entry a file; the label is the stem's suffix,
-# so that `ctest -L analytic` runs every *_analytic.cpp. The target tests_of_MODULE builds all of a module.
-function(drawpoint_test module stem)
-  set(target test_${module}_${stem})
-  add_executable(${target} ${stem}.cpp)
-  target_link_libraries(${target} PRIVATE ${ARGN} drawpoint_build_flags GTest::gtest_main)
+# drawpoint_precompile(TARGET HEADER...): compiles the headers once for all files of the target, which include them all the
+# same. Worth its five seconds from five files on.
+function(drawpoint_precompile target)
+  list(TRANSFORM ARGN REPLACE "(.+)" "<\\1>" OUTPUT_VARIABLE headers)
+  target_precompile_headers(${target} PRIVATE ${headers})
+endfunction()
+
+# drawpoint_tests(MODULE STEMS stem... [LIBRARIES library...] [OPTIONS option...]): one program test_MODULE of all the files,
+# and one ctest entry MODULE.stem per file, which runs the tests that the file defines. Its label is the stem's suffix, so that
+# `ctest -L analytic` runs every *_analytic.cpp. The target tests_of_MODULE builds all programs of a module. Tests of
+# headers alone are optimised little: they compile faster than they would run.
+function(drawpoint_tests module)
+  cmake_parse_arguments(arg "" "PROGRAM" "STEMS;LIBRARIES;OPTIONS" ${ARGN})
+  set(target test_${module})
+  if(arg_PROGRAM)
+    set(target test_${arg_PROGRAM})
+  endif()
+  list(TRANSFORM arg_STEMS APPEND .cpp OUTPUT_VARIABLE files)
+  add_executable(${target} ${files})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} drawpoint_build_flags GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE DRAWPOINT_TEST_REFERENCE="${PROJECT_SOURCE_DIR}/tests/reference")
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE ${arg_OPTIONS})
+  endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  add_test(NAME ${module}.${stem} COMMAND ${target})
+  list(LENGTH files count)
+  if(count GREATER 4)
+    drawpoint_precompile(${target} Eigen/Dense gtest/gtest.h algorithm cmath string vector)
+  endif()
   if(NOT TARGET tests_of_${module})
     add_custom_target(tests_of_${module})
   endif()
   add_dependencies(tests_of_${module} ${target})
+  set(all)
+  foreach(stem IN LISTS arg_STEMS)
+    drawpoint_test_filter(${CMAKE_CURRENT_SOURCE_DIR}/${stem}.cpp filter)
+    drawpoint_add_test(${module} ${stem} ${target} --gtest_filter=${filter})
+    set_tests_properties(${module}.${stem} PROPERTIES FAIL_REGULAR_EXPRESSION "Running 0 tests")
+    string(APPEND all ":${filter}")
+  endforeach()
+  # What no file's filter names would never run.
+  add_test(NAME ${module}.${target}_all_tests_are_listed COMMAND ${target} "--gtest_filter=-${all}")
+  set_tests_properties(${module}.${target}_all_tests_are_listed PROPERTIES LABELS ${module} PASS_REGULAR_EXPRESSION "Running 0 tests")
+endfunction()
+
+# drawpoint_test_filter(FILE OUTPUT): the GoogleTest filter for the tests that the file defines.
+function(drawpoint_test_filter file output)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(REGEX MATCHALL "(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP)\\([ \n]*[A-Za-z0-9_]+,[ \n]*[A-Za-z0-9_]+" heads "${text}")
+  set(names)
+  foreach(head IN LISTS heads)
+    string(REGEX MATCH "^([A-Z_]+)\\([ \n]*([A-Za-z0-9_]+),[ \n]*([A-Za-z0-9_]+)" head "${head}")
+    set(name ${CMAKE_MATCH_2}.${CMAKE_MATCH_3})
+    if(CMAKE_MATCH_1 STREQUAL "TEST_P")
+      set(name */${name}/*)
+    elseif(CMAKE_MATCH_1 STREQUAL "TYPED_TEST")
+      set(name ${CMAKE_MATCH_2}/*.${CMAKE_MATCH_3})
+    endif()
+    list(APPEND names ${name})
+  endforeach()
+  list(JOIN names ":" names)
+  set(${output} "${names}" PARENT_SCOPE)
+endfunction()
+
+function(drawpoint_add_test module stem)
+  add_test(NAME ${module}.${stem} COMMAND ${ARGN})
   string(REGEX MATCH "[a-z]+$" label ${stem})
   set(limit 600)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug") # the sanitizers' presets
@@ -34,9 +88,10 @@ function(drawpoint_test module stem)
   set_tests_properties(${module}.${stem} PROPERTIES LABELS "${label};${module}" TIMEOUT ${limit})
 endfunction()
 
-# drawpoint_benchmark(FILE_STEM LIBRARY...): one executable in <build>/benchmarks.
+# drawpoint_benchmark(FILE_STEM LIBRARY...): one executable in <build>/benchmarks, built by `all_benchmarks`.
 function(drawpoint_benchmark stem)
   add_executable(${stem} ${stem}.cpp)
   target_link_libraries(${stem} PRIVATE ${ARGN} drawpoint_build_flags)
   set_target_properties(${stem} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/benchmarks)
+  add_dependencies(all_benchmarks ${stem})
 endfunction()

@@ -30,7 +30,7 @@ struct AccuracySample {
   double mass_moved = 0;                     ///< Σ m Δx / travel of the blade, over the whole dig [kg]
 };
 
-/// Goes on from the settled pile. `offset` [m] displaces every other rock upwards: a run and its twin with an
+/// Goes on from the settled pile. `offset` [m] displaces every other rock upwards: a run and its replicate with an
 /// offset of a micrometre differ by what chaos alone does.
 AccuracySample accuracy_sample(const SettledState& settled, const engine::WorldOptions& options,
                                double offset, Progress& progress);

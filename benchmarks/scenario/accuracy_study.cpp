@@ -20,7 +20,8 @@ constexpr const char* about =
     "Accuracy against cost. Each seed's pile is settled once; every setting then goes on from there and is\n"
     "compared, seed by seed, with a reference of a small step and very many iterations. The second row is "
     "the\n"
-    "reference's twin, started a micrometre off: what chaos alone does. Intervals: 95 %, Student's t over "
+    "reference's replicate, started a micrometre off: what chaos alone does. Intervals: 95 %, Student's t "
+    "over "
     "the\n"
     "seeds. A setting is STEPxSUBSTEPSxITERATIONS with the step in milliseconds, and +BUDGET for iteration "
     "budget.\n\n"
@@ -87,7 +88,7 @@ std::vector<Configuration> configurations(const Settings& s, engine::WorldOption
   };
   options.solver.method = engine::method_named(s.reference_method);
   add("reference", s.reference, 0);
-  add("twin", s.reference, 1e-6);
+  add("replicate", s.reference, 1e-6);
   options.solver.method = chosen.solver.method;
   for (const std::string& setting : s.tried) add("", setting, 0);
   return all;

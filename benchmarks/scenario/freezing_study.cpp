@@ -24,7 +24,8 @@ constexpr const char* about =
     "                                         kept in FOLDER when missing)\n\n"
     "Blade and cycle print the mean of on minus off over the seeds, relative to the mean of off, with its 95 "
     "%\n"
-    "interval (Student's t on the paired differences). Rows \"twin\": a second run without freezing that "
+    "interval (Student's t on the paired differences). Rows \"replicate\": a second run without freezing "
+    "that "
     "starts\n"
     "a micrometre off: what chaos alone does. A change is resolved only when its interval is narrower than "
     "the\n"
@@ -42,7 +43,7 @@ struct Settings {
 };
 
 struct Paired {
-  std::vector<double> off, on, twin;
+  std::vector<double> off, on, replicate;
 };
 
 void print_change(const char* what, const std::vector<double>& changed, const std::vector<double>& off) {
@@ -54,7 +55,7 @@ void print_change(const char* what, const std::vector<double>& changed, const st
 
 void print_change(const std::string& what, const Paired& p) {
   print_change(what.c_str(), p.on, p.off);
-  if (!p.twin.empty()) print_change((what + ", twin").c_str(), p.twin, p.off);
+  if (!p.replicate.empty()) print_change((what + ", replicate").c_str(), p.replicate, p.off);
 }
 
 // Least of the repeats.
@@ -112,7 +113,7 @@ int study_blade(const Settings& s) {
     };
     add(&Paired::off, accuracy_sample(start, off, 0, progress));
     add(&Paired::on, accuracy_sample(start, on, 0, progress));
-    add(&Paired::twin, accuracy_sample(start, off, 1e-6, progress));
+    add(&Paired::replicate, accuracy_sample(start, off, 1e-6, progress));
   }
   std::printf("blade through %d rocks, %d piles, %s, rolling resistance %g, spinning %g\n", s.rocks, s.seeds,
               s.setting.c_str(), s.material.rolling, s.material.spinning);
@@ -142,7 +143,7 @@ int study_cycle(const Settings& s) {
     };
     run(&Paired::off, false, 0);
     run(&Paired::on, true, 0);
-    run(&Paired::twin, false, 1e-6);
+    run(&Paired::replicate, false, 1e-6);
   }
   std::printf("loading cycle, %d piles, %s, rolling resistance %g, spinning %g\n", s.seeds, s.setting.c_str(),
               s.material.rolling, s.material.spinning);

@@ -12,7 +12,6 @@ namespace drawpoint::engine {
 struct Collider {
   std::shared_ptr<const Shape> shape;
   int body = 0;                                            ///< colliders of one body never touch
-  int material = 0;                                        ///< handed through
   int family = 0;                                          ///< colliders of one family > 0 never touch
   bool moves = true;                                       ///< two colliders that do not move never touch
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();  ///< shape in its body

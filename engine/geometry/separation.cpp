@@ -43,10 +43,6 @@ void sort_by_most(std::vector<Edge>& edges) {
 
 }  // namespace
 
-double lowest_of_b(const HullPair& pair, const Vector3d& n) {
-  return lowest(pair.b, pair.X_AB.linear().transpose() * n).height + n.dot(pair.X_AB.translation());
-}
-
 Axis AxisSearch::face_of_a(const HullPair& pair, int face) const {
   Axis axis;
   axis.feature = {FeatureKind::face_a, face, -1};

@@ -59,8 +59,6 @@ struct AxisQuery {
   double report = std::numeric_limits<double>::infinity();
 };
 
-/// Least n·x over B, with n and the result in A's frame.
-double lowest_of_b(const HullPair& pair, const Eigen::Vector3d& n);
 
 /// Buffers of the search, grown to the largest shapes seen and then reused; nothing in them outlives a call.
 class AxisSearch {

@@ -12,7 +12,7 @@
 /// i is next with a chance in proportion to max(0, w_i (M + Σ p_j m_j) − M_i) / m_i. So no size runs ahead by
 /// more than one rock, and |M_i − w_i M| stays below the sum of the heaviest rocks of all sizes, however long
 /// the run: shares converge as 1/M, not as 1/√n. Random numbers are a function of (seed, number of the draw):
-/// same seed, same rocks. Source of the table: the thesis on autonomous loading, table 3 (its finest part
+/// same seed, same rocks. Source of the table: Lindmark (2016), table 3 (its finest part
 /// truncated).
 namespace drawpoint::engine::granular {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// The load-haul-dump machine of the founding case, Sandvik LH621 class, as a machine specification with
+/// The load-haul-dump machine of Lindmark (2016), Sandvik LH621 class, as a machine specification with
 /// surfaces.
 ///
 /// 16 bodies: front and rear unit, four wheels, boom, bucket, bell-crank, link, and barrel and rod of one
@@ -30,7 +30,7 @@ namespace drawpoint::engine::loading {
 /// What moves the arm.
 enum class ArmDrive {
   cylinders,  ///< velocity motors on the three cylinders, limited by 28 MPa; the machine's own way (default)
-  hinges      ///< velocity motors on the boom and bucket hinges, as the thesis has it
+  hinges      ///< velocity motors on the boom and bucket hinges, as Lindmark (2016) has it
 };
 
 struct LhdOptions {

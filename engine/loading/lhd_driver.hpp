@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/kinematics.hpp>
 #include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/loading/strategy/kinematics.hpp>
 #include <drawpoint/engine/machine/machine.hpp>
 
 /// Reads a machine as the executor sees it and turns its commands into motor speeds.

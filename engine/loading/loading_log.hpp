@@ -3,7 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
-#include <drawpoint/engine/loading/executor.hpp>
+#include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <drawpoint/engine/record/table.hpp>
 #include <filesystem>
 #include <map>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/column_model.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/loading/strategy/column_model.hpp>
 
 /// How a pile lies, in the figures by which a miner judges it.
 namespace drawpoint::engine::loading {

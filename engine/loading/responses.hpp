@@ -20,7 +20,7 @@
 /// rock_spill: c₃ = mean over cycles of m_spill / m_max [1], m_spill the rocks in front of the pile after the
 /// cycle that this run left there: what lay there before the machine first came does not count. Rocks that
 /// stay count again after each cycle; those that are cleared away for the machine no longer do. Source:
-/// Lindmark 2016, equations 54-56; aggregation and filter are ours, the thesis is silent.
+/// Lindmark 2016, equations 54-56; aggregation and filter are ours, Lindmark (2016) is silent.
 namespace drawpoint::engine::loading {
 
 enum class ProductionMean { of_ratios, ratio_of_sums };
@@ -33,7 +33,7 @@ enum class TorqueComponent { all, twisting };
 enum class DamageSum { whole_run, per_cycle };
 
 struct DamageOptions {
-  double tau_y = 145e3;  ///< yield torque [N m]; the thesis's calibration
+  double tau_y = 145e3;  ///< yield torque [N m]; Lindmark's calibration
   TorqueComponent component = TorqueComponent::all;
   double lowpass_hz = 20;  ///< corner [Hz]; 0: no filter
   DamageSum sum = DamageSum::whole_run;

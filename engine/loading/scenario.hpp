@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
-#include <drawpoint/engine/loading/executor.hpp>
 #include <drawpoint/engine/loading/lhd.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
-#include <drawpoint/engine/loading/planner.hpp>
+#include <drawpoint/engine/loading/strategy/executor.hpp>
+#include <drawpoint/engine/loading/strategy/planner.hpp>
 #include <drawpoint/engine/world/world.hpp>
 #include <filesystem>
 
@@ -50,7 +50,7 @@ struct Scenario {
 /// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();
 
-/// The scale of the founding case: a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
+/// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
 Scenario lh621_at_thesis_scale();
 
 /// Throws std::invalid_argument naming the place, the value and what is allowed.

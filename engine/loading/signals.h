@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/executor.hpp>
 #include <drawpoint/engine/loading/site.hpp>
+#include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <drawpoint/engine/record/table.hpp>
 
 /// The raw signals of a run at full rate: one row a step, every quantity that a response may need.

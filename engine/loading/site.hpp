@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/column_model.hpp>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/loading/strategy/column_model.hpp>
 
 /// Drift, pile and machine put together: the world of one run and what can be read off it.
 namespace drawpoint::engine::loading {

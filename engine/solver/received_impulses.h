@@ -5,7 +5,7 @@
 #include <drawpoint/engine/solver/contact_problem.hpp>
 
 /// Sums up what the impulses of a problem give to its bodies and its machine: Jᵀ λ, linear in the points.
-/// Private to engine/contact.
+
 namespace drawpoint::engine::detail {
 
 struct ReceivedImpulses {

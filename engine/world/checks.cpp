@@ -25,7 +25,9 @@ std::string text(double x) {
 }
 
 std::string text(const Vector3d& v) {
-  return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")";
+  std::ostringstream out;
+  out << "(" << v.x() << ", " << v.y() << ", " << v.z() << ")";
+  return out.str();
 }
 
 // `name` is "place: quantity".

@@ -8,7 +8,7 @@
 ///
 /// Each check throws std::invalid_argument with place, name, value, unit and the allowed range. The ranges
 /// are wide: they keep out what is certainly a mistake (not finite, negative, twelve orders of magnitude off)
-/// and what would overflow inside a step. Private to engine/contact.
+/// and what would overflow inside a step.
 namespace drawpoint::engine::detail {
 
 constexpr double fastest_input = 1e3;     ///< [m/s] that a rock may be given

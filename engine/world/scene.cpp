@@ -22,7 +22,7 @@ constexpr int detached = -2;          // index of a part's surface whose machine
 constexpr int rocks_per_block = 128;  // that a thread takes at a time
 
 Collider rock_collider(const RockBody& body, int rock) {
-  return {body.shape, rock + 1, body.material, no_family, true, Eigen::Isometry3d::Identity()};
+  return {body.shape, rock + 1, no_family, true, Eigen::Isometry3d::Identity()};
 }
 
 }  // namespace
@@ -90,9 +90,8 @@ int Scene::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3
   check_pose("World::add_static", pose);
   check_material("World::add_static", material, materials_.kinds());
   const Shape* added = shape.get();
-  const int id = add_surface(
-      {Owner::fixed, -1, material},
-      {std::move(shape), world_body, material, fixed_family, false, Eigen::Isometry3d::Identity()});
+  const int id = add_surface({Owner::fixed, -1, material}, {std::move(shape), world_body, fixed_family, false,
+                                                            Eigen::Isometry3d::Identity()});
   finder_.set_pose(id, pose);
   hash_surface(id, *added, pose);
   return id;
@@ -112,7 +111,7 @@ void Scene::add_part_shape(int part, std::shared_ptr<const Shape> shape, const E
   const Shape* added = shape.get();
   const double radius = radius_about_origin(*shape) + X_PS.translation().norm();
   const int id = add_surface({Owner::part, part, material, radius},
-                             {std::move(shape), machine_part(part), material, machine_family, true, X_PS});
+                             {std::move(shape), machine_part(part), machine_family, true, X_PS});
   finder_.set_pose(id, machine_->part_pose(part));
   hash_surface(id, *added, X_PS);
 }

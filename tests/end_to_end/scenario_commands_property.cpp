@@ -111,7 +111,7 @@ TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].at("name"), "reference");
   EXPECT_EQ(rows[0].at("mass_moved_kg_difference").at("mean"), 0);
-  EXPECT_EQ(rows[1].at("name"), "twin");
+  EXPECT_EQ(rows[1].at("name"), "replicate");
   EXPECT_EQ(rows[2].at("iterations"), 5);
   EXPECT_EQ(rows[3].at("setting"), "10x4x1+50");
   EXPECT_EQ(rows[3].at("iteration_budget"), 50);

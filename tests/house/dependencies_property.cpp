@@ -50,32 +50,42 @@ TEST(Dependencies, ABreachIsNamed) {
             "doe/a.hpp:1: <coin/IpTNLP.hpp>: doe/ may not use Ipopt");
   EXPECT_EQ(first_breach("kriging/a.hpp", "#include <coin/IpStdCInterface.h>"),
             "kriging/a.hpp:1: <coin/IpStdCInterface.h>: kriging/ may not use Ipopt's C interface");
+  EXPECT_EQ(first_breach("engine/world/a.cpp", "#include <drawpoint/engine/granular/pile.hpp>"),
+            "engine/world/a.cpp:1: <drawpoint/engine/granular/pile.hpp>: engine/world/ may not include it");
   EXPECT_EQ(
-      first_breach("engine/contact/a.cpp", "#include <drawpoint/engine/granular/pile.hpp>"),
-      "engine/contact/a.cpp:1: <drawpoint/engine/granular/pile.hpp>: engine/contact/ may not include it");
+      first_breach("engine/solver/a.cpp", "#include <drawpoint/engine/collision/manifold.hpp>"),
+      "engine/solver/a.cpp:1: <drawpoint/engine/collision/manifold.hpp>: engine/solver/ may not include it");
+  EXPECT_EQ(first_breach("engine/machine/a.cpp", "#include <drawpoint/engine/world/world.hpp>"),
+            "engine/machine/a.cpp:1: <drawpoint/engine/world/world.hpp>: engine/machine/ may not include it");
+  EXPECT_EQ(first_breach("engine/world/a.cpp", "#include <fcl/fcl.h>"),
+            "engine/world/a.cpp:1: <fcl/fcl.h>: engine/world/ may not use FCL");
   EXPECT_EQ(first_breach("engine/loading/a.cpp", "#include <drawpoint/studies/study.hpp>"),
             "engine/loading/a.cpp:1: <drawpoint/studies/study.hpp>: engine/loading/ may not include it");
   EXPECT_EQ(first_breach("engine/loading/a.cpp", "#include <Simbody.h>"),
             "engine/loading/a.cpp:1: <Simbody.h>: engine/loading/ may not use Simbody");
   EXPECT_EQ(first_breach("engine/machine/a.hpp", "#include <SimTKcommon.h>"),
             "engine/machine/a.hpp:1: <SimTKcommon.h>: Simbody may not be in a header");
-  EXPECT_EQ(first_breach("engine/contact/a.hpp", "#include <fcl/fcl.h>"),
-            "engine/contact/a.hpp:1: <fcl/fcl.h>: FCL may not be in a header");
+  EXPECT_EQ(first_breach("engine/collision/a.hpp", "#include <fcl/fcl.h>"),
+            "engine/collision/a.hpp:1: <fcl/fcl.h>: FCL may not be in a header");
   EXPECT_EQ(first_breach("doe/a.hpp", "#include <boost/optional.hpp>"),
             "doe/a.hpp:1: <boost/optional.hpp>: no known package has it; name it in the dependency table");
   EXPECT_EQ(first_breach("doe/a.hpp", "#include \"problem.hpp\""),
             "doe/a.hpp:1: <problem.hpp>: write it as <drawpoint/...>");
 }
 
-TEST(Dependencies, AnInternalHeaderStaysWithinItsFolder) {
+TEST(Dependencies, AnInternalHeaderStaysInside) {
   const std::string include = "#include <drawpoint/engine/machine/a.h>";
   const std::string why =
-      ":1: <drawpoint/engine/machine/a.h>: an internal header; only *.cpp of its folder include it";
+      ":1: <drawpoint/engine/machine/a.h>: an internal header; only *.cpp and *.h of its room include it";
   EXPECT_EQ(first_breach("engine/machine/a.hpp", include), "engine/machine/a.hpp" + why);
   EXPECT_EQ(first_breach("engine/loading/a.cpp", include), "engine/loading/a.cpp" + why);
   EXPECT_EQ(first_breach("studies/a.cpp", include), "studies/a.cpp" + why);
   EXPECT_EQ(first_breach("engine/machine/b.cpp", include), "");
   EXPECT_EQ(first_breach("engine/machine/b.h", include), "");
+  const std::string shared = "#include <drawpoint/engine/geometry/a.h>";
+  EXPECT_EQ(first_breach("engine/collision/b.h", shared), "");
+  EXPECT_NE(first_breach("engine/granular/b.cpp", shared), "");
+  EXPECT_NE(first_breach("engine/solver/b.cpp", shared), "");
   EXPECT_EQ(first_breach("engine/machine/a.h", "#include <Simbody.h>\nSimTK::State s;"), "");
   EXPECT_EQ(first_breach("engine/loading/a.h", "#include <Simbody.h>"),
             "engine/loading/a.h:1: <Simbody.h>: engine/loading/ may not use Simbody");
@@ -90,7 +100,7 @@ TEST(Dependencies, AForwardDeclarationLeaksToo) {
 
 TEST(Dependencies, WhatTheTableGrantsPasses) {
   EXPECT_EQ(first_breach("engine/machine/a.cpp", "#include <Simbody.h>\nSimTK::State s;"), "");
-  EXPECT_EQ(first_breach("engine/contact/a.cpp", "#include <fcl/fcl.h>\nfcl::Vector3d v;"), "");
+  EXPECT_EQ(first_breach("engine/collision/a.cpp", "#include <fcl/fcl.h>\nfcl::Vector3d v;"), "");
   EXPECT_EQ(
       first_breach("kriging/a.hpp", "#include <Eigen/Dense>\n#include <coin/IpTNLP.hpp>\n#include <cmath>"),
       "");

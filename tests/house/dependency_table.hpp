@@ -13,9 +13,9 @@
 /// A file belongs to the row with the longest folder that its path starts with. It may include the standard
 /// library and POSIX, the project folders of its row, and the packages of its row; a package of `in_cpp_only`
 /// never in a *.hpp, and its names do not appear in other rows at all, so that users of the module never
-/// need it. A *.h is an internal header, a piece of the *.cpp of its folder: it may use what they may, is not
-/// installed, and only they include it. Headers of no known package are refused: a new dependency starts as a
-/// line here and as a decision note.
+/// need it. A *.h is an internal header: it may use what a *.cpp of its room may, is not installed, and no *.hpp
+/// includes it. Headers of no known package are refused: a new dependency starts as a line here and as a
+/// decision note.
 namespace drawpoint::house {
 
 struct Row {
@@ -61,6 +61,7 @@ inline const std::vector<Row>& dependency_table() {
        {"Eigen"},
        {"HDF5"}},
       {"engine/loading/", {"engine/"}, {"Eigen"}, {}},
+      {"engine/loading/strategy/", {"engine/geometry/", "engine/loading/strategy/"}, {"Eigen"}, {}},
       {"studies/",
        {"doe/", "kriging/", "pareto/", "engine/", "studies/"},
        {"Eigen", "nlohmann-json", "CLI11", "SQLiteCpp", "HDF5"},
@@ -106,12 +107,25 @@ inline const Row* row_of(const std::string& path) {
 /// Whether no user of the row's module ever sees the file.
 inline bool internal(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".h"); }
 
+/// Whether the file may see the internal header: one of its own room, or both are in the rooms that make up
+/// contact solving, which share theirs in the direction of the table.
+inline bool same_inside(const std::string& path, const std::string& header) {
+  const auto room = [](const std::string& file) { return file.substr(0, file.rfind('/') + 1); };
+  const auto contact = [](const std::string& file) {
+    for (const char* name : {"base", "geometry", "collision", "solver", "world"})
+      if (file.starts_with("engine/" + std::string(name) + "/")) return true;
+    return false;
+  };
+  return room(path) == room(header) || (contact(path) && contact(header));
+}
+
 /// Why `header` may not be included by the file `path` of `row`; empty when it may.
 inline std::string objection(const Row& row, const std::string& path, const std::string& header) {
   static const std::string own = "drawpoint/";
   if (header.starts_with(own)) {
     const std::string target = header.substr(own.size());
-    if (target.ends_with(".h") && !internal(path)) return "an internal header; only *.cpp and *.h include it";
+    if (target.ends_with(".h") && !(internal(path) && same_inside(path, target)))
+      return "an internal header; only *.cpp and *.h of its room include it";
     for (const std::string& module : row.modules) {
       if (target.starts_with(module)) return "";
     }

@@ -65,8 +65,8 @@ TEST(ContactFinderThreads, ChangeNoBit) {
 }
 
 TEST(ContactFinderThreads, MustBeAtLeastOne) {
-  EXPECT_THROW(ThreadPool{0}, std::invalid_argument);
-  EXPECT_THROW(ThreadPool{257}, std::invalid_argument);
+  EXPECT_THROW(engine::ThreadPool{0}, std::invalid_argument);
+  EXPECT_THROW(engine::ThreadPool{257}, std::invalid_argument);
 }
 
 // At every step of a run, before find() as well as after it: what is restored goes on as if nothing had been,

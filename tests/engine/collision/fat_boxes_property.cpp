@@ -52,7 +52,7 @@ class Walker {
 // How far the box reaches beyond what it must hold, on the side where it does least.
 double room(const Walker& walker) {
   const AlignedBox3d tight = walker.items.box(0);
-  const double must = growth + walker.items.reach[0];
+  const double must = growth + walker.items.speculative_margin[0];
   return std::min((tight.min() - walker.box.min()).minCoeff(), (walker.box.max() - tight.max()).minCoeff()) -
          must;
 }
@@ -69,7 +69,7 @@ TEST(FatBoxes, HoldWhatTheyMustUntilTheyAreLeft) {
   for (int k = 0; k < 4000; ++k) {
     const bool new_reach = k % 50 == 0;
     walker.place(support::moved(walker.pose(), rng, ways[k / 7 % 4], turns[k / 28 % 4]),
-                 new_reach ? reaches(rng) : walker.items.reach[0]);
+                 new_reach ? reaches(rng) : walker.items.speculative_margin[0]);
     if (walker.renewed()) {
       ++renewals;
       ASSERT_GE(room(walker), slack - round_off);

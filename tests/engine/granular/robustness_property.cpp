@@ -12,7 +12,6 @@
 
 using namespace drawpoint::engine;
 using namespace drawpoint::support;
-using World;
 
 namespace {
 

@@ -10,7 +10,6 @@
 
 using namespace drawpoint::engine;
 using namespace drawpoint::support;
-using World;
 
 namespace {
 

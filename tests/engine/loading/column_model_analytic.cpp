@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/loading/column_model.hpp>
+#include <drawpoint/engine/loading/strategy/column_model.hpp>
 #include <numbers>
 #include <stdexcept>
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/loading/executor.hpp>
+#include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <functional>
 #include <limits>
 #include <numbers>

@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/loading/kinematics.hpp>
+#include <drawpoint/engine/loading/strategy/kinematics.hpp>
+#include <drawpoint/tests/engine/loading/denavit_hartenberg.hpp>
 #include <limits>
 #include <numbers>
 #include <random>

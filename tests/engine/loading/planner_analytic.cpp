@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/loading/planner.hpp>
+#include <drawpoint/engine/loading/strategy/planner.hpp>
 #include <numbers>
 #include <stdexcept>
 

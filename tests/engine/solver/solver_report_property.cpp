@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/solver/residual.hpp>
+#include <drawpoint/engine/solver/solver.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
 
 using namespace drawpoint;

@@ -4,6 +4,7 @@
 // that stood, and the bits depend on nothing but the calls.
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/collision/contact_finder.hpp>
 #include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/blade_pile.hpp>
 #include <drawpoint/tests/support/pile_world.hpp>

@@ -105,7 +105,7 @@ TEST(Freezing, HoldsImpulsesThatBalanceEveryRock) {
   ASSERT_TRUE(freeze_all(world));
   const double weight = world.rocks()[0].body.mass * g * world.options().step;
   std::vector<Vector3d> sum(3, Vector3d::Zero());
-  for (const auto& [pair, held] : detail::WorldAccess::freezing(world).state().held)
+  for (const auto& [pair, held] : engine::detail::WorldAccess::freezing(world).state().held)
     for (int k = 0; k < 3; ++k) {
       if (world.rocks()[k].collider == pair.second) sum[k] += held.impulse;
       if (world.rocks()[k].collider == pair.first) sum[k] -= held.impulse;
@@ -262,8 +262,8 @@ TEST(Freezing, RefusesTheStateOfAnotherWorld) {
   World three = floor_world(freezing_options());
   add_stack(three, 3);
   ASSERT_TRUE(freeze_all(three));
-  const auto state = detail::WorldAccess::freezing(three).state();
-  Freezing other = detail::WorldAccess::freezing(three);
+  const auto state = engine::detail::WorldAccess::freezing(three).state();
+  engine::Freezing other = engine::detail::WorldAccess::freezing(three);
   EXPECT_NO_THROW(other.restore(state));
   EXPECT_EQ(other.state().held.size(), state.held.size());
   auto awake = state;

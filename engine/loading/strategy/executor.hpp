@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
-#include <drawpoint/engine/loading/progress.hpp>
-#include <drawpoint/engine/loading/trajectory.hpp>
+#include <drawpoint/engine/loading/strategy/progress.hpp>
+#include <drawpoint/engine/loading/strategy/trajectory.hpp>
 #include <string_view>
 #include <vector>
 
@@ -40,7 +40,7 @@ struct SpeedPreset {
 
 /// What the hydraulics and first gear of an LH621-class machine deliver; a cycle of about 27 s (default).
 SpeedPreset machine_speeds();
-/// Fast enough for the 12 s cycles that the thesis reports; 2-3 times what the machine can do.
+/// Fast enough for the 12 s cycles that Lindmark (2016) reports; 2-3 times what the machine can do.
 SpeedPreset thesis_like_speeds();
 
 struct ExecutorOptions {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/executor.hpp>
+#include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <stdexcept>
 #include <string>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/trajectory.hpp>
+#include <drawpoint/engine/loading/strategy/trajectory.hpp>
 
 /// How far a stage has come, and how fast to go on.
 ///
@@ -12,7 +12,7 @@
 ///   faithful   s = √((Δx² + Δz² + Δφ²) / (x_g² + z_g² + φ_g²)), metres and radians added, blind to direction
 /// Speeds fall as max(1 − s², ε): without the floor s = tanh(t/T₀) and the goal is never reached. With it and
 /// T₀ = distance over first speed, the stage ends (s = 1 − δ) at T₀ (atanh √(1−ε) + (1 − δ − √(1−ε)) /
-/// ε), 2.69 T₀ for ε = 0.05, δ = 0. Rotation in stage 2 follows the same factor; the thesis's (1 − s) turns
+/// ε), 2.69 T₀ for ε = 0.05, δ = 0. Rotation in stage 2 follows the same factor; Lindmark's (1 − s) turns
 /// it through only ln 2 of its goal. Source: Lindmark 2016, equations 41-46.
 namespace drawpoint::engine::loading {
 
@@ -33,7 +33,7 @@ struct ProgressOptions {
   double tolerance = 0.02;       ///< δ: the goal is reached at s ≥ 1 − δ [1]; 0 as printed
 };
 
-/// As the thesis prints it: stages 2 to 4 then end by their time limit.
+/// As Lindmark (2016) prints it: stages 2 to 4 then end by their time limit.
 ProgressOptions faithful_progress();
 
 /// s [1]; 1 for a goal of no displacement.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/column_model.hpp>
+#include <drawpoint/engine/loading/strategy/column_model.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>

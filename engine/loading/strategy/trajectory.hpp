@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <drawpoint/engine/loading/kinematics.hpp>
+#include <drawpoint/engine/loading/strategy/kinematics.hpp>
 #include <string>
 #include <vector>
 
@@ -19,14 +19,14 @@ namespace drawpoint::engine::loading {
 /// How the bucket curls in stage 3.
 enum class CurlMode {
   hinge_G,   ///< only the tilt actuator moves, the tip swings about G; always possible (default)
-  tip_fixed  ///< as the thesis has it: the tip stays and G sinks, which a low tip forbids
+  tip_fixed  ///< as Lindmark (2016) has it: the tip stays and G sinks, which a low tip forbids
 };
 
 /// Where stage 2 aims.
 enum class LiftGoal {
   behind_surface,  ///< at C, as deep behind the pile's surface as planned, from wherever stage 1 ended
                    ///< (default)
-  along_slope      ///< by (h / tan θ, h) from where stage 1 ended, as the thesis has it
+  along_slope      ///< by (h / tan θ, h) from where stage 1 ended, as Lindmark (2016) has it
 };
 
 struct Plan {
@@ -61,7 +61,7 @@ std::array<TipPose, 5> corner_points(const Plan& plan, double standoff, const Ar
 
 /// The goal of stage 1-4 from where the tip is when it starts. Stages 1, 2 and 4 aim at places (B, C and A),
 /// so that a drive-in that ended early is made good on the way up: the lift then leads into the pile instead
-/// of skimming its surface (LiftGoal::along_slope keeps the thesis's displacement). Stage 3 aims at a bucket
+/// of skimming its surface (LiftGoal::along_slope keeps Lindmark's displacement). Stage 3 aims at a bucket
 /// angle. `cycle_start` is the tip at the start of stage 1.
 StageGoal stage_goal(const Plan& plan, int stage, const TipPose& now, const TipPose& cycle_start);
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/column_model.hpp>
-#include <drawpoint/engine/loading/trajectory.hpp>
+#include <drawpoint/engine/loading/strategy/column_model.hpp>
+#include <drawpoint/engine/loading/strategy/trajectory.hpp>
 #include <limits>
 
 /// Strategy and pile to trajectory.
@@ -14,7 +14,7 @@
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
 /// end and the bucket at κθ, and `height_limit`. Row: rows sorted by volume centre, nearest to the back wall
-/// first, entry round(γ (n − 1)). φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, the thesis
+/// first, entry round(γ (n − 1)). φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark (2016)
 /// prints h²/θ under the root.
 namespace drawpoint::engine::loading {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/planner.hpp>
+#include <drawpoint/engine/loading/strategy/planner.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/progress.hpp>
+#include <drawpoint/engine/loading/strategy/progress.hpp>
 #include <numbers>
 
 namespace drawpoint::engine::loading {

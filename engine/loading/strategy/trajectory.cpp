@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/trajectory.hpp>
+#include <drawpoint/engine/loading/strategy/trajectory.hpp>
 
 namespace drawpoint::engine::loading {
 namespace {

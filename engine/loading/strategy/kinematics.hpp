@@ -11,10 +11,7 @@
 ///   x_K = q_d + x_F + FG cos a + GK cos b,   z_K = z_F + FG sin a + GK sin b,   φ = b − ψ_b
 /// with a the elevation of FG and b that of GK. Rates (singular only at cos a = 0, boom vertical):
 ///   ȧ = (v_z − GK cos b ω) / (FG cos a),   q̇_d = v_x + FG sin a ȧ + GK sin b ω,   ḃ = ω.
-/// The same chain in Denavit-Hartenberg form, θ₂ = π/2 − a, θ₃ = a − b, frame 0 with its x axis up and its z
-/// axis forward, is kept for comparison with the source: corrected matrices (entry (2,3) of A₂ and A₃ is 0,
-/// A₄ = R_z(ψ)R_x(π)) and the corrected sign in entry (1,2) of the Jacobian. Source: D. Lindmark, master
-/// thesis, Umeå University 2016, equations 25-37.
+/// Source: D. Lindmark, master thesis, Umeå University 2016, equations 25-37.
 namespace drawpoint::engine::loading {
 
 /// Fixed lengths and angles; the defaults are the estimated linkage of the LH621 class.
@@ -74,26 +71,5 @@ struct RateLimits {
 /// All three rates times one factor in (0, 1], the largest that meets the limits: the direction of the path
 /// is kept.
 ActuatorRates within_limits(const ActuatorRates& rates, const RateLimits& limits);
-
-/// Joint variables of the Denavit-Hartenberg chain.
-struct DhJoints {
-  double q_d = 0;                   ///< [m]
-  double theta_2 = 0, theta_3 = 0;  ///< [rad]
-};
-
-DhJoints dh_joints(const ArmPose& pose);
-ArmPose arm_pose(const DhJoints& joints);
-
-/// A₁, A₂, A₃, A₄; with a₁ = z_F, d₁ = x_F.
-std::array<Eigen::Matrix4d, 4> dh_link_transforms(const ArmGeometry& arm, const DhJoints& joints);
-
-/// T₄⁰: bucket frame in frame 0; row 1 is height, row 3 forward.
-Eigen::Matrix4d dh_tip_frame(const ArmGeometry& arm, const DhJoints& joints);
-
-/// (v; ω) in frame 0 per (q̇_d, θ̇₂, θ̇₃).
-Eigen::Matrix<double, 6, 3> dh_jacobian(const ArmGeometry& arm, const DhJoints& joints);
-
-/// (q̇_d, θ̇₂, θ̇₃) for wanted tip rates; singular at sin θ₂ = 0.
-DhJoints dh_inverse_rates(const ArmGeometry& arm, const DhJoints& joints, const TipRates& rates);
 
 }  // namespace drawpoint::engine::loading
