@@ -59,7 +59,6 @@ struct AxisQuery {
   double report = std::numeric_limits<double>::infinity();
 };
 
-
 /// Buffers of the search, grown to the largest shapes seen and then reused; nothing in them outlives a call.
 class AxisSearch {
  public:
