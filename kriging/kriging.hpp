@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/kriging/acquisition.hpp>
+#include <drawpoint/kriging/acquisition_constraints.hpp>
+#include <drawpoint/kriging/acquisition_hypervolume.hpp>
+#include <drawpoint/kriging/any_surrogate.hpp>
+#include <drawpoint/kriging/append.hpp>
+#include <drawpoint/kriging/compare.hpp>
+#include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/fit_radial.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/options.hpp>
+#include <drawpoint/kriging/polynomial.hpp>
+#include <drawpoint/kriging/radial.hpp>
+#include <drawpoint/kriging/reinterpolation.hpp>
+#include <drawpoint/kriging/replicates.hpp>
+#include <drawpoint/kriging/sample_paths.hpp>
+#include <drawpoint/kriging/score.hpp>
+#include <drawpoint/kriging/surrogate.hpp>
+#include <drawpoint/kriging/surrogates.hpp>
+#include <drawpoint/kriging/validate.hpp>
+
+/// Kriging models and other surrogates of runs: the whole of the module, in the order of use.
+///
+/// Fit:
+///   fit.hpp                        `Model model = fit(X, y);` by maximum likelihood
+///   options.hpp                    what a fit can be told, and what it reports
+///   correlation.hpp                Gaussian, power-exponential and Matern correlations
+///   replicates.hpp                 repeated runs as one run with a known noise
+///   polynomial.hpp                 polynomial regression
+///   radial.hpp                     radial basis functions
+///   fit_radial.hpp                 their fit
+///
+/// Use:
+///   model.hpp                      prediction, variance, gradients; a value that threads may share
+///   append.hpp                     more runs without a new fit
+///   reinterpolation.hpp            a model that interpolates what a noisy one predicts at its runs
+///   sample_paths.hpp               draws of the function at many points at once
+///   surrogate.hpp                  what all kinds have in common, as concepts
+///   any_surrogate.hpp              any kind behind one type
+///   surrogates.hpp                 several models as one black box, for searches
+///
+/// Validate:
+///   validate.hpp                   how well a model predicts runs that it has not seen
+///   cross_validation.hpp           leave-one-out, k-fold, hold-out
+///   score.hpp                      RMSE, NRMSE, Q2 and their kin
+///   compare.hpp                    several ways to fit, scored alike, and the best of them
+///
+/// The next run:
+///   acquisition.hpp                criteria for doe::propose and doe::refine, such as expected improvement
+///   acquisition_constraints.hpp    how likely a point keeps its limits
+///   acquisition_hypervolume.hpp    expected hypervolume improvement
+///
+/// Apart from these, and not included here because it needs nlohmann-json: save.hpp, models as JSON files. What
+/// stands in detail/ may change in any version. Needs doe, Eigen and Ipopt.
+namespace drawpoint::kriging {}
