@@ -145,9 +145,9 @@ class Replay {
   Replay(const support::RockPile& pile, const std::vector<support::RockPile::Frame>& frames,
          const ContactFinderOptions& options = {})
       : frames_(frames), finder_(options) {
-    for (const auto& wall : pile.walls) finder_.add({wall, -1, 0, 0, false, Isometry3d::Identity()});
+    for (const auto& wall : pile.walls) finder_.add({wall, -1, 0, false, Isometry3d::Identity()});
     for (std::size_t k = 0; k < pile.shapes.size(); ++k)
-      ids_.push_back(finder_.add({pile.shapes[k], static_cast<int>(k), 0, 0, true, Isometry3d::Identity()}));
+      ids_.push_back(finder_.add({pile.shapes[k], static_cast<int>(k), 0, true, Isometry3d::Identity()}));
     place();
     finder_.find();
   }

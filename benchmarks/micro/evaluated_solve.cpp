@@ -80,7 +80,7 @@ double nanoseconds_per_point_and_iteration(const ContactProblem& problem, const 
                                            const MethodOptions& options, int repeats) {
   check(method, options, repeats);
   if (problem.points.empty()) return 0;
-  SolverOptions more = options;
+  MethodOptions more = options;
   more.iterations += std::max(50, options.iterations);
   Solved solved;
   // Of a long solve and a short one just before, at about the same speed of the machine.
