@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-namespace drawpoint::engine::record {
+namespace drawpoint::engine {
 namespace {
 
 // A temporary file that removes itself unless it was renamed to its target.
@@ -60,7 +60,7 @@ class TemporaryFile {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
     ::unlink(path_.c_str());
-    throw std::runtime_error("record: cannot " + std::string(verb) + " \"" + target_ + "\": " + reason +
+    throw std::runtime_error("engine: cannot " + std::string(verb) + " \"" + target_ + "\": " + reason +
                              "; the file is as it was; check the folder and the free space");
   }
 
@@ -87,4 +87,4 @@ void write_atomically(const std::filesystem::path& target, std::span<const std::
   sync_folder(target);
 }
 
-}  // namespace drawpoint::engine::record
+}  // namespace drawpoint::engine

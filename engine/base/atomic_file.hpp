@@ -7,10 +7,10 @@
 #include <span>
 
 /// A file that is either the old one or the whole new one, whatever happens (POSIX).
-namespace drawpoint::engine::record {
+namespace drawpoint::engine {
 
 /// Writes beside the target, syncs, renames over the target and syncs the folder. Throws std::runtime_error
 /// with the system's reason; the target is then as it was and nothing is left beside it.
 void write_atomically(const std::filesystem::path& target, std::span<const std::byte> bytes);
 
-}  // namespace drawpoint::engine::record
+}  // namespace drawpoint::engine

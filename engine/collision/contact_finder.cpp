@@ -165,9 +165,7 @@ class ContactFinder::Impl {
     }
   }
 
-  void save(std::vector<std::byte>& bytes) const {
-    detail::save_state({options_, items_, boxes_, pairs_}, bytes);
-  }
+  std::vector<std::byte> save() const { return detail::save_state({options_, items_, boxes_, pairs_}); }
 
   void restore(std::span<const std::byte> bytes) {
     const detail::FinderState state = detail::read_state({options_, items_, boxes_, pairs_}, bytes);
@@ -271,7 +269,7 @@ void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(colli
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }
 void ContactFinder::forget() { impl_->forget(); }
-void ContactFinder::save(std::vector<std::byte>& bytes) const { impl_->save(bytes); }
+std::vector<std::byte> ContactFinder::save() const { return impl_->save(); }
 void ContactFinder::restore(std::span<const std::byte> bytes) { impl_->restore(bytes); }
 
 }  // namespace drawpoint::engine

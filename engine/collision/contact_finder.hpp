@@ -79,9 +79,9 @@ class ContactFinder {
   /// Drops everything remembered between calls (manifolds, axes, boxes).
   void forget();
 
-  /// Appends the state to `bytes`: poses, boxes, motion bounds, pairs and their contacts, in this machine's
+  /// The state as bytes: poses, boxes, motion bounds, pairs and their contacts, in this machine's
   /// number format. A finder with the same options and colliders that restores it goes on with the same bits.
-  void save(std::vector<std::byte>& bytes) const;
+  std::vector<std::byte> save() const;
   /// Takes over a state. Throws std::runtime_error, and leaves the finder as it was, when the bytes are not
   /// the state of a finder with these options and colliders: what is wrong, where, and what was expected.
   void restore(std::span<const std::byte> bytes);

@@ -19,8 +19,7 @@
 /// next look-up drops them).
 ///
 /// A checksum over all bytes finds flipped ones; counts, indices and numbers are checked one by one all the
-/// same. Cost: 73
-/// bytes a pair apart, 220 to 377 a contact.
+/// same. Cost: 73 bytes per pair apart, 220 to 377 per contact.
 namespace drawpoint::engine::detail {
 
 struct ColliderState {
@@ -46,8 +45,7 @@ struct FinderParts {
   const PairCache& pairs;
 };
 
-/// Appends.
-void save_state(const FinderParts& parts, std::vector<std::byte>& bytes);
+std::vector<std::byte> save_state(const FinderParts& parts);
 
 /// Throws std::runtime_error when the bytes are not a state of such a finder.
 FinderState read_state(const FinderParts& parts, std::span<const std::byte> bytes);

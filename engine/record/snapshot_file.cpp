@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <drawpoint/engine/base/atomic_file.hpp>
+#include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/record/snapshot_file.hpp>
 #include <fstream>
 #include <stdexcept>
@@ -23,12 +24,6 @@ struct Head {
 };
 static_assert(sizeof(Head) == 24);
 
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325ull;
-  for (std::byte byte : bytes) sum = (sum ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3ull;
-  return sum;
-}
-
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw std::runtime_error("record::read_snapshot: \"" + name + "\" " + what);
 }
@@ -43,7 +38,7 @@ std::vector<std::byte> wrapped_snapshot(std::span<const std::byte> state) {
   std::vector<std::byte> file(sizeof head + state.size() + sizeof(std::uint64_t));
   std::memcpy(file.data(), &head, sizeof head);
   std::copy(state.begin(), state.end(), file.begin() + sizeof head);
-  const std::uint64_t sum = checksum(std::span(file).first(file.size() - sizeof sum));
+  const std::uint64_t sum = Checksum::of(std::span(file).first(file.size() - sizeof sum));
   std::memcpy(file.data() + file.size() - sizeof sum, &sum, sizeof sum);
   return file;
 }
@@ -65,7 +60,7 @@ std::span<const std::byte> unwrapped_snapshot(std::span<const std::byte> file, c
     fail(name, "holds " + std::to_string(held) + " bytes of state, not the " + std::to_string(head.length) +
                    " that it names: it is cut or was added to" + save_anew);
   std::memcpy(&sum, file.data() + sizeof head + held, sizeof sum);
-  if (sum != checksum(file.first(sizeof head + held)))
+  if (sum != Checksum::of(file.first(sizeof head + held)))
     fail(name, "is damaged: its checksum differs" + std::string(save_anew));
   return file.subspan(sizeof head, held);
 }

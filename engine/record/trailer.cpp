@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/record/trailer.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <drawpoint/engine/base/hash.hpp>
 #include <fstream>
 #include <span>
 #include <system_error>
@@ -13,31 +15,32 @@ namespace {
 
 struct Trailer {
   std::array<char, 8> mark = {'d', 'r', 'a', 'w', 'p', 'o', 'i', 'n'};
-  std::uint64_t length = 0, checksum = 0xcbf29ce484222325ull;
-
-  void add(std::span<const std::byte> bytes) {
-    length += bytes.size();
-    for (std::byte byte : bytes) checksum = (checksum ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3ull;
-  }
+  std::uint64_t length = 0, checksum = 0;  // of all before it
 };
 static_assert(sizeof(Trailer) == 24);
 
-// Adds `count` bytes of a stream, or what there is.
-void add_from(std::istream& in, std::uint64_t count, Trailer& trailer) {
+// Of `count` bytes of a stream, or what there is.
+Trailer trailer_of(std::istream& in, std::uint64_t count) {
+  Trailer trailer;
+  Checksum sum;
   std::vector<char> piece(1u << 20);
   while (count > 0 && in) {
     in.read(piece.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(count, piece.size())));
     const auto got = static_cast<std::size_t>(in.gcount());
-    trailer.add(std::as_bytes(std::span(piece.data(), got)));
+    sum.add(std::as_bytes(std::span(piece.data(), got)));
+    trailer.length += got;
     count -= got;
   }
+  trailer.checksum = sum.value();
+  return trailer;
 }
 
 }  // namespace
 
 void append_trailer(std::vector<std::byte>& image) {
   Trailer trailer;
-  trailer.add(image);
+  trailer.length = image.size();
+  trailer.checksum = Checksum::of(image);
   const auto bytes = std::as_bytes(std::span(&trailer, 1));
   image.insert(image.end(), bytes.begin(), bytes.end());
 }
@@ -55,8 +58,8 @@ std::string trailer_fault(const std::filesystem::path& path) {
                      : "is not an HDF5 file; give a file that Drawpoint wrote";
   in.clear();
   in.seekg(0);
-  Trailer computed, stored;
-  add_from(in, size - std::min<std::uint64_t>(size, sizeof(Trailer)), computed);
+  const Trailer computed = trailer_of(in, size - std::min<std::uint64_t>(size, sizeof(Trailer)));
+  Trailer stored;
   stored.mark = {};
   in.read(reinterpret_cast<char*>(&stored), sizeof(Trailer));
   if (stored.mark != computed.mark)

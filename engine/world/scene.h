@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <drawpoint/engine/base/bytes.hpp>
+#include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/collision/contact_finder.hpp>
 #include <drawpoint/engine/geometry/ray.hpp>
 #include <drawpoint/engine/world/articulated_body.hpp>

@@ -5,7 +5,8 @@
 
 #include <drawpoint/engine/world/checks.h>
 #include <drawpoint/engine/world/world_impl.h>
-#include <drawpoint/engine/base/bytes.hpp>
+#include <drawpoint/engine/base/byte_stream.hpp>
+#include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/world/state_hash.hpp>
 
 #include <string>
@@ -44,7 +45,7 @@ void add(StateHash& hash, const MaterialTable& table) {
     for (int b = a; b < table.kinds(); ++b) add(hash, table.of(a, b));
 }
 
-void save_freezing(const FreezingState& state, StateWriter& out) {
+void save_freezing(const FreezingState& state, ByteWriter& out) {
   out.put_count(state.rocks.size());
   for (const FreezingState::Stand& stand : state.rocks) {
     out.put(stand.frozen);
@@ -68,7 +69,7 @@ void save_freezing(const FreezingState& state, StateWriter& out) {
   }
 }
 
-HeldPair restored_pair(StateReader& in, int a, int b) {
+HeldPair restored_pair(ByteReader& in, int a, int b) {
   HeldPair held;
   held.start.a = a;
   held.start.b = b;
@@ -83,7 +84,7 @@ HeldPair restored_pair(StateReader& in, int a, int b) {
   return held;
 }
 
-FreezingState restored_freezing(StateReader& in, std::size_t rocks) {
+FreezingState restored_freezing(ByteReader& in, std::size_t rocks) {
   FreezingState state;
   if (in.get_count(149) != rocks) in.fail("holds another number of standing rocks");
   state.rocks.resize(rocks);
@@ -105,7 +106,7 @@ FreezingState restored_freezing(StateReader& in, std::size_t rocks) {
 }
 
 // No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
-void check_motion(const Rock& rock, const StateReader& in) {
+void check_motion(const Rock& rock, const ByteReader& in) {
   constexpr double farthest = 1e9;  // [m]
   if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
     in.fail("holds a rock more than 1e9 m from the origin");
@@ -118,10 +119,10 @@ void check_motion(const Rock& rock, const StateReader& in) {
 struct SceneHashes {
   std::uint64_t options, materials, surroundings, rocks, machine;
 
-  void save(StateWriter& out) const {
+  void save(ByteWriter& out) const {
     for (std::uint64_t x : {options, materials, surroundings, rocks, machine}) out.put(x);
   }
-  static SceneHashes read(StateReader& in) {
+  static SceneHashes read(ByteReader& in) {
     SceneHashes hashes{};
     for (std::uint64_t* x :
          {&hashes.options, &hashes.materials, &hashes.surroundings, &hashes.rocks, &hashes.machine})
@@ -188,7 +189,7 @@ std::uint64_t state_hash(const World& world) {
 }
 
 std::vector<std::byte> World::save() const {
-  StateWriter out;
+  ByteWriter out;
   out.put(state_mark);
   hashes_of(impl_->options, impl_->scene).save(out);
   out.put(impl_->time);
@@ -206,14 +207,12 @@ std::vector<std::byte> World::save() const {
   const std::vector<double> machine = this->machine() ? this->machine()->state() : std::vector<double>();
   out.put_count(machine.size());
   for (double x : machine) out.put(x);
-  std::vector<std::byte> contacts;
-  impl_->scene.finder().save(contacts);
-  out.put(contacts);
+  out.put(impl_->scene.finder().save());
   return out.take();
 }
 
 void World::restore(std::span<const std::byte> state) {
-  StateReader in(state);
+  ByteReader in(state);
   if (in.get<std::uint64_t>() != state_mark) in.fail("is none of a world, or of another version,");
   if (const std::string what = SceneHashes::read(in).difference(hashes_of(impl_->options, impl_->scene));
       !what.empty())

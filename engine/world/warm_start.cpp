@@ -71,7 +71,7 @@ Eigen::Vector3d WarmStart::Reader::rolling() const {
   return found_ ? store_.pairs_[cursor_].rolling : Eigen::Vector3d::Zero().eval();
 }
 
-void WarmStart::save(StateWriter& out) const {
+void WarmStart::save(ByteWriter& out) const {
   out.put_count(pairs_.size());
   for (const Pair& pair : pairs_) {
     out.put(pair.a);
@@ -86,7 +86,7 @@ void WarmStart::save(StateWriter& out) const {
   }
 }
 
-void WarmStart::restore(StateReader& in) {
+void WarmStart::restore(ByteReader& in) {
   WarmStart read;
   const std::size_t pairs = in.get_count(40);
   for (std::size_t k = 0; k < pairs; ++k) {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
-#include <drawpoint/engine/base/bytes.hpp>
+#include <drawpoint/engine/base/byte_stream.hpp>
 #include <vector>
 
 /// Last step's impulses, found again by pair and feature, so that a resting pile starts from its own load.
@@ -66,8 +66,8 @@ class WarmStart {
 
   /// What the next step will start from. Reading throws std::runtime_error for what cannot be, and then
   /// changes nothing.
-  void save(StateWriter& out) const;
-  void restore(StateReader& in);
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
 
  private:
   std::vector<Pair> pairs_, new_pairs_;

@@ -37,11 +37,7 @@ std::string refusal(ContactFinder& finder, std::span<const std::byte> bytes) {
   return "";
 }
 
-std::vector<std::byte> saved(RockHeap& heap) {
-  std::vector<std::byte> bytes;
-  heap.finder().save(bytes);
-  return bytes;
-}
+std::vector<std::byte> saved(RockHeap& heap) { return heap.finder().save(); }
 
 }  // namespace
 
