@@ -25,11 +25,11 @@ namespace drawpoint::engine {
 
 static_assert(std::endian::native == std::endian::little, "states are stored little-endian");
 
-/// Values with one representation a bit pattern: bool, fixed-width integers, enumerations of them, double.
+/// Values with one representation per bit pattern: bool, fixed-width integers, enumerations of them, double.
 template <class T>
 concept StateScalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// 64-bit hash of words, one multiplication (FNV-1a's prime) and one shift a word: every bit of the input
+/// 64-bit hash of words, one multiplication (FNV-1a's prime) and one shift per word: every bit of the input
 /// reaches the result. For telling runs apart, not for security.
 class StateHash {
  public:

@@ -8,8 +8,8 @@
 /// The pile of rock_pile.hpp in Drawpoint's own engine.
 ///
 /// The blade is a machine of one part and one degree of freedom, w = √M v with M = 1e12 kg, whose velocity is
-/// set anew at every step: it gives way by less than 1e-6 m/s under 1e6 N s a step, and the solver gives the
-/// impulse on it as on any machine. So it costs what a machine's contacts cost. World frame, SI units.
+/// set anew at every step: it gives way by less than 1e-6 m/s under 1e6 N s per step, and the solver gives
+/// the impulse on it as on any machine. So it costs what a machine's contacts cost. World frame, SI units.
 namespace drawpoint::support {
 
 /// A body that moves along x as it is told.

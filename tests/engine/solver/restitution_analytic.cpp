@@ -48,9 +48,8 @@ TEST(Restitution, CubeBouncesToTheSquareOfEOfItsHeight) {
 }
 
 // Three equal cubes in a row, the first arrives with v. All impacts at once, with e = 1: u1' = -(-v) etc.
-// give
-// (-1/3, 2/3, 2/3) v, which keeps momentum and energy. The stage is solved to 1e-12; velocities pass through
-// single precision: 1e-6 v.
+// give (-1/3, 2/3, 2/3) v, which keeps momentum and energy. The stage is solved to 1e-12; velocities pass
+// through single precision: 1e-6 v.
 TEST(Restitution, CradleSharesTheBlowAtOnce) {
   World world = free_space(1);
   const double v = 2;
