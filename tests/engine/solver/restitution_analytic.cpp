@@ -66,7 +66,7 @@ TEST(Restitution, CradleSharesTheBlowAtOnce) {
 // Normal impulses alone never add energy, at any e, however oblique the impact. What may is the push that
 // takes an overlap back. A corner at r that turns at ω leaves its tangent by δ = ½ (ω h)² r in a step, by
 // which it can overlap; that is taken back within the relaxation time 2h, at δ/2h = ¼ ω² h r: ½ m (¼ ω² h r)²
-// a point. Tumbling by a splitting of second order (free_rotation.hpp) lets energy swing by less than (ω
+// a point. Tumbling by a splitting of second order (free_rotation.h) lets energy swing by less than (ω
 // h)²/12 of it.
 TEST(Restitution, AddsNoEnergyWithoutFriction) {
   for (const double e : {0.0, 0.5, 1.0}) {
