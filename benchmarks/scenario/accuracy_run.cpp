@@ -45,7 +45,7 @@ void sample_dig(AccuracySample& sample, support::PileWorld& world, Progress& pro
   int step = 0;
   world.dig();
   sample.ms_dig = run_phase(world, "dig", steps, progress, [&](const auto&) {
-                    if (step++ >= skipped) drag.push_back(-world.blade().force().x());
+                    if (step++ >= skipped) drag.push_back(-world.blade().contact_wrench().force.x());
                   }).mean();
   const std::vector<double> windows = block_means(drag, steps_in(window, h));
   sample.drag = mean_of(windows);

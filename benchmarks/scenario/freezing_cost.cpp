@@ -26,7 +26,7 @@ class TwoBoxes {
  public:
   TwoBoxes(const CostScene& scene, const WorldOptions& options)
       : near_(support::rock_pile(scene.moving, scene.seed, scene.material)),
-        blade_(near_.blade.start),
+        blade_(Isometry3d(Eigen::Translation3d(near_.blade.start))),
         world_(options, support::pile_materials(near_.material)) {
     add_static(HalfSpace{Vector3d::UnitZ(), 0}, Vector3d::Zero());
     for (const double x : {0.0, apart}) {
@@ -43,7 +43,7 @@ class TwoBoxes {
   TwoBoxes(const TwoBoxes&) = delete;
 
   void let_go() { add(near_, 0); }
-  void dig() { blade_.set_speed(near_.blade.speed); }
+  void dig() { blade_.set_velocity({near_.blade.speed, 0, 0}); }
   World& world() { return world_; }
   int frozen() const {
     int count = 0;
@@ -68,7 +68,7 @@ class TwoBoxes {
   }
 
   support::RockPile near_;
-  support::PrescribedBody blade_;
+  KinematicBody blade_;
   World world_;
 };
 

@@ -75,7 +75,7 @@ void measure_dig(nlohmann::json& out, support::PileWorld& world, int steps, Prog
   int step = 0;
   world.dig();
   const PhaseTimes times = run_phase(world, "dig", steps, progress, [&](const auto&) {
-    if (++step > steps - last) drag -= world.blade().force().x() / last;
+    if (++step > steps - last) drag -= world.blade().contact_wrench().force.x() / last;
   });
   const auto states = world.states();
   const support::Vector3d blade = world.blade().part_pose(0).translation();

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <cstdint>
+#include <drawpoint/engine/base/eigen.hpp>
 
 /// Counter-based random numbers for the engine: draw k of seed s is a hash of (s, k), the same on every
 /// machine. Mix: splitmix64 (G. L. Steele et al., "Fast splittable pseudorandom number generators", 2014).

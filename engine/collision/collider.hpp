@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/geometry/shape.hpp>
 #include <memory>
 
@@ -18,9 +18,9 @@ struct Collider {
 };
 
 struct ColliderMove {
-  int collider;
-  Eigen::Isometry3d X_WB;
-  double speculative_margin;  ///< [m]
+  int collider = -1;
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  double speculative_margin = 0;  ///< [m]
 };
 
 }  // namespace drawpoint::engine

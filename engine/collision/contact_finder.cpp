@@ -101,6 +101,14 @@ class ContactFinder::Impl {
     check_box(id);
   }
 
+  Isometry3d shape_pose(int id) const {
+    require(id);
+    Isometry3d pose = Isometry3d::Identity();
+    pose.linear() = items_.placed[id].R;
+    pose.translation() = items_.placed[id].p;
+    return pose;
+  }
+
   void set_speculative_margin(int id, double reach) {
     require(id);
     check_speculative_margin(id, reach);
@@ -254,6 +262,7 @@ int ContactFinder::add(const Collider& collider) { return impl_->add(collider); 
 void ContactFinder::remove(int collider) { impl_->remove(collider); }
 const Collider& ContactFinder::collider(int collider) const { return impl_->collider(collider); }
 void ContactFinder::set_pose(int collider, const Isometry3d& X_WB) { impl_->set_pose(collider, X_WB); }
+Isometry3d ContactFinder::shape_pose(int collider) const { return impl_->shape_pose(collider); }
 void ContactFinder::set_speculative_margin(int collider, double reach) {
   impl_->set_speculative_margin(collider, reach);
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <cstddef>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/collision/collider.hpp>
 #include <drawpoint/engine/collision/contact_finder_options.hpp>
 #include <drawpoint/engine/collision/manifold.hpp>
@@ -61,6 +61,8 @@ class ContactFinder {
   /// Throws std::invalid_argument for a pose that is not finite or whose axes are not orthonormal within
   /// 1e-6.
   void set_pose(int collider, const Eigen::Isometry3d& X_WB);
+  /// X_WS of the collider's shape.
+  Eigen::Isometry3d shape_pose(int collider) const;
   /// How much farther than the margin the collider looks [m], ≥ 0 and 0 until set: a pair is searched as far
   /// as the margin and both speculative margins. For what moves fast: the way that it may go in the coming step.
   void set_speculative_margin(int collider, double distance);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +18,12 @@ constexpr int cylinder_sides = 48;  // a prism within R(1 − cos(π/48)) = 0.00
   throw std::invalid_argument("engine::ContactFinder: " + what);
 }
 
+std::string text(double x) {
+  std::ostringstream out;
+  out << x;
+  return out.str();
+}
+
 void check(const Cylinder& cylinder) {
   if (!(cylinder.radius > 0) || !(cylinder.half_width > 0) ||
       !std::isfinite(cylinder.radius + cylinder.half_width))
@@ -26,8 +33,9 @@ void check(const Cylinder& cylinder) {
 
 void check(const HalfSpace& plane) {
   if (!(std::abs(plane.normal.norm() - 1) < 1e-9) || !std::isfinite(plane.offset))
-    refuse("a half-space has a normal of length " + std::to_string(plane.normal.norm()) + " and offset " +
-           std::to_string(plane.offset) + " m; give a unit normal and a finite offset");
+    refuse("a half-space has a normal whose length is off 1 by " + text(plane.normal.norm() - 1) +
+           " and offset " + text(plane.offset) +
+           " m; allowed: off by less than 1e-9 and finite; give a unit normal, normal.normalized()");
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <array>
 #include <cstdint>
+#include <drawpoint/engine/base/eigen.hpp>
 
 /// Where two colliders touch or nearly touch: up to four points with one normal.
 ///

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <span>
 #include <vector>
 

@@ -45,4 +45,18 @@ MassProperties mass_properties(const ConvexPolyhedron& shape, double density) {
   return {density * moments.volume, apex + centre, 0.5 * (inertia + inertia.transpose())};
 }
 
+Eigen::Isometry3d principal_frame(const MassProperties& properties) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(properties.inertia);
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() = eigen.eigenvectors();
+  for (int k : {0, 1}) {
+    Eigen::Index largest;
+    frame.linear().col(k).cwiseAbs().maxCoeff(&largest);
+    if (frame.linear()(largest, k) < 0) frame.linear().col(k) *= -1;
+  }
+  frame.linear().col(2) = frame.linear().col(0).cross(frame.linear().col(1));
+  frame.translation() = properties.centre;
+  return frame;
+}
+
 }  // namespace drawpoint::engine

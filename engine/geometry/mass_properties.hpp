@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 
 /// Exact mass properties of a homogeneous polyhedron.
@@ -15,12 +15,16 @@
 namespace drawpoint::engine {
 
 struct MassProperties {
-  double mass;              ///< [kg]
-  Eigen::Vector3d centre;   ///< of mass, in the shape's frame [m]
-  Eigen::Matrix3d inertia;  ///< about the centre, in the shape's axes [kg m²]
+  double mass = 0;                                    ///< [kg]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of mass, in the shape's frame [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the shape's axes [kg m²]
 };
 
 /// density [kg/m³]; throws std::invalid_argument unless it is positive and finite.
 MassProperties mass_properties(const ConvexPolyhedron& shape, double density);
+
+/// X_SP: the frame at the centre of mass along the principal axes, by rising moment of inertia, right-handed, the largest
+/// component of the first two axes positive. Where moments are equal, their axes are any.
+Eigen::Isometry3d principal_frame(const MassProperties& properties);
 
 }  // namespace drawpoint::engine

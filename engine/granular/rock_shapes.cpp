@@ -120,26 +120,9 @@ std::vector<Vector3d> corners(const Planes& planes) {
   return result;
 }
 
-// Rows: the principal axes by rising moment of inertia, right-handed, largest component of the first two
-// positive.
-Matrix3d principal_axes(const Matrix3d& inertia) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(inertia);
-  Matrix3d axes = eigen.eigenvectors().transpose();
-  for (int k : {0, 1}) {
-    Eigen::Index largest;
-    axes.row(k).cwiseAbs().maxCoeff(&largest);
-    if (axes(k, largest) < 0) axes.row(k) *= -1;
-  }
-  axes.row(2) = axes.row(0).cross(axes.row(1));
-  return axes;
-}
-
 ConvexPolyhedron rock(const Planes& planes) {
   const ConvexPolyhedron raw = ConvexPolyhedron::hull_of(corners(planes));
-  const engine::MassProperties mass = engine::mass_properties(raw, 1.0);
-  Eigen::Isometry3d to_principal = Eigen::Isometry3d::Identity();
-  to_principal.linear() = principal_axes(mass.inertia);
-  to_principal.translation() = -(to_principal.linear() * mass.centre);
+  const Eigen::Isometry3d to_principal = engine::principal_frame(engine::mass_properties(raw, 1.0)).inverse();
   return raw.transformed(to_principal).scaled(1 / raw.length());
 }
 

@@ -17,8 +17,8 @@
 namespace drawpoint::engine::granular {
 
 struct SizeClass {
-  double length;      ///< longest dimension [m]
-  double mass_share;  ///< of the total mass
+  double length = 0;      ///< longest dimension [m]
+  double mass_share = 0;  ///< of the total mass
 };
 
 using SizeDistribution = std::array<SizeClass, 4>;
@@ -29,10 +29,10 @@ inline constexpr SizeDistribution blasted_ore{{{0.3, 0.2}, {0.4, 0.3}, {0.6, 0.3
 std::array<double, 4> number_shares(const SizeDistribution& sizes);
 
 struct RockDraw {
-  int size;       ///< index into the distribution
-  int shape;      ///< index into rock_shapes()
-  double length;  ///< [m]
-  double mass;    ///< [kg]
+  int size = 0;       ///< index into the distribution
+  int shape = 0;      ///< index into rock_shapes()
+  double length = 0;  ///< [m]
+  double mass = 0;    ///< [kg]
 };
 
 class RockSampler {

@@ -44,21 +44,22 @@ struct LhdOptions {
 
 /// A convex piece of one body, for contact and for pictures; in the body's frame.
 struct LhdSurface {
-  int body;
+  int body = -1;
   engine::Shape shape;
   SurfaceKind kind;
-  bool touches;       ///< takes part in contacts; the others are only drawn
-  std::string color;  ///< #rrggbb
+  bool touches = false;  ///< takes part in contacts; the others are only drawn
+  std::string color;     ///< #rrggbb
 };
 
 struct Lhd {
   machine::MachineSpec spec;
   LhdOptions options;
-  int front, rear, boom, bucket, bell_crank, link, tilt_barrel, tilt_rod;
+  int front = -1, rear = -1, boom = -1, bucket = -1, bell_crank = -1, link = -1, tilt_barrel = -1,
+      tilt_rod = -1;
   std::array<int, 4> wheels;  ///< front left, front right, rear left, rear right
   std::array<int, 2> lift_barrels, lift_rods;
   std::array<int, 4> wheel_motors;
-  int lift_motor, tilt_motor;
+  int lift_motor = -1, tilt_motor = -1;
   Eigen::Vector3d F, G, K;  ///< boom hinge, bucket hinge, cutting edge (middle), reference pose [m]
   double tyre_radius;       ///< free radius [m]
   double loaded_radius;     ///< axle height under the machine's own weight [m]

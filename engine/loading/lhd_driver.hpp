@@ -19,10 +19,10 @@
 namespace drawpoint::engine::loading {
 
 struct MachineReading {
-  TipPose tip;                 ///< middle of the cutting edge, world, and bucket angle
-  double tip_y = 0;            ///< [m]
-  ActuatorRates actual;        ///< forward speed of the front unit, rates of hinges F and G
-  Eigen::Vector3d front_axle;  ///< world [m]
+  TipPose tip;           ///< middle of the cutting edge, world, and bucket angle
+  double tip_y = 0;      ///< [m]
+  ActuatorRates actual;  ///< forward speed of the front unit, rates of hinges F and G
+  Eigen::Vector3d front_axle = Eigen::Vector3d::Zero();  ///< world [m]
 };
 
 class LhdDriver {

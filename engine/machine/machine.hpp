@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/base/wrench.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <drawpoint/engine/world/articulated_body.hpp>
 #include <memory>
@@ -22,10 +23,7 @@
 /// closed.
 namespace drawpoint::engine::machine {
 
-struct Wrench {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< [N m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
-};
+using engine::Wrench;
 
 class Machine final : public engine::ArticulatedBody {
  public:

@@ -24,8 +24,8 @@ constexpr double impact_speed =
 
 /// What a contact's law needs of its material and the substep.
 struct SpookTerms {
-  double upsilon;  ///< Υ
-  double sigma;    ///< Σ [m/s per N s]
+  double upsilon = 0;  ///< Υ
+  double sigma = 0;    ///< Σ [m/s per N s]
 };
 
 /// k [N/m]; τ [s], at least two whole steps: the stepper's own damping; h [s], of the substep.

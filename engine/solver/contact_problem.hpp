@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <cstdint>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/solver/super_body.hpp>
 #include <vector>
 
@@ -37,15 +37,16 @@ constexpr int machine_part(int part) { return -1 - part; }
 constexpr int part_of(int index) { return -1 - index; }
 
 struct ContactPoint {
-  std::uint32_t feature = 0;     ///< label of the touching features, for starting the next step
-  Eigen::Vector3d position;      ///< world [m]
-  Eigen::Vector3d arm_a, arm_b;  ///< from the body's centre of mass (the part's origin) to the point [m]
-  Eigen::Vector3d normal;        ///< unit, from A to B; one a pair
-  double gap = 0;                ///< at the step's start [m], negative when overlapping
-  double stiffness = 1e9;        ///< k at this point [N/m]
-  double damping_time = 0;       ///< τ [s]
-  double friction = 0;           ///< μ
-  double restitution = 0;        ///< e, 0 to 1
+  std::uint32_t feature = 0;  ///< label of the touching features, for starting the next step
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world [m]
+  /// From the body's centre of mass (the part's origin) to the point [m].
+  Eigen::Vector3d arm_a = Eigen::Vector3d::Zero(), arm_b = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from A to B; one per pair
+  double gap = 0;                                    ///< at the step's start [m], negative when overlapping
+  double stiffness = 1e9;                            ///< k at this point [N/m]
+  double damping_time = 0;                           ///< τ [s]
+  double friction = 0;                               ///< μ
+  double restitution = 0;                            ///< e, 0 to 1
   /// On B, world axes, of the substep that starts (in) or ended (out) the step, times S [N s].
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< out: on B, world axes, over the step [N s]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/solver/super_body.hpp>
 #include <stdexcept>
 #include <vector>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/world/checks.h>
 #include <cmath>
+#include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <limits>
 #include <sstream>
 
@@ -38,6 +39,9 @@ void require(const std::string& name, double value, const Range& allowed) {
 }
 
 void check(const Material& m, const std::string& name) {
+  if (std::isnan(m.friction))
+    refuse(name +
+           "the friction is not given; set Material::friction (0 for none, 0.5 to 0.9 for rock on rock)");
   require(name + "friction", m.friction, {0, 100, "[1]"});
   require(name + "rolling resistance", m.rolling, {0, 100, "[1]"});
   require(name + "spinning resistance", m.spinning, {0, 100, "[1]"});
@@ -46,12 +50,22 @@ void check(const Material& m, const std::string& name) {
   require(name + "restitution", m.restitution, {0, 1, "[1]"});
 }
 
+// Of a homogeneous solid of this shape; a cylinder is centred by its definition.
+void check_centred(const Shape& shape) {
+  constexpr double allowed = 1e-6;  // of the size: the hull's own tolerance on its vertices, with a margin
+  const auto* hull = std::get_if<ConvexPolyhedron>(&shape);
+  if (!hull) return;
+  const Vector3d centre = mass_properties(*hull, 1.0).centre;
+  if (centre.norm() <= allowed * hull->length()) return;
+  refuse("World::add_rock: the shape's centre of mass is at " + text(centre) +
+         " m in its own frame; allowed: within " + text(allowed * hull->length()) +
+         " m of the origin; make the body by RockBody::from_hull()");
+}
+
 }  // namespace
 
 void check(const WorldOptions& o) {
-  if (!(o.step > 0) || o.step > 0.1)
-    refuse("World: step is " + text(o.step) +
-           " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
+  check_step("World", o.step);
   require("World: size of gravity", o.gravity.norm(), {0, 1e3, "m/s^2"});
   require("World: warm_start", o.warm_start, {0, 1, "[1]"});
   require("World: threads", o.threads, {1, 256, "[1]"});
@@ -62,11 +76,18 @@ void check(const WorldOptions& o) {
   require("World: hysteresis of contacts", o.contacts.hysteresis, {0, 10, "m"});
 }
 
+void check_step(const char* place, double h) {
+  if (!(h > 0) || h > 0.1)
+    refuse(std::string(place) + ": step is " + text(h) +
+           " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
+}
+
 void check(const MaterialTable& materials) {
   for (int a = 0; a < materials.kinds(); ++a)
     for (int b = a; b < materials.kinds(); ++b)
-      check(materials.of(a, b),
-            "MaterialTable: kinds " + std::to_string(a) + " and " + std::to_string(b) + ": ");
+      if (materials.given(a, b))
+        check(materials.of(a, b),
+              "MaterialTable: kinds " + std::to_string(a) + " and " + std::to_string(b) + ": ");
 }
 
 void check(const RockBody& body, int materials) {
@@ -81,6 +102,7 @@ void check(const RockBody& body, int materials) {
     refuse("World::add_rock: no rigid body has the principal moments " + text(body.inertia) +
            " kg m^2: the largest exceeds the sum of the others");
   check_material("World::add_rock", body.material, materials);
+  check_centred(*body.shape);
 }
 
 void check_material(const char* place, int material, int materials) {

@@ -18,6 +18,7 @@ constexpr double fastest_solution = 1e4;  ///< [m/s] and, times ten, [rad/s]: be
 void check(const WorldOptions& options);
 void check(const MaterialTable& materials);
 void check(const RockBody& body, int materials);
+void check_step(const char* place, double h);
 void check_material(const char* place, int material, int materials);
 void check_pose(const char* place, const Eigen::Isometry3d& pose);
 void check_velocity(const char* place, const Eigen::Vector3d& velocity,

@@ -33,6 +33,11 @@ ContactAssembly::ContactAssembly(const WorldOptions& options, const Scene& scene
                                  std::shared_ptr<const ThreadPool> pool)
     : options_(options), scene_(scene), pool_(std::move(pool)) {}
 
+void ContactAssembly::begin_step(double h, double last) {
+  problem_.step = h;
+  start_share_ = last > 0 ? options_.warm_start * (h / last) : options_.warm_start;
+}
+
 void ContactAssembly::fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake) {
   manifolds_ = &manifolds;
   fill_bodies(awake);
@@ -53,7 +58,7 @@ void ContactAssembly::fill_bodies(const std::vector<int>& awake) {
       body.inverse_mass = 1 / rock.body.mass;
       body.inverse_inertia = turned(rock.pose.linear(), rock.body.inertia.cwiseInverse());
       body.velocity = rock.velocity;
-      body.external_velocity_change = options_.step * options_.gravity;
+      body.external_velocity_change = problem_.step * options_.gravity;
       body.angular_velocity = rock.angular_velocity;
     }
   });
@@ -85,7 +90,6 @@ void ContactAssembly::fill_contacts() {
     end.pair += block.pair;
     end.point += block.point;
   }
-  problem_.step = options_.step;
   problem_.pairs.resize(static_cast<std::size_t>(end.pair));
   problem_.points.resize(static_cast<std::size_t>(end.point));
   pool_->blocks(manifolds, manifolds_per_block, [&](int first, int last) { fill_pairs(first, last); });
@@ -100,7 +104,7 @@ unsigned ContactAssembly::joining(const Manifold& m) const {
              b = scene_.side_of(scene_.surface(m.collider_b));
   for (int k = 0; k < m.count; ++k) {
     const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
-    if (m.points[k].gap <= resting_margin + 2 * options_.step * u.norm()) joins |= 1u << k;
+    if (m.points[k].gap <= resting_margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
   }
   return joins;
 }
@@ -142,7 +146,7 @@ void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace 
   pair.collider_b = m.collider_b;
   pair.rolling_arm = material.rolling * m.radius;
   pair.spinning_arm = material.spinning * m.radius;
-  pair.start = options_.warm_start * reader.rolling();
+  pair.start = start_share_ * reader.rolling();
   const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
                                                       [](const ManifoldPoint& p) { return p.gap <= 0; }));
   for (int k = 0; k < m.count; ++k) {
@@ -162,7 +166,7 @@ void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace 
     c.damping_time = material.damping_time;
     c.friction = material.friction;
     c.restitution = material.restitution;
-    c.start = options_.warm_start * reader.point(p.feature, p.position);
+    c.start = start_share_ * reader.point(p.feature, p.position);
   }
 }
 

@@ -20,6 +20,8 @@ class ContactAssembly {
   /// The scene must outlive it.
   ContactAssembly(const WorldOptions& options, const Scene& scene, std::shared_ptr<const ThreadPool> pool);
 
+  /// For a step of h [s] after one of `last` [s], 0 before the first.
+  void begin_step(double h, double last);
   /// Makes problem() but for its machine: bodies are the world, then the rocks that are awake.
   void fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake);
   /// Takes over the impulses of the solved problem.
@@ -51,6 +53,7 @@ class ContactAssembly {
   const Scene& scene_;
   std::shared_ptr<const ThreadPool> pool_;
   const std::vector<Manifold>* manifolds_ = nullptr;
+  double start_share_ = 1;            // of the remembered impulses, to start from
   std::vector<int> body_of_rock_;     // in the problem
   std::vector<unsigned> joins_;       // by manifold
   std::vector<double> deepest_;       // overlap by block of manifolds [m]

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@ namespace drawpoint::engine {
 enum class NormalLaw { linear, hertz };
 
 struct Material {
-  double friction = 0;      ///< Coulomb coefficient μ, ≥ 0
+  double friction = std::numeric_limits<double>::
+      quiet_NaN();  ///< Coulomb coefficient μ, ≥ 0; no default: it would let rocks slide like ice, or
+  ///< hold them
   double rolling = 0;       ///< rolling-resistance coefficient μ_r, ≥ 0
   double stiffness = 1e9;   ///< linear: k of the pair of bodies [N/m], > 0; Hertz: E* [Pa]
   double damping_time = 0;  ///< SPOOK relaxation time τ [s]; at least two steps are used
@@ -28,17 +31,21 @@ struct Material {
   NormalLaw law = NormalLaw::linear;
 };
 
-/// Symmetric table of pairs of surface kinds 0 .. kinds-1.
+/// Symmetric table of pairs of surface kinds 0 .. kinds-1. A world refuses a surface that can touch another one with which
+/// its kind has no entry.
 class MaterialTable {
  public:
   /// Both throw std::invalid_argument: for fewer than one kind; for a kind that is not in the table.
-  explicit MaterialTable(int kinds = 1) : kinds_(checked(kinds)), pairs_(kinds * kinds) {}
+  explicit MaterialTable(int kinds = 1)
+      : kinds_(checked(kinds)), pairs_(kinds_ * kinds_), given_(kinds_ * kinds_) {}
   void set(int a, int b, const Material& m) {
     if (a < 0 || b < 0 || a >= kinds_ || b >= kinds_)
       throw std::invalid_argument("engine::MaterialTable: there are no kinds " + std::to_string(a) + " and " +
                                   std::to_string(b) + "; allowed: 0 to " + std::to_string(kinds_ - 1));
     pairs_[a * kinds_ + b] = pairs_[b * kinds_ + a] = m;
+    given_[a * kinds_ + b] = given_[b * kinds_ + a] = true;
   }
+  bool given(int a, int b) const { return given_[a * kinds_ + b]; }
   const Material& of(int a, int b) const { return pairs_[a * kinds_ + b]; }
   int kinds() const { return kinds_; }
 
@@ -51,6 +58,7 @@ class MaterialTable {
 
   int kinds_;
   std::vector<Material> pairs_;
+  std::vector<bool> given_;
 };
 
 }  // namespace drawpoint::engine

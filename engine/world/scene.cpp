@@ -29,12 +29,31 @@ Collider rock_collider(const RockBody& body, int rock) {
 
 Scene::Scene(const WorldOptions& options, const MaterialTable& materials,
              std::shared_ptr<const ThreadPool> pool)
-    : options_(options), materials_(materials), pool_(std::move(pool)), finder_(options.contacts, pool_) {}
+    : options_(options), materials_(materials), pool_(std::move(pool)), finder_(options.contacts, pool_) {
+  kinds_.fill(std::vector<bool>(static_cast<std::size_t>(materials.kinds())));
+}
 
-int Scene::add_surface(const Surface& surface, const Collider& collider) {
+// Rocks touch everything, fixed surfaces and parts not their own kind.
+void Scene::check_materials(const char* place, const SurfaceOwner& owner, int kind) const {
+  for (const Owner other : {Owner::fixed, Owner::rock, Owner::part}) {
+    if (other == owner.owner && other != Owner::rock) continue;
+    const std::vector<bool>& kinds = kinds_[static_cast<std::size_t>(other)];
+    for (int k = 0; k < static_cast<int>(kinds.size()); ++k)
+      if ((kinds[k] || (owner.owner == other && k == kind)) && !materials_.given(k, kind))
+        throw std::invalid_argument(
+            std::string("engine::") + place + ": a surface of kind " + std::to_string(kind) +
+            " can touch one of kind " + std::to_string(k) +
+            ", but the materials say nothing about the two; give them by MaterialTable::set(" +
+            std::to_string(k) + ", " + std::to_string(kind) + ", ...)");
+  }
+}
+
+int Scene::add_surface(const char* place, const Surface& surface, const Collider& collider) {
+  check_materials(place, surface, surface.material);
   const int id = finder_.add(collider);
   if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1);
   surfaces_[id] = surface;
+  kinds_[static_cast<std::size_t>(surface.owner)][surface.material] = true;
   return id;
 }
 
@@ -44,24 +63,30 @@ int Scene::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const V
   check_pose("World::add_rock", pose);
   check_velocity("World::add_rock", velocity, angular_velocity);
   const int index = static_cast<int>(rocks_.size());
-  const int id = add_surface({Owner::rock, index, body.material, radius_about_origin(*body.shape)},
-                             rock_collider(body, index));
+  const int id =
+      add_surface("World::add_rock", {{Owner::rock, index}, body.material, radius_about_origin(*body.shape)},
+                  rock_collider(body, index));
   rocks_.push_back({body, pose, velocity, angular_velocity, true, id});
   finder_.set_pose(id, pose);
   return index;
 }
 
-Rock& Scene::rock(int rock, const char* place) {
+const Rock& Scene::rock(int rock, const char* place) const {
   if (rock < 0 || rock >= static_cast<int>(rocks_.size()))
     throw std::invalid_argument(std::string("engine::World::") + place + ": there is no rock " +
                                 std::to_string(rock) + "; there are " + std::to_string(rocks_.size()));
   return rocks_[rock];
 }
 
-Rock& Scene::present_rock(int rock, const char* place) {
+const Rock& Scene::present_rock(int rock, const char* place) const {
   if (!this->rock(rock, place).present)
     throw std::invalid_argument(std::string("engine::World::") + place + ": rock " + std::to_string(rock) +
                                 " was removed; look at Rock::present first");
+  return rocks_[rock];
+}
+
+Rock& Scene::present_rock(int rock, const char* place) {
+  std::as_const(*this).present_rock(rock, place);
   return rocks_[rock];
 }
 
@@ -80,7 +105,7 @@ void Scene::attach(ArticulatedBody* machine) {
                                   std::to_string(machine->parts()) + " parts, but part " +
                                   std::to_string(surface.index) + " has a shape; detach with nullptr first");
     finder_.remove(static_cast<int>(id));
-    surface = {Owner::fixed, detached, 0};
+    surface = {{Owner::fixed, detached}, 0};
     surroundings_.add(static_cast<std::uint64_t>(id));
   }
   machine_ = machine;
@@ -90,8 +115,9 @@ int Scene::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3
   check_pose("World::add_static", pose);
   check_material("World::add_static", material, materials_.kinds());
   const Shape* added = shape.get();
-  const int id = add_surface({Owner::fixed, -1, material}, {std::move(shape), world_body, fixed_family, false,
-                                                            Eigen::Isometry3d::Identity()});
+  const int id =
+      add_surface("World::add_static", {{Owner::fixed, -1}, material},
+                  {std::move(shape), world_body, fixed_family, false, Eigen::Isometry3d::Identity()});
   finder_.set_pose(id, pose);
   hash_surface(id, *added, pose);
   return id;
@@ -110,7 +136,7 @@ void Scene::add_part_shape(int part, std::shared_ptr<const Shape> shape, const E
                                 " has no shape or a half-space; give a polyhedron or a cylinder");
   const Shape* added = shape.get();
   const double radius = radius_about_origin(*shape) + X_PS.translation().norm();
-  const int id = add_surface({Owner::part, part, material, radius},
+  const int id = add_surface("World::add_part_shape", {{Owner::part, part}, material, radius},
                              {std::move(shape), machine_part(part), machine_family, true, X_PS});
   finder_.set_pose(id, machine_->part_pose(part));
   hash_surface(id, *added, X_PS);
@@ -127,14 +153,19 @@ void Scene::hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& po
 
 void Scene::set_moves(int rock, bool moves) { finder_.set_moves(rocks_[rock].collider, moves); }
 
-const SuperBody* Scene::linearise() {
-  super_ = machine_ ? &machine_->linearise(options_.step, options_.gravity) : nullptr;
+const SuperBody* Scene::linearise(double h) {
+  super_ = machine_ ? &machine_->linearise(h, options_.gravity) : nullptr;
   return super_;
 }
 
 Vector3d Scene::origin_of(const Surface& surface) const {
   if (surface.owner == Owner::rock) return rocks_[surface.index].pose.translation();
   return surface.owner == Owner::part ? super_->origins[surface.index] : Vector3d(Vector3d::Zero());
+}
+
+SurfaceOwner Scene::owner(int collider) const {
+  const SurfaceOwner& owner = surface(collider);
+  return owner.owner == Owner::fixed ? SurfaceOwner{Owner::fixed, collider} : owner;
 }
 
 Side Scene::side_of(const Surface& surface) const {
@@ -150,9 +181,9 @@ Side Scene::side_of(const Surface& surface) const {
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its
 // speculative margins and the margin, so no contact is missed at any speed. In steps of `resolution`, so that
 // a speed that wavers does not make contacts be searched anew.
-double Scene::speculative_margin_of(const Surface& surface) const {
+double Scene::speculative_margin_of(const Surface& surface, double h) const {
   constexpr double resolution = 5e-3;  // [m]
-  const double fall = options_.step * options_.gravity.norm();
+  const double fall = h * options_.gravity.norm();
   double speed = 0;
   if (surface.owner == Owner::rock) {
     const Rock& rock = rocks_[surface.index];
@@ -161,28 +192,55 @@ double Scene::speculative_margin_of(const Surface& surface) const {
     const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
     speed = V.tail<3>().norm() + V.head<3>().norm() * surface.radius + fall;
   }
-  return resolution *
-         std::ceil(std::max(0.0, options_.step * speed - 0.5 * options_.contacts.margin) / resolution);
+  return resolution * std::ceil(std::max(0.0, h * speed - 0.5 * options_.contacts.margin) / resolution);
 }
 
-void Scene::place_colliders(const std::vector<int>& awake) {
+void Scene::place_colliders(const std::vector<int>& awake, double h) {
   moves_.resize(awake.size());
   pool_->blocks(static_cast<int>(awake.size()), rocks_per_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) {
       const Rock& rock = rocks_[awake[k]];
-      moves_[k] = {rock.collider, rock.pose, speculative_margin_of(surfaces_[rock.collider])};
+      moves_[k] = {rock.collider, rock.pose, speculative_margin_of(surfaces_[rock.collider], h)};
     }
   });
   for (std::size_t id = 0; id < surfaces_.size(); ++id)
     if (surfaces_[id].owner == Owner::part)
       moves_.push_back({static_cast<int>(id), machine_->part_pose(surfaces_[id].index),
-                        speculative_margin_of(surfaces_[id])});
+                        speculative_margin_of(surfaces_[id], h)});
   finder_.move(moves_);
 }
 
-const std::vector<Manifold>& Scene::find_contacts(const std::vector<int>& awake) {
-  place_colliders(awake);
+const std::vector<Manifold>& Scene::find_contacts(const std::vector<int>& awake, double h) {
+  place_colliders(awake, h);
   return finder_.find();
+}
+
+Eigen::Isometry3d Scene::shape_pose(int collider) const {
+  const Surface& surface = this->surface(collider);
+  if (surface.owner == Owner::rock) return rocks_[surface.index].pose;
+  if (surface.owner == Owner::part)
+    return machine_->part_pose(surface.index) * finder_.collider(collider).X_BC;
+  return finder_.shape_pose(collider);
+}
+
+std::optional<RayHit> Scene::cast_ray(const Ray& ray, double most) const {
+  std::optional<RayHit> first;
+  for (int id = 0; id < static_cast<int>(surfaces_.size()); ++id) {
+    const Surface& surface = surfaces_[id];
+    if (surface.owner == Owner::rock && !rocks_[surface.index].present) continue;
+    if (surface.owner == Owner::fixed && surface.index == detached) continue;
+    const Eigen::Isometry3d X_WS = shape_pose(id);
+    if (surface.owner == Owner::rock) {  // most rocks are passed by
+      const Vector3d to_centre = X_WS.translation() - ray.origin;
+      const double along = to_centre.dot(ray.direction);
+      if (to_centre.squaredNorm() - along * along > surface.radius * surface.radius) continue;
+    }
+    const std::optional<RayEntry> entry = intersect(ray, *finder_.collider(id).shape, X_WS, most);
+    if (!entry) continue;
+    most = entry->distance;
+    first = RayHit{owner(id), entry->distance, ray.origin + entry->distance * ray.direction, entry->normal};
+  }
+  return first;
 }
 
 ContactFinder Scene::finder_for(const std::vector<Rock>& rocks) const {

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <drawpoint/engine/base/bytes.hpp>
 #include <drawpoint/engine/collision/contact_finder.hpp>
+#include <drawpoint/engine/geometry/ray.hpp>
 #include <drawpoint/engine/world/articulated_body.hpp>
+#include <drawpoint/engine/world/contacts.hpp>
 #include <drawpoint/engine/world/material.hpp>
 #include <drawpoint/engine/world/rock.hpp>
 #include <drawpoint/engine/world/world_options.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 /// What is in a world: rocks, fixed surroundings, the machine with its parts' shapes, and the finder of their
@@ -20,14 +24,10 @@ void add(StateHash& hash, const Shape& shape);
 
 namespace detail {
 
-enum class Owner { fixed, rock, part };
-
 /// What a collider is the surface of.
-struct Surface {
-  Owner owner = Owner::fixed;
-  int index = -1;  ///< of the rock or the part
+struct Surface : SurfaceOwner {
   int material = 0;
-  double radius = 0;  ///< that holds the shape, about the body's origin [m]
+  double radius = 0;  ///< that holds the shape, about the body's origin [m]; 0 for a fixed one
 };
 
 /// A body at the start of the step, as a contact sees it.
@@ -53,26 +53,33 @@ class Scene {
 
   /// The rock of this number, which may be a removed one in the first; else std::invalid_argument that names
   /// the function `place` of World.
-  Rock& rock(int rock, const char* place);
   Rock& present_rock(int rock, const char* place);
+  const Rock& rock(int rock, const char* place) const;
+  const Rock& present_rock(int rock, const char* place) const;
 
-  /// Finds the contacts of the rocks that are awake, ascending, and the machine's parts with everything. Valid
-  /// until the next call.
-  const std::vector<Manifold>& find_contacts(const std::vector<int>& awake);
+  /// Finds the contacts of the rocks that are awake, ascending, and the machine's parts with everything, in a step of
+  /// h [s]. Valid until the next call.
+  const std::vector<Manifold>& find_contacts(const std::vector<int>& awake, double h);
   const FinderTimes& finder_times() const { return finder_.times(); }
   /// Between two colliders that do not move nothing is searched.
   void set_moves(int rock, bool moves);
 
-  /// The machine's super-body for the coming step; nullptr without a machine.
-  const SuperBody* linearise();
+  /// The machine's super-body for the coming step of h [s]; nullptr without a machine.
+  const SuperBody* linearise(double h);
 
   std::vector<Rock>& rocks() { return rocks_; }
   const std::vector<Rock>& rocks() const { return rocks_; }
   const Surface& surface(int collider) const { return surfaces_[static_cast<std::size_t>(collider)]; }
   const MaterialTable& materials() const { return materials_; }
   ArticulatedBody* machine() const { return machine_; }
+  /// Whose the collider is, as a user names it.
+  SurfaceOwner owner(int collider) const;
+  /// Where the origin of the surface's body is; of a machine, at the start of the last step.
   Eigen::Vector3d origin_of(const Surface& surface) const;
   Side side_of(const Surface& surface) const;
+
+  /// As World's function of this name.
+  std::optional<RayHit> cast_ray(const Ray& ray, double most) const;
 
   const ContactFinder& finder() const { return finder_; }
   /// A new finder with these colliders, numbered as here, for these rocks.
@@ -83,16 +90,19 @@ class Scene {
   std::uint64_t surroundings_hash() const { return surroundings_.value(); }
 
  private:
-  int add_surface(const Surface& surface, const Collider& collider);
+  int add_surface(const char* place, const Surface& surface, const Collider& collider);
+  void check_materials(const char* place, const SurfaceOwner& owner, int kind) const;
   void hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose);
-  void place_colliders(const std::vector<int>& awake);
-  double speculative_margin_of(const Surface& surface) const;
+  Eigen::Isometry3d shape_pose(int collider) const;
+  void place_colliders(const std::vector<int>& awake, double h);
+  double speculative_margin_of(const Surface& surface, double h) const;
 
   WorldOptions options_;
   MaterialTable materials_;
   std::shared_ptr<const ThreadPool> pool_;
   ContactFinder finder_;
-  std::vector<Surface> surfaces_;  // by collider
+  std::vector<Surface> surfaces_;           // by collider
+  std::array<std::vector<bool>, 3> kinds_;  // of the surfaces so far, by their owner
   std::vector<Rock> rocks_;
   ArticulatedBody* machine_ = nullptr;
   const SuperBody* super_ = nullptr;

@@ -14,7 +14,7 @@
 namespace drawpoint::engine {
 namespace {
 
-constexpr std::uint64_t state_mark = 0x326574617473'7044;  // "Dpstate2": the version is the last digit
+constexpr std::uint64_t state_mark = 0x336574617473'7044;  // "Dpstate3": the version is the last digit
 
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);
@@ -192,6 +192,7 @@ std::vector<std::byte> World::save() const {
   out.put(state_mark);
   hashes_of(impl_->options, impl_->scene).save(out);
   out.put(impl_->time);
+  out.put(impl_->last_step);
   out.put(static_cast<std::int64_t>(impl_->steps));
   out.put_count(rocks().size());
   for (const Rock& rock : rocks()) {
@@ -219,6 +220,8 @@ void World::restore(std::span<const std::byte> state) {
     throw std::runtime_error("engine::World::restore: the state is of " + what +
                              "; build the world by the same calls as the one that was saved");
   const auto time = in.get<double>();
+  const auto last_step = in.get<double>();
+  if (!(last_step >= 0 && last_step <= 0.1)) in.fail("holds a step outside 0 to 0.1 s");
   const auto steps = in.get<std::int64_t>();
   std::vector<Rock> rocks = impl_->scene.rocks();
   if (in.get_count(145) != rocks.size()) in.fail("holds another number of rocks");
@@ -250,6 +253,7 @@ void World::restore(std::span<const std::byte> state) {
   impl_->contacts.warm_start() = std::move(warm_start);
   impl_->freezing = std::move(freezing);
   impl_->time = time;
+  impl_->last_step = last_step;
   impl_->steps = static_cast<long>(steps);
 }
 

@@ -31,7 +31,7 @@ World::Impl::Impl(const WorldOptions& o, const MaterialTable& materials)
       freezing(options.freezing, options.step, options.gravity) {}
 
 const std::vector<Manifold>& World::Impl::find_contacts(StepReport& report) {
-  const std::vector<Manifold>& manifolds = scene.find_contacts(freezing.awake());
+  const std::vector<Manifold>& manifolds = scene.find_contacts(freezing.awake(), contacts.problem().step);
   report.broad_s += scene.finder_times().broad;
   report.narrow_s += scene.finder_times().narrow;
   return manifolds;
@@ -98,11 +98,12 @@ void World::Impl::settle_frozen() {
   }
 }
 
-StepReport World::Impl::step() {
+StepReport World::Impl::step(double h) {
   const ThreadPool::Region region(*pool);
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
-  contacts.problem().machine = scene.linearise();
+  contacts.begin_step(h, last_step);
+  contacts.problem().machine = scene.linearise(h);
   report.machine_s = scene.machine() ? seconds_since(start) : 0;
   SolverReport solved;
   do {
@@ -115,9 +116,10 @@ StepReport World::Impl::step() {
     scene.machine()->advance(solved.machine);
     report.machine_s += seconds_since(advance_start);
   }
-  detail::move_rocks(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, options.step);
+  detail::move_rocks(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h);
   ++steps;
-  time += options.step;
+  time += h;
+  last_step = h;
   report.awake = static_cast<int>(freezing.awake().size());
   settle_frozen();
   report.manifolds = static_cast<int>(contacts.problem().pairs.size());
@@ -170,13 +172,24 @@ void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const E
   impl_->scene.add_part_shape(part, std::move(shape), X_PS, material);
 }
 
-StepReport World::step() { return impl_->step(); }
+StepReport World::step() { return impl_->step(impl_->options.step); }
+
+StepReport World::step(double h) {
+  if (impl_->options.freezing.on && h != impl_->options.step)
+    throw std::invalid_argument(
+        "engine::World::step: freezing is on, and its rules count steps of options().step; switch it off, or "
+        "call step()");
+  detail::check_step("World::step", h);
+  return impl_->step(h);
+}
+
 bool World::frozen(int rock) const {
   impl_->scene.rock(rock, "frozen");
   return impl_->freezing.frozen(rock);
 }
 void World::thaw_all() { impl_->thaw_all(); }
 const std::vector<Rock>& World::rocks() const { return impl_->scene.rocks(); }
+const Rock& World::rock(int rock) const { return impl_->scene.rock(rock, "rock"); }
 double World::time() const { return impl_->time; }
 const ArticulatedBody* World::machine() const { return impl_->scene.machine(); }
 const WorldOptions& World::options() const { return impl_->options; }

@@ -17,10 +17,13 @@ namespace drawpoint::engine {
 struct World::Impl {
   Impl(const WorldOptions& options, const MaterialTable& materials);
 
-  StepReport step();
+  StepReport step(double h);
   const std::vector<Manifold>& find_contacts(StepReport& report);
   SolverReport solve(const std::vector<Manifold>& manifolds, StepReport& report);
   void check_solution(const SuperBodySolution& solved) const;
+
+  std::vector<PairForce> pair_forces() const;
+  Wrench wrench_on(const SurfaceOwner& body, const Eigen::Vector3d& about) const;
 
   void thaw(const std::vector<int>& rocks);
   void thaw_all();
@@ -38,6 +41,7 @@ struct World::Impl {
   Observer before_solve;
   long steps = 0;
   double time = 0;
+  double last_step = 0;  // [s]; 0 before the first
 };
 
 namespace detail {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/collision/contact_finder_options.hpp>
 #include <drawpoint/engine/solver/solver_options.hpp>
 #include <drawpoint/engine/world/freezing_options.hpp>

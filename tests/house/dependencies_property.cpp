@@ -109,3 +109,11 @@ TEST(Dependencies, WhatTheTableGrantsPasses) {
       "");
   EXPECT_EQ(first_breach("tests/doe/a.cpp", "#include <anything/at_all.hpp>"), "");
 }
+
+// A public header that took Eigen by itself would not notice a user's alignment (decision 0020).
+TEST(Dependencies, PublicHeadersOfTheEngineTakeEigenFromBase) {
+  for (const Source& source : sources(root, {"engine"}))
+    if (source.path.ends_with(".hpp") && source.path != "engine/base/eigen.hpp")
+      EXPECT_EQ(source.text.find("#include <Eigen/"), std::string::npos)
+          << source.path << ": include <drawpoint/engine/base/eigen.hpp> instead";
+}

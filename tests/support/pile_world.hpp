@@ -2,48 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/world/kinematic_body.hpp>
 #include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/tests/support/pile_measures.hpp>
 
 /// The pile of rock_pile.hpp in Drawpoint's own engine.
 ///
-/// The blade is a machine of one part and one degree of freedom, w = √M v with M = 1e12 kg, whose velocity is
-/// set anew at every step: it gives way by less than 1e-6 m/s under 1e6 N s per step, and the solver gives
-/// the impulse on it as on any machine. So it costs what a machine's contacts cost. World frame, SI units.
+/// The blade is a kinematic body: it costs what a machine's contacts cost. World frame, SI units.
 namespace drawpoint::support {
-
-/// A body that moves along x as it is told.
-class PrescribedBody final : public engine::ArticulatedBody {
- public:
-  explicit PrescribedBody(const Vector3d& centre) : pose_(Eigen::Translation3d(centre)) {}
-
-  void set_speed(double speed) { speed_ = speed; }  ///< along +x from the next step on [m/s]
-  /// Mean contact force over the last step [N].
-  const Vector3d& force() const { return force_; }
-
-  int parts() const override { return 1; }
-  Eigen::Isometry3d part_pose(int) const override { return pose_; }
-
-  const engine::SuperBody& linearise(double h, const Vector3d&) override {
-    h_ = h;
-    body_.velocity_before = body_.velocity = Eigen::VectorXd::Constant(1, root_mass * speed_);
-    body_.part_maps.assign(1, engine::SpatialMap::Zero(6, 1));
-    body_.part_maps[0](3, 0) = 1 / root_mass;
-    body_.origins = {pose_.translation()};
-    return body_;
-  }
-  void advance(const engine::SuperBodySolution& solution) override {
-    force_ = solution.part_impulses.at(0).tail<3>() / h_;
-    pose_.translation().x() += h_ * speed_;
-  }
-
- private:
-  static constexpr double root_mass = 1e6;  // [√kg]
-  Eigen::Isometry3d pose_;
-  double speed_ = 0, h_ = 1;
-  Vector3d force_ = Vector3d::Zero();
-  engine::SuperBody body_;
-};
 
 inline engine::MaterialTable pile_materials(const PileMaterial& m) {
   engine::MaterialTable table(1);
@@ -61,7 +27,9 @@ inline engine::MaterialTable pile_materials(const PileMaterial& m) {
 class PileWorld {
  public:
   PileWorld(RockPile pile, const engine::WorldOptions& options)
-      : pile_(std::move(pile)), blade_(pile_.blade.start), world_(options, pile_materials(pile_.material)) {
+      : pile_(std::move(pile)),
+        blade_(Eigen::Isometry3d(Eigen::Translation3d(pile_.blade.start))),
+        world_(options, pile_materials(pile_.material)) {
     for (const PileWall& wall : pile_.walls)
       world_.add_static(shape(engine::HalfSpace{wall.normal, wall.offset}), Eigen::Isometry3d::Identity(), 0);
     world_.attach(&blade_);
@@ -74,12 +42,12 @@ class PileWorld {
   PileWorld& operator=(const PileWorld&) = delete;
 
   const RockPile& pile() const { return pile_; }
-  const PrescribedBody& blade() const { return blade_; }
+  const engine::KinematicBody& blade() const { return blade_; }
   engine::World& world() { return world_; }
   const engine::World& world() const { return world_; }
 
   /// Sets the blade moving at its digging speed.
-  void dig() { blade_.set_speed(pile_.blade.speed); }
+  void dig() { blade_.set_velocity({pile_.blade.speed, 0, 0}); }
 
   std::vector<RockState> states() const {
     std::vector<RockState> states;
@@ -95,7 +63,7 @@ class PileWorld {
   }
 
   RockPile pile_;
-  PrescribedBody blade_;
+  engine::KinematicBody blade_;
   engine::World world_;
 };
 

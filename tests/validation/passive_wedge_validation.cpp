@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/engine/world/kinematic_body.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
-#include <drawpoint/tests/validation/driven_plate.hpp>
 #include <drawpoint/tests/validation/energy_ledger.hpp>
 #include <drawpoint/tests/validation/heaps.hpp>
 
@@ -45,6 +45,7 @@ double poured_angle(std::uint64_t seed) {
 World bed() {
   MaterialTable table(2);  // rocks and floor; the smooth surfaces
   table.set(0, 0, rough);
+  table.set(0, 1, {.friction = 0});
   World world({}, table);
   const auto still = Eigen::Isometry3d::Identity();
   support::add_floor(world);
@@ -62,7 +63,7 @@ double mass(const World& world) {
 
 Push push(std::uint64_t seed) {
   World world = bed();
-  validation::DrivenPlate plate(Eigen::Vector3d(-0.25, 0, 3));
+  KinematicBody plate(support::at(-0.25, 0, 3));
   world.attach(&plate);
   world.add_part_shape(0, support::shared(box({0.25, width / 2 - 0.005, 2.995})),
                        Eigen::Isometry3d::Identity(), 1);
@@ -80,14 +81,14 @@ Push push(std::uint64_t seed) {
   validation::settle(world, 1.5, note);
   const double density =
       mass(world) / (length * width * validation::mean_height(world, {0, length, -width / 2, width / 2}));
-  plate.drive({speed, 0, 0});
+  plate.set_velocity({speed, 0, 0});
   double force = 0, square = 0, depth = 0;
   int steps = 0, heights = 0;
   validation::settle(world, 0.5 / speed, [&] {
     note();
     const double x = plate.part_pose(0).translation().x() + 0.25;
     if (x < 0.2) return;
-    force -= plate.force().x();
+    force -= plate.contact_wrench().force.x();
     if (steps++ % 15 != 0) return;
     const double H = validation::mean_height(world, {x, x + 2 * size, -width / 2, width / 2});
     depth += H;

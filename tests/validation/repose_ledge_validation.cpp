@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/engine/world/kinematic_body.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
-#include <drawpoint/tests/validation/driven_plate.hpp>
 #include <drawpoint/tests/validation/energy_ledger.hpp>
 #include <drawpoint/tests/validation/heaps.hpp>
 
@@ -32,6 +32,7 @@ constexpr double size = 0.3, length = 2.4, width = 0.9;
 World bin(double friction) {
   MaterialTable table(2);  // rocks and ledge; the smooth surfaces
   table.set(0, 0, {.friction = friction, .rolling = 0.5});
+  table.set(0, 1, {.friction = 0});
   World world({}, table);
   world.add_static(support::shared(box({length / 2, width, 0.5})), support::at(-length / 2, 0, -0.5), 0);
   const auto add_wall = [&](const Eigen::Vector3d& inward, double distance) {
@@ -49,7 +50,7 @@ struct Bank {
 
 Bank drained(double friction, std::uint64_t seed) {
   World world = bin(friction);
-  validation::DrivenPlate gate(Eigen::Vector3d(0.25, 0, 3));
+  KinematicBody gate(support::at(0.25, 0, 3));
   world.attach(&gate);
   world.add_part_shape(0, support::shared(box({0.25, width / 2 - 0.005, 4})), Eigen::Isometry3d::Identity(),
                        1);
@@ -69,7 +70,7 @@ Bank drained(double friction, std::uint64_t seed) {
                     .seed = seed},
                    note);
   validation::settle(world, 1.0, note);
-  gate.drive({4, 0, 0});
+  gate.set_velocity({4, 0, 0});
   validation::settle(world, 4.0, note);
   const double crest = validation::mean_height(world, Area{-length, -2 * length / 3, -width / 2, width / 2});
   return {validation::angle_of_bank(world, Area{-length, size, -width / 2, width / 2}, size, crest),

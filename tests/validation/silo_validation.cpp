@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <drawpoint/engine/world/kinematic_body.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
-#include <drawpoint/tests/validation/driven_plate.hpp>
 #include <drawpoint/tests/validation/energy_ledger.hpp>
 #include <drawpoint/tests/validation/heaps.hpp>
 #include <numeric>
@@ -63,7 +63,7 @@ Loads fill_and_lower(int rocks, std::uint64_t seed) {
   for (const Eigen::Vector3d& inward : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
                                         Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
     world.add_static(support::shared(HalfSpace{inward, -D / 2}), Eigen::Isometry3d::Identity(), 1);
-  validation::DrivenPlate floor(Eigen::Vector3d(0, 0, -0.25));
+  KinematicBody floor(support::at(0, 0, -0.25));
   world.attach(&floor);
   world.add_part_shape(0, support::shared(box({D / 2 - 0.005, D / 2 - 0.005, 0.25})),
                        Eigen::Isometry3d::Identity(), 0);
@@ -71,7 +71,7 @@ Loads fill_and_lower(int rocks, std::uint64_t seed) {
   const auto note = [&] { ledger.note(floor.work()); };
   validation::pour(world, {.rocks = rocks, .size = size, .nx = 4, .ny = 4, .interval = 0.25, .seed = seed},
                    note);
-  floor.drive({0, 0, -0.02});
+  floor.set_velocity({0, 0, -0.02});
   validation::settle(world, 1.0, note);
   Loads loads{};
   int steps = 0;
@@ -79,7 +79,7 @@ Loads fill_and_lower(int rocks, std::uint64_t seed) {
   validation::settle(world, 2.0, [&] {
     note();
     add_wall_forces(world, loads);
-    loads.floor -= floor.force().z();
+    loads.floor -= floor.contact_wrench().force.z();
     ++steps;
   });
   for (double& f : loads.normal) f /= steps;

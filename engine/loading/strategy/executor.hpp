@@ -30,10 +30,10 @@ std::string_view name(Stage stage);
 std::string_view name(StageEnd reason);
 
 struct SpeedPreset {
-  double drive_in;                    ///< v_x of stage 1 [m/s]
-  double lift;                        ///< v_z at the start of stage 2, at most [m/s]
-  double curl;                        ///< ω at the start of stage 3 [rad/s]
-  double back_out;                    ///< speed at the start of stage 4 [m/s]
+  double drive_in = 0;                ///< v_x of stage 1 [m/s]
+  double lift = 0;                    ///< v_z at the start of stage 2, at most [m/s]
+  double curl = 0;                    ///< ω at the start of stage 3 [rad/s]
+  double back_out = 0;                ///< speed at the start of stage 4 [m/s]
   std::array<double, 4> stage_limit;  ///< longest time of each stage [s]
   RateLimits limits;                  ///< of the actuators
 };

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <array>
+#include <drawpoint/engine/base/eigen.hpp>
 
 /// Planar kinematics of the loader's arm: drive (prismatic), boom hinge F, bucket hinge G, cutting edge K.
 ///

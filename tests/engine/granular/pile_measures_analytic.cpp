@@ -143,7 +143,7 @@ TEST(PileWorld, BladeReportsTheMomentumThatItGives) {
     int steps = 0;
     for (; steps * h < 0.5; ++steps) {
       world.world().step();
-      impulse -= h * world.blade().force().x();
+      impulse -= h * world.blade().contact_wrench().force.x();
     }
     const RockState cube = world.states()[0];
     EXPECT_NEAR(impulse, 4500 * cube.velocity.x(), tolerance * 4500 * 1.5) << to_string(method);

@@ -205,7 +205,7 @@ TEST(BadMaterials, AreRefusedByName) {
   for (const auto& [name, set] : cases)
     for (double x : {nan, infinity, -1.0}) {
       MaterialTable table(2);
-      Material material;
+      Material material{.friction = 0.5};
       set(material, x);
       table.set(0, 1, material);
       expect_told([&] { World({}, table); }, {"kinds 0 and 1", name});
@@ -216,7 +216,7 @@ TEST(BadMaterials, AreRefusedByName) {
 }
 
 TEST(BadMachines, AreRefusedOrDetached) {
-  World world({}, MaterialTable());
+  World world({}, one_material({.friction = 0}));
   OnePart machine;
   world.attach(&machine);
   expect_told(
@@ -235,7 +235,7 @@ TEST(BadMachines, AreRefusedOrDetached) {
 
 // A solution that comes out not finite is told before anything has moved, and the world can go on.
 TEST(BrokenSolution, IsToldAndMovesNothing) {
-  World world({}, MaterialTable());
+  World world({}, one_material({.friction = 0}));
   OnePart machine;
   world.attach(&machine);
   world.add_part_shape(0, shared(box({1, 1, 1})), at(0, 0, 0), 0);

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// What can be asked about a world between steps: forces in its contacts, surfaces on a ray.
+
+#include <drawpoint/engine/world/world_impl.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine {
+namespace {
+
+using Eigen::Vector3d;
+
+// Where the points of a pair are in the mean, by the size of their impulses; of points without any, in the middle.
+class Centre {
+ public:
+  void add(const Vector3d& position, const Vector3d& impulse) {
+    const double weight = impulse.norm();
+    weighted_ += weight * position;
+    sum_ += position;
+    weight_ += weight;
+    ++count_;
+  }
+  Vector3d position() const {
+    if (weight_ > 0) return weighted_ / weight_;
+    return count_ > 0 ? Vector3d(sum_ / count_) : Vector3d(Vector3d::Zero());
+  }
+
+ private:
+  Vector3d weighted_ = Vector3d::Zero(), sum_ = Vector3d::Zero();
+  double weight_ = 0;
+  int count_ = 0;
+};
+
+// Impulse on B over the step, with its moment about `position`.
+struct PairImpulse {
+  int collider_a, collider_b;
+  Vector3d position, impulse, moment;
+};
+
+PairImpulse solved_pair(const ContactProblem& problem, const ContactPair& pair) {
+  Centre centre;
+  Vector3d impulse = Vector3d::Zero(), moment = pair.impulse;
+  for (int k = pair.first; k < pair.first + pair.count; ++k) {
+    const ContactPoint& p = problem.points[static_cast<std::size_t>(k)];
+    centre.add(p.position, p.impulse);
+    impulse += p.impulse;
+  }
+  for (int k = pair.first; k < pair.first + pair.count; ++k) {
+    const ContactPoint& p = problem.points[static_cast<std::size_t>(k)];
+    moment += (p.position - centre.position()).cross(p.impulse);
+  }
+  return {pair.collider_a, pair.collider_b, centre.position(), impulse, moment};
+}
+
+PairImpulse held_pair(const HeldPair& held, const Vector3d& origin_b) {
+  Centre centre;
+  for (const WarmStart::Point& point : held.start.points) centre.add(point.position, point.impulse);
+  const Vector3d position = centre.position();
+  return {held.start.a, held.start.b, position, held.impulse,
+          held.moment_b - (position - origin_b).cross(held.impulse)};
+}
+
+}  // namespace
+
+std::vector<PairForce> World::Impl::pair_forces() const {
+  std::vector<PairForce> forces;
+  if (last_step == 0) return forces;
+  const auto add = [&](const PairImpulse& pair) {
+    forces.push_back({scene.owner(pair.collider_a), scene.owner(pair.collider_b), pair.position,
+                      pair.impulse / last_step, pair.moment / last_step});
+  };
+  for (const ContactPair& pair : contacts.problem().pairs) add(solved_pair(contacts.problem(), pair));
+  for (const auto& [colliders, held] : freezing.state().held)
+    add(held_pair(held, scene.origin_of(scene.surface(colliders.second))));
+  return forces;
+}
+
+Wrench World::Impl::wrench_on(const SurfaceOwner& body, const Vector3d& about) const {
+  Wrench sum;
+  for (const PairForce& pair : pair_forces()) {
+    const double sign = (pair.b == body ? 1 : 0) - (pair.a == body ? 1 : 0);
+    sum.force += sign * pair.force;
+    sum.moment += sign * (pair.moment + (pair.position - about).cross(pair.force));
+  }
+  return sum;
+}
+
+std::vector<PairForce> World::pair_forces() const { return impl_->pair_forces(); }
+
+Wrench World::rock_wrench(int rock) const {
+  return impl_->wrench_on({Owner::rock, rock},
+                          impl_->scene.present_rock(rock, "rock_wrench").pose.translation());
+}
+
+Wrench World::part_wrench(int part) const {
+  const int parts = machine() ? machine()->parts() : 0;
+  if (part < 0 || part >= parts)
+    throw std::invalid_argument("engine::World::part_wrench: there is no part " + std::to_string(part) +
+                                "; the attached machine has " + std::to_string(parts));
+  return impl_->wrench_on({Owner::part, part}, machine()->part_pose(part).translation());
+}
+
+std::optional<RayHit> World::cast_ray(const Ray& ray, double most) const {
+  if (!ray.origin.allFinite() || !(std::abs(ray.direction.norm() - 1) < 1e-9) || !(most >= 0))
+    throw std::invalid_argument(
+        "engine::World::cast_ray: the ray needs a finite origin, a direction of length 1 within 1e-9 and a "
+        "distance of 0 m "
+        "or more; use direction.normalized()");
+  return impl_->scene.cast_ray(ray, most);
+}
+
+}  // namespace drawpoint::engine

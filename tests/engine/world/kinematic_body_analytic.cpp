@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/engine/world/kinematic_body.hpp>
+#include <drawpoint/engine/world/state_hash.hpp>
+#include <drawpoint/tests/support/scenes.hpp>
+
+using namespace drawpoint::engine;
+using drawpoint::support::at;
+using drawpoint::support::box_body;
+using drawpoint::support::one_material;
+using drawpoint::support::shared;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double g = 9.81;
+
+// A plate whose upper side is at z = 0, with a block of 0.4 m on it.
+struct Carried {
+  explicit Carried(const WorldOptions& options)
+      : world(options, one_material({.friction = 0.5, .stiffness = 1e8})) {
+    world.attach(&plate);
+    world.add_part_shape(0, shared(box({20, 1, 0.25})), at(0, 0, 0), 0);
+    world.add_rock(box_body({0.2, 0.2, 0.2}), at(0, 0, 0.2));
+  }
+  double mass() const { return world.rock(0).body.mass; }
+
+  KinematicBody plate{at(0, 0, -0.25)};
+  World world;
+};
+
+std::string told(const std::function<void()>& call) {
+  try {
+    call();
+    return "nothing";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+// A steady twist for n steps: p = v n h and a turn of ω n h, but for n roundings of 1e-16 of numbers of size 1.
+TEST(KinematicBody, GoesWhereItIsTold) {
+  World world({}, one_material({.friction = 0.5}));
+  KinematicBody body(at(0, 0, 1));
+  world.attach(&body);
+  const Vector3d velocity(0.3, -0.2, 0.1), spin(0.2, 0.5, -0.4);
+  body.set_velocity(velocity, spin);
+  for (int k = 0; k < 300; ++k) world.step();
+  const double t = 3;
+  EXPECT_LT((body.pose().translation() - Vector3d(0, 0, 1) - t * velocity).norm(), 1e-13);
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(t * spin.norm(), spin.normalized()).toRotationMatrix();
+  EXPECT_LT((body.pose().linear() - turned).norm(), 1e-13);
+}
+
+// A block on the plate at rest presses on it by its weight (stack_analytic.cpp has the budget of 1e-3); about the
+// plate's origin, 0.25 m below the contact and at the block's x, without a moment: four corners that share the load
+// unequally move its centre by less than a thousandth of the block.
+TEST(KinematicBody, FeelsAWeight) {
+  Carried scene({});
+  for (int k = 0; k < 200; ++k) scene.world.step();
+  const double weight = g * scene.mass();
+  const Wrench& felt = scene.plate.contact_wrench();
+  EXPECT_LT((felt.force + weight * Vector3d::UnitZ()).norm(), 1e-3 * weight);
+  EXPECT_LT(felt.moment.norm(), 1e-3 * weight * 0.4);
+  EXPECT_EQ(scene.plate.work(), 0);
+  // A load of 1 MN s per step would change its speed by 1e-6 m/s: it has not moved at all.
+  EXPECT_EQ(scene.plate.pose().translation(), Vector3d(0, 0, -0.25));
+}
+
+// Set moving at V, the plate drags the block along: friction works on the way V t, t = V/(μ g), so m V² in all, half of it
+// kinetic, half lost. The end of the slip falls between two steps: an error of at most one step's work, μ m g V h.
+TEST(KinematicBody, WorksOnWhatItDrags) {
+  WorldOptions options;
+  options.step = 1e-3;
+  Carried scene(options);
+  for (int k = 0; k < 500; ++k) scene.world.step();
+  const double V = 1, exact = scene.mass() * V * V;
+  scene.plate.set_velocity({V, 0, 0});
+  for (int k = 0; k < 500; ++k) scene.world.step();
+  EXPECT_NEAR(scene.plate.work(), exact, 0.5 * scene.mass() * g * V * options.step + 1e-3 * exact);
+  EXPECT_NEAR(scene.world.kinetic_energy(), 0.5 * exact, 1e-2 * exact);
+}
+
+TEST(KinematicBody, GoesOnWithTheSameBitsAfterARestore) {
+  Carried first({}), second({});
+  first.plate.set_velocity({0.5, 0, 0}, {0, 0, 0.1});
+  for (int k = 0; k < 30; ++k) first.world.step();
+  second.world.restore(first.world.save());
+  EXPECT_EQ(second.plate.velocity(), first.plate.velocity());
+  for (int k = 0; k < 30; ++k) {
+    first.world.step();
+    second.world.step();
+  }
+  EXPECT_EQ(state_hash(first.world), state_hash(second.world));
+  EXPECT_EQ(first.plate.work(), second.plate.work());
+}
+
+TEST(KinematicBody, RefusesWhatCannotBe) {
+  KinematicBody body(at(0, 0, 0));
+  EXPECT_NE(told([&] { body.set_velocity({1001, 0, 0}); }).find("0 to 1000 m/s"), std::string::npos);
+  EXPECT_NE(told([&] {
+              body.set_velocity({0, std::nan(""), 0});
+            }).find("KinematicBody::set_velocity"),
+            std::string::npos);
+  EXPECT_NE(told([&] {
+              body.set_state({1, 2, 3});
+            }).find("3 numbers that are not the state"),
+            std::string::npos);
+  EXPECT_EQ(body.velocity(), Vector3d(0, 0, 0));
+}
