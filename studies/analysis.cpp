@@ -69,7 +69,7 @@ std::vector<kriging::Candidate<kriging::Model>> ways_to_fit(const doe::Problem& 
   return ways;
 }
 
-/// Fits and validates one model a response, and names the way to fit that was taken: the default, unless
+/// Fits and validates one model per response, and names the way to fit that was taken: the default, unless
 /// another has a leave-one-out error that is lower by a tenth. Throws
 /// std::invalid_argument if the runs do not allow it.
 std::vector<std::string> fit_models(ReportInput& input) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// From stored runs to the report: one Kriging model a response, its correlation and trend chosen by
+/// From stored runs to the report: one Kriging model per response, its correlation and trend chosen by
 /// leave-one-out among four, validated on the validation runs, searched for the trade-offs between all
 /// objectives within all constraints (front.hpp). Failed runs are left out of the models and counted. Equal
 /// stores give equal models and fronts: the search is seeded by the study seed.

@@ -65,7 +65,7 @@ void add_run_options(CLI::App& command, Settings& settings, const Defaults& defa
       ->check(CLI::Range(0, most_points));
   command
       .add_option("--replicates", settings.replicates,
-                  "runs a training point, each with its own seed (default 1)")
+                  "runs per training point, each with its own seed (default 1)")
       ->check(CLI::Range(1, 1000));
   command.add_option("--jobs", settings.jobs, "processes at a time")
       ->check(CLI::Range(1, 4096))

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The output folder of a study: where each file lies, that it can be written, and that one process works on
-/// it.
+/// The output folder of a study: where each file lies, that it can be written, and that one process works
+/// on it.
 ///
-///     DIR/study.db          the store                    DIR/logs/run_0001.h5    run log, named by the run's
-///     id DIR/report.html       the report                   DIR/logs/run_0001.txt   what the run printed, if
-///     anything DIR/shared/           from Study::prepare          DIR/logs/unfinished/    logs of runs in
-///     flight DIR/.lock             held while a command works
+///     DIR/study.db             the store
+///     DIR/report.html          the report
+///     DIR/shared/              from Study::prepare
+///     DIR/logs/run_0001.h5     run log, named by the run's id
+///     DIR/logs/run_0001.txt    what the run printed, if anything
+///     DIR/logs/unfinished/     logs of runs in flight
+///     DIR/.lock                held while a command works
 ///
 /// A file appears under its final name only when it is complete: it is written under another name beside it,
 /// then renamed.

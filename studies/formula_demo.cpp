@@ -26,7 +26,7 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed) {
   const auto scattered = [&](double value, double share) { return value * (1.0 + share * random.normal()); };
   const double fill = 1.0 - std::exp(-alpha * (0.6 + beta) * (1.2 - 0.5 * gamma));  // [1] of a heaped bucket
   const double mass = scattered(14000.0 * fill, 0.01);                              // [kg]
-  const double time = (14.0 + 6.0 * fill) * (1.3 - 0.6 * kappa);                    // [s] a cycle
+  const double time = (14.0 + 6.0 * fill) * (1.3 - 0.6 * kappa);                    // [s] per cycle
   const double load_ratio = fill * (0.7 + 0.5 * kappa + 0.3 * beta * beta);  // [1] of the joint's rated load
   const double damage = scattered(time * std::pow(load_ratio, 3), 0.02);     // [s] at rated load
   const double spill = scattered(0.02 + 0.25 * fill * fill * (0.3 + kappa * (1.0 - 0.6 * gamma)), 0.02);

@@ -11,7 +11,7 @@
 /// worst values of the searched front plus a tenth of their ranges as the reference point. Whole and
 /// categorical variables cannot follow a gradient, and the hypervolume of more than most_polished_objectives
 /// objectives takes too long: such fronts stay as searched, and say why. One objective leaves one point.
-/// Cost: 10 to 30 iterations of half a millisecond a point inside Ipopt, beside n d a gradient.
+/// Cost: 10 to 30 iterations of half a millisecond per point inside Ipopt, beside n d per gradient.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
@@ -29,7 +29,7 @@ struct ModelFront {
   Polishing polishing;
 };
 
-/// models: one a response, in order, of the problem's variables. Deterministic: the seed is that of the
+/// models: one per response, in order, of the problem's variables. Deterministic: the seed is that of the
 /// search.
 ModelFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem, doe::Seed seed);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a study says before all else: figures by which one judges whether its runs are worth a model at all.
+/// What a study says before all else: figures that tell whether its runs are worth a model at all.
 
 #include <string>
 

@@ -17,7 +17,7 @@ struct Identity {
   std::string study;
   doe::Problem problem;
   doe::Seed seed = 1;
-  int replicates = 1;         ///< runs a training point
+  int replicates = 1;         ///< runs per training point
   bool corners = false;       ///< the first 2^d training points are the corners of the box
   OptionValues options = {};  ///< a value of every option of the study
 };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// The founding case: how should an LHD load from a muckpile in a drift, and what does each choice cost?
+/// The case of Lindmark (2016): how should an LHD load from a muckpile in a drift, and what does each choice
+/// cost?
 
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/studies/loading_figures.hpp>

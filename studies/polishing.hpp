@@ -18,7 +18,7 @@ namespace drawpoint::studies {
 inline constexpr double certified_residual = 1e-6;
 
 struct Polishing {
-  /// One a point of the front, NaN where unknown. Empty when the front was not polished, and for one
+  /// One per point of the front, NaN where unknown. Empty when the front was not polished, and for one
   /// objective, whose only gradient vanishes at the optimum and leaves nothing to measure it by.
   Eigen::VectorXd residual = {};
   /// What polishing added to the hypervolume [%], 0 or more to 1e-5; NaN when not polished, for one

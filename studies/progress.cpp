@@ -45,7 +45,7 @@ std::string progress_text(const ProgressState& state) {
   if (state.failed > 0) text += ", " + std::to_string(state.failed) + " failed";
   if (state.session > 0 && state.seconds > 0.0) {
     const double rate = state.session / state.seconds;
-    text += ", " + (rate < 1.0 ? number(60.0 * rate, "a minute") : number(rate, "a second"));
+    text += ", " + (rate < 1.0 ? number(60.0 * rate, "per minute") : number(rate, "per second"));
     if (state.done < state.total) text += ", " + duration_text((state.total - state.done) / rate) + " left";
   }
   return text;

@@ -12,7 +12,7 @@ namespace drawpoint::studies {
 /// "40 s", "12 min", "3.5 h", "2.1 d"
 std::string duration_text(double seconds);
 
-/// "12/50 runs, 1 failed, 3.2 a minute, 12 min left"
+/// "12/50 runs, 1 failed, 3.2 per minute, 12 min left"
 struct ProgressState {
   int done = 0;  ///< finished, failed ones among them, earlier sessions included
   int failed = 0;
@@ -29,7 +29,7 @@ class Progress {
   ~Progress();  ///< leaves the cursor on a fresh line
 
   void finished_one(bool failed);
-  void tick();  ///< call a few times a second
+  void tick();  ///< call a few times per second
 
  private:
   void show(bool last);

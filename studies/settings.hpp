@@ -25,7 +25,7 @@ struct Settings {
   std::filesystem::path out = {};
   std::optional<int> runs = {};        ///< training points, 2 or more
   std::optional<int> validation = {};  ///< validation points, 0 or more
-  std::optional<int> replicates = {};  ///< runs a training point, each with a seed of its own, 1 or more
+  std::optional<int> replicates = {};  ///< runs per training point, each with a seed of its own, 1 or more
   std::optional<doe::Seed> seed = {};  ///< study seed
   OptionValues options = {};           ///< of the study, those given
   int jobs = 1;                        ///< processes at a time, 1 or more

@@ -4,15 +4,15 @@
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
 ///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), created
-///     runs               one row a run: id, kind, point, replicate, seed, status, reason, seconds, started,
-///     finished,
-///                        then one REAL column for each variable and each response, named as in the problem
+///     runs               one row per run: id, kind, point, replicate, seed, status, reason, seconds,
+///                        started, finished, then one REAL column for each variable and each response, named
+///                        as in the problem
 ///
 /// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.hpp
 /// names the columns.
 ///
-/// status is planned, running, done or failed; a row stays "running" when the study is killed, until the next
-/// `run`.
+/// status is planned, running, done or failed; a row stays "running" when the study is killed, until the
+/// next `run`.
 ///
 /// Every change is one transaction, on disk when the call returns. A file that is not a sound store of this
 /// schema is refused and left as it is. All failures throw std::runtime_error that names the file and says

@@ -4,8 +4,8 @@
 /// A study is a problem, a black box and a name; from these, `run` makes a whole program:
 ///
 ///     int main(int argc, char** argv) {
-///       return drawpoint::studies::run(argc, argv, {.name = "my_study", .problem = problem, .black_box =
-///       f});
+///       return drawpoint::studies::run(argc, argv,
+///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
 /// The program has the commands run, status, report and evaluate (docs/studies.md). Every run is a process of

@@ -179,7 +179,7 @@ const support::RockPile& pile_of(int count) {
                               : piles.emplace(count, support::record_pile(count, 600, 12, 12)).first->second;
 }
 
-// set_pose() of all rocks and find(), a step. Arguments: rocks; 0 at rest, 1 sliding.
+// set_pose() of all rocks and find(), per step. Arguments: rocks; 0 at rest, 1 sliding.
 void find_in_pile(benchmark::State& state) {
   const auto& pile = pile_of(static_cast<int>(state.range(0)));
   Replay replay(pile, state.range(1) == 0 ? pile.rest : pile.slide);

@@ -11,13 +11,13 @@
 #include <drawpoint/tests/support/rocks.hpp>
 #include <map>
 
-/// Nanoseconds a contact point an iteration, and the share of the memory's speed that the iterations use.
+/// Nanoseconds per contact point and iteration, and the share of the memory's speed that the iterations use.
 ///
 /// The contacts are those of a heap of rocks in a box, at rest or while a wall pushes through it; a solve is
 /// one substep of many iterations, so that making it ready hardly counts. `bytes_per_point` is what an
 /// iteration streams through: the constraint data of all points and pairs, bodies not counted, because they
-/// are read again from the cache. `triad` is a[i] = b[i] + s c[i], 24 bytes an element, over arrays that
-/// together are as large; `share_of_triad` is bytes streamed a second over the triad's at the nearest size.
+/// are read again from the cache. `triad` is a[i] = b[i] + s c[i], 24 bytes per element, over arrays that
+/// together are as large; `share_of_triad` is bytes streamed per second over the triad's at the nearest size.
 using namespace drawpoint;
 using engine::ContactProblem;
 using engine::World;
@@ -73,7 +73,7 @@ double bytes_of_a_batched_iteration(const ContactProblem& problem) {
   return bytes;
 }
 
-// Bytes a second of the triad over arrays of so many bytes together; once a size, best of many passes.
+// Bytes per second of the triad over arrays of so many bytes together; once per size, best of many passes.
 double triad_speed(double bytes) {
   const auto length = static_cast<std::size_t>(bytes / 24);
   const int passes = std::max(20, static_cast<int>(2e8 / bytes));

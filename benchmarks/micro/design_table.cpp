@@ -7,8 +7,8 @@
 //
 // One line a design: the median over eleven seeds (1..11) of CPU time, smallest distance, phi_10, phi_50,
 // squared centred discrepancy and largest correlation, and whether the design is Latin. Each FILE is scored
-// by the same measures: a table of numbers in the unit box, one run a line, separated by commas or blanks, as
-// other tools write it.
+// by the same measures: a table of numbers in the unit box, one run per line, separated by commas or blanks,
+// as other tools write it.
 
 #include <algorithm>
 #include <cstdio>

@@ -11,9 +11,9 @@
 /// The converged solution is the sequential method's after up to 10 000 iterations of the whole step (S = 1),
 /// or when an iteration changes less than 1e-14 of the load. Times are of the processor for one thread, of
 /// the clock for several; repeats are at least as many as asked for, short ones go on for 0.4 s. The time of
-/// a solve is the least. The time a contact point an iteration is the median difference between a long solve
-/// and a short one just before, so that making the problem ready, which `milliseconds` contains, is not in
-/// it.
+/// a solve is the least. The time per contact point and iteration is the median difference between a long
+/// solve and a short one just before, so that making the problem ready, which `milliseconds` contains, is not
+/// in it.
 namespace drawpoint::benchmarks {
 
 struct Solved {

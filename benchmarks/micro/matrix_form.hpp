@@ -7,8 +7,8 @@
 
 /// A contact problem as one sparse system, for methods that think in matrices; one whole step, S = 1.
 ///
-/// Velocities x are 6 a body (linear; angular), then the machine's w. Rows of J, in this order: n, t1, t2 of
-/// each point, n, t1, t2 of each pair's moment, the machine's rows. With the impulses λ by row,
+/// Velocities x are 6 per body (linear; angular), then the machine's w. Rows of J, in this order: n, t1, t2
+/// of each point, n, t1, t2 of each pair's moment, the machine's rows. With the impulses λ by row,
 ///     x = x_free + M⁻¹ Jᵀ λ,   g = J x + Σ λ − b,
 /// and the law asks for: points 0 ≤ λ_n ⊥ g_n ≥ 0 and |λ_t| ≤ μ λ_n with g_t against λ_t; pairs the same with
 /// their arms times the pair's Σ λ_n as limits; machine rows λ within [lower, upper], g complementary.

@@ -10,7 +10,7 @@
 ///
 /// Set: hulls with a margin of 5 mm in place of 40 mm, which serves GJK alone, as contact points come from
 /// clipping the true faces (initializePolyhedralFeatures); deactivation off; the number of iterations.
-/// Bullet's defaults: warm starting at 0.85, one friction direction a contact, split impulses, at most four
+/// Bullet's defaults: warm starting at 0.85, one friction direction per contact, split impulses, at most four
 /// points a manifold. Each half-space is a cube 20 m wide, clipped like the rocks. Friction combines as a
 /// product, so each body has its root.
 ///

@@ -9,14 +9,14 @@
 
 #include "peer.hpp"
 
-/// MuJoCo 2.2.2, Debian's build: soft contacts, one convex optimisation a step.
+/// MuJoCo 2.2.2, Debian's build: soft contacts, one convex optimisation per step.
 ///
 /// Set: the conjugate-gradient solver (the default, Newton, gives the same pile but takes some thirty times
 /// as long at 500 rocks), sparse Jacobians, the elliptic friction cone, the number of iterations, room for
 /// the contacts. MuJoCo's defaults: solref 0.02 s (two steps of 10 ms, the stiffest that it allows at this
-/// step), solimp 0.9 to 0.95, tolerance 1e-8, one contact point a pair of hulls. The blade is a slider of 1e9
-/// kg whose velocity is set before every step; 1e6 N s change it by 1e-3 m/s. Walls are planes. No rolling
-/// resistance. This version counts bytes in 32 bits: about 500 rocks is all that it can hold.
+/// step), solimp 0.9 to 0.95, tolerance 1e-8, one contact point per pair of hulls. The blade is a slider of
+/// 1e9 kg whose velocity is set before every step; 1e6 N s change it by 1e-3 m/s. Walls are planes. No
+/// rolling resistance. This version counts bytes in 32 bits: about 500 rocks is all that it can hold.
 namespace drawpoint::benchmarks {
 namespace {
 

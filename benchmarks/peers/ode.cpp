@@ -10,7 +10,7 @@
 
 /// ODE 0.16.2, Debian's double-precision build: QuickStep (successive over-relaxation).
 ///
-/// Set: dCreateConvex solids, at most eight contact points a pair, friction scaled by the normal force
+/// Set: dCreateConvex solids, at most eight contact points per pair, friction scaled by the normal force
 /// (dContactApprox1, a pyramid), auto-disable off, the number of iterations, the seed of its random order.
 /// ODE's defaults: ERP 0.2, CFM 1e-10, over-relaxation 1.3, no warm starting, no surface layer. Rocks are
 /// found by a hash space; walls (planes) and blade stand in a space of their own. No rolling resistance.

@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", s.seed, "of sizes, shapes and start poses")
       ->check(between(0, 1e9, "", "any number names a pile"))
       ->capture_default_str();
-  app.add_option("--iterations", s.peer.iterations, "of the engine's solver a step")
+  app.add_option("--iterations", s.peer.iterations, "of the engine's solver per step")
       ->check(between(1, 1e6, "", "10, 50 and 150 are usual"))
       ->capture_default_str();
   app.add_option("--dt", s.peer.step, "time step [s]")

@@ -9,8 +9,7 @@
 #include "setting.hpp"
 
 /// Accuracy against cost: how far step, substeps and iterations are from a converged run of the same pile.
-/// See
-/// --help.
+/// See --help.
 using namespace drawpoint;
 using namespace drawpoint::benchmarks;
 
@@ -34,7 +33,7 @@ constexpr const char* about =
     "                             moved (sum of mass times displacement along the blade's way, over that "
     "way)\n"
     "  accuracy_study --cycle FOLDER --seeds 8\n"
-    "                             a loading cycle of the LHD on another pile a seed (poured and kept in "
+    "                             a loading cycle of the LHD on another pile per seed (poured and kept in "
     "FOLDER\n"
     "                             when missing): mean force in the bucket's pin, loaded mass, mean over the\n"
     "                             steps of the deepest overlap of a rock\n\n"
@@ -122,7 +121,7 @@ Subject blade(const Settings& s) {
 }
 
 Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
-  return {{{"ms_step", "ms a step", 1, 2, false},
+  return {{{"ms_step", "ms per step", 1, 2, false},
            {"mean_deepest_overlap_m", "mean deepest mm", 1e3, 2, false},
            {"bucket_force_n", "bucket kN", 1e-3, 1, true},
            {"loaded_mass_kg", "loaded t", 1e-3, 2, true}},

@@ -70,15 +70,15 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags) {
   app.add_option("--dt", flags.world.step, "time step [s]")
       ->check(between(1e-5, 0.1, "s", "rocks of 0.3 m need 0.002 to 0.01 s"))
       ->capture_default_str();
-  app.add_option("--substeps", flags.world.solver.substeps, "substeps of the contact solver a step")
+  app.add_option("--substeps", flags.world.solver.substeps, "substeps of the contact solver per step")
       ->check(between(1, 1000, "", "1 to 16 are usual"))
       ->capture_default_str();
   app.add_option("--iterations", flags.world.solver.iterations,
-                 "iterations of the contact solver a substep, at least")
+                 "iterations of the contact solver per substep, at least")
       ->check(between(1, 1e6, "", "1 to 150 are usual, 1000 and more a reference"))
       ->capture_default_str();
   app.add_option("--iteration-budget", flags.world.solver.iteration_budget,
-                 "iterations times points up to which a substep of a small problem iterations on; 0: never")
+                 "iterations times points up to which a substep of a small problem goes on; 0: never")
       ->check(between(0, 1e9, "", "0 keeps to --iterations"))
       ->capture_default_str();
   add_method_flags(app, flags);

@@ -55,7 +55,7 @@ std::string in_words(const nlohmann::json& described);
 /// Parses, acts and turns what goes wrong into an exit code.
 int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action);
 
-/// One line on a terminal, rewritten at most five times a second: "settle 120/500".
+/// One line on a terminal, rewritten at most five times per second: "settle 120/500".
 class Progress {
  public:
   Progress();

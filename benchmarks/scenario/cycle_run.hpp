@@ -17,7 +17,7 @@ struct CycleSample {
   double bucket_force = 0;
   double loaded_mass = 0;           ///< [kg]
   double contact_ms = 0;            ///< wall time of contacts, all steps together
-  double ms_step = 0;               ///< the same a step
+  double ms_step = 0;               ///< the same per step
   double mean_deepest_overlap = 0;  ///< over the steps, of the deepest overlap of a rock [m]
 };
 

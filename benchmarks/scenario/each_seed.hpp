@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-/// Seeds 1, 2, ... dealt out to threads.
+/// Seeds 1, 2, ... shared among threads.
 namespace drawpoint::benchmarks {
 
 /// Calls act(seed) for 1 to `seeds`, `jobs` at a time. Seeds are claimed one after another; after an error no

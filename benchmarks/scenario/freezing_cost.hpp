@@ -22,8 +22,8 @@ struct CostScene {
 };
 
 struct FreezingCost {
-  double fall_ms = 0, dig_ms = 0;  ///< mean processor time a step while rocks fall, while the blade digs
-  double still_ms = 0;             ///< a step while only the frozen bed is there
+  double fall_ms = 0, dig_ms = 0;  ///< mean processor time per step while rocks fall, while the blade digs
+  double still_ms = 0;             ///< per step while only the frozen bed is there
   double fall_awake = 0, dig_awake = 0;  ///< mean number of rocks that were solved
   int frozen = 0;                        ///< of the bed, when the rocks are let go
   int solved_again = 0;                  ///< steps solved again in both phases

@@ -19,7 +19,7 @@ constexpr const char* about =
     "Runs the same scenes with freezing on and off.\n\n"
     "  freezing_study --cost                  3000 rocks of which 300 move, against the 300 alone\n"
     "  freezing_study --blade --seeds 10      the blade of pile_scenario, pile by pile\n"
-    "  freezing_study --cycle FOLDER --seeds 5  a loading cycle of the LHD on another pile a seed (poured "
+    "  freezing_study --cycle FOLDER --seeds 5  a loading cycle of the LHD on another pile per seed (poured "
     "and\n"
     "                                         kept in FOLDER when missing)\n\n"
     "Blade and cycle print the mean of on minus off over the seeds, relative to the mean of off, with its 95 "
@@ -84,7 +84,7 @@ int study_cost(const Settings& s) {
   for (Row& row : rows) {
     row.cost = least_cost(row.scene, s);
     std::printf(
-        "%-24s ms a step: fall %.3f (%.0f awake), dig %.3f (%.0f awake), before them %.4f; %d frozen, "
+        "%-24s ms per step: fall %.3f (%.0f awake), dig %.3f (%.0f awake), before them %.4f; %d frozen, "
         "%d solved again\n",
         row.name, row.cost.fall_ms, row.cost.fall_awake, row.cost.dig_ms, row.cost.dig_awake,
         row.cost.still_ms, row.cost.frozen, row.cost.solved_again);

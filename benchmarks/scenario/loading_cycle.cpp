@@ -34,7 +34,7 @@ int main(int argc, char** argv) try {
   times.print("loading cycle", cycle.t_end);
   std::printf(
       "  %.0f rocks; cycle %.1f s, loaded %.0f kg, production %.1f kg/s, damage %.2f s, spill %.3f\n"
-      "  at most %.0f contact points, with up to %.0f iterations a substep while rocks move\n",
+      "  at most %.0f contact points, with up to %.0f iterations per substep while rocks move\n",
       log.numbers.at("rocks"), cycle.t_end - cycle.t_start, cycle.loaded_mass, production(log),
       joint_damage(log), rock_spill(log), log.numbers.at("most_contact_points"),
       log.numbers.at("most_iterations_per_substep"));

@@ -83,7 +83,7 @@ void print_table(const nlohmann::json& j) {
   std::printf("overlap    %.4f %% of the small cube at the end, %.4f %% at most\n",
               100 * number("overlap_fraction"), 100 * number("overlap_fraction_peak"));
   std::printf("height     %.6f m, rigid %.6f m\n", number("height_m"), number("expected_height_m"));
-  std::printf("time       %.4f ms a step\n", number("ms"));
+  std::printf("time       %.4f ms per step\n", number("ms"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Settings {
 constexpr const char* about =
     "Drops rocks into a box of 7 m x 6 m, lets them settle, times the pile at rest, then drags a blade 3 m "
     "wide\n"
-    "through it at 1.5 m/s. Prints milliseconds a step and how true the pile is.\n\n"
+    "through it at 1.5 m/s. Prints milliseconds per step and how true the pile is.\n\n"
     "  pile_scenario                                 500 rocks, the engine's defaults\n"
     "  pile_scenario --rocks 3000 --dt 0.01 --json   the scene on which engines are compared, for a "
     "script\n"
@@ -122,9 +122,10 @@ nlohmann::json run(const Settings& s) {
 double number(const nlohmann::json& j, const char* key) { return j.at(key).get<double>(); }
 
 void print_times(const char* what, double ms, const nlohmann::json& parts) {
-  std::printf("%-6s %9.3f ms a step; means: broad %.3f, narrow %.3f, solver %.3f, machine %.3f, rest %.3f\n",
-              what, ms, number(parts, "broad"), number(parts, "narrow"), number(parts, "solver"),
-              number(parts, "machine"), number(parts, "rest"));
+  std::printf(
+      "%-6s %9.3f ms per step; means: broad %.3f, narrow %.3f, solver %.3f, machine %.3f, rest %.3f\n", what,
+      ms, number(parts, "broad"), number(parts, "narrow"), number(parts, "solver"), number(parts, "machine"),
+      number(parts, "rest"));
 }
 
 void print_table(const nlohmann::json& j) {
@@ -141,7 +142,7 @@ void print_table(const nlohmann::json& j) {
                 100 * number(j, (prefix + "overlap_p99").c_str()),
                 100 * number(j, (prefix + "overlap_mean").c_str()),
                 j.at(prefix + "touching_pairs").get<int>());
-  std::printf("drift %.4f mm/s (median %.5f, worst rock %.3f), kinetic energy %.2e J a rock\n",
+  std::printf("drift %.4f mm/s (median %.5f, worst rock %.3f), kinetic energy %.2e J per rock\n",
               number(j, "drift_mm_s"), number(j, "drift_median_mm_s"), number(j, "drift_worst_mm_s"),
               number(j, "kinetic_energy_per_rock_j"));
   std::printf("drag on the blade %.1f kN\nhash %s\n", number(j, "blade_drag_n") / 1e3,

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <drawpoint/engine/world/world.hpp>
 
-/// Sums up where the steps of a scenario spend their time and prints it in milliseconds a step.
+/// Sums up where the steps of a scenario spend their time and prints it in milliseconds per step.
 namespace drawpoint::benchmarks {
 
 class StepTimes {
@@ -28,7 +28,7 @@ class StepTimes {
     std::printf("%s: %ld steps, %.2f s simulated, %.2f s wall, real-time factor %.3f\n", what, steps_,
                 simulated_s, total, total > 0 ? simulated_s / total : 0.0);
     std::printf(
-        "  ms a step: total %.3f = broad %.3f + narrow %.3f + machine %.3f + solver %.3f + rest %.3f\n",
+        "  ms per step: total %.3f = broad %.3f + narrow %.3f + machine %.3f + solver %.3f + rest %.3f\n",
         total * ms, broad_ * ms, narrow_ * ms, machine_ * ms, solver_ * ms, rest_ * ms);
     std::printf("  accuracy: most contact points %d, largest overlap of a rock %.2f mm\n", points_,
                 overlap_ * 1e3);

@@ -7,7 +7,7 @@
 // One-shot designs: random Latin hypercube, scrambled Sobol'. Adaptive, from one Latin hypercube with corners
 // of 10 runs (d = 2) or 32 (d = 4) in batches of 5: the largest Kriging variance (kept apart by the penalty),
 // Voronoi cells alone, LOLA-Voronoi as the paper has it, SUMO's product form, and 0.7 LOLA-Voronoi + 0.3
-// disagreement of the model with the one of the batch before. One surrogate judges all: kriging::fit by its
+// disagreement of the model with the one of the batch before. One surrogate measures all: kriging::fit by its
 // default options, NRMSE over 4000 scrambled Sobol' points. Median and quartiles over the seeds; the lines of
 // a function share its first designs.
 

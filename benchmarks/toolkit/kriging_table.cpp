@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Default fits of the three reference functions: CPU seconds, likelihood, error and predictions a second.
+// Default fits of the three reference functions: CPU seconds, likelihood, error and predictions per second.
 //
-//   kriging_table [--threads N] [--seeds N] [RUNS...]      default: one thread, 11 seeds at 100 runs, RUNS
-//   100 500
+//   kriging_table [--threads N] [--seeds N] [RUNS...]      default: one thread, 11 seeds at 100 runs,
+//                                                          RUNS 100 500
 //
-// One row a function and a number of runs. `LL` is of the standardised response, the worst of all seeds;
+// One row per function and number of runs. `LL` is of the standardised response, the worst of all seeds;
 // `best known` is that of a multistart search in another program (tests/kriging/reference_regression.cpp).
 // CPU seconds are those of the whole default fit, the least of the seeds (of three repeats beyond 100 runs,
 // one at 2000), on all threads together; wall seconds likewise. NRMSE is of 2000 test points, the largest of

@@ -12,8 +12,7 @@
 /// The incident polygon is cut by the planes on the sides of the reference face; what is left within the
 /// margin of the face's own plane is the contact. Each point knows its origin, a vertex of the incident
 /// polygon or a crossing of two edges, as a number that stays the same while the same features touch. All in
-/// the frame of the reference shape. Cost: sides x
-/// corners; a side that does not cut copies nothing.
+/// the frame of the reference shape. Cost: sides x corners; a side that does not cut copies nothing.
 namespace drawpoint::engine::detail {
 
 struct ClipPoint {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-/// A convex polyhedron laid out for collision: coordinates and planes as arrays for vectorised sweeps, edges
-/// with their two faces, and the planes that stand on the sides of each face. Built once a shape, read only
+/// A convex polyhedron laid out for collision: coordinates and planes as arrays for vectorised loops, edges
+/// with their two faces, and the planes that stand on the sides of each face. Built once per shape, read only
 /// afterwards. Shape's frame, metres.
 namespace drawpoint::engine::detail {
 

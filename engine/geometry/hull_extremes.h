@@ -4,7 +4,7 @@
 
 #include <drawpoint/engine/geometry/collision_hull.h>
 
-/// The two loops over a hull that the search for axes spends its time in, in the widest vector instructions
+/// The two loops over a hull on which the search for axes spends its time, in the widest vector instructions
 /// that the machine has.
 ///
 /// Products and sums are taken in one order, x first and z last, and none is fused; the least is exact. So

@@ -9,9 +9,9 @@
 ///
 /// The solid is cut into tetrahedra from one point to the triangles of its faces; for a tetrahedron (0, a, b,
 /// c) with d = a·(b×c):  V = d/6,  ∫x = d/24 (a+b+c),  ∫x xᵀ = d/120 [(a+b+c)(a+b+c)ᵀ + aaᵀ + bbᵀ + ccᵀ].
-/// Then I = ρ (tr C · 1 − C), C the second moment about the centre. Exact but for round-off. Cost: a few ns per
-/// triangle. Source: Tonon (2004), Explicit exact formulas for the 3-D tetrahedron inertia tensor; Mirtich
-/// (1996).
+/// Then I = ρ (tr C · 1 − C), C the second moment about the centre. Exact but for round-off. Cost: a few ns
+/// per triangle. Source: Tonon (2004), Explicit exact formulas for the 3-D tetrahedron inertia tensor;
+/// Mirtich (1996).
 namespace drawpoint::engine {
 
 struct MassProperties {

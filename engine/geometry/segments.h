@@ -7,7 +7,7 @@
 #include <utility>
 
 /// Nearest points of two line segments of positive length (Ericson 2005, Real-Time Collision
-/// Detection, 5.1.9). ThreadPool segments give one of the nearest pairs.
+/// Detection, 5.1.9). Parallel segments give one of the nearest pairs.
 namespace drawpoint::engine::detail {
 
 struct Segment {

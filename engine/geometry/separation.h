@@ -15,7 +15,7 @@
 /// 2013). Overlapping shapes: −s is the exact penetration depth. Separated: s > 0 is a lower bound on the
 /// distance.
 ///
-/// Pruned without loss (separation_bounds.hpp). With a good first guess s₀ and a point q of the other shape
+/// Pruned without loss (separation_bounds.h). With a good first guess s₀ and a point q of the other shape
 /// next to the contact a face is looked at only when q lies higher than s₀ over it, and an edge only when
 /// that holds between its two faces: of a pair that rests on a face one plane and no edge is left. The first
 /// guess is last time's axis, or the line of centres. All in A's frame, metres. Cost: about 1 µs for rocks of

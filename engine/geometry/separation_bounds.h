@@ -14,7 +14,7 @@
 /// shape, the separation along n is at most n·(q − p). For a face that is the height of q over its plane. For
 /// an edge the normals lie between those of its two faces, and the bound is the largest height of q over the
 /// edge among them. q is the witness, or the lowest point over a face that was looked at. All in the hull's
-/// frame, metres. Cost: one sweep over the planes, then a few operations an edge of the faces that q lies
+/// frame, metres. Cost: one pass over the planes, then a few operations per edge of the faces that q lies
 /// over.
 namespace drawpoint::engine::detail {
 

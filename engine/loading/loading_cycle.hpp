@@ -19,7 +19,7 @@
 ///
 /// Failure is data: a pile without a place to load, or a solution that breaks down, gives a log with
 /// completed = false and a message; the cycles done before are in it. Throws std::invalid_argument for a bad
-/// scenario and std::runtime_error if a file cannot be read or written. Deterministic. Cost: some ms a step
+/// scenario and std::runtime_error if a file cannot be read or written. Deterministic. Cost: some ms per step
 /// and 1000 rocks.
 namespace drawpoint::engine::loading {
 

@@ -56,7 +56,7 @@ struct LoadingLog {
   bool completed = false;
   std::string message;  ///< why not, or empty
   /// The scenario's parameters, and of the run: mass cleared away for the machine [kg], the most contact
-  /// points of a step and the iterations a substep that `iteration_budget` left for these.
+  /// points of a step and the iterations per substep that `iteration_budget` left for these.
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;  ///< its choices, versions
   record::Table signals;

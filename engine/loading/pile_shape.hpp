@@ -5,7 +5,7 @@
 #include <drawpoint/engine/loading/pile_store.hpp>
 #include <drawpoint/engine/loading/strategy/column_model.hpp>
 
-/// How a pile lies, in the figures by which a miner judges it.
+/// How a pile lies, in the figures that a miner looks at.
 namespace drawpoint::engine::loading {
 
 /// Over the rows in which the bucket can attack: the elevation of the straight line fitted, by least squares

@@ -29,12 +29,13 @@ struct SettledPile {
 /// What decides the pile, as text.
 std::string pile_provenance(const Scenario& scenario);
 
-/// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once a simulated second.
+/// Pours and settles. `progress` gets the poured share of the mass, 0 to 1, about once per simulated second.
 /// Stops early when the pile reaches max_height or the raise is full.
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress = {},
                       const std::function<void(const engine::StepReport&)>& on_step = {});
 
-/// Atomic. Throws std::runtime_error if the file cannot be written / read, is damaged or has another recipe.
+/// Atomic. Throws std::runtime_error if the file cannot be written / read, is damaged or was made from
+/// something else.
 void write_pile(const std::filesystem::path& path, const SettledPile& pile, const Scenario& scenario);
 SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario);
 

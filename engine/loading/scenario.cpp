@@ -30,7 +30,7 @@ Scenario lh621_at_thesis_scale() {
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
   s.world.solver.iteration_budget *=
-      4;  // as many iterations a substep for its points as the smaller scene has
+      4;  // as many iterations per substep for its points as the smaller scene has
   return s;
 }
 

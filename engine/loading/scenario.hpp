@@ -44,8 +44,8 @@ struct Scenario {
   std::filesystem::path log_file;  ///< run log to write (HDF5); empty: none
 };
 
-/// Speeds are the `thesis_like` preset, 2-3 times what such a machine's hydraulics deliver, as the founding
-/// case's 12 s cycles demand; set executor.speeds = machine_speeds() for engineering conclusions.
+/// Speeds are the `thesis_like` preset, 2-3 times what such a machine's hydraulics deliver, as the 12 s
+/// cycles of Lindmark (2016) demand; set executor.speeds = machine_speeds() for engineering conclusions.
 ///
 /// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();

@@ -6,8 +6,8 @@
 #include <drawpoint/engine/loading/site.hpp>
 #include <map>
 
-/// Pictures of the scene for replay: shapes once, poses a frame. Rocks that come later are hidden in earlier
-/// frames.
+/// Pictures of the scene for replay: shapes once, poses per frame. Rocks that come later are hidden in
+/// earlier frames.
 namespace drawpoint::engine::loading {
 
 class SceneRecorder {

@@ -6,7 +6,7 @@
 #include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <drawpoint/engine/record/table.hpp>
 
-/// The raw signals of a run at full rate: one row a step, every quantity that a response may need.
+/// The raw signals of a run at full rate: one row per step, every quantity that a response may need.
 ///
 /// Wrenches: on the child by its parent at the joint, in the child's axes, mean over the step; hinge G is the
 /// bucket's. Its y component is about the pin: zero with cylinder drive, the tilt torque with hinge motors.

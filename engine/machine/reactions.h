@@ -9,7 +9,7 @@
 /// With motor and stop forces τ on the joints and the loads f on the bodies, the equations of motion leave
 /// Gᵀλ = τ + f − C − M u̇ to the pins: least squares for λ, exact up to round-off as the right side lies in
 /// the range of Gᵀ. With the pins' forces on the bodies every tree joint follows by Newton-Euler
-/// (joint_forces.hpp). All at the pose before the step, means over the step, SI units. Cost O(n³) with n
+/// (joint_forces.h). All at the pose before the step, means over the step, SI units. Cost O(n³) with n
 /// speeds. Internal, as simbody_types.h.
 namespace drawpoint::engine::machine {
 
@@ -23,7 +23,7 @@ struct Reactions {
   std::vector<Eigen::Vector3d> loops;  ///< on each pin's point body, world axes [N]
 };
 
-/// G: loop constraints at the tree's pose, two rows a pin; acceleration: u̇.
+/// G: loop constraints at the tree's pose, two rows per pin; acceleration: u̇.
 Reactions reactions(const SimbodyTree& tree, const Eigen::MatrixXd& G, const AppliedForces& applied,
                     const Eigen::VectorXd& acceleration);
 

@@ -13,7 +13,7 @@
 /// are compiled as Simbody needs it (CMakeLists.txt), C++17.
 namespace drawpoint::engine::machine {
 
-using BodyForces = SimTK::Vector_<SimTK::SpatialVec>;  ///< one a mobilised body of Simbody, ground first
+using BodyForces = SimTK::Vector_<SimTK::SpatialVec>;  ///< one per mobilised body of Simbody, ground first
 
 inline SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline SimTK::SpatialVec to_simbody(const Wrench& w) { return {to_simbody(w.moment), to_simbody(w.force)}; }

@@ -111,7 +111,7 @@ void check_machine(const SuperBody& machine, Finding& find) {
   find.require(machine.velocity_before.size() == freedoms && machine.velocity_before.allFinite(),
                "velocity_before", "of another length or not finite", "finite, as long as velocity");
   find.require(machine.origins.size() == machine.part_maps.size(), "origins",
-               "for " + std::to_string(machine.origins.size()) + " parts", "one a part");
+               "for " + std::to_string(machine.origins.size()) + " parts", "one per part");
   for (std::size_t k = 0; k < machine.part_maps.size(); ++k) {
     find.at("machine", k);
     find.require(machine.part_maps[k].cols() == freedoms && machine.part_maps[k].allFinite(), "part_maps",

@@ -11,12 +11,12 @@
 ///
 /// Format "drawpoint contact problem", version 1, in the form of record/file.hpp (HDF5, checksummed, written
 /// whole or not at all). The root has the step [s] and a note; /bodies, /pairs, /points and, with a machine,
-/// /machine hold one array a field of contact_problem.hpp, one row a body, pair or point, each with its units
-/// in the group's attribute "units". What solving puts out is not in the file. docs/contact-solving.md lists
-/// the fields.
+/// /machine hold one array per field of contact_problem.hpp, one row per body, pair or point, each with its
+/// units in the group's attribute "units". What solving puts out is not in the file. docs/contact-solving.md
+/// lists the fields.
 ///
 /// A problem is checked when written and when read: counts agree, indices are in range, numbers are finite,
-/// the step is positive, normals are unit, limits are ordered. Size: about 150 bytes a point.
+/// the step is positive, normals are unit, limits are ordered. Size: about 150 bytes per point.
 namespace drawpoint::engine::record {
 
 /// The machine lives on the heap, so copies and moves of this keep problem.machine valid.

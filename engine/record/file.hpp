@@ -15,13 +15,13 @@
 /// A file has a format name and a version, groups by "/"-paths, attributes (text, real, integer) on groups,
 /// and data: arrays of double, float or int32 with a shape, tables, and lists of text. Data is
 /// gzip-compressed (level 1) in chunks. After the end that HDF5 knows stand 24 bytes: a mark, the length and
-/// the 64-bit FNV-1a checksum of all before; a reader checks them before anything else, seconds a gigabyte.
+/// the 64-bit FNV-1a checksum of all before; a reader checks them before anything else, seconds per gigabyte.
 /// Other programs (h5dump, h5py, MATLAB) ignore them and read the file as it is.
 ///
 /// A Writer builds the file in memory; commit() writes it beside the target, syncs it and renames it over the
 /// target, so a full disk, a read-only folder or a killed process leave the old file. Safe to use from
-/// several threads, one object a thread. Errors of the disk and of the file are std::runtime_error, wrong use
-/// is std::invalid_argument.
+/// several threads, one object per thread. Errors of the disk and of the file are std::runtime_error, wrong
+/// use is std::invalid_argument.
 namespace drawpoint::engine::record {
 
 struct FileKind {

@@ -15,7 +15,7 @@
 /// one block that only this program reads, and a parser of a few lines can be fuzzed to the end
 /// (tests/fuzz/snapshot_reader.cpp). A cut or flipped byte anywhere is seen before the state is looked at.
 ///
-/// Disk and damage are std::runtime_error with file, fault and next step. Cost: about a second a gigabyte.
+/// Disk and damage are std::runtime_error with file, fault and next step. Cost: about a second per gigabyte.
 namespace drawpoint::engine::record {
 
 void write_snapshot(const std::filesystem::path& path, std::span<const std::byte> state);

@@ -17,7 +17,7 @@ std::string listing(const std::vector<Column>& columns) {
 void Table::append_row(std::span<const double> row) {
   if (row.size() != columns.size())
     throw std::invalid_argument("record::Table: a row of " + std::to_string(row.size()) + " values for " +
-                                std::to_string(columns.size()) + " columns; give one value a column");
+                                std::to_string(columns.size()) + " columns; give one value per column");
   values.insert(values.end(), row.begin(), row.end());
 }
 

@@ -18,7 +18,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<double> values;  ///< row-major, rows() × columns.size()
 
-  /// Throws std::invalid_argument unless the row has one value a column.
+  /// Throws std::invalid_argument unless the row has one value per column.
   void append_row(std::span<const double> row);
 
   std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }

@@ -127,10 +127,10 @@ void check_tables(const ReportInput& input) {
     for (const doe::Evaluation& e : table->rows) {
       const std::string run = "run " + std::to_string(e.run);
       if (e.x.size() != static_cast<Eigen::Index>(input.problem.variables.size()))
-        reject(run + " has " + std::to_string(e.x.size()) + " inputs; give one a variable");
+        reject(run + " has " + std::to_string(e.x.size()) + " inputs; give one per variable");
       if (!e.outcome.failed() &&
           e.outcome.values().size() != static_cast<Eigen::Index>(input.problem.responses.size()))
-        reject(run + " has " + std::to_string(e.outcome.values().size()) + " values; give one a response");
+        reject(run + " has " + std::to_string(e.outcome.values().size()) + " values; give one per response");
     }
 }
 

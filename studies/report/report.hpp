@@ -12,7 +12,7 @@
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
 ///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
-///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one a body]}], camera: {eye, target},
+///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one per body]}], camera: {eye, target},
 ///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside
 ///   lines  series: [{name, x: [], y: []}]; x_label, y_label
 ///   table  columns: [], rows: [[]..]
@@ -38,8 +38,8 @@ struct ReportInput {
   std::vector<Headline> headlines = {};  ///< said first
   doe::Problem problem;
   doe::Evaluations training, validation;
-  std::vector<kriging::Model> models;  ///< one a response, in order; empty when none could be fitted
-  std::vector<kriging::Validation> validations;  ///< one a response, in order; empty without validation runs
+  std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted
+  std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
   Polishing polishing;                           ///< of the front
   nlohmann::json illustrations =

@@ -27,7 +27,7 @@ Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& fr
 /// Places in Problem::responses of the objectives, the order of the front's columns.
 std::vector<std::size_t> objectives(const doe::Problem& problem);
 
-/// {cards, sentences, trust, cautions}. influence: one vector a model, as many as input.models.
+/// {cards, sentences, trust, cautions}. influence: one vector per model, as many as input.models.
 nlohmann::json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence);
 
 }  // namespace drawpoint::studies::detail

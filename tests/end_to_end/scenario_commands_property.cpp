@@ -85,7 +85,7 @@ TEST_F(ScenarioCommands, PileWithoutJsonPrintsATable) {
   const Ended run = this->run(pile + " --rocks 5 --settle 5 --steps 5 --dig 5");
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "5 rocks"));
-  EXPECT_TRUE(contains(run.out, "ms a step"));
+  EXPECT_TRUE(contains(run.out, "ms per step"));
 }
 
 // Each leg carries less than 1 kN at 1:1, which presses a pair of bodies of 1e9 N/m by less than 1e-6 m. The

@@ -5,9 +5,9 @@
 #include <drawpoint/tests/support/scenes.hpp>
 
 /// The world whose snapshots are fuzzed: five boxes that fall on a floor beside a wall, one of them removed.
-/// Two iterations a substep: the reader is fuzzed, not the solver's accuracy. No cylinder: its record is that
-/// of any hull, and each restore would make its prism of 48 sides anew, at a hundred times the cost of all
-/// else.
+/// Two iterations per substep: the reader is fuzzed, not the solver's accuracy. No cylinder: its record is
+/// that of any hull, and each restore would make its prism of 48 sides anew, at a hundred times the cost of
+/// all else.
 namespace drawpoint::fuzz {
 
 inline std::unique_ptr<engine::World> small_world() {

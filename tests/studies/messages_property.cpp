@@ -16,10 +16,10 @@ namespace {
 TEST(Progress, TimeLeftIsThatOfTheRestAtTheRateOfThisSession) {
   // 10 runs in 60 s of this session; 30 to go take 180 s.
   EXPECT_EQ(progress_text({.done = 20, .failed = 1, .total = 50, .session = 10, .seconds = 60.0}),
-            "20/50 runs, 1 failed, 10 a minute, 3.0 min left");
+            "20/50 runs, 1 failed, 10 per minute, 3.0 min left");
   EXPECT_EQ(progress_text({.done = 20, .total = 50}), "20/50 runs");
   EXPECT_EQ(progress_text({.done = 50, .total = 50, .session = 50, .seconds = 10.0}),
-            "50/50 runs, 5.0 a second");
+            "50/50 runs, 5.0 per second");
 }
 
 TEST(Progress, DurationsKeepTwoOrThreeFigures) {

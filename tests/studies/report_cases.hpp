@@ -37,7 +37,8 @@ inline Eigen::VectorXd formula(const Eigen::VectorXd& x, int r) {
   return y;
 }
 
-/// All that a study hands over after runs and validation runs; the front is the rows of the training table.
+/// All that a study passes to the report after runs and validation runs; the front is the rows of the
+/// training table.
 inline ReportInput input(int d, int r, int runs, int validation) {
   ReportInput in;
   in.study = "formula";

@@ -13,12 +13,12 @@
 ///
 /// The box grows with the count so that the depth of the pile is that of 3000 rocks in 7 m x 6 m. The rocks
 /// fall from a loose grid and settle; `rest` is what follows. Then the wall at +x is taken away; `slide` is
-/// the avalanche, rocks at up to some metres a second. Steps of 10 ms, same arguments, same bits. Cost: about
-/// 10 ms a step and 1000 rocks.
+/// the avalanche, rocks at up to some metres per second. Steps of 10 ms, same arguments, same bits. Cost:
+/// about 10 ms per step and 1000 rocks.
 namespace drawpoint::support {
 
 struct RockPile {
-  using Frame = std::vector<Eigen::Isometry3d>;  ///< a pose a rock
+  using Frame = std::vector<Eigen::Isometry3d>;  ///< a pose per rock
   std::vector<std::shared_ptr<const engine::Shape>> shapes, walls;
   std::vector<Frame> rest, slide;
 };

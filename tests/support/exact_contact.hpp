@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-/// Slow and plain answers about two convex polyhedra in the world, to evaluate the contact finder by. Nothing
-/// is pruned: all face normals and all edge pairs are axes, and the distance is the least over all
+/// Slow and plain answers about two convex polyhedra in the world, to test the contact finder against.
+/// Nothing is pruned: all face normals and all edge pairs are axes, and the distance is the least over all
 /// vertex-face and edge-edge pairs.
 namespace drawpoint::support {
 

@@ -12,7 +12,7 @@
 /// All start at rest and just touch. A rigid table stays: overlap 0, mean height of the five centres (4 · 0.1
 /// + 1.2)/5 = 0.32 m. Compliance lets it sink: at 1000:1 and k = 1e9 N/m each leg carries 89 kN at either
 /// end, 0.09 mm or 0.045 % of its edge. World frame: z up, SI units. Source: the mass-ratio tables of ETH's
-/// SimBenchmark and of engine forums; overlap alone does not evaluate, as a table whose legs have slipped out
+/// SimBenchmark and of engine forums; overlap alone does not show it, as a table whose legs have slipped out
 /// has none.
 namespace drawpoint::support {
 

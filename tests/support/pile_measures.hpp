@@ -13,8 +13,8 @@
 /// Overlap of two rocks: their penetration depth, the least translation that parts them, by the separating
 /// axis theorem over all face normals and all edge pairs of the true hulls, divided by the longest dimension
 /// of the smaller rock. Pairs of positive depth touch; mean and percentiles are over these. Drift: distance
-/// between a rock's centres at two times over the time between. Kinetic energy: translation and rotation, a
-/// rock. SI units, world frame. Cost: about 0.1 ms a touching pair, 0.5 s for 3000 settled rocks.
+/// between a rock's centres at two times over the time between. Kinetic energy: translation and rotation,
+/// per rock. SI units, world frame. Cost: about 0.1 ms per touching pair, 0.5 s for 3000 settled rocks.
 namespace drawpoint::support {
 
 /// A rock's motion as an engine reports it: centre of mass, principal axes; velocities in world axes.
@@ -76,7 +76,7 @@ inline std::vector<PlacedHull> placed_hulls(const RockPile& pile, const std::vec
   if (states.size() != pile.rocks.size())
     throw std::invalid_argument("pile measures: " + std::to_string(states.size()) + " states for " +
                                 std::to_string(pile.rocks.size()) +
-                                " rocks; give one a rock, in their order");
+                                " rocks; give one per rock, in their order");
   std::vector<PlacedHull> placed;
   placed.reserve(states.size());
   for (std::size_t k = 0; k < states.size(); ++k)
@@ -167,7 +167,7 @@ inline Drift drift(const std::vector<RockState>& before, const std::vector<RockS
   return d;
 }
 
-/// Mean kinetic energy a rock [J].
+/// Mean kinetic energy per rock [J].
 inline double kinetic_energy_per_rock(const RockPile& pile, const std::vector<RockState>& states) {
   double sum = 0;
   for (std::size_t k = 0; k < states.size(); ++k) {

@@ -24,7 +24,8 @@
 /// Start poses: rocks come in the order of the size sampler, turned at random. Each is placed inside a sphere
 /// about its centre of mass; of 64 random places the lowest is taken at which the sphere lies clear of all
 /// others and of the blade. So no two rocks overlap, however they are turned. 3000 rocks reach to 8 m at
-/// first, and collapse into a pile 1.9 m deep. They weigh 203 t: table 3 and these shapes give 68 kg a rock.
+/// first, and collapse into a pile 1.9 m deep. They weigh 203 t: table 3 and these shapes give 68 kg per
+/// rock.
 ///
 /// World frame: z up, origin in the middle of the floor. Rock frames: origin at the centre of mass, principal
 /// axes. SI units. Same number and seed, same scene, bit for bit. Cost: about 0.2 s for 3000 rocks.

@@ -74,7 +74,7 @@ TEST(Bouncing, Heights) {
            .budget = error,
            .budget_reason =
                "Heights: the impact falls up to v h above the floor and the stepper's energy is off by g h "
-               "v/2 before and after: h v (1 − e²) + h v (e² + e)/2 a bounce, passed on times e²."});
+               "v/2 before and after: h v (1 − e²) + h v (e² + e)/2 per bounce, passed on times e²."});
     }
   }
 }

@@ -17,7 +17,7 @@
 /// of overlap δ does work of at most F δ until it is open. So the total may rise above the lowest value that
 /// it had by at most Σ F δ over all contacts at once, F and δ at their worst step; if contacts pumped energy
 /// again and again, or another part of the step made some (the turning of a tumbling rock errs by (h ω)² of
-/// its spin energy), the rise would not stop there. Cost: one pass over rocks and points a step.
+/// its spin energy), the rise would not stop there. Cost: one pass over rocks and points per step.
 namespace drawpoint::validation {
 
 class EnergyLedger {

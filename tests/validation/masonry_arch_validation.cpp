@@ -22,14 +22,14 @@ const validation::Problem masonry_arch{
 constexpr int voussoirs = 24;
 constexpr double R = 2, depth = 0.6, density = 2500, g = 9.81, k = 1e9;
 
-// The thrust line of an arch of ring thickness t = s R under its own weight (R = 1, unit weight a volume).
+// The thrust line of an arch of ring thickness t = s R under its own weight (R = 1, unit weight per volume).
 // The part between the crown and the radial section at θ weighs W = s θ, and its centre of mass lies C / W
 // beside the crown, C = (ro³ − ri³)/3 (1 − cos θ). With the thrust H at height y in the crown section, the
 // moment about the section's point at radius r vanishes for
 //     H (y − r cos θ) = W r sin θ − C,  so  r(θ) = (H y + C) / (H cos θ + W sin θ).
 // The arch can stand without tension if some (H, y) keeps ri ≤ r(θ) ≤ ro in every joint (the safe theorem:
-// Heyman, "The stone skeleton", 1966). That is one linear condition on H y a joint and side, so for a given H
-// the widest gap between them is found directly, and it is concave in H: golden section.
+// Heyman, "The stone skeleton", 1966). That is one linear condition on H y per joint and side, so for a given
+// H the widest gap between them is found directly, and it is concave in H: golden section.
 double room_for_thrust(double s, int joints_in_half, double H) {
   const double ri = 1 - s / 2, ro = 1 + s / 2;
   double least = 0, most = std::numeric_limits<double>::infinity();

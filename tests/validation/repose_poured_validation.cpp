@@ -56,7 +56,7 @@ constexpr double student_of_mean = 3.00, student = 2.62;
 // Heaps of eight seeds scatter by some degrees each, as heaps do. A rise of the angle is stated where it
 // exceeds what chance gives in one case of a hundred; from 0.6 to 0.9 none is expected beyond that, as rough
 // blocks at 0.6 roll and tip before they slide, and a fall beyond chance would be wrong. The band: a
-// published iteration of discrete-element heaps spans 33.8 to 47.2 deg, blasted rock 35 to 42 deg is quoted
+// published series of discrete-element heaps spans 33.8 to 47.2 deg, blasted rock 35 to 42 deg is quoted
 // for the field; both are for other rocks, so 32 to 47 deg is plausibility, not accuracy. The rocks of the
 // test lie at its edge: solved five times as hard they pour to 46 to 48 deg. So the scatter of the mean
 // counts.

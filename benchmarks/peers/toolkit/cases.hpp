@@ -6,8 +6,8 @@
 /// benchmarks/peers/compare_toolkit.
 ///
 /// Searches: 250 generations of 100 points, seeds 1..11, simulated binary crossover 0.9 with index 20,
-/// polynomial mutation 1/d with index 20 (Deb's settings); judged by the hypervolume of the points below the
-/// reference. Fronts: standard normals made positive on the unit sphere, reference 1.1
+/// polynomial mutation 1/d with index 20 (Deb's settings); measured by the hypervolume of the points below
+/// the reference. Fronts: standard normals made positive on the unit sphere, reference 1.1
 /// (tests/pareto/test_functions.hpp). An answer is one line of JSON. Times are CPU seconds of the process,
 /// the least of the repeats.
 

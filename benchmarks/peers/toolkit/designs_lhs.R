@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Latin hypercubes of R's lhs: Rscript designs_lhs.R RUNS SEEDS FOLDER writes KIND.SEED.csv (a run a line, unit box) and
+# Latin hypercubes of R's lhs: Rscript designs_lhs.R RUNS SEEDS FOLDER writes KIND.SEED.csv (one run per line, unit box) and
 # prints one line of JSON a design.
 words <- commandArgs(trailingOnly = TRUE)
 runs <- as.integer(words[1])

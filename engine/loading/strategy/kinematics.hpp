@@ -11,7 +11,7 @@
 ///   x_K = q_d + x_F + FG cos a + GK cos b,   z_K = z_F + FG sin a + GK sin b,   φ = b − ψ_b
 /// with a the elevation of FG and b that of GK. Rates (singular only at cos a = 0, boom vertical):
 ///   ȧ = (v_z − GK cos b ω) / (FG cos a),   q̇_d = v_x + FG sin a ȧ + GK sin b ω,   ḃ = ω.
-/// Source: D. Lindmark, master thesis, Umeå University 2016, equations 25-37.
+/// Source: Lindmark (2016), equations 25-37.
 namespace drawpoint::engine::loading {
 
 /// Fixed lengths and angles; the defaults are the estimated linkage of the LH621 class.

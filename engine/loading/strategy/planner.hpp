@@ -8,14 +8,14 @@
 
 /// Strategy and pile to trajectory.
 ///
-/// The bucket takes a slice of constant horizontal thickness d up to height h and the sector that the tip
-/// iterations when it breaks out: w_b (d h + ½ θ d²) = α V_b. Positive root of ½ θ d² + h d − A = 0 without
-/// cancellation, A = α V_b / w_b:
+/// The bucket takes a slice of constant horizontal thickness d up to height h and the sector through which
+/// the tip moves when it breaks out: w_b (d h + ½ θ d²) = α V_b. Positive root of ½ θ d² + h d − A = 0
+/// without cancellation, A = α V_b / w_b:
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
 /// end and the bucket at κθ, and `height_limit`. Row: rows sorted by volume centre, nearest to the back wall
-/// first, entry round(γ (n − 1)). φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark (2016)
-/// prints h²/θ under the root.
+/// first, entry round(γ (n − 1)). φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark
+/// (2016) prints h²/θ under the root.
 namespace drawpoint::engine::loading {
 
 /// The four design variables.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Poses of all bodies in all frames. They come packed as little-endian 16-bit integers, seven a body: position (times
+// Poses of all bodies in all frames. They come packed as little-endian 16-bit integers, seven per body: position (times
 // scale, from origin) and quaternion w x y z (of 32767); an absent body has -32768 in the first place.
 
 const absent = -32768;

@@ -14,7 +14,7 @@ export function validation(data) {
     {title: 'Process σ', format: number}];
   const rows = responses.map((r, j) => row(labelled(r), data.models[j], data.validations[j], variables.length));
   const node = section('surrogates', 'How good the surrogates are',
-    data.models.length ? 'A regression Kriging model stands in for the simulation. It was fitted to the training runs and judged on validation runs that it has never seen.'
+    data.models.length ? 'A regression Kriging model stands in for the simulation. It was fitted to the training runs and checked on validation runs that it has never seen.'
       : 'No surrogate could be fitted.');
   if (!data.models.length) return node;
   node.append(el('div', {class: 'block'}, table(columns, rows, {sortable: false}).node, el('p', {class: 'note'},

@@ -83,7 +83,7 @@ TEST(ContactFinderExactness, AgreesWithAnExhaustiveSearchInSpecialPositions) {
     const ConvexPolyhedron in_world_a = a.transformed(X_WA), in_world_b = b.transformed(X_WB);
     const double separation = support::best_separation(in_world_a, in_world_b);
     const auto found = support::contact_of({share(a), X_WA}, {share(b), X_WB});
-    // ThreadPool edges and repeated axes leave 1e-12 of doubt about zero and about the margin.
+    // Parallel edges and repeated axes leave 1e-12 of doubt about zero and about the margin.
     constexpr double doubt = 1e-9;
     if (separation < -doubt) {
       ASSERT_EQ(found.size(), 1u) << "trial " << trial << ", overlap " << -separation;

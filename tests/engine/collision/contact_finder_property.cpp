@@ -45,7 +45,7 @@ TEST(ContactFinder, ReportsExactlyThePairsThatTouch) {
   const ContactFinderOptions exact{.margin = margin, .reuse_distance = 0, .reuse_angle = 0, .hysteresis = 0};
   Heap heap(40, 8, exact);
   for (int step = 0; step < 15; ++step) {
-    // From small motions, looked up one by one, to large ones, for which the trees are swept as a whole.
+    // From small motions, looked up one by one, to large ones, for which the trees are queried as a whole.
     heap.shake(step % 3 == 0 ? 0.1 : 0.004, 0.02);
     std::set<std::pair<int, int>> found, expected;
     for (const Manifold& m : heap.finder().find())

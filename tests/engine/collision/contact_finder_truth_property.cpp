@@ -90,7 +90,7 @@ TEST(ContactFinderTruth, HoldsForAMillionPairsOfRocks) {
     for (double size : {0.3, 0.4, 0.6, 0.8}) rocks.push_back(support::rock(shape).scaled(size));
   std::vector<support::SharedShape> shapes;
   for (const auto& rock : rocks) shapes.push_back(support::share(rock));
-  // Two colliders a pair; the pairs stand 4 m apart, so that they do not meet.
+  // Two colliders per pair; the pairs stand 4 m apart, so that they do not meet.
   engine::ContactFinder finder;
   std::vector<int> rock_of;
   for (int id = 0; id < 2 * pairs_per_scene; ++id) {

@@ -82,7 +82,7 @@ TEST(FatBoxes, HoldWhatTheyMustUntilTheyAreLeft) {
   EXPECT_GT(kept, 400);
 }
 
-// 15 mm a step: the first box is left after 20 mm, in the second step, and each of the others, which have
+// 15 mm per step: the first box is left after 20 mm, in the second step, and each of the others, which have
 // 40 mm ahead, in the third after it was made.
 TEST(FatBoxes, LookAhead) {
   Walker walker;

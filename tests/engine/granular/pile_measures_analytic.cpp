@@ -125,9 +125,9 @@ TEST(MassRatioTable, HasTheMassesAndTheHeightOfItsDescription) {
 
 // Without friction the blade is the only thing that pushes a cube along x, so the impulse that it reports is
 // the cube's momentum: to round-off with the sequential method; with the batched one, which keeps impulses
-// in single precision, to 2^-24 a substep, 16 · 6e-8 = 1e-6 of the momentum over the one step of the impact,
-// after which almost nothing is added. The blade itself keeps its way: it gives way by 4500 kg / 1e12 kg of
-// the cube's speed within a step and is set anew at the next.
+// in single precision, to 2^-24 per substep, 16 · 6e-8 = 1e-6 of the momentum over the one step of the
+// impact, after which almost nothing is added. The blade itself keeps its way: it gives way by 4500 kg / 1e12
+// kg of the cube's speed within a step and is set anew at the next.
 TEST(PileWorld, BladeReportsTheMomentumThatItGives) {
   using engine::Method;
   for (const auto& [method, tolerance] :

@@ -48,11 +48,11 @@ struct Throw {
 
 class Thrown : public testing::TestWithParam<Throw> {};
 
-// A rock thrown at a plate 20 mm thick, up to 1 m a step, is stopped by it: a contact is searched as far as
+// A rock thrown at a plate 20 mm thick, up to 1 m per step, is stopped by it: a contact is searched as far as
 // the rock may go in the step, and an open gap lets through no more than what closes it. The linearised gap
 // sees the rock's turn during the step to first order, so corners may dip in for a step, but its centre never
 // passes the face, and when it lies still nothing is left of it. Contacts with e = 0 take energy and
-// gravity's discretisation gives none (q and v are advanced in the same order: an error of m g² h²/2 a step
+// gravity's discretisation gives none (q and v are advanced in the same order: an error of m g² h²/2 per step
 // in free flight, of either sign: 50 steps of a 0.3 m rock of 50 kg, h = 0.01: below 12 J of 250 kJ).
 TEST_P(Thrown, IsStoppedByAThinWall) {
   WorldOptions options;
@@ -178,7 +178,7 @@ TEST(Crowd, NoRocksAtAll) {
 }
 
 // 20 000 rocks over a floor, the lowest layer touching it: two steps within a minute and 2 GB, both far above
-// what is needed (some 0.2 s a step and 0.3 GB), so that only a cost that grows with the square fails.
+// what is needed (some 0.2 s per step and 0.3 GB), so that only a cost that grows with the square fails.
 TEST(Crowd, OfTwentyThousand) {
   const auto start = std::clock();
   World world({}, stone());

@@ -23,7 +23,7 @@ constexpr double drift_bound = 0.0034;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const ArmGeometry arm;
 
-// The example of the thesis specification, section 18.
+// An example with the default numbers.
 Plan example_plan(CurlMode curl = CurlMode::hinge_G) {
   Plan plan;
   plan.feasible = true;
@@ -137,7 +137,7 @@ TEST(Executor, TimingOfTheStages) {
   }
 }
 
-// The cycle times that the specification states, 27 s and 12 s, to its rounding: level lift, curl 0.8 rad.
+// The cycle times of the two presets of speeds, 27 s and 12 s, to its rounding: level lift, curl 0.8 rad.
 TEST(Executor, CycleTimesOfBothPresets) {
   Plan plan = example_plan(CurlMode::tip_fixed);
   plan.tilt = 0;
@@ -151,8 +151,8 @@ TEST(Executor, CycleTimesOfBothPresets) {
 
 // A drive-in that gives up 1 m short of its depth is made good on the way up: the lift ends at C all the
 // same, as deep behind the surface as planned, on a straight line from where the drive-in ended. The way is
-// flatter than the slope, so that with the thesis's speeds it is the drive-in speed that binds: the tip moves
-// no faster, and no slower at first.
+// flatter than the slope, so that with the speeds of Lindmark (2016) it is the drive-in speed that binds: the
+// tip moves no faster, and no slower at first.
 TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
   const Plan plan = example_plan();
   const double wall = plan.toe + plan.depth - 1.0;
@@ -186,7 +186,8 @@ TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
   EXPECT_NEAR(fastest, options.speeds.drive_in, 0.02 * options.speeds.drive_in);
 }
 
-// As the thesis has it: by (h / tan θ, h) from where the drive-in ended, short of C by what that fell short.
+// As Lindmark (2016) has it: by (h / tan θ, h) from where the drive-in ended, short of C by what that fell
+// short.
 TEST(Executor, AlongTheSlopeAShortDriveInStaysShort) {
   Plan plan = example_plan();
   plan.lift = LiftGoal::along_slope;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// The arm's kinematics against the verification log of the thesis specification (section 19), in which the
-// numbers are printed to nine decimals: tolerance 5e-10 and round-off.
+// The arm's kinematics (Lindmark 2016, equations 25-37) against numbers that were computed independently and
+// printed to nine decimals: tolerance 5e-10 and round-off.
 #include <gtest/gtest.h>
 
 #include <cmath>

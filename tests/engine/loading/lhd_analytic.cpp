@@ -176,8 +176,8 @@ TEST(Lhd, BothLiftCylindersShareTheEndOfTheirStrokes) {
   EXPECT_NEAR(axial(0), axial(1), 1e-2 * 713e3);
 }
 
-// With the thesis's hinge motors the same load's moment about G is the tilt motor's torque and the wrench's
-// axial part.
+// With the hinge motors of Lindmark (2016) the same load's moment about G is the tilt motor's torque and the
+// wrench's axial part.
 TEST(Lhd, WithHingeMotorsTheTiltTorqueIsTheLoadsMoment) {
   LhdOptions options;
   options.arm_drive = ArmDrive::hinges;

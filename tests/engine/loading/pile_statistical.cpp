@@ -99,7 +99,7 @@ TEST(SurfaceAngle, IsExactOnAWedge) {
   for (const Row& row : model.rows) EXPECT_NEAR(surface_angle(model, row), std::atan(0.4), 1e-12);
 }
 
-// What rocks are of is part of the recipe; what the machine, which comes later, is of is not.
+// The rocks' material is part of the pile's provenance key; that of the machine, which comes later, is not.
 TEST(SettledPile, BelongsToItsMaterials) {
   const Scenario own = small_pile(20e3);
   Scenario other = own;

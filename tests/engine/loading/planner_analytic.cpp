@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// The planner against the table of the thesis specification (6.2, printed to three decimals), its limits and
+// The planner against a table that was computed independently (printed to three decimals), its limits and
 // closed forms.
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr TableEntry table[] = {{0.2, 0, 1.420, 1.420},   {0.2, 0.5, 0.854, 0.79
                                 {1.0, 3, 1.003, 0.340},   {2.0, 0, 4.491, 4.491},   {2.0, 0.5, 3.800, 3.779},
                                 {2.0, 1, 3.229, 3.148},   {2.0, 2, 2.394, 2.103},   {2.0, 3, 1.851, 1.285}};
 
-// Equation 50 as the thesis prints it, h²/θ under the root: only to show that it is another number.
+// Equation 50 as Lindmark (2016) prints it, h²/θ under the root: only to show that it is another number.
 double depth_as_printed(double h, double theta, double area) {
   return -h / theta + std::sqrt(h * h / theta + 2 * area / theta);
 }

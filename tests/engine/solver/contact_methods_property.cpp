@@ -14,13 +14,13 @@ using namespace drawpoint::engine;
 
 namespace {
 
-// Double precision methods get far below; single precision ends at about 1e-6 of the load a point (24 bits),
-// which a chain of contacts multiplies.
+// Double precision methods get far below; single precision ends at about 1e-6 of the load per point (24
+// bits), which a chain of contacts multiplies.
 constexpr double converged = 1e-4;
 constexpr int enough = 20000;
 // Single precision rounds each velocity that an iteration writes by 6e-8 of it: 1 m/s where contacts change
-// 0.05 m/s, some four times a body an iteration. As a random walk over the iterations: 6e-8 · 20 · sqrt(4 ·
-// 20000) = 3.4e-4, times three.
+// 0.05 m/s, some four times per body and iteration. As a random walk over the iterations: 6e-8 · 20 · sqrt(4
+// · 20000) = 3.4e-4, times three.
 constexpr double rounded_momentum = 1e-3;
 
 // The heap with a sled of one freedom behind it, its motor set to push with less than it would take to keep

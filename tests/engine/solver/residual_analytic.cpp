@@ -169,7 +169,7 @@ TEST(Distance, FallsWithIterationsAndIsZeroToItself) {
   EXPECT_LT(last, 1e-3);
 }
 
-// Double precision adds up a few hundred impulses a body.
+// Double precision adds up a few hundred impulses per body.
 TEST(MomentumDefect, IsRoundOffForTheReferenceAndSeesALostImpulse) {
   const ContactProblem unsolved = support::heap_of_boxes();
   ContactProblem problem = unsolved;

@@ -48,9 +48,8 @@ TEST(Restitution, CubeBouncesToTheSquareOfEOfItsHeight) {
 }
 
 // Three equal cubes in a row, the first arrives with v. All impacts at once, with e = 1: u1' = -(-v) etc.
-// give
-// (-1/3, 2/3, 2/3) v, which keeps momentum and energy. The stage is solved to 1e-12; velocities pass through
-// single precision: 1e-6 v.
+// give (-1/3, 2/3, 2/3) v, which keeps momentum and energy. The stage is solved to 1e-12; velocities pass
+// through single precision: 1e-6 v.
 TEST(Restitution, CradleSharesTheBlowAtOnce) {
   World world = free_space(1);
   const double v = 2;
@@ -67,7 +66,7 @@ TEST(Restitution, CradleSharesTheBlowAtOnce) {
 // Normal impulses alone never add energy, at any e, however oblique the impact. What may is the push that
 // takes an overlap back. A corner at r that turns at ω leaves its tangent by δ = ½ (ω h)² r in a step, by
 // which it can overlap; that is taken back within the relaxation time 2h, at δ/2h = ¼ ω² h r: ½ m (¼ ω² h r)²
-// a point. Tumbling by a splitting of second order (free_rotation.hpp) lets energy swing by less than (ω
+// a point. Tumbling by a splitting of second order (free_rotation.h) lets energy swing by less than (ω
 // h)²/12 of it.
 TEST(Restitution, AddsNoEnergyWithoutFriction) {
   for (const double e : {0.0, 0.5, 1.0}) {

@@ -66,7 +66,7 @@ TEST(UnconvergedChain, IsASpringWithoutDamping) {
     }
 }
 
-// Enough iterations hold the chain: the error of an iteration falls by m_eff / m an iteration, 1/1001 of it
+// Enough iterations hold the chain: the error falls by m_eff / m per iteration, 1/1001 of it
 // left over, so some 5000 iterations stop the heavy body within a substep, however few.
 TEST(UnconvergedChain, StandsWithEnoughIterations) {
   ContactProblem problem = chain(0.02);

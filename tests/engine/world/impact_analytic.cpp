@@ -41,7 +41,7 @@ Vector3d angular_momentum(const World& world) {
 
 // Every impulse acts on both rocks in opposite directions, so linear momentum is kept to round-off. In double
 // precision: 1e-12 of the largest single momentum. In single precision an iteration rounds each velocity
-// three times a point at 2⁻²⁴ of itself; 16 substeps of one iteration with at most four points over the at
+// three times per point at 2⁻²⁴ of itself; 16 substeps of one iteration with at most four points over the at
 // most 200 steps of contact: √(200 · 16 · 12) · 6e-8 = 1.2e-5 is expected of independent errors, and ten
 // times that is allowed. Angular momentum about the origin: without substeps impulses act at one common point
 // and free flight keeps r x p, so it is kept to round-off. In a substep impulses act at the arms of the

@@ -10,7 +10,7 @@ using engine::World;
 // Ten equal cubes at rest. Statics: the interface under m cubes carries m M g over k, so the mean overlap is
 // m M g / k: at most 10 · 67.5 kg · g / k = 6.6e-6 m. While the tower rocks, its corners share the load
 // unequally: up to two of four carry all of it, and twice that is the deepest. The solver adds the error of
-// unconverged iterations, for N iterations a substep on a column of n at most about 3 n g (h/S)² / N (1-D
+// unconverged iterations, for N iterations per substep on a column of n at most about 3 n g (h/S)² / N (1-D
 // column study): n = 10, h/S = 0.625 ms, at least N = 100 of the 500 budgeted iterations: 1.2e-6 m. Speeds
 // that such overlaps can drive: overlap over the relaxation time of two steps, 1.4e-5 m / 20 ms = 7e-4 m/s;
 // sideways the tower may creep by 0.3 mm in 5 s, a five-hundredth of what would topple it.
