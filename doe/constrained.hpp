@@ -31,6 +31,7 @@
 namespace drawpoint::doe {
 
 struct RegionOptions {
+  Seed seed = 1;
   int candidates = 0;     ///< allowed points to choose from; 0: 20 a run, at least 1000
   int tries = 1'000'000;  ///< calls of the predicate at most, 1 or more
 };
@@ -101,12 +102,12 @@ inline int spread_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
 /// The first `runs` allowed points of a sequence. Throws std::invalid_argument when runs < 1 or an option is
 /// out of range.
 template <class P>
-ConstrainedDesign feasible_sequence(const Problem& problem, int runs, const P& allowed, Seed seed = 1,
+ConstrainedDesign feasible_sequence(const Problem& problem, int runs, const P& allowed,
                                     const RegionOptions& options = {}) {
   require_point_predicate<P>();
   detail::check_design("doe::feasible_sequence", problem, runs);
   detail::check_region("doe::feasible_sequence", options);
-  detail::FeasiblePoints found = detail::feasible_points(problem, runs, options.tries, allowed, seed);
+  detail::FeasiblePoints found = detail::feasible_points(problem, runs, options.tries, allowed, options.seed);
   ConstrainedDesign design{std::move(found.X), RegionStatus::complete, "", found.share, 0};
   return design.X.rows() == runs ? design : detail::too_small(std::move(design), runs);
 }
@@ -114,14 +115,14 @@ ConstrainedDesign feasible_sequence(const Problem& problem, int runs, const P& a
 /// `runs` points spread over the region. Throws std::invalid_argument when runs < 1 or an option is out of
 /// range.
 template <class P>
-ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& allowed, Seed seed = 1,
+ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& allowed,
                                    const RegionOptions& options = {}) {
   require_point_predicate<P>();
   const char* place = "doe::feasible_maximin";
   detail::check_design(place, problem, runs);
   detail::check_region(place, options);
-  const auto found =
-      detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries, allowed, seed);
+  const auto found = detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries,
+                                             allowed, options.seed);
   const Eigen::MatrixXd C = detail::to_unit_box(found.X, problem, place);
   const auto chosen = detail::farthest_points(C, Eigen::MatrixXd(0, C.cols()), runs);
   Eigen::MatrixXd U = C(chosen, Eigen::all);
@@ -136,7 +137,7 @@ ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& al
 /// std::invalid_argument when X does not fit the problem or an option is out of range.
 template <class P>
 ConstrainedDesign feasible_replacement(const Problem& problem, const Eigen::MatrixXd& X, const P& allowed,
-                                       Seed seed = 1, const RegionOptions& options = {}) {
+                                       const RegionOptions& options = {}) {
   require_point_predicate<P>();
   const char* place = "doe::feasible_replacement";
   detail::check_inside(X, problem, place);
@@ -146,8 +147,8 @@ ConstrainedDesign feasible_replacement(const Problem& problem, const Eigen::Matr
   ConstrainedDesign design{X, RegionStatus::complete, "", 1.0, static_cast<int>(lost.size())};
   if (lost.empty()) return design;
   const auto runs = static_cast<int>(X.rows());
-  const auto found =
-      detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries, allowed, seed);
+  const auto found = detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries,
+                                             allowed, options.seed);
   design.feasible_share = found.share;
   const Eigen::MatrixXd C = detail::to_unit_box(found.X, problem, place),
                         U = detail::to_unit_box(X(kept, Eigen::all), problem, place);

@@ -23,9 +23,9 @@ struct Progress {
 };
 
 struct EvaluateOptions {
+  Seed seed = 1;       ///< the study's
   int threads = 1;     ///< runs at once, 1 or more; a batch function ignores it
   int replicates = 1;  ///< runs a design point, 1 or more, each with its own seed
-  Seed seed = 1;       ///< the study's
   /// Called as each run ends, one call at a time, in order of ending; not for remembered runs.
   std::function<void(const Evaluation&)> on_result = {};
   std::int64_t first_run = 0;  ///< number of the first row, 0 or more: to go on with a study

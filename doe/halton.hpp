@@ -28,6 +28,7 @@ namespace drawpoint::doe {
 enum class HaltonKind { scrambled, random_start, plain };
 
 struct HaltonOptions {
+  Seed seed = 1;
   HaltonKind kind = HaltonKind::scrambled;  ///< plain ignores the seed and starts at run 1, not at the origin
 };
 
@@ -100,8 +101,7 @@ inline Eigen::VectorXd halton_column(int first, int runs, int variable, Seed see
 }  // namespace detail
 
 /// runs x d. Throws std::invalid_argument when runs < 1 or the problem has more than 100 variables.
-inline Eigen::MatrixXd halton(const Problem& problem, int runs, Seed seed = 1,
-                              const HaltonOptions& options = {}) {
+inline Eigen::MatrixXd halton(const Problem& problem, int runs, const HaltonOptions& options = {}) {
   detail::check_design("doe::halton", problem, runs);
   const auto d = static_cast<int>(problem.variables.size());
   if (d > detail::halton_max_dimensions)
@@ -109,7 +109,7 @@ inline Eigen::MatrixXd halton(const Problem& problem, int runs, Seed seed = 1,
                                 " variables; allowed is up to " +
                                 std::to_string(detail::halton_max_dimensions) + "; use latin_hypercube");
   Eigen::MatrixXd U(runs, d);
-  for (int j = 0; j < d; ++j) U.col(j) = detail::halton_column(0, runs, j, seed, options.kind);
+  for (int j = 0; j < d; ++j) U.col(j) = detail::halton_column(0, runs, j, options.seed, options.kind);
   return detail::to_natural(std::move(U), problem);
 }
 

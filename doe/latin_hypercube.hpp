@@ -25,8 +25,8 @@
 namespace drawpoint::doe {
 
 struct LatinHypercubeOptions {
-  bool corners = false;  ///< the 2^d corners come first and count in `runs`
   Seed seed = 1;
+  bool corners = false;  ///< the 2^d corners come first and count in `runs`
   bool centred = false;  ///< u_ij = 1/2: even spacing, but no estimate from it is unbiased
 };
 
@@ -84,13 +84,6 @@ inline Eigen::MatrixXd latin_hypercube(const Problem& problem, int runs,
   if (corners > 0) X.topRows(corners) = detail::to_natural(detail::unit_corners(d), problem);
   X.bottomRows(runs - corners) = detail::latin_to_natural(std::move(U), problem);
   return X;
-}
-
-/// The same with the seed in the place where the other designs have it.
-inline Eigen::MatrixXd latin_hypercube(const Problem& problem, int runs, Seed seed,
-                                       LatinHypercubeOptions options = {}) {
-  options.seed = seed;
-  return latin_hypercube(problem, runs, options);
 }
 
 }  // namespace drawpoint::doe

@@ -36,13 +36,13 @@ enum class Hybrid { sum, product, weighted };
 enum class Combine { largest, average };
 
 struct LolaVoronoiOptions {
+  Seed seed = 1;  ///< of the test points
   Hybrid hybrid = Hybrid::sum;
   double voronoi_weight = 0.5;           ///< w, 0 to 1, of Hybrid::weighted; large: fill space
   std::vector<std::string> responses{};  ///< names; empty: objectives and constraints, or all if none
   Combine combine = Combine::largest;    ///< of several responses; average when no one may dominate
   int points_per_site = 100;             ///< >= 1: volumes to a tenth; the cost is proportional
   Allowed allowed{};                     ///< empty: the whole box; else cells are counted inside alone
-  Seed seed = 1;                         ///< of the test points
 };
 
 /// What the score is made of, one entry a site.
@@ -171,14 +171,20 @@ class LolaVoronoi {
   std::vector<int> good_;
 };
 
-/// Voronoi sampling: the largest cell, whatever the response.
-inline LolaVoronoi voronoi_sampler(Allowed allowed = {}, Seed seed = 1) {
-  LolaVoronoiOptions options;
-  options.hybrid = Hybrid::weighted;
-  options.voronoi_weight = 1.0;
-  options.allowed = std::move(allowed);
-  options.seed = seed;
-  return LolaVoronoi(std::move(options));
+struct VoronoiOptions {
+  Seed seed = 1;              ///< of the test points
+  int points_per_site = 100;  ///< >= 1, as in LolaVoronoiOptions
+  Allowed allowed{};          ///< likewise
+};
+
+/// Voronoi sampling: the largest cell, whatever the response. Throws std::invalid_argument for an option out
+/// of its range.
+inline LolaVoronoi voronoi_sampler(VoronoiOptions options = {}) {
+  return LolaVoronoi({.seed = options.seed,
+                      .hybrid = Hybrid::weighted,
+                      .voronoi_weight = 1.0,
+                      .points_per_site = options.points_per_site,
+                      .allowed = std::move(options.allowed)});
 }
 
 }  // namespace drawpoint::doe

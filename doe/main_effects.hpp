@@ -25,9 +25,9 @@
 namespace drawpoint::doe {
 
 struct MainEffectsOptions {
+  Seed seed = 1;      ///< of the points
   int levels = 21;    ///< values of each input, 2 or more
   int samples = 256;  ///< points averaged at each, 2 or more; powers of 2 suit the Sobol' sequence
-  Seed seed = 1;      ///< of the points
   EvaluateOptions evaluate = {};
 };
 
@@ -62,7 +62,7 @@ inline double level(const Variable& v, int k, int levels) {
 
 /// Blocks of `samples` rows, level after level, input after input.
 inline Eigen::MatrixXd main_effects_design(const Problem& problem, const MainEffectsOptions& options) {
-  const Eigen::MatrixXd base = scrambled_sobol(problem, options.samples, options.seed);
+  const Eigen::MatrixXd base = scrambled_sobol(problem, options.samples, {.seed = options.seed});
   const Eigen::Index d = base.cols(), n = base.rows();
   Eigen::MatrixXd X(d * options.levels * n, d);
   for (Eigen::Index j = 0, from = 0; j < d; ++j)

@@ -27,6 +27,7 @@
 namespace drawpoint::doe {
 
 struct OrthogonalLatinOptions {
+  Seed seed = 1;
   int strength = 2;  ///< t, 2 or more: how many variables at once are stratified
   LatinCriterion criterion = LatinCriterion::centred_discrepancy;
   int p = 10;                     ///< exponent of phi_p, even, 2 to 100
@@ -128,7 +129,7 @@ inline ExchangeGroups level_groups(const Eigen::MatrixXi& levels, int q, RandomS
 
 /// runs x d, runs = q^strength. Throws std::invalid_argument, with the next number of runs that is allowed,
 /// when there is no such array, or on an option out of range.
-inline Eigen::MatrixXd orthogonal_latin_hypercube(const Problem& problem, int runs, Seed seed = 1,
+inline Eigen::MatrixXd orthogonal_latin_hypercube(const Problem& problem, int runs,
                                                   const OrthogonalLatinOptions& options = {}) {
   const std::string place = "doe::orthogonal_latin_hypercube";
   detail::check_design(place.c_str(), problem, runs);
@@ -141,7 +142,7 @@ inline Eigen::MatrixXd orthogonal_latin_hypercube(const Problem& problem, int ru
                                 std::to_string(options.strength) + "; the next larger one has " +
                                 std::to_string(next) + " runs");
   const int q = detail::array_levels(runs, options.strength, d);
-  RandomStream random(seed);
+  RandomStream random(options.seed);
   detail::ExchangeGroups groups = detail::level_groups(orthogonal_array(q, d, options.strength), q, random);
   Eigen::MatrixXi strata(runs, d);
   for (Eigen::Index j = 0; j < d; ++j)

@@ -37,13 +37,13 @@ namespace drawpoint::doe {
 enum class Spread { cells, penalty, believer };
 
 struct ProposeOptions {
+  Seed seed = 1;       ///< of the candidates, together with the number of rows of the table
   int batch = 1;       ///< points to choose, 1 or more
   int candidates = 0;  ///< >= 1; 0: 100 a run, within 1000 to 20000: enough for the best of each cell
   Spread spread = Spread::cells;
   /// What a run at x (natural units) would give, for Spread::believer: a surrogate's mean, say.
   std::function<Outcome(const Eigen::VectorXd& x)> believe{};
   Allowed allowed{};  ///< candidates are drawn where it holds; empty: the whole box
-  Seed seed = 1;      ///< of the candidates, together with the number of rows of the table
 };
 
 namespace detail {

@@ -37,13 +37,13 @@ namespace drawpoint::doe {
 enum class SobolEstimator { saltelli, jansen, martinez };
 
 struct SobolIndicesOptions {
+  Seed seed = 1;       ///< of the pairs and the bootstrap
   int samples = 1024;  ///< N, 2 or more; powers of 2 suit the Sobol' sequence; N(d + 2) runs
   SobolEstimator estimator =
       SobolEstimator::saltelli;  ///< jansen where the S_j are large, martinez is in [-1, 1]
   double confidence = 0.95;      ///< of each interval, between 0 and 1
   int resamples = 500;           ///< of the bootstrap, 100 or more: fewer do not reach the tails
   bool quasi_random = true;      ///< false: random pairs, for which the intervals are exact for large N
-  Seed seed = 1;                 ///< of the pairs and the bootstrap
   EvaluateOptions evaluate = {};
 };
 
@@ -100,8 +100,8 @@ inline Eigen::MatrixXd pairs_of_points(const Problem& problem, const SobolIndice
     }
   const bool quasi =
       options.quasi_random && static_cast<int>(doubled.variables.size()) <= sobol_max_dimensions;
-  return quasi ? scrambled_sobol(doubled, options.samples, options.seed)
-               : uniform_random(doubled, options.samples, options.seed);
+  return quasi ? scrambled_sobol(doubled, options.samples, {.seed = options.seed})
+               : uniform_random(doubled, options.samples, {.seed = options.seed});
 }
 
 /// A, B, C_1, ..., C_d below each other: N(d + 2) x d.

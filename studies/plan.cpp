@@ -92,7 +92,7 @@ bool has_corners(const doe::Problem& problem, int runs) {
 Eigen::MatrixXd first_design(const Identity& identity, int runs) {
   return doe::latin_hypercube(
       identity.problem, runs,
-      {.corners = identity.corners, .seed = stream_seed(identity, Stream::training, 0)});
+      {.seed = stream_seed(identity, Stream::training, 0), .corners = identity.corners});
 }
 
 Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& existing, int runs) {
@@ -130,7 +130,7 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
   }
   if (validation > validated) {
     const auto seed = stream_seed(identity, Stream::validation_points, static_cast<std::uint64_t>(validated));
-    const auto X = doe::uniform_random(identity.problem, validation - validated, seed);
+    const auto X = doe::uniform_random(identity.problem, validation - validated, {.seed = seed});
     append(added, identity, Kind::validation, X, {validated + 1, existing.size() + added.size() + 1});
   }
   return added;

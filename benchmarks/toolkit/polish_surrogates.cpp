@@ -96,7 +96,7 @@ struct Paths {
   pareto::Draws operator()(const Eigen::MatrixXd& X, int draws, doe::Seed seed) const {
     std::vector<Eigen::MatrixXd> paths;
     for (std::size_t j = 0; j < models.size(); ++j)
-      paths.push_back(kriging::sample_paths(models[j], X, draws, doe::run_seed(seed, j, 0)));
+      paths.push_back(kriging::sample_paths(models[j], X, draws, {.seed = doe::run_seed(seed, j, 0)}));
     return pareto::draws_of_paths(paths);
   }
 };

@@ -23,7 +23,7 @@ double ring(const Eigen::VectorXd& x) {
 Problem ring_problem() { return {{{"a", "1", -2, 2}, {"b", "1", -2, 2}}, {{"y", "1", Goal::minimize}}}; }
 
 Eigen::MatrixXd first_design(int n = 16) {
-  return latin_hypercube(ring_problem(), n, {.corners = true, .seed = 5});
+  return latin_hypercube(ring_problem(), n, {.seed = 5, .corners = true});
 }
 
 RefineOptions budget(int points, int batch = 8) {

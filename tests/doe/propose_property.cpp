@@ -58,7 +58,7 @@ TEST(Propose, EqualRunsOptionsAndSeedGiveEqualBits) {
   const Evaluations runs = some_runs();
   const ProposeOptions options{.batch = 8};
   EXPECT_EQ(propose(runs, LolaVoronoi(), options), propose(runs, LolaVoronoi(), options));
-  EXPECT_NE(propose(runs, LolaVoronoi(), options), propose(runs, LolaVoronoi(), {.batch = 8, .seed = 2}));
+  EXPECT_NE(propose(runs, LolaVoronoi(), options), propose(runs, LolaVoronoi(), {.seed = 2, .batch = 8}));
 }
 
 TEST(Propose, ACellGivesOnePointUntilAllHaveGivenOne) {

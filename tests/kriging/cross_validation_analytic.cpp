@@ -100,7 +100,7 @@ TEST(KFold, PredictsEachRunByAModelThatHasNotSeenIt) {
   EXPECT_EQ(v.observed, y);
   const Model third = fit(without(X, 3), without(y, 3), fixed(fit(X, y)));
   EXPECT_EQ(v.predicted[3], third.mean(X.row(3))[0]);
-  EXPECT_EQ(k_fold(X, y, 5, fitter, 2).predicted, k_fold(X, y, 5, fitter, 2).predicted);
+  EXPECT_EQ(k_fold(X, y, 5, fitter, {.seed = 2}).predicted, k_fold(X, y, 5, fitter, {.seed = 2}).predicted);
 }
 
 TEST(HoldOut, PredictsTheShareThatWasAskedFor) {
