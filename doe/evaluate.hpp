@@ -27,6 +27,7 @@
 
 #include <drawpoint/doe/black_box.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
+#include <drawpoint/doe/detail/threads.hpp>
 #include <drawpoint/doe/detail/watchdog.hpp>
 #include <drawpoint/doe/evaluate_options.hpp>
 #include <drawpoint/doe/evaluations.hpp>
@@ -43,7 +44,7 @@ inline void check_count(const char* name, std::int64_t value, std::int64_t lowes
 }
 
 inline void check_options(const EvaluateOptions& options) {
-  check_count("threads", options.threads, 1);
+  check_count("threads", options.threads, 0);
   check_count("replicates", options.replicates, 1);
   check_count("first_run", options.first_run, 0);
   check_count("batch_size", options.batch_size, 0);
@@ -205,7 +206,7 @@ void run_points(const F& f, Evaluations& table, RunBook& book, const EvaluateOpt
     for (std::size_t k; !book.stopped() && (k = next++) < rows.size();)
       if (run_row(f, table.problem, table.rows[rows[k]], watchdog.get(), options)) book.ended(rows[k]);
   };
-  const std::size_t all = std::min<std::size_t>(static_cast<std::size_t>(options.threads), rows.size());
+  const std::size_t all = std::min(static_cast<std::size_t>(thread_count(options.threads)), rows.size());
   std::vector<std::jthread> threads;
   for (std::size_t t = 1; t < all; ++t) threads.emplace_back(work);
   work();

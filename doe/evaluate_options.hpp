@@ -24,7 +24,7 @@ struct Progress {
 
 struct EvaluateOptions {
   Seed seed = 1;       ///< the study's
-  int threads = 1;     ///< runs at once, 1 or more; a batch function ignores it
+  int threads = 1;     ///< runs at once, 0: all cores; a batch function ignores it
   int replicates = 1;  ///< runs a design point, 1 or more, each with its own seed
   /// Called as each run ends, one call at a time, in order of ending; not for remembered runs.
   std::function<void(const Evaluation&)> on_result = {};

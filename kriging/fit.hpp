@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/detail/threads.hpp>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/kriging/detail/search.hpp>
@@ -34,7 +35,7 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
   return {data.X,           data.y,
           data.F,           data.noise,
           data.known_noise, options.correlation,
-          options.exponent, thread_count(options.threads)};
+          options.exponent, doe::detail::thread_count(options.threads)};
 }
 
 /// Bounds of (ln θ, exponents, ln λ). An input that never varies has no θ to estimate: it is fixed.

@@ -55,8 +55,8 @@ struct FitOptions {
   /// Unit of y squared, one entry a run, >= 0, not all 0; Noise::known and Noise::proportional only.
   Eigen::VectorXd noise_variance;
 
-  /// >= 0; 0: as many as processors. They share the matrix work of many runs; results do not depend on them.
-  int threads = 0;
+  /// 0: all cores. They share the matrix work of 500 runs or more; results do not depend on them.
+  int threads = 1;
 };
 
 enum class Status {

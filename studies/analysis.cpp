@@ -41,6 +41,7 @@ doe::Evaluations table_of(const std::vector<Run>& runs, const doe::Problem& prob
 kriging::FitOptions bounds_of(const doe::Problem& problem) {
   const auto dimension = static_cast<Eigen::Index>(problem.variables.size());
   kriging::FitOptions options;
+  options.threads = 0;
   options.lower.resize(dimension);
   options.upper.resize(dimension);
   for (Eigen::Index k = 0; k < dimension; ++k) {

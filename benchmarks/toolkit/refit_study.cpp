@@ -80,6 +80,7 @@ void add_kriging(const Box& box, std::vector<Way>& ways) {
       options.upper = box.upper;
       options.correlation = correlation;
       options.trend = trend;
+      options.threads = 0;
       ways.push_back({std::string(to_string(correlation)) + ", " + name,
                       [options](const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
                         return kriging::fit(X, y, options);

@@ -43,7 +43,7 @@ TEST(Evaluate, OneTwoAndEightThreadsGiveTheSameTable) {
   const Eigen::MatrixXd X = uniform_random(problem, 100, {.seed = 5});
   const Evaluations one = evaluate(troubled, problem, X, {.seed = 9, .threads = 1, .replicates = 3});
   ASSERT_EQ(one.rows.size(), 300U);
-  for (const int threads : {2, 8}) {
+  for (const int threads : {0, 2, 8}) {  // 0: all cores
     const Evaluations many = evaluate(troubled, problem, X, {.seed = 9, .threads = threads, .replicates = 3});
     ASSERT_EQ(many.rows.size(), one.rows.size());
     for (std::size_t i = 0; i < one.rows.size(); ++i) expect_equal(one.rows[i], many.rows[i]);
@@ -159,7 +159,7 @@ TEST(Evaluate, BadInputIsNamed) {
   const auto text = [&](const EvaluateOptions& options = {}) {
     return support::thrown_text<std::invalid_argument>([&] { evaluate(f, problem, X, options); });
   };
-  EXPECT_EQ(text({.threads = 0}), "doe::evaluate: threads is 0; allowed is 1 or more");
+  EXPECT_EQ(text({.threads = -1}), "doe::evaluate: threads is -1; allowed is 0 or more");
   EXPECT_EQ(text({.replicates = -1}), "doe::evaluate: replicates is -1; allowed is 1 or more");
   X(2, 0) = 7.5;
   EXPECT_EQ(
