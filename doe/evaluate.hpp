@@ -94,7 +94,7 @@ class RunBook {
       if (journal_) journal_->add(table_.rows[i]);
       count(i);
       if (options_.on_result) options_.on_result(table_.rows[i]);
-      if (options_.on_progress) options_.on_progress(timed_progress());
+      if (options_.progress) options_.progress(timed_progress());
     } catch (...) {
       fault_ = std::current_exception();
       halted_ = true;

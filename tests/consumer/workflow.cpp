@@ -77,7 +77,7 @@ double front_error(const pareto::Front& front, const doe::Evaluations& confirmed
 int main() {
   std::vector<kriging::Model> models;
   doe::RefineOptions options{.max_points = 120};
-  options.stop = [&](const doe::Evaluations& runs) {
+  options.enough = [&](const doe::Evaluations& runs) {
     models.clear();
     for (const doe::Response& r : car.responses) models.push_back(kriging::fit(runs.X(), runs.y(r.name)));
     return std::all_of(models.begin(), models.end(),

@@ -87,7 +87,7 @@ TEST(Refine, IsALoopOfItsParts) {
 TEST(Refine, StopsWhenTheCriterionHolds) {
   RefineOptions options = budget(200, 5);
   std::vector<std::size_t> asked;
-  options.stop = [&asked](const Evaluations& runs) {
+  options.enough = [&asked](const Evaluations& runs) {
     asked.push_back(runs.rows.size());
     return runs.rows.size() >= 24;
   };

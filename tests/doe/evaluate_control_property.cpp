@@ -62,7 +62,7 @@ TEST(EvaluateControl, ProgressCountsEveryRunOnce) {
   };
   std::vector<Progress> seen;
   EvaluateOptions options{.threads = 4, .replicates = 2};
-  options.on_progress = [&seen](const Progress& p) { seen.push_back(p); };
+  options.progress = [&seen](const Progress& p) { seen.push_back(p); };
   const Evaluations table = evaluate(f, problem, uniform_random(problem, 30), options);
   ASSERT_EQ(seen.size(), 60U);
   for (std::size_t k = 0; k < seen.size(); ++k) {
