@@ -75,7 +75,7 @@ inline std::vector<Eigen::Index> farthest_points(const Eigen::MatrixXd& C, const
 
 /// One row of the closest pair of U moves to the candidate farthest from the others while that helps; at most
 /// `moves`.
-inline void spread(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
+inline void move_apart(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
   for (int move = 0; move < moves && U.rows() > 1; ++move) {
     double least = std::numeric_limits<double>::infinity();
     Eigen::Index row = 0;
@@ -92,7 +92,7 @@ inline void spread(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
 }
 
 /// As many moves as rows, fewer where they would cost more than some 2e9 operations.
-inline int spread_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
+inline int move_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
   const double rows = static_cast<double>(U.rows()), elements = rows * static_cast<double>(U.cols());
   return static_cast<int>(std::min(rows, 2e9 / (elements * static_cast<double>(C.rows() + U.rows()))));
 }
@@ -127,7 +127,7 @@ ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& al
   const auto chosen = detail::farthest_points(C, Eigen::MatrixXd(0, C.cols()), runs);
   Eigen::MatrixXd U = C(chosen, Eigen::all);
   const bool complete = U.rows() == runs;
-  if (complete) detail::spread(U, C, detail::spread_budget(U, C));
+  if (complete) detail::move_apart(U, C, detail::move_budget(U, C));
   ConstrainedDesign design{detail::to_natural(std::move(U), problem), RegionStatus::complete, "", found.share,
                            0};
   return complete ? design : detail::too_small(std::move(design), runs);

@@ -108,7 +108,7 @@ class RegionWalk {
 
 /// Exchanges that lower phi_p and keep every row allowed.
 template <class P>
-Eigen::MatrixXd spread_inside(RegionWalk<P>& walk, int sweeps, int p, RandomStream& random) {
+Eigen::MatrixXd exchanged_inside(RegionWalk<P>& walk, int sweeps, int p, RandomStream& random) {
   PairPotential potential(walk.design(), p);
   const auto n = static_cast<int>(walk.design().rows());
   const Eigen::Index d = walk.design().cols();
@@ -150,7 +150,7 @@ ConstrainedDesign constrained_latin_hypercube(const Problem& problem, int runs, 
   const double budget = static_cast<double>(options.exchanges) * runs * static_cast<double>(d);
   if (walk.enter(static_cast<int>(std::min(budget, 1e9)), random)) {
     const int sweeps = options.sweeps == automatic_sweeps ? 20 : options.sweeps;
-    Eigen::MatrixXd U = detail::spread_inside(walk, sweeps, options.p, random);
+    Eigen::MatrixXd U = detail::exchanged_inside(walk, sweeps, options.p, random);
     return {detail::to_natural(std::move(U), problem), RegionStatus::complete, "", share, 0};
   }
   ConstrainedDesign design =

@@ -5,11 +5,10 @@
 /// Halton points: a sequence in any number of variables up to 100, with a net in every prime base.
 ///
 /// Coordinate j of run i is the radical inverse φ_b of i in the j-th prime base b: the digits of i mirrored
-/// at the point (Halton 1960). Plain, its variables with large bases move together at first. Two cures, each
-/// of which makes every single point uniform: `scrambled` permutes each digit at random, one permutation a
-/// base and a digit (Owen 2017, "A randomized Halton algorithm in R"), with as many digits as 53 bits hold;
-/// `random_start` begins each variable at its own random place of the sequence (Wang, Hickernell 2000,
-/// "Randomized Halton sequences"). Run i does not depend on `runs`. Cost O(n d log n).
+/// at the point (Halton 1960). Plain, its variables with large bases move together at first. The cure,
+/// `scrambled`, permutes each digit at random, one permutation per base and digit (Owen 2017, "A randomized
+/// Halton algorithm in R"), with as many digits as 53 bits hold; it makes every single point uniform. Run i
+/// does not depend on `runs`. Cost O(n d log n).
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -25,7 +24,7 @@
 
 namespace drawpoint::doe {
 
-enum class HaltonKind { scrambled, random_start, plain };
+enum class HaltonKind { scrambled, plain };
 
 struct HaltonOptions {
   Seed seed = 1;
@@ -85,16 +84,13 @@ class DigitScrambling {
 /// u of `runs` runs from run `first` of one variable.
 inline Eigen::VectorXd halton_column(int first, int runs, int variable, Seed seed, HaltonKind kind) {
   const int base = nth_prime(variable);
-  const Seed own = run_seed(seed, static_cast<std::uint64_t>(variable), 0);
   Eigen::VectorXd u(runs);
   if (kind == HaltonKind::scrambled) {
-    const DigitScrambling scrambled(base, own);
+    const DigitScrambling scrambled(base, run_seed(seed, static_cast<std::uint64_t>(variable), 0));
     for (int i = 0; i < runs; ++i) u[i] = scrambled(static_cast<std::uint64_t>(first + i));
     return u;
   }
-  // A start below 2^42: i + start stays exact, and b^digits of it fill the unit interval to below 1e-12.
-  const std::uint64_t start = kind == HaltonKind::plain ? 1 : mix(own) >> 22;
-  for (int i = 0; i < runs; ++i) u[i] = radical_inverse(start + static_cast<std::uint64_t>(first + i), base);
+  for (int i = 0; i < runs; ++i) u[i] = radical_inverse(static_cast<std::uint64_t>(1 + first + i), base);
   return u;
 }
 

@@ -32,7 +32,7 @@
 
 namespace drawpoint::doe {
 
-enum class Hybrid { sum, product, weighted };
+enum class Hybrid { sum, weighted };
 enum class Combine { largest, average };
 
 struct LolaVoronoiOptions {
@@ -156,7 +156,6 @@ class LolaVoronoi {
 
   Eigen::VectorXd hybrid(const Eigen::VectorXd& V, const Eigen::VectorXd& E) const {
     if (options_.hybrid == Hybrid::sum) return V + E;
-    if (options_.hybrid == Hybrid::product) return (1.0 + V.array()) * (1.0 + E.array());
     return options_.voronoi_weight * V + (1.0 - options_.voronoi_weight) * E;
   }
 

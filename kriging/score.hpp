@@ -86,8 +86,8 @@ inline double score(const Validation& v, ErrorFunction error, double level = 0.9
                              [](double sum, double x) { return sum + std::abs(x); }) /
              n;
     case ErrorFunction::q2: {
-      const Eigen::VectorXd spread = detail::affine(v.observed, 1.0, -detail::mean_of(v.observed));
-      return range > 0 ? 1.0 - detail::square(e) / detail::square(spread) : none;
+      const Eigen::VectorXd centred = detail::affine(v.observed, 1.0, -detail::mean_of(v.observed));
+      return range > 0 ? 1.0 - detail::square(e) / detail::square(centred) : none;
     }
     case ErrorFunction::nlpd:
       return detail::negative_log_density(e, v.observation_variance);

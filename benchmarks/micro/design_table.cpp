@@ -94,10 +94,6 @@ const std::vector<std::pair<std::string, Design>> designs{
     {"uniform", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, {.seed = s}); }},
     {"scrambled Sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, {.seed = s}); }},
     {"scrambled Halton", [](const Problem& p, int n, Seed s) { return halton(p, n, {.seed = s}); }},
-    {"random-start Halton",
-     [](const Problem& p, int n, Seed s) {
-       return halton(p, n, {.seed = s, .kind = HaltonKind::random_start});
-     }},
     {"Latin hypercube", [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s}); }},
     {"Latin hypercube, centred",
      [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s, .centred = true}); }},

@@ -94,8 +94,6 @@ doe::Mix sampler(const std::string& method, doe::Seed seed) {
   if (method == "max variance") return alone(widest);
   if (method == "Voronoi") return alone(doe::voronoi_sampler({.seed = seed}));
   if (method == "LOLA-Voronoi") return alone(doe::LolaVoronoi({.seed = seed}));
-  if (method == "LOLA product")
-    return alone(doe::LolaVoronoi({.seed = seed, .hybrid = doe::Hybrid::product}));
   return doe::Mix({{0.7, doe::LolaVoronoi({.seed = seed})}, {0.3, change_of_model()}});
 }
 
@@ -115,7 +113,7 @@ std::vector<double> adaptive(const Case& c, const std::string& method, doe::Seed
   doe::RefineOptions options{.max_points = c.budgets.back()};
   options.propose.batch = 5;
   options.propose.seed = seed;
-  if (method == "max variance") options.propose.spread = doe::Spread::penalty;
+  if (method == "max variance") options.propose.rule = doe::BatchRule::penalty;
   const doe::Evaluations runs = doe::refine(c.f, c.problem, first, sampler(method, seed), options).runs;
   std::vector<double> errors;
   for (const int n : c.budgets)
@@ -128,7 +126,7 @@ void compare(const Case& c, int seeds) {
   for (const int n : c.budgets) std::printf("  %-26d", n);
   std::printf("\n");
   for (const std::string method :
-       {"LHS", "Sobol", "max variance", "Voronoi", "LOLA-Voronoi", "LOLA product", "0.7 LV + 0.3 e"}) {
+       {"LHS", "Sobol", "max variance", "Voronoi", "LOLA-Voronoi", "0.7 LV + 0.3 e"}) {
     std::vector<Eigen::VectorXd> errors(c.budgets.size(), Eigen::VectorXd(seeds));
     for (int s = 0; s < seeds; ++s) {
       const doe::Seed seed = 1 + s;

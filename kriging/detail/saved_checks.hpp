@@ -10,8 +10,6 @@
 #include <cstdio>
 #include <string>
 
-#include <drawpoint/kriging/detail/model_state.hpp>
-
 namespace drawpoint::kriging::detail {
 
 /// 64-bit FNV-1a as 16 hexadecimal digits: any change of one byte changes it.
@@ -35,16 +33,6 @@ inline Eigen::MatrixXd unpacked_lower(const Eigen::VectorXd& values, Eigen::Inde
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index j = 0, k = 0; j < n; k += n - j, ++j) L.col(j).tail(n - j) = values.segment(k, n - j);
   return L;
-}
-
-/// Whether L Lᵀα = y − Fβ to a backward error of 1e-9: what fits, appended runs and the floor of a
-/// re-interpolation leave is n times the round-off. Cost n².
-inline bool weights_fit(const ModelState& s) {
-  if (s.X.rows() == 0) return true;
-  const Eigen::VectorXd half = s.L.triangularView<Eigen::Lower>().transpose() * s.gls.alpha;
-  const Eigen::VectorXd product = s.L.triangularView<Eigen::Lower>() * half;
-  const Eigen::VectorXd miss = product + s.F * s.gls.beta - s.y;
-  return miss.norm() <= 1e-9 * (s.L.squaredNorm() * s.gls.alpha.norm() + s.y.norm());
 }
 
 }  // namespace drawpoint::kriging::detail

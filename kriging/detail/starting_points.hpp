@@ -82,7 +82,7 @@ inline std::vector<Candidate> ranked_candidates(Likelihood& likelihood, const Bo
 }
 
 /// Those that lie apart from all better ones: on average e apart or more in each θ, e³ in λ.
-inline std::vector<Candidate> spread(const std::vector<Candidate>& ranked) {
+inline std::vector<Candidate> kept_apart(const std::vector<Candidate>& ranked) {
   std::vector<Candidate> kept;
   for (const Candidate& c : ranked) {
     const Eigen::Index d = c.p.size() - 1;
@@ -111,7 +111,7 @@ inline std::vector<Eigen::VectorXd> alternated(const std::vector<Candidate>& ran
 /// options.starts points of the box or fewer, never none.
 inline std::vector<Eigen::VectorXd> starting_points(Likelihood& likelihood, const Box& box,
                                                     const FitOptions& options) {
-  return alternated(spread(ranked_candidates(likelihood, box, options.candidates, options.seed)),
+  return alternated(kept_apart(ranked_candidates(likelihood, box, options.candidates, options.seed)),
                     options.starts);
 }
 

@@ -32,10 +32,6 @@ const std::vector<std::pair<std::string, Design>> designs{
        return optimized_latin_hypercube(p, n, {.seed = s, .sweeps = 1, .centred = false});
      }},
     {"halton", [](const Problem& p, int n, Seed s) { return halton(p, n, {.seed = s}); }},
-    {"random_start_halton",
-     [](const Problem& p, int n, Seed s) {
-       return halton(p, n, {.seed = s, .kind = HaltonKind::random_start});
-     }},
     {"uniform_random", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, {.seed = s}); }},
     {"scrambled_sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, {.seed = s}); }}};
 

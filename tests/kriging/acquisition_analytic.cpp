@@ -200,7 +200,7 @@ TEST(Believer, LetsABatchSpreadByItsOwnExpectations) {
   const MatrixXd batch = doe::propose(runs, improve,
                                       {.batch = 3,
                                        .candidates = 500,
-                                       .spread = doe::Spread::believer,
+                                       .rule = doe::BatchRule::believer,
                                        .believe = believer(std::vector<Model>{model})});
   ASSERT_EQ(batch.rows(), 3);
   for (int i = 0; i < 3; ++i)
