@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -30,9 +31,9 @@ namespace drawpoint::doe {
 struct AugmentedLatinOptions {
   Seed seed = 1;
   LatinCriterion criterion = LatinCriterion::maximin;
-  int p = 10;                     ///< exponent of phi_p, even, 2 to 100
-  int sweeps = automatic_sweeps;  ///< 0: new runs at random in free strata
-  bool centred = false;           ///< new runs in the middle of their strata
+  int p = 10;                      ///< exponent of phi_p, even, 2 to 100
+  std::optional<int> sweeps = {};  ///< as in OptimizedLatinOptions; 0: new runs at random in free strata
+  bool centred = false;            ///< new runs in the middle of their strata
 };
 
 namespace detail {

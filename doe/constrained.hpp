@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -32,21 +33,25 @@ namespace drawpoint::doe {
 
 struct RegionOptions {
   Seed seed = 1;
-  int candidates = 0;     ///< allowed points to choose from; 0: 20 a run, at least 1000
+  /// Allowed points to choose from, 1 or more; empty: 20 per run, at least 1000.
+  std::optional<int> candidates = {};
   int tries = 1'000'000;  ///< calls of the predicate at most, 1 or more
 };
 
 namespace detail {
 
 inline void check_region(const char* place, const RegionOptions& options) {
-  if (options.candidates < 0 || options.tries < 1)
-    throw std::invalid_argument(std::string(place) + ": candidates is " + std::to_string(options.candidates) +
-                                ", tries is " + std::to_string(options.tries) +
-                                "; allowed are 0 or more and 1 or more");
+  const auto check = [&](const char* name, int value) {
+    if (value < 1)
+      throw std::invalid_argument(std::string(place) + ": " + name + " is " + std::to_string(value) +
+                                  "; allowed is 1 or more");
+  };
+  check("candidates", options.candidates.value_or(1));
+  check("tries", options.tries);
 }
 
 inline int candidate_count(const RegionOptions& options, int runs) {
-  return options.candidates > 0 ? std::max(options.candidates, runs) : std::max(20 * runs, 1000);
+  return options.candidates ? std::max(*options.candidates, runs) : std::max(20 * runs, 1000);
 }
 
 /// Squared distances of every row of U to one point.

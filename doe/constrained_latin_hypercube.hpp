@@ -28,12 +28,12 @@ namespace drawpoint::doe {
 
 struct ConstrainedLatinOptions {
   Seed seed = 1;
-  int exchanges = 200;    ///< a run and variable, 0 or more: budget of the search for an allowed design
-  int sweeps = 20;        ///< of exchanges that spread the runs, 0 or more
-  int p = 50;             ///< exponent of phi_p, even, 2 to 100
-  bool centred = false;   ///< runs in the middle of their strata
-  int candidates = 0;     ///< of RegionOptions, for runs that must be replaced
-  int tries = 1'000'000;  ///< likewise
+  int exchanges = 200;   ///< a run and variable, 0 or more: budget of the search for an allowed design
+  int sweeps = 20;       ///< of exchanges that spread the runs, 0 or more
+  int p = 50;            ///< exponent of phi_p, even, 2 to 100
+  bool centred = false;  ///< runs in the middle of their strata
+  std::optional<int> candidates = {};  ///< of RegionOptions, for runs that must be replaced
+  int tries = 1'000'000;               ///< likewise
 };
 
 namespace detail {
@@ -149,8 +149,7 @@ ConstrainedDesign constrained_latin_hypercube(const Problem& problem, int runs, 
   const double share = 1.0 - static_cast<double>(walk.outside().size()) / runs;
   const double budget = static_cast<double>(options.exchanges) * runs * static_cast<double>(d);
   if (walk.enter(static_cast<int>(std::min(budget, 1e9)), random)) {
-    const int sweeps = options.sweeps == automatic_sweeps ? 20 : options.sweeps;
-    Eigen::MatrixXd U = detail::exchanged_inside(walk, sweeps, options.p, random);
+    Eigen::MatrixXd U = detail::exchanged_inside(walk, options.sweeps, options.p, random);
     return {detail::to_natural(std::move(U), problem), RegionStatus::complete, "", share, 0};
   }
   ConstrainedDesign design =

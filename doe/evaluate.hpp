@@ -47,7 +47,7 @@ inline void check_options(const EvaluateOptions& options) {
   check_count("threads", options.threads, 0);
   check_count("replicates", options.replicates, 1);
   check_count("first_run", options.first_run, 0);
-  check_count("batch_size", options.batch_size, 0);
+  check_count("batch_size", options.batch_size.value_or(1), 1);
   if (!(options.time_limit > 0.0))
     throw std::invalid_argument("doe::evaluate: time_limit is " + number_text(options.time_limit) +
                                 " s; allowed is a time above 0 s; leave it out for no limit");
@@ -151,7 +151,7 @@ class RunBook {
 template <class F>
 void run_batches(const F& f, Evaluations& table, RunBook& book, const EvaluateOptions& options) {
   const std::vector<std::size_t>& rows = book.to_run();
-  const std::size_t size = options.batch_size ? static_cast<std::size_t>(options.batch_size)
+  const std::size_t size = options.batch_size ? static_cast<std::size_t>(*options.batch_size)
                                               : std::max<std::size_t>(rows.size(), 1);
   for (std::size_t from = 0; from < rows.size() && !book.stopped(); from += size) {
     const auto n = static_cast<Eigen::Index>(std::min(size, rows.size() - from));

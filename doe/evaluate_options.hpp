@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stop_token>
 
 #include <drawpoint/doe/evaluations.hpp>
@@ -32,7 +33,7 @@ struct EvaluateOptions {
   /// Replicate k has the same seed at every point: differences between points then lose the noise that they
   /// share. Off by default, because surrogates take the noise of different points as independent.
   bool common_random_numbers = false;
-  int batch_size = 0;  ///< rows a call of a batch function, 1 or more; 0: all in one
+  std::optional<int> batch_size = {};  ///< rows per call of a batch function, 1 or more; empty: all in one
   /// Wall time of a run [s], above 0. A run that takes longer becomes a failure, once it has returned: a
   /// function of the form f(x, seed, stop) is asked to at the limit, others end when they end. For a limit
   /// that kills, run processes. Does not apply to batch functions, which see to their own time.

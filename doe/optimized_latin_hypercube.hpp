@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -37,15 +38,13 @@ enum class LatinCriterion { maximin, phi_p, centred_discrepancy };
 /// Where the search starts: `best` tries both, each with half of the sweeps.
 enum class LatinStart { best, random, lattice };
 
-inline constexpr int automatic_sweeps = -1;
-
 struct OptimizedLatinOptions {
   Seed seed = 1;
   LatinCriterion criterion = LatinCriterion::maximin;
   int p = 10;  ///< exponent of phi_p, even, 2 to 100; large p sees only the closest pairs
-  /// Budget, 0 or more; automatic: 2e8/(n d)² up to 2000, but 10 up to n d = 14 000, then fewer, never below
+  /// Budget, 0 or more; empty: 2e8/(n d)² up to 2000, but 10 up to n d = 14 000, then fewer, never below
   /// 2: below a second up to n d = 5000, a few seconds up to 20 000.
-  int sweeps = automatic_sweeps;
+  std::optional<int> sweeps = {};
   LatinStart start = LatinStart::best;
   bool corners = false;  ///< the 2^d corners come first and count in `runs`
   bool centred = true;   ///< runs in the middle of their strata; false: at random inside them
@@ -53,18 +52,19 @@ struct OptimizedLatinOptions {
 
 namespace detail {
 
-inline void check_search(const std::string& place, int p, int sweeps) {
+inline void check_search(const std::string& place, int p, std::optional<int> sweeps) {
   if (p < 2 || p > 100 || p % 2 != 0)
     throw std::invalid_argument(place + ": p is " + std::to_string(p) +
                                 "; allowed is an even number from 2 to 100; 10 is usual");
-  if (sweeps < automatic_sweeps)
-    throw std::invalid_argument(place + ": sweeps is " + std::to_string(sweeps) +
-                                "; allowed is 0 or more, or automatic_sweeps; 50 to 500 is usual");
+  if (sweeps && *sweeps < 0)
+    throw std::invalid_argument(
+        place + ": sweeps is " + std::to_string(*sweeps) +
+        "; allowed is 0 or more; leave it out for a budget by size, 50 to 500 is usual");
 }
 
 /// The budget for n movable rows of d variables.
-inline int sweep_budget(int sweeps, Eigen::Index n, Eigen::Index d) {
-  if (sweeps != automatic_sweeps) return sweeps;
+inline int sweep_budget(std::optional<int> sweeps, Eigen::Index n, Eigen::Index d) {
+  if (sweeps) return *sweeps;
   const double elements = static_cast<double>(n) * static_cast<double>(d);
   const double least = std::clamp(2e9 / (elements * elements), 2.0, 10.0);
   return static_cast<int>(std::clamp(2e8 / (elements * elements), least, 2000.0));

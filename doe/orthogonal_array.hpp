@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,9 +31,9 @@ struct OrthogonalLatinOptions {
   Seed seed = 1;
   int strength = 2;  ///< t, 2 or more: how many variables at once are stratified
   LatinCriterion criterion = LatinCriterion::centred_discrepancy;
-  int p = 10;                     ///< exponent of phi_p, even, 2 to 100
-  int sweeps = automatic_sweeps;  ///< 0: the plain design of Tang
-  bool centred = false;           ///< runs in the middle of their strata
+  int p = 10;                      ///< exponent of phi_p, even, 2 to 100
+  std::optional<int> sweeps = {};  ///< as in OptimizedLatinOptions; 0: the plain design of Tang
+  bool centred = false;            ///< runs in the middle of their strata
 };
 
 namespace detail {

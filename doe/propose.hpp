@@ -19,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -37,9 +38,11 @@ namespace drawpoint::doe {
 enum class BatchRule { cells, penalty, believer };
 
 struct ProposeOptions {
-  Seed seed = 1;       ///< of the candidates, together with the number of rows of the table
-  int batch = 1;       ///< points to choose, 1 or more
-  int candidates = 0;  ///< >= 1; 0: 100 a run, within 1000 to 20000: enough for the best of each cell
+  Seed seed = 1;  ///< of the candidates, together with the number of rows of the table
+  int batch = 1;  ///< points to choose, 1 or more
+  /// Random points to choose from, 1 or more; empty: 100 per run, within 1000 to 20000: enough for the best of
+  /// each cell.
+  std::optional<int> candidates = {};
   BatchRule rule = BatchRule::cells;
   /// What a run at x (natural units) would give, for BatchRule::believer: a surrogate's mean, say.
   std::function<Outcome(const Eigen::VectorXd& x)> believe{};
@@ -53,9 +56,9 @@ inline void check_propose(const ProposeOptions& options) {
   if (options.batch < 1)
     reject("batch is " + std::to_string(options.batch) +
            "; allowed is 1 or more; ask for at least one point");
-  if (options.candidates < 0)
-    reject("candidates is " + std::to_string(options.candidates) +
-           "; allowed is 1 or more, or 0 for 100 a run; give a number of random points");
+  if (options.candidates && *options.candidates < 1)
+    reject("candidates is " + std::to_string(*options.candidates) +
+           "; allowed is 1 or more; leave it out for 100 per run");
   if (options.rule == BatchRule::believer && !options.believe)
     reject("rule is believer, but believe is empty; give what a run at x would give");
 }
@@ -97,7 +100,7 @@ class Chooser {
     const int automatic = std::clamp(100 * static_cast<int>(runs_.rows.size()), 1000, 20000);
     std::uint64_t counter = 0;
     return allowed_points(runs_.problem, options_.allowed, run_seed(options_.seed, runs_.rows.size(), 1),
-                          options_.candidates ? options_.candidates : automatic, counter);
+                          options_.candidates.value_or(automatic), counter);
   }
 
   Eigen::VectorXd scores(const Sampler& sampler) const {

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -41,9 +42,9 @@ inline std::string_view to_string(RadialFunction f) {
 
 struct RadialOptions {
   RadialFunction function = RadialFunction::cubic;
-  double shape = 0;  ///< ε > 0 for multiquadric and gaussian; 0: estimated between 0.05 and 20
-  double ridge =
-      -1;  ///< λ as a share of the largest eigenvalue, 0: interpolate; below 0: estimated, up to 10
+  std::optional<double> shape = {};  ///< ε > 0, of multiquadric and gaussian; empty: estimated, 0.05 to 20
+  /// λ as a share of the largest eigenvalue, 0 or more, 0: interpolate; empty: estimated, up to 10.
+  std::optional<double> ridge = {};
   /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
   Eigen::VectorXd lower = {}, upper = {};
 };

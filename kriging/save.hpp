@@ -7,12 +7,12 @@
 /// The file holds all that makes the model, the factor of R included, so that a loaded model predicts the
 /// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 1}, on one line.
 /// Numbers are the shortest text that reads back as the same double; ±∞ and NaN, which JSON lacks, are the
-/// texts "inf",
-/// "-inf" and "nan", where a field may be that. Matrices are {"columns", "rows", "values"} by columns; of L
-/// only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version, that the text is
-/// exactly what this writer makes (so no byte may differ), the checksum (64-bit FNV-1a of the text of
-/// "model": against accidents, not against intent), every size, that numbers are finite and that L's diagonal
-/// is positive. A model with a trend of user functions cannot be saved. This is the only header of the module that needs nlohmann-json (Debian: nlohmann-json3-dev).
+/// texts "inf", "-inf" and "nan", where a field may be that. Matrices are {"columns", "rows", "values"} by
+/// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,
+/// that the text is exactly what this writer makes (so no byte may differ), the checksum (64-bit FNV-1a of
+/// the text of "model": against accidents, not against intent), every size, that numbers are finite and that
+/// L's diagonal is positive. A model with a trend of user functions cannot be saved. This is the only header
+/// of the module that needs nlohmann-json (Debian: nlohmann-json3-dev).
 
 #include <Eigen/Core>
 #include <cmath>

@@ -141,7 +141,7 @@ TEST(EvaluateControl, BadInputIsNamed) {
   };
   EXPECT_EQ(text({.time_limit = 0.0}),
             "doe::evaluate: time_limit is 0 s; allowed is a time above 0 s; leave it out for no limit");
-  EXPECT_EQ(text({.batch_size = -1}), "doe::evaluate: batch_size is -1; allowed is 0 or more");
+  EXPECT_EQ(text({.batch_size = 0}), "doe::evaluate: batch_size is 0; allowed is 1 or more");
 }
 
 }  // namespace

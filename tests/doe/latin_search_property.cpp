@@ -197,10 +197,10 @@ TEST(LatinSearch, BadOptionsAreRefused) {
   const auto text = [](const auto& action) { return support::thrown_text<std::invalid_argument>(action); };
   EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 5, {.seed = 1, .p = 7}); }),
             "doe::optimized_latin_hypercube: p is 7; allowed is an even number from 2 to 100; 10 is usual");
-  EXPECT_EQ(
-      text([&] { optimized_latin_hypercube(problem, 5, {.seed = 1, .sweeps = -2}); }),
-      "doe::optimized_latin_hypercube: sweeps is -2; allowed is 0 or more, or automatic_sweeps; 50 to 500 is "
-      "usual");
+  EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 5, {.seed = 1, .sweeps = -2}); }),
+            "doe::optimized_latin_hypercube: sweeps is -2; allowed is 0 or more; leave it out for a budget "
+            "by size, "
+            "50 to 500 is usual");
   EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 3, {.seed = 1, .corners = true}); }),
             "doe::optimized_latin_hypercube: runs is 3, fewer than the 2^2 corner points of 2 variables; ask "
             "for more "

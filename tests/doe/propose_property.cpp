@@ -215,10 +215,8 @@ TEST(Propose, BadInputIsNamed) {
     return support::thrown_text<std::invalid_argument>([&] { propose(runs, peaked, options); });
   };
   EXPECT_EQ(text({.batch = 0}), "doe::propose: batch is 0; allowed is 1 or more; ask for at least one point");
-  EXPECT_EQ(
-      text({.candidates = -1}),
-      "doe::propose: candidates is -1; allowed is 1 or more, or 0 for 100 a run; give a number of random "
-      "points");
+  EXPECT_EQ(text({.candidates = 0}),
+            "doe::propose: candidates is 0; allowed is 1 or more; leave it out for 100 per run");
   EXPECT_EQ(text({.rule = BatchRule::believer}),
             "doe::propose: rule is believer, but believe is empty; give what a run at x would give");
   const auto short_of = [](const Evaluations&) -> Criterion {

@@ -147,7 +147,9 @@ TEST(ConstrainedDesigns, BadOptionsAreRefused) {
   const Problem problem = support::unit_problem(2);
   const auto text = [](const auto& action) { return support::thrown_text<std::invalid_argument>(action); };
   EXPECT_EQ(text([&] { feasible_maximin(problem, 5, regions[1].second, {.tries = 0}); }),
-            "doe::feasible_maximin: candidates is 0, tries is 0; allowed are 0 or more and 1 or more");
+            "doe::feasible_maximin: tries is 0; allowed is 1 or more");
+  EXPECT_EQ(text([&] { feasible_maximin(problem, 5, regions[1].second, {.candidates = 0}); }),
+            "doe::feasible_maximin: candidates is 0; allowed is 1 or more");
   EXPECT_EQ(text([&] { constrained_latin_hypercube(problem, 5, regions[1].second, {.exchanges = -1}); }),
             "doe::constrained_latin_hypercube: exchanges is -1; allowed is 0 or more; 200 is usual");
 }

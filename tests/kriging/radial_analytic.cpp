@@ -22,7 +22,7 @@ double wave(const VectorXd& x) { return std::sin(4 * x[0]) + x[1] * x[1]; }
 
 RadialOptions with(RadialFunction f, double ridge) {
   return {.function = f,
-          .shape = detail::has_shape(f) ? 1.5 : 0.0,
+          .shape = detail::has_shape(f) ? std::optional(1.5) : std::nullopt,
           .ridge = ridge,
           .lower = VectorXd::Zero(2),
           .upper = VectorXd::Ones(2)};
@@ -157,12 +157,15 @@ TEST(RadialStatus, RefusesBadInput) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal({.shape = 2.0}),
-            "kriging::fit_radial: shape is 2 but cubic has none; allowed is 0; leave it out");
+  EXPECT_EQ(refusal({.shape = 2.0}), "kriging::fit_radial: shape is 2 but cubic has none; leave it out");
   EXPECT_EQ(
       refusal({.function = RadialFunction::gaussian, .shape = -2.0}),
-      "kriging::fit_radial: shape is -2; allowed are finite numbers above 0, or 0; use 0 to estimate it");
-  EXPECT_EQ(refusal({.ridge = std::nan("")}),
-            "kriging::fit_radial: ridge is nan; allowed are finite numbers; use -1 to estimate it");
+      "kriging::fit_radial: shape is -2; allowed are finite numbers above 0; leave it out to estimate it");
+  EXPECT_EQ(
+      refusal({.ridge = std::nan("")}),
+      "kriging::fit_radial: ridge is nan; allowed are finite numbers from 0 on; leave it out to estimate it");
+  EXPECT_EQ(
+      refusal({.ridge = -1.0}),
+      "kriging::fit_radial: ridge is -1; allowed are finite numbers from 0 on; leave it out to estimate it");
   EXPECT_EQ(refusal({.lower = VectorXd::Zero(2)}).substr(0, 38), "kriging::fit_radial: the box has 2 low");
 }
