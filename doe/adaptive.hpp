@@ -17,6 +17,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -41,6 +42,20 @@ enum class RefineStatus {
   no_candidate,   ///< no point is left to propose
   cancelled       ///< evaluate.stop was requested
 };
+
+inline std::string_view to_string(RefineStatus status) {
+  switch (status) {
+    case RefineStatus::criterion_met:
+      return "criterion_met";
+    case RefineStatus::budget_spent:
+      return "budget_spent";
+    case RefineStatus::no_candidate:
+      return "no_candidate";
+    case RefineStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
 
 struct Refinement {
   Evaluations runs;

@@ -25,6 +25,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -58,9 +59,22 @@ enum class SensitivityStatus {
   too_few_runs        ///< fewer than two pairs without a failure: the indices are NaN
 };
 
+inline std::string_view to_string(SensitivityStatus status) {
+  switch (status) {
+    case SensitivityStatus::estimated:
+      return "estimated";
+    case SensitivityStatus::constant_response:
+      return "constant_response";
+    case SensitivityStatus::too_few_runs:
+      return "too_few_runs";
+  }
+  return "unknown";
+}
+
 struct SobolIndices {
   std::string response;
   SensitivityStatus status = SensitivityStatus::estimated;
+  std::string message = {};       ///< empty when estimated
   double mean = 0, variance = 0;  ///< over A and B, unit of the response and its square
   IndexEstimates first, total;
 };
@@ -230,12 +244,16 @@ inline SobolIndices indices_of(std::string response, Eigen::MatrixXd Y, const So
   const Eigen::Index d = Y.cols() - 2;
   if (Y.rows() < 2) {
     result.status = SensitivityStatus::too_few_runs;
+    result.message =
+        std::to_string(Y.rows()) + " of " + std::to_string(options.samples) +
+        " pairs of points without a failed or missing run; two are needed: see the reasons of the failures";
     result.first = result.total = all_equal(d, std::numeric_limits<double>::quiet_NaN());
     return result;
   }
   result.mean = Y.leftCols(2).mean();
   if ((Y.leftCols(2).array() == Y(0, 0)).all()) {
     result.status = SensitivityStatus::constant_response;
+    result.message = "all responses equal " + number_text(result.mean) + ": there is no variance to explain";
     result.first = result.total = all_equal(d, 0.0);
     return result;
   }

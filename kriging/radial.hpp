@@ -36,8 +36,17 @@ namespace drawpoint::kriging {
 enum class RadialFunction { thin_plate, cubic, multiquadric, gaussian };
 
 inline std::string_view to_string(RadialFunction f) {
-  constexpr std::string_view names[] = {"thin_plate", "cubic", "multiquadric", "gaussian"};
-  return names[static_cast<int>(f)];
+  switch (f) {
+    case RadialFunction::thin_plate:
+      return "thin_plate";
+    case RadialFunction::cubic:
+      return "cubic";
+    case RadialFunction::multiquadric:
+      return "multiquadric";
+    case RadialFunction::gaussian:
+      return "gaussian";
+  }
+  return "unknown";
 }
 
 struct RadialOptions {

@@ -22,12 +22,14 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <drawpoint/doe/detail/atomic_file.hpp>
+#include <drawpoint/doe/detail/enumerators.hpp>
 #include <drawpoint/kriging/detail/saved_checks.hpp>
 #include <drawpoint/kriging/model.hpp>
 
@@ -148,12 +150,11 @@ class JsonReader {
     return at("values").vector(rows * columns).reshaped(rows, columns);
   }
 
-  /// The value among 0 .. count − 1 whose to_string is this text.
+  /// The enumerator whose to_string is this text.
   template <class Enum>
-  Enum one_of(int count) const {
+  Enum enumerator() const {
     const std::string name = text();
-    for (int k = 0; k < count; ++k)
-      if (to_string(static_cast<Enum>(k)) == name) return static_cast<Enum>(k);
+    if (const std::optional<Enum> found = doe::detail::enumerator_of<Enum>(name)) return *found;
     fail("\"" + name + "\" is unknown");
   }
 
@@ -181,9 +182,9 @@ inline std::vector<TrendTerm> trend_terms(const JsonReader& in, Eigen::Index d) 
 }
 
 inline FitReport report_of(const JsonReader& in) {
-  return {in.at("status").one_of<Status>(5), in.at("message").text(),
-          in.at("starts_tried").integer(),   in.at("starts_agreed").integer(),
-          in.at("evaluations").integer(),    in.at("condition").number(false)};
+  return {in.at("status").enumerator<Status>(), in.at("message").text(),
+          in.at("starts_tried").integer(),      in.at("starts_agreed").integer(),
+          in.at("evaluations").integer(),       in.at("condition").number(false)};
 }
 
 inline void read_solution(const JsonReader& in, Eigen::Index n, Eigen::Index q, LeastSquares& gls) {
@@ -196,7 +197,7 @@ inline void read_solution(const JsonReader& in, Eigen::Index n, Eigen::Index q, 
 }
 
 inline void read_correlation(const JsonReader& in, Eigen::Index d, CorrelationFunction& f) {
-  f.family = in.at("family").one_of<Correlation>(4);
+  f.family = in.at("family").enumerator<Correlation>();
   f.theta = in.at("theta").vector(d);
   f.exponent = in.at("exponent").vector(-1);
   if (f.exponent.size() > 0 || f.family == Correlation::power_exponential)

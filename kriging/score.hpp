@@ -37,8 +37,21 @@ struct Validation {
 enum class ErrorFunction { rmse, nrmse, mae, q2, nlpd, coverage };
 
 inline std::string_view to_string(ErrorFunction error) {
-  constexpr std::string_view names[] = {"rmse", "nrmse", "mae", "q2", "nlpd", "coverage"};
-  return names[static_cast<int>(error)];
+  switch (error) {
+    case ErrorFunction::rmse:
+      return "rmse";
+    case ErrorFunction::nrmse:
+      return "nrmse";
+    case ErrorFunction::mae:
+      return "mae";
+    case ErrorFunction::q2:
+      return "q2";
+    case ErrorFunction::nlpd:
+      return "nlpd";
+    case ErrorFunction::coverage:
+      return "coverage";
+  }
+  return "unknown";
 }
 
 namespace detail {

@@ -93,6 +93,7 @@ TEST(Refine, StopsWhenTheCriterionHolds) {
   };
   const Refinement r = refine(ring, ring_problem(), first_design(), LolaVoronoi(), options);
   EXPECT_EQ(r.status, RefineStatus::criterion_met);
+  EXPECT_EQ(to_string(r.status), "criterion_met");
   EXPECT_EQ(asked, (std::vector<std::size_t>{16, 21, 26}));
   EXPECT_EQ(r.message, "the stopping criterion held after 26 points, 2 batches");
 }
