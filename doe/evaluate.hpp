@@ -128,7 +128,7 @@ class RunBook {
     count(i);
   }
 
-  const Progress& timed_progress() {
+  const EvaluateProgress& timed_progress() {
     progress_.seconds = seconds_since(start_);
     const auto made = static_cast<double>(progress_.done - remembered_);
     progress_.seconds_left = progress_.seconds / made * static_cast<double>(progress_.total - progress_.done);
@@ -140,7 +140,7 @@ class RunBook {
   std::vector<char> done_;
   std::vector<std::size_t> to_run_;
   std::unique_ptr<RunJournal> journal_;
-  Progress progress_;
+  EvaluateProgress progress_;
   std::int64_t remembered_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;

@@ -15,7 +15,7 @@
 
 namespace drawpoint::doe {
 
-struct Progress {
+struct EvaluateProgress {
   std::int64_t done = 0;    ///< runs that have ended, those remembered from a journal included
   std::int64_t failed = 0;  ///< of these
   std::int64_t total = 0;
@@ -41,7 +41,8 @@ struct EvaluateOptions {
   /// Requested: no run is begun any more, those in flight end (or are asked to), and the table has the rows
   /// that were done.
   std::stop_token stop = {};
-  std::function<void(const Progress&)> progress = {};  ///< called after on_result, under the same lock
+  std::function<void(const EvaluateProgress&)> progress =
+      {};  ///< called after on_result, under the same lock
   /// Where each run is kept as it ends (run_journal.hpp); runs that are there already are not made again.
   /// Empty: nowhere.
   std::filesystem::path journal = {};

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a criterion of
-/// one.
+/// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a
+/// measure made of one.
 ///
 /// leave_one_out(model): closed form, θ and λ as fitted, β estimated anew without each run. With
 /// P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the error is (P y)ᵢ/Pᵢᵢ and the variance of the run s²/Pᵢᵢ, its noise
@@ -157,7 +157,7 @@ Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, cons
 enum class Estimator { leave_one_out, k_fold, hold_out };
 
 /// Whether a surrogate is good enough: (estimator, error function, target), as in SUMO.
-struct Criterion {
+struct Measure {
   doe::Seed seed = 1;                       ///< of what is left out
   Estimator estimator = Estimator::k_fold;  ///< leave_one_out refits for surrogates without a closed form
   ErrorFunction error = ErrorFunction::nrmse;
@@ -167,7 +167,7 @@ struct Criterion {
   double level = 0.95;   ///< of coverage
 };
 
-struct Judgement {
+struct Assessment {
   double value = 0;
   bool met = false;
   Validation validation;
@@ -175,19 +175,19 @@ struct Judgement {
 
 /// Throws std::invalid_argument as k_fold, hold_out and score.
 template <class F>
-Judgement judge(const Criterion& criterion, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                const F& fitter) {
+Assessment assess(const Measure& measure, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                  const F& fitter) {
   detail::require_fitter<F>();
-  Judgement j;
-  if (criterion.estimator == Estimator::k_fold)
-    j.validation = k_fold(X, y, criterion.folds, fitter, {.seed = criterion.seed});
-  else if (criterion.estimator == Estimator::hold_out)
-    j.validation = hold_out(X, y, criterion.share, fitter, {.seed = criterion.seed});
+  Assessment a;
+  if (measure.estimator == Estimator::k_fold)
+    a.validation = k_fold(X, y, measure.folds, fitter, {.seed = measure.seed});
+  else if (measure.estimator == Estimator::hold_out)
+    a.validation = hold_out(X, y, measure.share, fitter, {.seed = measure.seed});
   else
-    j.validation = detail::without_each(X, y, fitter, {.seed = criterion.seed});
-  j.value = score(j.validation, criterion.error, criterion.level);
-  j.met = higher_is_better(criterion.error) ? j.value >= criterion.target : j.value <= criterion.target;
-  return j;
+    a.validation = detail::without_each(X, y, fitter, {.seed = measure.seed});
+  a.value = score(a.validation, measure.error, measure.level);
+  a.met = higher_is_better(measure.error) ? a.value >= measure.target : a.value <= measure.target;
+  return a;
 }
 
 }  // namespace drawpoint::kriging

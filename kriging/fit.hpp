@@ -55,7 +55,7 @@ inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood,
 }
 
 /// The status and the message of a search whose best point `likelihood` stands at.
-inline void judge(const Search& search, Likelihood& likelihood, FitReport& report) {
+inline void report_search(const Search& search, Likelihood& likelihood, FitReport& report) {
   report.starts_tried = search.tried;
   report.starts_agreed = search.agreed;
   report.condition = likelihood.condition();
@@ -146,7 +146,7 @@ inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
     found = search(likelihood, box, options, report.evaluations);
   }
   likelihood.value(found.best.p);
-  judge(found, likelihood, report);
+  report_search(found, likelihood, report);
   report.evaluations += likelihood.factorizations();
   if (singular) {
     report.status = Status::ill_conditioned;

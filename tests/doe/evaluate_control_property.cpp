@@ -60,9 +60,9 @@ TEST(EvaluateControl, ProgressCountsEveryRunOnce) {
     if (x[0] < 0.3) return Failure{"stuck"};
     return x[0];
   };
-  std::vector<Progress> seen;
+  std::vector<EvaluateProgress> seen;
   EvaluateOptions options{.threads = 4, .replicates = 2};
-  options.progress = [&seen](const Progress& p) { seen.push_back(p); };
+  options.progress = [&seen](const EvaluateProgress& p) { seen.push_back(p); };
   const Evaluations table = evaluate(f, problem, uniform_random(problem, 30), options);
   ASSERT_EQ(seen.size(), 60U);
   for (std::size_t k = 0; k < seen.size(); ++k) {
