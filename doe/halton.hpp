@@ -13,12 +13,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
@@ -57,12 +57,8 @@ class DigitScrambling {
  public:
   DigitScrambling(int base, Seed seed) : base_(base) {
     RandomStream random(seed);
-    for (double place = 1.0; place > 0x1p-53; place /= base) {
-      std::vector<int>& digits = permutations_.emplace_back(static_cast<std::size_t>(base));
-      std::iota(digits.begin(), digits.end(), 0);
-      for (int i = base - 1; i > 0; --i)
-        std::swap(digits[static_cast<std::size_t>(i)], digits[static_cast<std::size_t>(random.below(i + 1))]);
-    }
+    for (double place = 1.0; place > 0x1p-53; place /= base)
+      permutations_.push_back(permutation(base, random));
   }
 
   /// The scrambled φ_b(i), in [0, 1).

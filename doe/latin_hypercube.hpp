@@ -13,12 +13,12 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
@@ -36,10 +36,8 @@ namespace detail {
 inline Eigen::MatrixXd unit_latin_hypercube(int n, Eigen::Index d, Seed seed) {
   RandomStream random(seed);
   Eigen::MatrixXd U(n, d);
-  std::vector<int> stratum(n);
   for (auto column : U.colwise()) {
-    std::iota(stratum.begin(), stratum.end(), 0);
-    for (int i = n - 1; i >= 1; --i) std::swap(stratum[i], stratum[random.below(i + 1)]);
+    const std::vector<int> stratum = permutation(n, random);
     for (int i = 0; i < n; ++i) column[i] = (stratum[i] + random.uniform()) / n;
   }
   return U;

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/galois_field.hpp>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 
 namespace drawpoint::doe {
@@ -99,11 +100,6 @@ inline Eigen::MatrixXi orthogonal_array(int q, Eigen::Index d, int strength = 2)
 }
 
 namespace detail {
-
-inline void shuffle(std::vector<int>& items, RandomStream& random) {
-  for (int i = static_cast<int>(items.size()) - 1; i > 0; --i)
-    std::swap(items[static_cast<std::size_t>(i)], items[static_cast<std::size_t>(random.below(i + 1))]);
-}
 
 /// Rows of each column level after level, in the order of the strata that they take; levels permuted at
 /// random.

@@ -40,8 +40,8 @@ enum class BatchRule { cells, penalty, believer };
 struct ProposeOptions {
   Seed seed = 1;  ///< of the candidates, together with the number of rows of the table
   int batch = 1;  ///< points to choose, 1 or more
-  /// Random points to choose from, 1 or more; empty: 100 per run, within 1000 to 20000: enough for the best of
-  /// each cell.
+  /// Random points to choose from, 1 or more; empty: 100 per run, within 1000 to 20000: enough for the best
+  /// of each cell.
   std::optional<int> candidates = {};
   BatchRule rule = BatchRule::cells;
   /// What a run at x (natural units) would give, for BatchRule::believer: a surrogate's mean, say.

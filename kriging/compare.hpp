@@ -4,9 +4,9 @@
 
 /// Several ways to fit the same runs, scored alike, and the best of them.
 ///
-/// Each fitter is assessed by the same (estimator, error function, target) with the same folds; the best score
-/// wins, of equal ones the earlier, and a score that is NaN never does. The winner is then fitted to all
-/// runs. Choosing among k of them makes the winner's own score somewhat optimistic: the more, the noisier
+/// Each fitter is assessed by the same (estimator, error function, target) with the same folds; the best
+/// score wins, of equal ones the earlier, and a score that is NaN never does. The winner is then fitted to
+/// all runs. Choosing among k of them makes the winner's own score somewhat optimistic: the more, the noisier
 /// the estimate and the larger k. Cost: the sum of the estimates. Deterministic.
 
 #include <Eigen/Core>

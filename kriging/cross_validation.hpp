@@ -15,10 +15,10 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -53,11 +53,8 @@ inline Validation leave_one_out(const Model& model) {
 namespace detail {
 
 inline std::vector<Eigen::Index> shuffled(Eigen::Index n, doe::Seed seed) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
   doe::RandomStream random(seed);
-  for (int i = static_cast<int>(n) - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
-  return order;
+  return doe::detail::permutation(n, random);
 }
 
 /// Fits without the runs of `out`, sorted, and writes its predictions of them into v.

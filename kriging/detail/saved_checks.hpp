@@ -6,20 +6,11 @@
 /// factor is stored: the lower triangle by columns.
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <cstdio>
-#include <string>
+#include <drawpoint/doe/detail/hash.hpp>
 
 namespace drawpoint::kriging::detail {
 
-/// 64-bit FNV-1a as 16 hexadecimal digits: any change of one byte changes it.
-inline std::string checksum(const std::string& text) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001B3ULL;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
+using doe::detail::checksum;
 
 /// n(n + 1)/2 numbers.
 inline Eigen::VectorXd packed_lower(const Eigen::MatrixXd& L) {
