@@ -8,7 +8,6 @@
 /// its neighbourhood (neighbourhood.hpp, nonlinearity.hpp), here as a share of Σ E. A candidate has the score
 /// of the cell it lies in:
 ///   sum       H = V + E/ΣE                 the paper
-///   product   H = (1 + V)(1 + E/ΣE)        the SUMO toolbox
 ///   weighted  H = w V + (1 − w) E/ΣE       OpenTURNS with w = ½; w = 1 is Voronoi sampling
 /// With several responses E is their largest or their average, each divided by its range. Where ΣE = 0, as
 /// for a plane, holes alone count. Failed sites have E = 0 and still take up space. Inputs are scaled to the

@@ -111,12 +111,13 @@ constexpr double owen_scrambled(std::uint32_t digits, std::uint64_t key) {
 
 }  // namespace detail
 
-struct SobolOptions {
+struct ScrambledSobolOptions {
   Seed seed = 1;
 };
 
 /// runs x d. Throws std::invalid_argument when runs < 1 or the problem has more than 37 variables.
-inline Eigen::MatrixXd scrambled_sobol(const Problem& problem, int runs, const SobolOptions& options = {}) {
+inline Eigen::MatrixXd scrambled_sobol(const Problem& problem, int runs,
+                                       const ScrambledSobolOptions& options = {}) {
   detail::check_design("doe::scrambled_sobol", problem, runs);
   const auto d = static_cast<int>(problem.variables.size());
   if (d > detail::sobol_max_dimensions)

@@ -125,6 +125,26 @@ TEST(RadialFit, FindsShapeAndRidgeByLeaveOneOut) {
   }
 }
 
+// Central differences with h = 1e-5 of a mean of size 1 whose third derivatives are below 1e3: 1e3 h²/6 = 2e-8,
+// and the round-off of the mean (RadialFit.InterpolatesWithoutARidge: 1e-10 and less) over h: 1e-5.
+TEST(RadialGradient, IsThatOfTheMean) {
+  const MatrixXd X = reference::design(30, 2, 3), points = reference::design(20, 2, 4);
+  const VectorXd y = reference::values(wave, X);
+  constexpr double h = 1e-5;
+  for (const RadialFunction f : functions) {
+    const Radial model = fit_radial(X, y, with(f, 1e-6));
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const VectorXd x = points.row(i).transpose(), gradient = model.mean_gradient(x);
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        const VectorXd step = h * VectorXd::Unit(2, k);
+        EXPECT_NEAR(gradient[k], (model(x + step) - model(x - step)) / (2 * h), 1e-5) << to_string(f);
+      }
+    }
+    EXPECT_EQ(fit_radial(X, VectorXd::Ones(30), with(f, 0.0)).mean_gradient(X.row(0).transpose()),
+              VectorXd::Zero(2));
+  }
+}
+
 TEST(RadialStatus, TellsWhatTheRunsAllow) {
   const MatrixXd X = reference::design(6, 2, 3);
   const VectorXd y = reference::values(wave, X);
