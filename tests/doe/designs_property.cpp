@@ -150,6 +150,24 @@ RC_GTEST_PROP(FullFactorial, EveryCombinationOnceInLexicographicOrder, ()) {
     }
 }
 
+// A seed is named; a number in its place is refused, and nothing given is seed 1.
+template <class... A>
+concept PlansWith = requires(const Problem& p, A... a) {
+  latin_hypercube(p, 4, a...);
+}
+|| requires(const Problem& p, A... a) { uniform_random(p, 4, a...); }
+|| requires(const Problem& p, A... a) { scrambled_sobol(p, 4, a...); }
+|| requires(const Problem& p, A... a) { halton(p, 4, a...); }
+|| requires(const Problem& p, A... a) { optimized_latin_hypercube(p, 4, a...); };
+static_assert(PlansWith<> && !PlansWith<int> && !PlansWith<Seed>);
+
+TEST(Designs, WithoutOptionsHaveSeedOne) {
+  const Problem problem = support::unit_problem(2);
+  EXPECT_EQ(latin_hypercube(problem, 4, {}), latin_hypercube(problem, 4, {.seed = 1}));
+  EXPECT_EQ(latin_hypercube(problem, 4), latin_hypercube(problem, 4, {.seed = 1}));
+  EXPECT_NE(latin_hypercube(problem, 4), latin_hypercube(problem, 4, {.seed = 0}));
+}
+
 TEST(Designs, TooFewRunsAreRefused) {
   const Problem problem = support::unit_problem(4);
   const auto text = [](const auto& action) { return support::thrown_text<std::invalid_argument>(action); };
