@@ -41,8 +41,8 @@ struct EvaluateOptions {
   /// Requested: no run is begun any more, those in flight end (or are asked to), and the table has the rows
   /// that were done.
   std::stop_token stop = {};
-  std::function<void(const EvaluateProgress&)> progress =
-      {};  ///< called after on_result, under the same lock
+  /// Called after on_result, under the same lock.
+  std::function<void(const EvaluateProgress&)> progress = {};
   /// Where each run is kept as it ends (run_journal.hpp); runs that are there already are not made again.
   /// Empty: nowhere.
   std::filesystem::path journal = {};
