@@ -5,8 +5,8 @@
 /// Adaptive sampling: evaluate a first design, then add batches where a sampler says, until a criterion
 /// holds.
 ///
-/// This is the loop  runs = evaluate(f, problem, X);  while (!stop(runs)) runs += evaluate(f, problem,
-/// propose(runs, sampler)),  with budget, journal and status. `stop` is asked before each batch and before
+/// This is the loop  runs = evaluate(f, problem, X);  while (!enough(runs)) runs += evaluate(f, problem,
+/// propose(runs, sampler)),  with budget, journal and status. `enough` is asked before each batch and before
 /// the sampler, so that a model fitted and scored there can serve the sampler too. Batch after batch is a
 /// function of the runs so far and the options alone: with a journal (EvaluateOptions::journal) the same call
 /// after a crash repeats the proposals, finds the runs on disk and goes on, to the same bits.
@@ -17,6 +17,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -30,17 +31,31 @@ namespace drawpoint::doe {
 struct RefineOptions {
   int max_points = 500;  ///< design points in all, those of the first design included; 1 or more
   /// Whether the runs so far are enough: a surrogate's error below its target, say. Empty: never.
-  std::function<bool(const Evaluations& runs)> stop = {};
+  std::function<bool(const Evaluations& runs)> enough = {};
   ProposeOptions propose{.batch = 8};  ///< batch: as many as can run at once
-  EvaluateOptions evaluate = {};       ///< first_run is set by the loop
+  EvaluateOptions evaluate = {};       ///< its stop ends the loop too; first_run is set by the loop
 };
 
 enum class RefineStatus {
-  criterion_met,  ///< stop said so
+  criterion_met,  ///< enough said so
   budget_spent,   ///< max_points reached
   no_candidate,   ///< no point is left to propose
   cancelled       ///< evaluate.stop was requested
 };
+
+inline std::string_view to_string(RefineStatus status) {
+  switch (status) {
+    case RefineStatus::criterion_met:
+      return "criterion_met";
+    case RefineStatus::budget_spent:
+      return "budget_spent";
+    case RefineStatus::no_candidate:
+      return "no_candidate";
+    case RefineStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
 
 struct Refinement {
   Evaluations runs;
@@ -75,7 +90,7 @@ Refinement refined(const F& f, const Problem& problem, const Eigen::MatrixXd& fi
   int points = 0;
   bool whole = extend(f, result.runs, first, points, options.evaluate);
   while (whole) {
-    if (options.stop && options.stop(result.runs))
+    if (options.enough && options.enough(result.runs))
       return end(RefineStatus::criterion_met, points, "the stopping criterion held");
     if (points >= options.max_points)
       return end(RefineStatus::budget_spent, points, "max_points was reached");
@@ -92,7 +107,7 @@ Refinement refined(const F& f, const Problem& problem, const Eigen::MatrixXd& fi
 }  // namespace detail
 
 /// first: n x d, the first design, natural units. `sampler` is a sampler or a Mix (criterion.hpp). Throws as
-/// evaluate and propose do, and whatever stop throws.
+/// evaluate and propose do, and whatever enough throws.
 template <class F, class S>
 Refinement refine(const F& f, const Problem& problem, const Eigen::MatrixXd& first, S&& sampler,
                   const RefineOptions& options = {}) {

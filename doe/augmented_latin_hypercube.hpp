@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -28,10 +29,11 @@
 namespace drawpoint::doe {
 
 struct AugmentedLatinOptions {
+  Seed seed = 1;
   LatinCriterion criterion = LatinCriterion::maximin;
-  int p = 10;                     ///< exponent of phi_p, even, 2 to 100
-  int sweeps = automatic_sweeps;  ///< 0: new runs at random in free strata
-  bool centred = false;           ///< new runs in the middle of their strata
+  int p = 10;                      ///< exponent of phi_p, even, 2 to 100
+  std::optional<int> sweeps = {};  ///< as in OptimizedLatinOptions; 0: new runs at random in free strata
+  bool centred = false;            ///< new runs in the middle of their strata
 };
 
 namespace detail {
@@ -77,14 +79,14 @@ inline Eigen::MatrixXi strata_for_more(const Problem& problem, const Eigen::Matr
 /// The rows of X (n x d, natural units, inside the bounds) as they are, then `more` new ones: (n + more) x d.
 /// Throws std::invalid_argument when X does not fit the problem, more < 1, or an option is out of range.
 inline Eigen::MatrixXd augmented_latin_hypercube(const Problem& problem, const Eigen::MatrixXd& X, int more,
-                                                 Seed seed = 1, const AugmentedLatinOptions& options = {}) {
+                                                 const AugmentedLatinOptions& options = {}) {
   const std::string place = "doe::augmented_latin_hypercube";
   detail::check_search(place, options.p, options.sweeps);
   const Eigen::MatrixXd old = detail::to_unit_box(X, problem, place);
   if (more < 1)
     throw std::invalid_argument(place + ": more is " + std::to_string(more) +
                                 "; allowed is 1 or more; ask for at least one new run");
-  RandomStream random(run_seed(seed, static_cast<std::uint64_t>(X.rows()), 0));
+  RandomStream random(run_seed(options.seed, static_cast<std::uint64_t>(X.rows()), 0));
   const Eigen::MatrixXi strata = detail::strata_for_more(problem, X, more, random);
   const Eigen::MatrixXd start =
       detail::placed(strata, problem, options.centred, static_cast<int>(X.rows()) + more, random);
@@ -101,7 +103,7 @@ inline Eigen::MatrixXd augmented_latin_hypercube(const Problem& problem, const E
 /// sizes.back() x d; the first sizes[k] rows are a Latin hypercube for every k. Each size must be a multiple
 /// of the one before. Throws std::invalid_argument otherwise.
 inline Eigen::MatrixXd nested_latin_hypercube(const Problem& problem, std::span<const int> sizes,
-                                              Seed seed = 1, const AugmentedLatinOptions& options = {}) {
+                                              const AugmentedLatinOptions& options = {}) {
   const std::string place = "doe::nested_latin_hypercube: ";
   if (sizes.empty()) throw std::invalid_argument(place + "sizes is empty; name at least one number of runs");
   for (std::size_t k = 1; k < sizes.size(); ++k)
@@ -109,11 +111,14 @@ inline Eigen::MatrixXd nested_latin_hypercube(const Problem& problem, std::span<
       throw std::invalid_argument(place + "size " + std::to_string(sizes[k]) + " after " +
                                   std::to_string(sizes[k - 1]) +
                                   "; allowed is a larger multiple of a positive size, such as 10, 20, 40");
-  Eigen::MatrixXd X = optimized_latin_hypercube(
-      problem, sizes.front(), seed,
-      {.criterion = options.criterion, .p = options.p, .sweeps = options.sweeps, .centred = options.centred});
+  Eigen::MatrixXd X = optimized_latin_hypercube(problem, sizes.front(),
+                                                {.seed = options.seed,
+                                                 .criterion = options.criterion,
+                                                 .p = options.p,
+                                                 .sweeps = options.sweeps,
+                                                 .centred = options.centred});
   for (std::size_t k = 1; k < sizes.size(); ++k)
-    X = augmented_latin_hypercube(problem, X, sizes[k] - sizes[k - 1], seed, options);
+    X = augmented_latin_hypercube(problem, X, sizes[k] - sizes[k - 1], options);
   return X;
 }
 

@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -31,21 +32,26 @@
 namespace drawpoint::doe {
 
 struct RegionOptions {
-  int candidates = 0;     ///< allowed points to choose from; 0: 20 a run, at least 1000
+  Seed seed = 1;
+  /// Allowed points to choose from, 1 or more; empty: 20 per run, at least 1000.
+  std::optional<int> candidates = {};
   int tries = 1'000'000;  ///< calls of the predicate at most, 1 or more
 };
 
 namespace detail {
 
 inline void check_region(const char* place, const RegionOptions& options) {
-  if (options.candidates < 0 || options.tries < 1)
-    throw std::invalid_argument(std::string(place) + ": candidates is " + std::to_string(options.candidates) +
-                                ", tries is " + std::to_string(options.tries) +
-                                "; allowed are 0 or more and 1 or more");
+  const auto check = [&](const char* name, int value) {
+    if (value < 1)
+      throw std::invalid_argument(std::string(place) + ": " + name + " is " + std::to_string(value) +
+                                  "; allowed is 1 or more");
+  };
+  check("candidates", options.candidates.value_or(1));
+  check("tries", options.tries);
 }
 
 inline int candidate_count(const RegionOptions& options, int runs) {
-  return options.candidates > 0 ? std::max(options.candidates, runs) : std::max(20 * runs, 1000);
+  return options.candidates ? std::max(*options.candidates, runs) : std::max(20 * runs, 1000);
 }
 
 /// Squared distances of every row of U to one point.
@@ -74,7 +80,7 @@ inline std::vector<Eigen::Index> farthest_points(const Eigen::MatrixXd& C, const
 
 /// One row of the closest pair of U moves to the candidate farthest from the others while that helps; at most
 /// `moves`.
-inline void spread(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
+inline void move_apart(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
   for (int move = 0; move < moves && U.rows() > 1; ++move) {
     double least = std::numeric_limits<double>::infinity();
     Eigen::Index row = 0;
@@ -91,7 +97,7 @@ inline void spread(Eigen::MatrixXd& U, const Eigen::MatrixXd& C, int moves) {
 }
 
 /// As many moves as rows, fewer where they would cost more than some 2e9 operations.
-inline int spread_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
+inline int move_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
   const double rows = static_cast<double>(U.rows()), elements = rows * static_cast<double>(U.cols());
   return static_cast<int>(std::min(rows, 2e9 / (elements * static_cast<double>(C.rows() + U.rows()))));
 }
@@ -101,12 +107,12 @@ inline int spread_budget(const Eigen::MatrixXd& U, const Eigen::MatrixXd& C) {
 /// The first `runs` allowed points of a sequence. Throws std::invalid_argument when runs < 1 or an option is
 /// out of range.
 template <class P>
-ConstrainedDesign feasible_sequence(const Problem& problem, int runs, const P& allowed, Seed seed = 1,
+ConstrainedDesign feasible_sequence(const Problem& problem, int runs, const P& allowed,
                                     const RegionOptions& options = {}) {
   require_point_predicate<P>();
   detail::check_design("doe::feasible_sequence", problem, runs);
   detail::check_region("doe::feasible_sequence", options);
-  detail::FeasiblePoints found = detail::feasible_points(problem, runs, options.tries, allowed, seed);
+  detail::FeasiblePoints found = detail::feasible_points(problem, runs, options.tries, allowed, options.seed);
   ConstrainedDesign design{std::move(found.X), RegionStatus::complete, "", found.share, 0};
   return design.X.rows() == runs ? design : detail::too_small(std::move(design), runs);
 }
@@ -114,19 +120,19 @@ ConstrainedDesign feasible_sequence(const Problem& problem, int runs, const P& a
 /// `runs` points spread over the region. Throws std::invalid_argument when runs < 1 or an option is out of
 /// range.
 template <class P>
-ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& allowed, Seed seed = 1,
+ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& allowed,
                                    const RegionOptions& options = {}) {
   require_point_predicate<P>();
   const char* place = "doe::feasible_maximin";
   detail::check_design(place, problem, runs);
   detail::check_region(place, options);
-  const auto found =
-      detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries, allowed, seed);
+  const auto found = detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries,
+                                             allowed, options.seed);
   const Eigen::MatrixXd C = detail::to_unit_box(found.X, problem, place);
   const auto chosen = detail::farthest_points(C, Eigen::MatrixXd(0, C.cols()), runs);
   Eigen::MatrixXd U = C(chosen, Eigen::all);
   const bool complete = U.rows() == runs;
-  if (complete) detail::spread(U, C, detail::spread_budget(U, C));
+  if (complete) detail::move_apart(U, C, detail::move_budget(U, C));
   ConstrainedDesign design{detail::to_natural(std::move(U), problem), RegionStatus::complete, "", found.share,
                            0};
   return complete ? design : detail::too_small(std::move(design), runs);
@@ -136,7 +142,7 @@ ConstrainedDesign feasible_maximin(const Problem& problem, int runs, const P& al
 /// std::invalid_argument when X does not fit the problem or an option is out of range.
 template <class P>
 ConstrainedDesign feasible_replacement(const Problem& problem, const Eigen::MatrixXd& X, const P& allowed,
-                                       Seed seed = 1, const RegionOptions& options = {}) {
+                                       const RegionOptions& options = {}) {
   require_point_predicate<P>();
   const char* place = "doe::feasible_replacement";
   detail::check_inside(X, problem, place);
@@ -146,8 +152,8 @@ ConstrainedDesign feasible_replacement(const Problem& problem, const Eigen::Matr
   ConstrainedDesign design{X, RegionStatus::complete, "", 1.0, static_cast<int>(lost.size())};
   if (lost.empty()) return design;
   const auto runs = static_cast<int>(X.rows());
-  const auto found =
-      detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries, allowed, seed);
+  const auto found = detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries,
+                                             allowed, options.seed);
   design.feasible_share = found.share;
   const Eigen::MatrixXd C = detail::to_unit_box(found.X, problem, place),
                         U = detail::to_unit_box(X(kept, Eigen::all), problem, place);

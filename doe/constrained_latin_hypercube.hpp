@@ -27,11 +27,13 @@
 namespace drawpoint::doe {
 
 struct ConstrainedLatinOptions {
-  int exchanges = 200;        ///< a run and variable, 0 or more: budget of the search for an allowed design
-  int sweeps = 20;            ///< of exchanges that spread the runs, 0 or more
-  int p = 50;                 ///< exponent of phi_p, even, 2 to 100
-  bool centred = false;       ///< runs in the middle of their strata
-  RegionOptions region = {};  ///< for runs that must be replaced
+  Seed seed = 1;
+  int exchanges = 200;   ///< a run and variable, 0 or more: budget of the search for an allowed design
+  int sweeps = 20;       ///< of exchanges that spread the runs, 0 or more
+  int p = 50;            ///< exponent of phi_p, even, 2 to 100
+  bool centred = false;  ///< runs in the middle of their strata
+  std::optional<int> candidates = {};  ///< of RegionOptions, for runs that must be replaced
+  int tries = 1'000'000;               ///< likewise
 };
 
 namespace detail {
@@ -106,7 +108,7 @@ class RegionWalk {
 
 /// Exchanges that lower phi_p and keep every row allowed.
 template <class P>
-Eigen::MatrixXd spread_inside(RegionWalk<P>& walk, int sweeps, int p, RandomStream& random) {
+Eigen::MatrixXd exchanged_inside(RegionWalk<P>& walk, int sweeps, int p, RandomStream& random) {
   PairPotential potential(walk.design(), p);
   const auto n = static_cast<int>(walk.design().rows());
   const Eigen::Index d = walk.design().cols();
@@ -129,29 +131,29 @@ Eigen::MatrixXd spread_inside(RegionWalk<P>& walk, int sweeps, int p, RandomStre
 /// of range.
 template <class P>
 ConstrainedDesign constrained_latin_hypercube(const Problem& problem, int runs, const P& allowed,
-                                              Seed seed = 1, const ConstrainedLatinOptions& options = {}) {
+                                              const ConstrainedLatinOptions& options = {}) {
   require_point_predicate<P>();
   const std::string place = "doe::constrained_latin_hypercube";
   detail::check_design(place.c_str(), problem, runs);
   detail::check_search(place, options.p, options.sweeps);
-  detail::check_region(place.c_str(), options.region);
+  const RegionOptions region{.seed = options.seed, .candidates = options.candidates, .tries = options.tries};
+  detail::check_region(place.c_str(), region);
   if (options.exchanges < 0)
     throw std::invalid_argument(place + ": exchanges is " + std::to_string(options.exchanges) +
                                 "; allowed is 0 or more; 200 is usual");
   const auto d = static_cast<Eigen::Index>(problem.variables.size());
-  RandomStream random(seed);
+  RandomStream random(options.seed);
   const Eigen::MatrixXi strata = detail::random_strata(runs, d, random);
   const Eigen::MatrixXd start = detail::placed(strata, problem, options.centred, runs, random);
   detail::RegionWalk walk(problem, start, allowed);
   const double share = 1.0 - static_cast<double>(walk.outside().size()) / runs;
   const double budget = static_cast<double>(options.exchanges) * runs * static_cast<double>(d);
   if (walk.enter(static_cast<int>(std::min(budget, 1e9)), random)) {
-    const int sweeps = options.sweeps == automatic_sweeps ? 20 : options.sweeps;
-    Eigen::MatrixXd U = detail::spread_inside(walk, sweeps, options.p, random);
+    Eigen::MatrixXd U = detail::exchanged_inside(walk, options.sweeps, options.p, random);
     return {detail::to_natural(std::move(U), problem), RegionStatus::complete, "", share, 0};
   }
   ConstrainedDesign design =
-      feasible_replacement(problem, detail::to_natural(start, problem), allowed, seed, options.region);
+      feasible_replacement(problem, detail::to_natural(start, problem), allowed, region);
   if (design.status != RegionStatus::complete) return design;
   design.status = RegionStatus::not_latin;
   design.message = "no Latin hypercube inside the region was found: " + std::to_string(design.replaced) +

@@ -31,6 +31,7 @@
 #include <drawpoint/doe/sensitivity.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/doe/uniform.hpp>
+#include <drawpoint/doe/value_and_jacobian.hpp>
 
 /// Designed experiments over any black box: the whole of the module, in the order of use.
 ///
@@ -38,6 +39,7 @@
 ///   problem.hpp                      named variables in a box, named responses with a goal each
 ///   black_box.hpp                    what may be called: f(x), f(x, seed), f(x, seed, stop), f(X, seeds)
 ///   outcome.hpp                      what a run gives: values, or a failure with its reason
+///   value_and_jacobian.hpp           what a function with derivatives gives
 ///   seed.hpp                         seeds and counter-based random numbers
 ///   evaluate.hpp                     runs a black box at every row of a design
 ///   evaluate_options.hpp             threads, replicates, time limit, stop, journal, progress

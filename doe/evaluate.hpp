@@ -27,6 +27,7 @@
 
 #include <drawpoint/doe/black_box.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
+#include <drawpoint/doe/detail/threads.hpp>
 #include <drawpoint/doe/detail/watchdog.hpp>
 #include <drawpoint/doe/evaluate_options.hpp>
 #include <drawpoint/doe/evaluations.hpp>
@@ -43,10 +44,10 @@ inline void check_count(const char* name, std::int64_t value, std::int64_t lowes
 }
 
 inline void check_options(const EvaluateOptions& options) {
-  check_count("threads", options.threads, 1);
+  check_count("threads", options.threads, 0);
   check_count("replicates", options.replicates, 1);
   check_count("first_run", options.first_run, 0);
-  check_count("batch_size", options.batch_size, 0);
+  check_count("batch_size", options.batch_size.value_or(1), 1);
   if (!(options.time_limit > 0.0))
     throw std::invalid_argument("doe::evaluate: time_limit is " + number_text(options.time_limit) +
                                 " s; allowed is a time above 0 s; leave it out for no limit");
@@ -93,7 +94,7 @@ class RunBook {
       if (journal_) journal_->add(table_.rows[i]);
       count(i);
       if (options_.on_result) options_.on_result(table_.rows[i]);
-      if (options_.on_progress) options_.on_progress(timed_progress());
+      if (options_.progress) options_.progress(timed_progress());
     } catch (...) {
       fault_ = std::current_exception();
       halted_ = true;
@@ -127,7 +128,7 @@ class RunBook {
     count(i);
   }
 
-  const Progress& timed_progress() {
+  const EvaluateProgress& timed_progress() {
     progress_.seconds = seconds_since(start_);
     const auto made = static_cast<double>(progress_.done - remembered_);
     progress_.seconds_left = progress_.seconds / made * static_cast<double>(progress_.total - progress_.done);
@@ -139,7 +140,7 @@ class RunBook {
   std::vector<char> done_;
   std::vector<std::size_t> to_run_;
   std::unique_ptr<RunJournal> journal_;
-  Progress progress_;
+  EvaluateProgress progress_;
   std::int64_t remembered_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
@@ -150,7 +151,7 @@ class RunBook {
 template <class F>
 void run_batches(const F& f, Evaluations& table, RunBook& book, const EvaluateOptions& options) {
   const std::vector<std::size_t>& rows = book.to_run();
-  const std::size_t size = options.batch_size ? static_cast<std::size_t>(options.batch_size)
+  const std::size_t size = options.batch_size ? static_cast<std::size_t>(*options.batch_size)
                                               : std::max<std::size_t>(rows.size(), 1);
   for (std::size_t from = 0; from < rows.size() && !book.stopped(); from += size) {
     const auto n = static_cast<Eigen::Index>(std::min(size, rows.size() - from));
@@ -205,7 +206,7 @@ void run_points(const F& f, Evaluations& table, RunBook& book, const EvaluateOpt
     for (std::size_t k; !book.stopped() && (k = next++) < rows.size();)
       if (run_row(f, table.problem, table.rows[rows[k]], watchdog.get(), options)) book.ended(rows[k]);
   };
-  const std::size_t all = std::min<std::size_t>(static_cast<std::size_t>(options.threads), rows.size());
+  const std::size_t all = std::min(static_cast<std::size_t>(thread_count(options.threads)), rows.size());
   std::vector<std::jthread> threads;
   for (std::size_t t = 1; t < all; ++t) threads.emplace_back(work);
   work();

@@ -8,13 +8,14 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stop_token>
 
 #include <drawpoint/doe/evaluations.hpp>
 
 namespace drawpoint::doe {
 
-struct Progress {
+struct EvaluateProgress {
   std::int64_t done = 0;    ///< runs that have ended, those remembered from a journal included
   std::int64_t failed = 0;  ///< of these
   std::int64_t total = 0;
@@ -23,16 +24,16 @@ struct Progress {
 };
 
 struct EvaluateOptions {
-  int threads = 1;     ///< runs at once, 1 or more; a batch function ignores it
-  int replicates = 1;  ///< runs a design point, 1 or more, each with its own seed
   Seed seed = 1;       ///< the study's
+  int threads = 1;     ///< runs at once, 0: all cores; a batch function ignores it
+  int replicates = 1;  ///< runs a design point, 1 or more, each with its own seed
   /// Called as each run ends, one call at a time, in order of ending; not for remembered runs.
   std::function<void(const Evaluation&)> on_result = {};
   std::int64_t first_run = 0;  ///< number of the first row, 0 or more: to go on with a study
   /// Replicate k has the same seed at every point: differences between points then lose the noise that they
   /// share. Off by default, because surrogates take the noise of different points as independent.
   bool common_random_numbers = false;
-  int batch_size = 0;  ///< rows a call of a batch function, 1 or more; 0: all in one
+  std::optional<int> batch_size = {};  ///< rows per call of a batch function, 1 or more; empty: all in one
   /// Wall time of a run [s], above 0. A run that takes longer becomes a failure, once it has returned: a
   /// function of the form f(x, seed, stop) is asked to at the limit, others end when they end. For a limit
   /// that kills, run processes. Does not apply to batch functions, which see to their own time.
@@ -40,7 +41,8 @@ struct EvaluateOptions {
   /// Requested: no run is begun any more, those in flight end (or are asked to), and the table has the rows
   /// that were done.
   std::stop_token stop = {};
-  std::function<void(const Progress&)> on_progress = {};  ///< called after on_result, under the same lock
+  /// Called after on_result, under the same lock.
+  std::function<void(const EvaluateProgress&)> progress = {};
   /// Where each run is kept as it ends (run_journal.hpp); runs that are there already are not made again.
   /// Empty: nowhere.
   std::filesystem::path journal = {};

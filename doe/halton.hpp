@@ -5,29 +5,29 @@
 /// Halton points: a sequence in any number of variables up to 100, with a net in every prime base.
 ///
 /// Coordinate j of run i is the radical inverse φ_b of i in the j-th prime base b: the digits of i mirrored
-/// at the point (Halton 1960). Plain, its variables with large bases move together at first. Two cures, each
-/// of which makes every single point uniform: `scrambled` permutes each digit at random, one permutation a
-/// base and a digit (Owen 2017, "A randomized Halton algorithm in R"), with as many digits as 53 bits hold;
-/// `random_start` begins each variable at its own random place of the sequence (Wang, Hickernell 2000,
-/// "Randomized Halton sequences"). Run i does not depend on `runs`. Cost O(n d log n).
+/// at the point (Halton 1960). Plain, its variables with large bases move together at first. The cure,
+/// `scrambled`, permutes each digit at random, one permutation per base and digit (Owen 2017, "A randomized
+/// Halton algorithm in R"), with as many digits as 53 bits hold; it makes every single point uniform. Run i
+/// does not depend on `runs`. Cost O(n d log n).
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
 namespace drawpoint::doe {
 
-enum class HaltonKind { scrambled, random_start, plain };
+enum class HaltonKind { scrambled, plain };
 
 struct HaltonOptions {
+  Seed seed = 1;
   HaltonKind kind = HaltonKind::scrambled;  ///< plain ignores the seed and starts at run 1, not at the origin
 };
 
@@ -57,12 +57,8 @@ class DigitScrambling {
  public:
   DigitScrambling(int base, Seed seed) : base_(base) {
     RandomStream random(seed);
-    for (double place = 1.0; place > 0x1p-53; place /= base) {
-      std::vector<int>& digits = permutations_.emplace_back(static_cast<std::size_t>(base));
-      std::iota(digits.begin(), digits.end(), 0);
-      for (int i = base - 1; i > 0; --i)
-        std::swap(digits[static_cast<std::size_t>(i)], digits[static_cast<std::size_t>(random.below(i + 1))]);
-    }
+    for (double place = 1.0; place > 0x1p-53; place /= base)
+      permutations_.push_back(permutation(base, random));
   }
 
   /// The scrambled φ_b(i), in [0, 1).
@@ -84,24 +80,20 @@ class DigitScrambling {
 /// u of `runs` runs from run `first` of one variable.
 inline Eigen::VectorXd halton_column(int first, int runs, int variable, Seed seed, HaltonKind kind) {
   const int base = nth_prime(variable);
-  const Seed own = run_seed(seed, static_cast<std::uint64_t>(variable), 0);
   Eigen::VectorXd u(runs);
   if (kind == HaltonKind::scrambled) {
-    const DigitScrambling scrambled(base, own);
+    const DigitScrambling scrambled(base, run_seed(seed, static_cast<std::uint64_t>(variable), 0));
     for (int i = 0; i < runs; ++i) u[i] = scrambled(static_cast<std::uint64_t>(first + i));
     return u;
   }
-  // A start below 2^42: i + start stays exact, and b^digits of it fill the unit interval to below 1e-12.
-  const std::uint64_t start = kind == HaltonKind::plain ? 1 : mix(own) >> 22;
-  for (int i = 0; i < runs; ++i) u[i] = radical_inverse(start + static_cast<std::uint64_t>(first + i), base);
+  for (int i = 0; i < runs; ++i) u[i] = radical_inverse(static_cast<std::uint64_t>(1 + first + i), base);
   return u;
 }
 
 }  // namespace detail
 
 /// runs x d. Throws std::invalid_argument when runs < 1 or the problem has more than 100 variables.
-inline Eigen::MatrixXd halton(const Problem& problem, int runs, Seed seed = 1,
-                              const HaltonOptions& options = {}) {
+inline Eigen::MatrixXd halton(const Problem& problem, int runs, const HaltonOptions& options = {}) {
   detail::check_design("doe::halton", problem, runs);
   const auto d = static_cast<int>(problem.variables.size());
   if (d > detail::halton_max_dimensions)
@@ -109,7 +101,7 @@ inline Eigen::MatrixXd halton(const Problem& problem, int runs, Seed seed = 1,
                                 " variables; allowed is up to " +
                                 std::to_string(detail::halton_max_dimensions) + "; use latin_hypercube");
   Eigen::MatrixXd U(runs, d);
-  for (int j = 0; j < d; ++j) U.col(j) = detail::halton_column(0, runs, j, seed, options.kind);
+  for (int j = 0; j < d; ++j) U.col(j) = detail::halton_column(0, runs, j, options.seed, options.kind);
   return detail::to_natural(std::move(U), problem);
 }
 

@@ -13,20 +13,20 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 
 namespace drawpoint::doe {
 
 struct LatinHypercubeOptions {
-  bool corners = false;  ///< the 2^d corners come first and count in `runs`
   Seed seed = 1;
+  bool corners = false;  ///< the 2^d corners come first and count in `runs`
   bool centred = false;  ///< u_ij = 1/2: even spacing, but no estimate from it is unbiased
 };
 
@@ -36,10 +36,8 @@ namespace detail {
 inline Eigen::MatrixXd unit_latin_hypercube(int n, Eigen::Index d, Seed seed) {
   RandomStream random(seed);
   Eigen::MatrixXd U(n, d);
-  std::vector<int> stratum(n);
   for (auto column : U.colwise()) {
-    std::iota(stratum.begin(), stratum.end(), 0);
-    for (int i = n - 1; i >= 1; --i) std::swap(stratum[i], stratum[random.below(i + 1)]);
+    const std::vector<int> stratum = permutation(n, random);
     for (int i = 0; i < n; ++i) column[i] = (stratum[i] + random.uniform()) / n;
   }
   return U;
@@ -84,13 +82,6 @@ inline Eigen::MatrixXd latin_hypercube(const Problem& problem, int runs,
   if (corners > 0) X.topRows(corners) = detail::to_natural(detail::unit_corners(d), problem);
   X.bottomRows(runs - corners) = detail::latin_to_natural(std::move(U), problem);
   return X;
-}
-
-/// The same with the seed in the place where the other designs have it.
-inline Eigen::MatrixXd latin_hypercube(const Problem& problem, int runs, Seed seed,
-                                       LatinHypercubeOptions options = {}) {
-  options.seed = seed;
-  return latin_hypercube(problem, runs, options);
 }
 
 }  // namespace drawpoint::doe

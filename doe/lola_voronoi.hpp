@@ -8,7 +8,6 @@
 /// its neighbourhood (neighbourhood.hpp, nonlinearity.hpp), here as a share of Σ E. A candidate has the score
 /// of the cell it lies in:
 ///   sum       H = V + E/ΣE                 the paper
-///   product   H = (1 + V)(1 + E/ΣE)        the SUMO toolbox
 ///   weighted  H = w V + (1 − w) E/ΣE       OpenTURNS with w = ½; w = 1 is Voronoi sampling
 /// With several responses E is their largest or their average, each divided by its range. Where ΣE = 0, as
 /// for a plane, holes alone count. Failed sites have E = 0 and still take up space. Inputs are scaled to the
@@ -32,17 +31,17 @@
 
 namespace drawpoint::doe {
 
-enum class Hybrid { sum, product, weighted };
+enum class Hybrid { sum, weighted };
 enum class Combine { largest, average };
 
 struct LolaVoronoiOptions {
+  Seed seed = 1;  ///< of the test points
   Hybrid hybrid = Hybrid::sum;
   double voronoi_weight = 0.5;           ///< w, 0 to 1, of Hybrid::weighted; large: fill space
   std::vector<std::string> responses{};  ///< names; empty: objectives and constraints, or all if none
   Combine combine = Combine::largest;    ///< of several responses; average when no one may dominate
   int points_per_site = 100;             ///< >= 1: volumes to a tenth; the cost is proportional
   Allowed allowed{};                     ///< empty: the whole box; else cells are counted inside alone
-  Seed seed = 1;                         ///< of the test points
 };
 
 /// What the score is made of, one entry a site.
@@ -156,7 +155,6 @@ class LolaVoronoi {
 
   Eigen::VectorXd hybrid(const Eigen::VectorXd& V, const Eigen::VectorXd& E) const {
     if (options_.hybrid == Hybrid::sum) return V + E;
-    if (options_.hybrid == Hybrid::product) return (1.0 + V.array()) * (1.0 + E.array());
     return options_.voronoi_weight * V + (1.0 - options_.voronoi_weight) * E;
   }
 
@@ -171,14 +169,20 @@ class LolaVoronoi {
   std::vector<int> good_;
 };
 
-/// Voronoi sampling: the largest cell, whatever the response.
-inline LolaVoronoi voronoi_sampler(Allowed allowed = {}, Seed seed = 1) {
-  LolaVoronoiOptions options;
-  options.hybrid = Hybrid::weighted;
-  options.voronoi_weight = 1.0;
-  options.allowed = std::move(allowed);
-  options.seed = seed;
-  return LolaVoronoi(std::move(options));
+struct VoronoiOptions {
+  Seed seed = 1;              ///< of the test points
+  int points_per_site = 100;  ///< >= 1, as in LolaVoronoiOptions
+  Allowed allowed{};          ///< likewise
+};
+
+/// Voronoi sampling: the largest cell, whatever the response. Throws std::invalid_argument for an option out
+/// of its range.
+inline LolaVoronoi voronoi_sampler(VoronoiOptions options = {}) {
+  return LolaVoronoi({.seed = options.seed,
+                      .hybrid = Hybrid::weighted,
+                      .voronoi_weight = 1.0,
+                      .points_per_site = options.points_per_site,
+                      .allowed = std::move(options.allowed)});
 }
 
 }  // namespace drawpoint::doe

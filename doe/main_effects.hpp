@@ -25,19 +25,21 @@
 namespace drawpoint::doe {
 
 struct MainEffectsOptions {
+  Seed seed = 1;      ///< of the points
   int levels = 21;    ///< values of each input, 2 or more
   int samples = 256;  ///< points averaged at each, 2 or more; powers of 2 suit the Sobol' sequence
-  Seed seed = 1;      ///< of the points
   EvaluateOptions evaluate = {};
 };
 
 /// One curve: entries are levels, NaN where every run failed; means and bands in the unit of the response.
 struct MainEffect {
   std::string variable, response;
-  Eigen::VectorXd x;               ///< natural units
-  Eigen::VectorXd mean;            ///< E[f | x_j = x]
-  Eigen::VectorXd standard_error;  ///< of the mean, as if the points were random
-  Eigen::VectorXd low, high;       ///< 10 % and 90 % of the responses
+  SensitivityStatus status = SensitivityStatus::estimated;  ///< too_few_runs: the mean is NaN somewhere
+  std::string message = {};                                 ///< empty when estimated
+  Eigen::VectorXd x;                                        ///< natural units
+  Eigen::VectorXd mean;                                     ///< E[f | x_j = x]
+  Eigen::VectorXd standard_error;                           ///< of the mean, as if the points were random
+  Eigen::VectorXd low, high;                                ///< 10 % and 90 % of the responses
 };
 
 namespace detail {
@@ -62,7 +64,7 @@ inline double level(const Variable& v, int k, int levels) {
 
 /// Blocks of `samples` rows, level after level, input after input.
 inline Eigen::MatrixXd main_effects_design(const Problem& problem, const MainEffectsOptions& options) {
-  const Eigen::MatrixXd base = scrambled_sobol(problem, options.samples, options.seed);
+  const Eigen::MatrixXd base = scrambled_sobol(problem, options.samples, {.seed = options.seed});
   const Eigen::Index d = base.cols(), n = base.rows();
   Eigen::MatrixXd X(d * options.levels * n, d);
   for (Eigen::Index j = 0, from = 0; j < d; ++j)
@@ -89,7 +91,14 @@ inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::In
                               const MainEffectsOptions& options) {
   const Variable& variable = runs.problem.variables[j];
   const Eigen::VectorXd blank(options.levels);
-  MainEffect effect{variable.name, runs.problem.responses[response].name, blank, blank, blank, blank, blank};
+  MainEffect effect{.variable = variable.name,
+                    .response = runs.problem.responses[response].name,
+                    .x = blank,
+                    .mean = blank,
+                    .standard_error = blank,
+                    .low = blank,
+                    .high = blank};
+  int empty = 0;
   for (int k = 0; k < options.levels; ++k) {
     effect.x[k] = level(variable, k, options.levels);
     Eigen::VectorXd values(options.samples);
@@ -100,6 +109,13 @@ inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::In
       if (!outcome.failed()) values[kept++] = outcome.values()[response];
     }
     set_level(effect, k, values.head(kept));
+    empty += kept == 0;
+  }
+  if (empty > 0) {
+    effect.status = SensitivityStatus::too_few_runs;
+    effect.message = "every run failed at " + std::to_string(empty) + " of " +
+                     std::to_string(options.levels) +
+                     " levels, where the mean is NaN; see the reasons of the failures, or narrow the bounds";
   }
   return effect;
 }

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -37,14 +38,13 @@ enum class LatinCriterion { maximin, phi_p, centred_discrepancy };
 /// Where the search starts: `best` tries both, each with half of the sweeps.
 enum class LatinStart { best, random, lattice };
 
-inline constexpr int automatic_sweeps = -1;
-
 struct OptimizedLatinOptions {
+  Seed seed = 1;
   LatinCriterion criterion = LatinCriterion::maximin;
   int p = 10;  ///< exponent of phi_p, even, 2 to 100; large p sees only the closest pairs
-  /// Budget, 0 or more; automatic: 2e8/(n d)² up to 2000, but 10 up to n d = 14 000, then fewer, never below
+  /// Budget, 0 or more; empty: 2e8/(n d)² up to 2000, but 10 up to n d = 14 000, then fewer, never below
   /// 2: below a second up to n d = 5000, a few seconds up to 20 000.
-  int sweeps = automatic_sweeps;
+  std::optional<int> sweeps = {};
   LatinStart start = LatinStart::best;
   bool corners = false;  ///< the 2^d corners come first and count in `runs`
   bool centred = true;   ///< runs in the middle of their strata; false: at random inside them
@@ -52,18 +52,19 @@ struct OptimizedLatinOptions {
 
 namespace detail {
 
-inline void check_search(const std::string& place, int p, int sweeps) {
+inline void check_search(const std::string& place, int p, std::optional<int> sweeps) {
   if (p < 2 || p > 100 || p % 2 != 0)
     throw std::invalid_argument(place + ": p is " + std::to_string(p) +
                                 "; allowed is an even number from 2 to 100; 10 is usual");
-  if (sweeps < automatic_sweeps)
-    throw std::invalid_argument(place + ": sweeps is " + std::to_string(sweeps) +
-                                "; allowed is 0 or more, or automatic_sweeps; 50 to 500 is usual");
+  if (sweeps && *sweeps < 0)
+    throw std::invalid_argument(
+        place + ": sweeps is " + std::to_string(*sweeps) +
+        "; allowed is 0 or more; leave it out for a budget by size, 50 to 500 is usual");
 }
 
 /// The budget for n movable rows of d variables.
-inline int sweep_budget(int sweeps, Eigen::Index n, Eigen::Index d) {
-  if (sweeps != automatic_sweeps) return sweeps;
+inline int sweep_budget(std::optional<int> sweeps, Eigen::Index n, Eigen::Index d) {
+  if (sweeps) return *sweeps;
   const double elements = static_cast<double>(n) * static_cast<double>(d);
   const double least = std::clamp(2e9 / (elements * elements), 2.0, 10.0);
   return static_cast<int>(std::clamp(2e8 / (elements * elements), least, 2000.0));
@@ -158,7 +159,7 @@ inline Eigen::MatrixXd lattice_start(const LatinSearch& search, const Problem& p
 }
 
 /// n x d in the unit box; `fixed` rows count in the criterion.
-inline Eigen::MatrixXd optimized_unit_latin(const Problem& problem, int n, Seed seed,
+inline Eigen::MatrixXd optimized_unit_latin(const Problem& problem, int n,
                                             const OptimizedLatinOptions& options, Eigen::MatrixXd fixed) {
   const auto d = static_cast<Eigen::Index>(problem.variables.size());
   const int budget = sweep_budget(options.sweeps, n, d);
@@ -175,11 +176,11 @@ inline Eigen::MatrixXd optimized_unit_latin(const Problem& problem, int n, Seed 
         std::tie(best, least) = std::pair(std::move(*U), loss);
   };
   if (options.start != LatinStart::random) {
-    RandomStream random(run_seed(seed, 0, 0));
+    RandomStream random(run_seed(options.seed, 0, 0));
     consider(lattice_start(search, problem, n, options.centred, random), 0.0, random);
   }
   if (options.start != LatinStart::lattice) {
-    RandomStream random(run_seed(seed, 1, 0));
+    RandomStream random(run_seed(options.seed, 1, 0));
     consider(placed(random_strata(n, d, random), problem, options.centred, n, random), 1e-3, random);
   }
   return best;
@@ -189,7 +190,7 @@ inline Eigen::MatrixXd optimized_unit_latin(const Problem& problem, int n, Seed 
 
 /// runs x d; Latin but for corners. Throws std::invalid_argument when runs < 1, when corners are asked for
 /// and runs < 2^d, or on an option out of range.
-inline Eigen::MatrixXd optimized_latin_hypercube(const Problem& problem, int runs, Seed seed = 1,
+inline Eigen::MatrixXd optimized_latin_hypercube(const Problem& problem, int runs,
                                                  const OptimizedLatinOptions& options = {}) {
   const char* place = "doe::optimized_latin_hypercube";
   detail::check_design(place, problem, runs);
@@ -203,7 +204,7 @@ inline Eigen::MatrixXd optimized_latin_hypercube(const Problem& problem, int run
   }
   if (runs > corners)
     X.bottomRows(runs - corners) = detail::to_natural(
-        detail::optimized_unit_latin(problem, runs - corners, seed, options, std::move(fixed)), problem);
+        detail::optimized_unit_latin(problem, runs - corners, options, std::move(fixed)), problem);
   return X;
 }
 

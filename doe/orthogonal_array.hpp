@@ -16,22 +16,25 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <drawpoint/doe/detail/galois_field.hpp>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 
 namespace drawpoint::doe {
 
 struct OrthogonalLatinOptions {
+  Seed seed = 1;
   int strength = 2;  ///< t, 2 or more: how many variables at once are stratified
   LatinCriterion criterion = LatinCriterion::centred_discrepancy;
-  int p = 10;                     ///< exponent of phi_p, even, 2 to 100
-  int sweeps = automatic_sweeps;  ///< 0: the plain design of Tang
-  bool centred = false;           ///< runs in the middle of their strata
+  int p = 10;                      ///< exponent of phi_p, even, 2 to 100
+  std::optional<int> sweeps = {};  ///< as in OptimizedLatinOptions; 0: the plain design of Tang
+  bool centred = false;            ///< runs in the middle of their strata
 };
 
 namespace detail {
@@ -98,11 +101,6 @@ inline Eigen::MatrixXi orthogonal_array(int q, Eigen::Index d, int strength = 2)
 
 namespace detail {
 
-inline void shuffle(std::vector<int>& items, RandomStream& random) {
-  for (int i = static_cast<int>(items.size()) - 1; i > 0; --i)
-    std::swap(items[static_cast<std::size_t>(i)], items[static_cast<std::size_t>(random.below(i + 1))]);
-}
-
 /// Rows of each column level after level, in the order of the strata that they take; levels permuted at
 /// random.
 inline ExchangeGroups level_groups(const Eigen::MatrixXi& levels, int q, RandomStream& random) {
@@ -128,7 +126,7 @@ inline ExchangeGroups level_groups(const Eigen::MatrixXi& levels, int q, RandomS
 
 /// runs x d, runs = q^strength. Throws std::invalid_argument, with the next number of runs that is allowed,
 /// when there is no such array, or on an option out of range.
-inline Eigen::MatrixXd orthogonal_latin_hypercube(const Problem& problem, int runs, Seed seed = 1,
+inline Eigen::MatrixXd orthogonal_latin_hypercube(const Problem& problem, int runs,
                                                   const OrthogonalLatinOptions& options = {}) {
   const std::string place = "doe::orthogonal_latin_hypercube";
   detail::check_design(place.c_str(), problem, runs);
@@ -141,7 +139,7 @@ inline Eigen::MatrixXd orthogonal_latin_hypercube(const Problem& problem, int ru
                                 std::to_string(options.strength) + "; the next larger one has " +
                                 std::to_string(next) + " runs");
   const int q = detail::array_levels(runs, options.strength, d);
-  RandomStream random(seed);
+  RandomStream random(options.seed);
   detail::ExchangeGroups groups = detail::level_groups(orthogonal_array(q, d, options.strength), q, random);
   Eigen::MatrixXi strata(runs, d);
   for (Eigen::Index j = 0; j < d; ++j)

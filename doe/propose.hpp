@@ -19,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -34,16 +35,18 @@
 
 namespace drawpoint::doe {
 
-enum class Spread { cells, penalty, believer };
+enum class BatchRule { cells, penalty, believer };
 
 struct ProposeOptions {
-  int batch = 1;       ///< points to choose, 1 or more
-  int candidates = 0;  ///< >= 1; 0: 100 a run, within 1000 to 20000: enough for the best of each cell
-  Spread spread = Spread::cells;
-  /// What a run at x (natural units) would give, for Spread::believer: a surrogate's mean, say.
+  Seed seed = 1;  ///< of the candidates, together with the number of rows of the table
+  int batch = 1;  ///< points to choose, 1 or more
+  /// Random points to choose from, 1 or more; empty: 100 per run, within 1000 to 20000: enough for the best
+  /// of each cell.
+  std::optional<int> candidates = {};
+  BatchRule rule = BatchRule::cells;
+  /// What a run at x (natural units) would give, for BatchRule::believer: a surrogate's mean, say.
   std::function<Outcome(const Eigen::VectorXd& x)> believe{};
   Allowed allowed{};  ///< candidates are drawn where it holds; empty: the whole box
-  Seed seed = 1;      ///< of the candidates, together with the number of rows of the table
 };
 
 namespace detail {
@@ -53,11 +56,11 @@ inline void check_propose(const ProposeOptions& options) {
   if (options.batch < 1)
     reject("batch is " + std::to_string(options.batch) +
            "; allowed is 1 or more; ask for at least one point");
-  if (options.candidates < 0)
-    reject("candidates is " + std::to_string(options.candidates) +
-           "; allowed is 1 or more, or 0 for 100 a run; give a number of random points");
-  if (options.spread == Spread::believer && !options.believe)
-    reject("spread is believer, but believe is empty; give what a run at x would give");
+  if (options.candidates && *options.candidates < 1)
+    reject("candidates is " + std::to_string(*options.candidates) +
+           "; allowed is 1 or more; leave it out for 100 per run");
+  if (options.rule == BatchRule::believer && !options.believe)
+    reject("rule is believer, but believe is empty; give what a run at x would give");
 }
 
 /// Chooses points one by one from a fixed set of candidates.
@@ -81,7 +84,7 @@ class Chooser {
       const Eigen::Index best = best_candidate(score);
       if (best < 0) return;
       accept(best);
-      if (options_.spread == Spread::believer && k + 1 < count) score = scores(sampler);
+      if (options_.rule == BatchRule::believer && k + 1 < count) score = scores(sampler);
     }
   }
 
@@ -97,7 +100,7 @@ class Chooser {
     const int automatic = std::clamp(100 * static_cast<int>(runs_.rows.size()), 1000, 20000);
     std::uint64_t counter = 0;
     return allowed_points(runs_.problem, options_.allowed, run_seed(options_.seed, runs_.rows.size(), 1),
-                          options_.candidates ? options_.candidates : automatic, counter);
+                          options_.candidates.value_or(automatic), counter);
   }
 
   Eigen::VectorXd scores(const Sampler& sampler) const {
@@ -112,14 +115,14 @@ class Chooser {
   std::size_t cell_of(Eigen::Index i) const { return static_cast<std::size_t>(cell_[i] + 1); }
 
   bool eligible(Eigen::Index i, const Eigen::VectorXd& score) const {
-    const bool closed = options_.spread == Spread::cells && used_[cell_of(i)];
+    const bool closed = options_.rule == BatchRule::cells && used_[cell_of(i)];
     return !closed && nearest_.squared_distance[i] > 0.0 && !std::isnan(score[i]);
   }
 
   /// -1 when no candidate is left.
   Eigen::Index best_candidate(const Eigen::VectorXd& score) {
     Eigen::Index best = best_eligible(score);
-    if (best >= 0 || options_.spread != Spread::cells) return best;
+    if (best >= 0 || options_.rule != BatchRule::cells) return best;
     std::fill(used_.begin(), used_.end(), 0);
     return best_eligible(score);
   }
@@ -130,7 +133,7 @@ class Chooser {
     double highest = 0;
     for (Eigen::Index i = 0; i < score.size(); ++i) {
       if (!eligible(i, score)) continue;
-      const double s = options_.spread == Spread::penalty ? (score[i] - lowest) * penalty_[i] : score[i];
+      const double s = options_.rule == BatchRule::penalty ? (score[i] - lowest) * penalty_[i] : score[i];
       if (best < 0 || s > highest ||
           (s == highest && nearest_.squared_distance[i] > nearest_.squared_distance[best]))
         best = i, highest = s;
@@ -152,7 +155,7 @@ class Chooser {
     const double r2 = nearest_.squared_distance[i];
     if (std::isfinite(r2)) penalty_.array() *= (squared.array() / r2).min(1.0);
     nearest_.squared_distance = nearest_.squared_distance.cwiseMin(squared);
-    if (options_.spread != Spread::believer) return;
+    if (options_.rule != BatchRule::believer) return;
     const Eigen::VectorXd x = X_.row(i).transpose();
     Outcome expected = checked(options_.believe(x), runs_.problem);
     runs_.rows.push_back({next_run(), 0, 0, x, std::move(expected), 0.0});

@@ -89,7 +89,7 @@ struct FeasiblePoints {
 inline Eigen::MatrixXd sequence_part(const Problem& problem, int first, int count, Seed seed) {
   const auto d = static_cast<int>(problem.variables.size());
   if (d > halton_max_dimensions)
-    return uniform_random(problem, count, run_seed(seed, static_cast<std::uint64_t>(first), 0));
+    return uniform_random(problem, count, {.seed = run_seed(seed, static_cast<std::uint64_t>(first), 0)});
   Eigen::MatrixXd U(count, d);
   for (int j = 0; j < d; ++j) U.col(j) = halton_column(first, count, j, seed, HaltonKind::scrambled);
   return to_natural(std::move(U), problem);

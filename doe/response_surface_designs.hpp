@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,7 +30,8 @@ enum class CentralCompositeKind { circumscribed, inscribed, face_centred };
 
 struct CentralCompositeOptions {
   CentralCompositeKind kind = CentralCompositeKind::inscribed;
-  double alpha = 0.0;   ///< star distance in coded units, 1 or more; 0: rotatable; face_centred ignores it
+  /// Star distance in coded units, 1 or more; empty: rotatable; face_centred ignores it.
+  std::optional<double> alpha = {};
   int centre_runs = 1;  ///< 0 or more; replicates tell the noise, a deterministic simulator needs one
   std::vector<std::string> generators = {};  ///< of a fraction of the corners, at best of resolution V
 };
@@ -85,14 +87,14 @@ inline Eigen::MatrixXd central_composite(const Problem& problem,
                                          const CentralCompositeOptions& options = {}) {
   const std::string place = "doe::central_composite";
   detail::check_response_surface(place, problem, options.centre_runs);
-  if (options.alpha != 0.0 && !(options.alpha >= 1.0 && std::isfinite(options.alpha)))
-    throw std::invalid_argument(place + ": alpha is " + detail::number_text(options.alpha) +
-                                "; allowed is 1 or more, or 0 for the rotatable design");
+  if (options.alpha && !(*options.alpha >= 1.0 && std::isfinite(*options.alpha)))
+    throw std::invalid_argument(place + ": alpha is " + detail::number_text(*options.alpha) +
+                                "; allowed is 1 or more; leave it out for the rotatable design");
   Problem coded = problem;
   for (Variable& v : coded.variables) v = {v.name, "1", -1.0, 1.0};
   const Eigen::MatrixXd corners = fractional_factorial(coded, options.generators);
   const Eigen::Index d = corners.cols(), factorial = corners.rows();
-  double alpha = options.alpha == 0.0 ? std::pow(static_cast<double>(factorial), 0.25) : options.alpha;
+  double alpha = options.alpha.value_or(std::pow(static_cast<double>(factorial), 0.25));
   if (options.kind == CentralCompositeKind::face_centred) alpha = 1.0;
   const bool inscribed = options.kind == CentralCompositeKind::inscribed;
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(factorial + 2 * d + options.centre_runs, d);

@@ -31,22 +31,12 @@
 #include <utility>
 
 #include <drawpoint/doe/detail/csv.hpp>
+#include <drawpoint/doe/detail/hash.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 
 namespace drawpoint::doe {
 
 namespace detail {
-
-/// 16 hexadecimal digits.
-inline std::string checksum(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3ULL;
-  char digits[17] = "0000000000000000";
-  char buffer[17];
-  const auto end = std::to_chars(buffer, buffer + 16, hash, 16).ptr;
-  std::copy(buffer, end, digits + 16 - (end - buffer));
-  return {digits, 16};
-}
 
 inline std::string on_one_line(std::string_view text) {
   std::string line;

@@ -25,6 +25,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,13 +38,13 @@ namespace drawpoint::doe {
 enum class SobolEstimator { saltelli, jansen, martinez };
 
 struct SobolIndicesOptions {
+  Seed seed = 1;       ///< of the pairs and the bootstrap
   int samples = 1024;  ///< N, 2 or more; powers of 2 suit the Sobol' sequence; N(d + 2) runs
   SobolEstimator estimator =
       SobolEstimator::saltelli;  ///< jansen where the S_j are large, martinez is in [-1, 1]
   double confidence = 0.95;      ///< of each interval, between 0 and 1
   int resamples = 500;           ///< of the bootstrap, 100 or more: fewer do not reach the tails
   bool quasi_random = true;      ///< false: random pairs, for which the intervals are exact for large N
-  Seed seed = 1;                 ///< of the pairs and the bootstrap
   EvaluateOptions evaluate = {};
 };
 
@@ -58,9 +59,22 @@ enum class SensitivityStatus {
   too_few_runs        ///< fewer than two pairs without a failure: the indices are NaN
 };
 
+inline std::string_view to_string(SensitivityStatus status) {
+  switch (status) {
+    case SensitivityStatus::estimated:
+      return "estimated";
+    case SensitivityStatus::constant_response:
+      return "constant_response";
+    case SensitivityStatus::too_few_runs:
+      return "too_few_runs";
+  }
+  return "unknown";
+}
+
 struct SobolIndices {
   std::string response;
   SensitivityStatus status = SensitivityStatus::estimated;
+  std::string message = {};       ///< empty when estimated
   double mean = 0, variance = 0;  ///< over A and B, unit of the response and its square
   IndexEstimates first, total;
 };
@@ -100,8 +114,8 @@ inline Eigen::MatrixXd pairs_of_points(const Problem& problem, const SobolIndice
     }
   const bool quasi =
       options.quasi_random && static_cast<int>(doubled.variables.size()) <= sobol_max_dimensions;
-  return quasi ? scrambled_sobol(doubled, options.samples, options.seed)
-               : uniform_random(doubled, options.samples, options.seed);
+  return quasi ? scrambled_sobol(doubled, options.samples, {.seed = options.seed})
+               : uniform_random(doubled, options.samples, {.seed = options.seed});
 }
 
 /// A, B, C_1, ..., C_d below each other: N(d + 2) x d.
@@ -230,12 +244,16 @@ inline SobolIndices indices_of(std::string response, Eigen::MatrixXd Y, const So
   const Eigen::Index d = Y.cols() - 2;
   if (Y.rows() < 2) {
     result.status = SensitivityStatus::too_few_runs;
+    result.message =
+        std::to_string(Y.rows()) + " of " + std::to_string(options.samples) +
+        " pairs of points without a failed or missing run; two are needed: see the reasons of the failures";
     result.first = result.total = all_equal(d, std::numeric_limits<double>::quiet_NaN());
     return result;
   }
   result.mean = Y.leftCols(2).mean();
   if ((Y.leftCols(2).array() == Y(0, 0)).all()) {
     result.status = SensitivityStatus::constant_response;
+    result.message = "all responses equal " + number_text(result.mean) + ": there is no variance to explain";
     result.first = result.total = all_equal(d, 0.0);
     return result;
   }

@@ -111,8 +111,13 @@ constexpr double owen_scrambled(std::uint32_t digits, std::uint64_t key) {
 
 }  // namespace detail
 
+struct ScrambledSobolOptions {
+  Seed seed = 1;
+};
+
 /// runs x d. Throws std::invalid_argument when runs < 1 or the problem has more than 37 variables.
-inline Eigen::MatrixXd scrambled_sobol(const Problem& problem, int runs, Seed seed = 1) {
+inline Eigen::MatrixXd scrambled_sobol(const Problem& problem, int runs,
+                                       const ScrambledSobolOptions& options = {}) {
   detail::check_design("doe::scrambled_sobol", problem, runs);
   const auto d = static_cast<int>(problem.variables.size());
   if (d > detail::sobol_max_dimensions)
@@ -122,7 +127,7 @@ inline Eigen::MatrixXd scrambled_sobol(const Problem& problem, int runs, Seed se
   Eigen::MatrixXd U(runs, d);
   for (int j = 0; j < d; ++j) {
     const detail::SobolDirections v = detail::sobol_directions(j);
-    const std::uint64_t key = run_seed(seed, static_cast<std::uint64_t>(j), 0);
+    const std::uint64_t key = run_seed(options.seed, static_cast<std::uint64_t>(j), 0);
     std::uint32_t digits = 0;
     for (int i = 0; i < runs; ++i) {
       if (i > 0) digits ^= v[std::countr_zero(static_cast<std::uint32_t>(i))];  // Gray code order

@@ -14,10 +14,14 @@
 
 namespace drawpoint::doe {
 
+struct UniformOptions {
+  Seed seed = 1;
+};
+
 /// runs x d. Throws std::invalid_argument when runs < 1.
-inline Eigen::MatrixXd uniform_random(const Problem& problem, int runs, Seed seed = 1) {
+inline Eigen::MatrixXd uniform_random(const Problem& problem, int runs, const UniformOptions& options = {}) {
   detail::check_design("doe::uniform_random", problem, runs);
-  RandomStream random(seed);
+  RandomStream random(options.seed);
   Eigen::MatrixXd U(runs, static_cast<Eigen::Index>(problem.variables.size()));
   for (auto row : U.rowwise())
     for (double& u : row) u = random.uniform();

@@ -173,7 +173,7 @@ inline doe::Criterion log_expected_improvement(const Model& model, doe::Goal goa
 }
 
 /// |leave-one-out error| of the run nearest to each point, distances in the model's scaled inputs; unit of y.
-/// Take it with doe::Spread::cells. A constant model scores 0.
+/// Take it with doe::BatchRule::cells. A constant model scores 0.
 inline doe::Criterion cross_validation_error(const Model& model) {
   const detail::ModelState& s = model.state();
   if (s.X.rows() == 0)
@@ -188,7 +188,7 @@ inline doe::Criterion cross_validation_error(const Model& model) {
   };
 }
 
-/// What the models expect of a run at x: doe::ProposeOptions::believe for Spread::believer. One model a
+/// What the models expect of a run at x: doe::ProposeOptions::believe for BatchRule::believer. One model a
 /// response.
 template <class S>
 std::function<doe::Outcome(const Eigen::VectorXd& x)> believer(std::vector<S> models) {

@@ -63,9 +63,10 @@ doe::Criterion probability_of_feasibility(S model, const doe::Response& response
 
 /// Π of the scores, for criteria that are improvements and probabilities. Throws std::invalid_argument for
 /// none.
-inline doe::Criterion product(std::vector<doe::Criterion> criteria) {
+inline doe::Criterion product_of_criteria(std::vector<doe::Criterion> criteria) {
   if (criteria.empty())
-    throw std::invalid_argument("kriging::product: 0 criteria; allowed is 1 or more; name at least one");
+    throw std::invalid_argument(
+        "kriging::product_of_criteria: 0 criteria; allowed is 1 or more; name at least one");
   return [criteria = std::move(criteria)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
     Eigen::VectorXd all = criteria[0](X);
     for (std::size_t k = 1; k < criteria.size(); ++k) all = detail::entry_products(all, criteria[k](X));
@@ -82,7 +83,7 @@ doe::Criterion probability_of_feasibility(const doe::Problem& problem, const std
   for (std::size_t j = 0; j < models.size(); ++j)
     if (doe::is_constraint(problem.responses[j].goal))
       all.push_back(probability_of_feasibility(models[j], problem.responses[j]));
-  return product(std::move(all));
+  return product_of_criteria(std::move(all));
 }
 
 namespace detail {
@@ -130,7 +131,7 @@ inline doe::Criterion constrained_improvement(const doe::Problem& problem, const
   if (runs.empty()) return feasible;
   const std::size_t j = objectives[0];
   const double sign = detail::sign_of(place, problem.responses[j].goal);
-  return product({detail::reinterpolated_improvement(models[j], sign, false, runs), feasible});
+  return product_of_criteria({detail::reinterpolated_improvement(models[j], sign, false, runs), feasible});
 }
 
 }  // namespace drawpoint::kriging

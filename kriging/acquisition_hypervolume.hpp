@@ -251,7 +251,7 @@ inline doe::Criterion constrained_hypervolume_improvement(const doe::Problem& pr
     front.reference[k] =
         objectives.sign[k] > 0 ? detail::largest_entry(values) : detail::smallest_entry(values);
   }
-  return product({expected_hypervolume_improvement(problem, models, front), feasible});
+  return product_of_criteria({expected_hypervolume_improvement(problem, models, front), feasible});
 }
 
 }  // namespace drawpoint::kriging

@@ -10,6 +10,7 @@
 #include <concepts>
 #include <memory>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -31,6 +32,16 @@ class AnySurrogate {
   Eigen::VectorXd mean(const Eigen::MatrixXd& X) const { return held_->mean(X); }
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
 
+  /// Derivatives of the mean at one point x of d entries; empty when the surrogate has none.
+  std::optional<Eigen::VectorXd> mean_gradient(const Eigen::VectorXd& x) const {
+    return held_->mean_gradient(x);
+  }
+  /// How many inputs it has; empty when the surrogate does not tell.
+  std::optional<Eigen::Index> variables() const { return held_->variables(); }
+  /// How its fit ended, and that in words; empty when the surrogate does not tell.
+  std::optional<Status> status() const { return held_->status(); }
+  std::string message() const { return held_->message(); }
+
   /// The surrogate as it was, when it is an S, else nullptr.
   template <class S>
   const S* as() const {
@@ -45,6 +56,10 @@ class AnySurrogate {
     virtual ~Held() = default;
     virtual Prediction predict(const Eigen::MatrixXd& X, Target target) const = 0;
     virtual Eigen::VectorXd mean(const Eigen::MatrixXd& X) const = 0;
+    virtual std::optional<Eigen::VectorXd> mean_gradient(const Eigen::VectorXd& x) const = 0;
+    virtual std::optional<Eigen::Index> variables() const = 0;
+    virtual std::optional<Status> status() const = 0;
+    virtual std::string message() const = 0;
     virtual std::optional<Validation> closed_form() const = 0;
   };
 
@@ -55,6 +70,30 @@ class AnySurrogate {
       return surrogate.predict(X, target);
     }
     Eigen::VectorXd mean(const Eigen::MatrixXd& X) const override { return surrogate.mean(X); }
+    std::optional<Eigen::VectorXd> mean_gradient(const Eigen::VectorXd& x) const override {
+      if constexpr (SmoothSurrogate<S>)
+        return surrogate.mean_gradient(x);
+      else
+        return std::nullopt;
+    }
+    std::optional<Eigen::Index> variables() const override {
+      if constexpr (requires(const S& s) { s.variables(); })
+        return surrogate.variables();
+      else
+        return std::nullopt;
+    }
+    std::optional<Status> status() const override {
+      if constexpr (requires(const S& s) { s.status(); })
+        return surrogate.status();
+      else
+        return std::nullopt;
+    }
+    std::string message() const override {
+      if constexpr (requires(const S& s) { s.message(); })
+        return surrogate.message();
+      else
+        return {};
+    }
     std::optional<Validation> closed_form() const override {
       if constexpr (LeaveOneOutInClosedForm<S>)
         return leave_one_out(surrogate);

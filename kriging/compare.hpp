@@ -4,9 +4,9 @@
 
 /// Several ways to fit the same runs, scored alike, and the best of them.
 ///
-/// Each fitter is judged by the same (estimator, error function, target) with the same folds; the best score
-/// wins, of equal ones the earlier, and a score that is NaN never does. The winner is then fitted to all
-/// runs. Choosing among k candidates makes the winner's own score somewhat optimistic: the more, the noisier
+/// Each fitter is assessed by the same (estimator, error function, target) with the same folds; the best
+/// score wins, of equal ones the earlier, and a score that is NaN never does. The winner is then fitted to
+/// all runs. Choosing among k of them makes the winner's own score somewhat optimistic: the more, the noisier
 /// the estimate and the larger k. Cost: the sum of the estimates. Deterministic.
 
 #include <Eigen/Core>
@@ -23,23 +23,23 @@
 
 namespace drawpoint::kriging {
 
-/// A way to fit. `S` is what all candidates of a comparison give; AnySurrogate lets kinds mix.
+/// A way to fit. `S` is what all fitters of a comparison give; AnySurrogate lets kinds mix.
 template <class S = AnySurrogate>
-struct Candidate {
+struct NamedFitter {
   std::string name;
   std::function<S(const Eigen::MatrixXd& X, const Eigen::VectorXd& y)> fitter;
 };
 
 struct Standing {
   std::string name;
-  Judgement judgement;
+  Assessment assessment;
 };
 
 template <class S = AnySurrogate>
 struct Comparison {
-  std::vector<Standing> table;  ///< in the order of the candidates
+  std::vector<Standing> table;  ///< in the order of the fitters
   std::size_t best = 0;         ///< of the table
-  S model;                      ///< the best candidate, fitted to all runs
+  S model;                      ///< the best way, fitted to all runs
   bool met = false;             ///< whether the target is
 
   const std::string& name() const { return table[best].name; }
@@ -51,7 +51,7 @@ namespace detail {
 inline std::size_t best_standing(const std::vector<Standing>& table, bool higher) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < table.size(); ++k) {
-    const double now = table[best].judgement.value, value = table[k].judgement.value;
+    const double now = table[best].assessment.value, value = table[k].assessment.value;
     if (std::isnan(now) ? !std::isnan(value) : (higher ? value > now : value < now)) best = k;
   }
   return best;
@@ -59,31 +59,30 @@ inline std::size_t best_standing(const std::vector<Standing>& table, bool higher
 
 }  // namespace detail
 
-/// X: n x d, y: n, natural units. Throws std::invalid_argument without candidates, for one without a fitter,
-/// and as judge and the fitters do.
+/// X: n x d, y: n, natural units. Throws std::invalid_argument without fitters, for one without a function,
+/// and as assess and the fitters do.
 template <class S = AnySurrogate>
-Comparison<S> compare(const Criterion& criterion, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                      const std::vector<Candidate<S>>& candidates) {
-  if (candidates.empty())
-    throw std::invalid_argument(
-        "kriging::compare: 0 candidates; allowed is 1 or more; name at least one fitter");
+Comparison<S> compare(const Measure& measure, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                      const std::vector<NamedFitter<S>>& fitters) {
+  if (fitters.empty())
+    throw std::invalid_argument("kriging::compare: 0 fitters; allowed is 1 or more; name at least one");
   std::vector<Standing> table;
-  for (const Candidate<S>& candidate : candidates) {
-    if (!candidate.fitter)
-      throw std::invalid_argument("kriging::compare: candidate \"" + candidate.name +
-                                  "\" has no fitter; give a function of (X, y) that returns a surrogate");
-    table.push_back({candidate.name, judge(criterion, X, y, candidate.fitter)});
+  for (const NamedFitter<S>& way : fitters) {
+    if (!way.fitter)
+      throw std::invalid_argument("kriging::compare: fitter \"" + way.name +
+                                  "\" has no function; give one of (X, y) that returns a surrogate");
+    table.push_back({way.name, assess(measure, X, y, way.fitter)});
   }
-  const std::size_t best = detail::best_standing(table, higher_is_better(criterion.error));
-  const bool met = table[best].judgement.met;
-  return {std::move(table), best, candidates[best].fitter(X, y), met};
+  const std::size_t best = detail::best_standing(table, higher_is_better(measure.error));
+  const bool met = table[best].assessment.met;
+  return {std::move(table), best, fitters[best].fitter(X, y), met};
 }
 
-/// The model of the best candidate alone.
+/// The model of the best fitter alone.
 template <class S = AnySurrogate>
-S best_of(const Criterion& criterion, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-          const std::vector<Candidate<S>>& candidates) {
-  return compare(criterion, X, y, candidates).model;
+S best_of(const Measure& measure, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+          const std::vector<NamedFitter<S>>& fitters) {
+  return compare(measure, X, y, fitters).model;
 }
 
 }  // namespace drawpoint::kriging

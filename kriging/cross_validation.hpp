@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a criterion of
-/// one.
+/// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a
+/// measure made of one.
 ///
 /// leave_one_out(model): closed form, θ and λ as fitted, β estimated anew without each run. With
 /// P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the error is (P y)ᵢ/Pᵢᵢ and the variance of the run s²/Pᵢᵢ, its noise
@@ -15,10 +15,10 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -53,11 +53,8 @@ inline Validation leave_one_out(const Model& model) {
 namespace detail {
 
 inline std::vector<Eigen::Index> shuffled(Eigen::Index n, doe::Seed seed) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
   doe::RandomStream random(seed);
-  for (int i = static_cast<int>(n) - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
-  return order;
+  return doe::detail::permutation(n, random);
 }
 
 /// Fits without the runs of `out`, sorted, and writes its predictions of them into v.
@@ -85,17 +82,21 @@ inline Validation blank_validation(const Eigen::VectorXd& y) {
 
 }  // namespace detail
 
+struct SplitOptions {
+  doe::Seed seed = 1;  ///< of which runs are left out together
+};
+
 /// Every run predicted by a model of the other folds. X: n x d, y: n; 2 <= folds <= n. Throws
 /// std::invalid_argument for other folds, unequal lengths, and as the fitter.
 template <class F>
 Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds, const F& fitter,
-                  doe::Seed seed = 1) {
+                  const SplitOptions& options = {}) {
   detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::k_fold: ");
   if (folds < 2 || folds > X.rows())
     throw std::invalid_argument("kriging::k_fold: folds is " + std::to_string(folds) +
                                 "; allowed is 2 to the " + std::to_string(X.rows()) + " runs; use 5");
-  const std::vector<Eigen::Index> order = detail::shuffled(X.rows(), seed);
+  const std::vector<Eigen::Index> order = detail::shuffled(X.rows(), options.seed);
   Validation v = detail::blank_validation(y);
   for (int fold = 0; fold < folds; ++fold) {
     std::vector<Eigen::Index> out;
@@ -110,7 +111,7 @@ Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds,
 /// Throws std::invalid_argument for another share, fewer than two runs, unequal lengths, and as the fitter.
 template <class F>
 Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double share, const F& fitter,
-                    doe::Seed seed = 1) {
+                    const SplitOptions& options = {}) {
   detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::hold_out: ");
   if (!(share > 0 && share < 1) || X.rows() < 2)
@@ -119,7 +120,7 @@ Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double s
                                 " runs; allowed are numbers between 0 and 1 of 2 runs or more; use 0.2");
   const Eigen::Index n = X.rows();
   const auto count = std::clamp<Eigen::Index>(std::llround(share * static_cast<double>(n)), 1, n - 1);
-  std::vector<Eigen::Index> out = detail::shuffled(n, seed);
+  std::vector<Eigen::Index> out = detail::shuffled(n, options.seed);
   out.resize(static_cast<std::size_t>(count));
   std::sort(out.begin(), out.end());
   Validation all = detail::blank_validation(y);
@@ -140,11 +141,12 @@ namespace detail {
 
 /// Leave-one-out in closed form where the surrogate has one, else by a fit a run.
 template <class F>
-Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter, doe::Seed seed) {
+Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter,
+                        const SplitOptions& options) {
   const auto model = fitter(X, y);
   if constexpr (LeaveOneOutInClosedForm<std::remove_cvref_t<decltype(model)>>)
     if (const std::optional<Validation> v = leave_one_out(model)) return *v;
-  return k_fold(X, y, static_cast<int>(X.rows()), fitter, seed);
+  return k_fold(X, y, static_cast<int>(X.rows()), fitter, options);
 }
 
 }  // namespace detail
@@ -152,17 +154,17 @@ Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, cons
 enum class Estimator { leave_one_out, k_fold, hold_out };
 
 /// Whether a surrogate is good enough: (estimator, error function, target), as in SUMO.
-struct Criterion {
+struct Measure {
+  doe::Seed seed = 1;                       ///< of what is left out
   Estimator estimator = Estimator::k_fold;  ///< leave_one_out refits for surrogates without a closed form
   ErrorFunction error = ErrorFunction::nrmse;
   double target = 0.05;  ///< met at or below it; for q2 and coverage at or above it
   int folds = 5;         ///< of k_fold
   double share = 0.2;    ///< of hold_out
   double level = 0.95;   ///< of coverage
-  doe::Seed seed = 1;    ///< of what is left out
 };
 
-struct Judgement {
+struct Assessment {
   double value = 0;
   bool met = false;
   Validation validation;
@@ -170,19 +172,19 @@ struct Judgement {
 
 /// Throws std::invalid_argument as k_fold, hold_out and score.
 template <class F>
-Judgement judge(const Criterion& criterion, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                const F& fitter) {
+Assessment assess(const Measure& measure, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                  const F& fitter) {
   detail::require_fitter<F>();
-  Judgement j;
-  if (criterion.estimator == Estimator::k_fold)
-    j.validation = k_fold(X, y, criterion.folds, fitter, criterion.seed);
-  else if (criterion.estimator == Estimator::hold_out)
-    j.validation = hold_out(X, y, criterion.share, fitter, criterion.seed);
+  Assessment a;
+  if (measure.estimator == Estimator::k_fold)
+    a.validation = k_fold(X, y, measure.folds, fitter, {.seed = measure.seed});
+  else if (measure.estimator == Estimator::hold_out)
+    a.validation = hold_out(X, y, measure.share, fitter, {.seed = measure.seed});
   else
-    j.validation = detail::without_each(X, y, fitter, criterion.seed);
-  j.value = score(j.validation, criterion.error, criterion.level);
-  j.met = higher_is_better(criterion.error) ? j.value >= criterion.target : j.value <= criterion.target;
-  return j;
+    a.validation = detail::without_each(X, y, fitter, {.seed = measure.seed});
+  a.value = score(a.validation, measure.error, measure.level);
+  a.met = higher_is_better(measure.error) ? a.value >= measure.target : a.value <= measure.target;
+  return a;
 }
 
 }  // namespace drawpoint::kriging

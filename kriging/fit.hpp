@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/detail/threads.hpp>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/kriging/detail/search.hpp>
@@ -34,7 +35,7 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
   return {data.X,           data.y,
           data.F,           data.noise,
           data.known_noise, options.correlation,
-          options.exponent, thread_count(options.threads)};
+          options.exponent, doe::detail::thread_count(options.threads)};
 }
 
 /// Bounds of (ln θ, exponents, ln λ). An input that never varies has no θ to estimate: it is fixed.
@@ -54,7 +55,7 @@ inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood,
 }
 
 /// The status and the message of a search whose best point `likelihood` stands at.
-inline void judge(const Search& search, Likelihood& likelihood, FitReport& report) {
+inline void report_search(const Search& search, Likelihood& likelihood, FitReport& report) {
   report.starts_tried = search.tried;
   report.starts_agreed = search.agreed;
   report.condition = likelihood.condition();
@@ -145,7 +146,7 @@ inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
     found = search(likelihood, box, options, report.evaluations);
   }
   likelihood.value(found.best.p);
-  judge(found, likelihood, report);
+  report_search(found, likelihood, report);
   report.evaluations += likelihood.factorizations();
   if (singular) {
     report.status = Status::ill_conditioned;

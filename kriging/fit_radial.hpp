@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -103,14 +104,14 @@ inline RadialSpectrum radial_spectrum(const RadialState& s, const Eigen::MatrixX
   return r;
 }
 
-inline double best_ridge(const RadialSpectrum& spectrum, double ridge) {
-  if (ridge >= 0) return std::max(ridge * spectrum.largest(), spectrum.floor());
+inline double best_ridge(const RadialSpectrum& spectrum, std::optional<double> ridge) {
+  if (ridge) return std::max(*ridge * spectrum.largest(), spectrum.floor());
   const auto error = [&](double logarithm) { return spectrum.error(std::exp(logarithm)); };
   return std::exp(line_search(error, std::log(spectrum.floor()), std::log(10.0 * spectrum.largest()), 24));
 }
 
 /// ε of the least leave-one-out error, on 250 of the runs when there are more.
-inline double best_shape(RadialState s, const TrainingData& data, double ridge) {
+inline double best_shape(RadialState s, const TrainingData& data, std::optional<double> ridge) {
   constexpr Eigen::Index most = 250;
   const Eigen::Index n = data.X.rows(), count = std::min(n, most);
   std::vector<Eigen::Index> runs;
@@ -126,7 +127,7 @@ inline double best_shape(RadialState s, const TrainingData& data, double ridge) 
 }
 
 /// Weights, tail and what predictions need.
-inline void solve_radial(RadialState& s, const TrainingData& data, double ridge) {
+inline void solve_radial(RadialState& s, const TrainingData& data, std::optional<double> ridge) {
   const RadialSpectrum spectrum = radial_spectrum(s, data.X, data.y);
   s.ridge = best_ridge(spectrum, ridge);
   s.X = data.X;
@@ -159,14 +160,15 @@ inline void check_radial(const RadialOptions& options) {
   const auto reject = [](const std::string& what) {
     throw std::invalid_argument("kriging::fit_radial: " + what);
   };
-  if (!std::isfinite(options.shape) || options.shape < 0)
-    reject("shape is " + text(options.shape) +
-           "; allowed are finite numbers above 0, or 0; use 0 to estimate it");
-  if (!has_shape(options.function) && options.shape != 0)
-    reject("shape is " + text(options.shape) + " but " + std::string(to_string(options.function)) +
-           " has none; allowed is 0; leave it out");
-  if (!std::isfinite(options.ridge))
-    reject("ridge is " + text(options.ridge) + "; allowed are finite numbers; use -1 to estimate it");
+  if (options.shape && !(std::isfinite(*options.shape) && *options.shape > 0))
+    reject("shape is " + text(*options.shape) +
+           "; allowed are finite numbers above 0; leave it out to estimate it");
+  if (!has_shape(options.function) && options.shape)
+    reject("shape is " + text(*options.shape) + " but " + std::string(to_string(options.function)) +
+           " has none; leave it out");
+  if (options.ridge && !(std::isfinite(*options.ridge) && *options.ridge >= 0))
+    reject("ridge is " + text(*options.ridge) +
+           "; allowed are finite numbers from 0 on; leave it out to estimate it");
 }
 
 inline Radial constant_radial(RadialState s, Eigen::Index n) {
@@ -204,7 +206,7 @@ inline Radial fit_radial(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
   const bool flat = !few && static_cast<Eigen::Index>(detail::independent_columns(P).size()) < P.cols();
   if (few || flat) s.function = RadialFunction::multiquadric;
   if (detail::has_shape(s.function))
-    s.shape = options.shape > 0 ? options.shape : detail::best_shape(s, data, options.ridge);
+    s.shape = options.shape ? *options.shape : detail::best_shape(s, data, options.ridge);
   detail::solve_radial(s, data, options.ridge);
   if (few || flat) {
     s.status = few ? Status::too_few_runs : Status::ill_conditioned;

@@ -42,7 +42,7 @@
 ///   sample_paths.hpp               draws of the function at many points at once
 ///   surrogate.hpp                  what all kinds have in common, as concepts
 ///   any_surrogate.hpp              any kind behind one type
-///   surrogates.hpp                 several models as one black box, for searches
+///   surrogates.hpp                 several surrogates as one black box, for searches and polishing
 ///
 /// Validate:
 ///   validate.hpp                   how well a model predicts runs that it has not seen

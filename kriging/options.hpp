@@ -25,6 +25,8 @@ enum class Noise {
 };
 
 struct FitOptions {
+  doe::Seed seed = 1;  ///< of the candidates
+
   /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
   /// Give the box of the problem when θ is to be compared between fits to different runs.
   Eigen::VectorXd lower, upper;
@@ -41,7 +43,6 @@ struct FitOptions {
   int starts = 8;
   int candidates = 128;      ///< points from which the starts are chosen by their likelihood, >= starts
   int max_iterations = 200;  ///< of one local search, >= 1
-  doe::Seed seed = 1;        ///< of the candidates
 
   Correlation correlation = Correlation::gaussian;
   /// power_exponential only: pₖ in [1, 2], one entry a variable. Empty: estimated.
@@ -54,8 +55,8 @@ struct FitOptions {
   /// Unit of y squared, one entry a run, >= 0, not all 0; Noise::known and Noise::proportional only.
   Eigen::VectorXd noise_variance;
 
-  /// >= 0; 0: as many as processors. They share the matrix work of many runs; results do not depend on them.
-  int threads = 0;
+  /// 0: all cores. They share the matrix work of 500 runs or more; results do not depend on them.
+  int threads = 1;
 };
 
 enum class Status {

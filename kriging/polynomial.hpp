@@ -84,6 +84,19 @@ class Polynomial {
 
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
 
+  /// Derivatives of the mean at one point x of d entries. Throws as predict.
+  Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {
+    detail::check_points("kriging::Polynomial", x.transpose(), variables());
+    const Eigen::VectorXd z = s_.input.apply(x.transpose()).row(0);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      for (std::size_t j = 0; j < s_.terms.size(); ++j)
+        gradient[k] += s_.beta[static_cast<Eigen::Index>(j)] * detail::monomial_slope(s_.terms[j], z, k);
+      gradient[k] *= s_.y_scale * s_.input.factor[k];
+    }
+    return gradient;
+  }
+
   Eigen::Index variables() const { return s_.input.centre.size(); }
   Eigen::Index runs() const { return s_.observed.size(); }
   const std::vector<Monomial>& terms() const { return s_.terms; }
@@ -107,7 +120,7 @@ class Polynomial {
   detail::PolynomialState s_;
 };
 
-static_assert(Surrogate<Polynomial>);
+static_assert(SmoothSurrogate<Polynomial>);
 
 /// Closed form: the terms as chosen, β estimated anew without each run.
 inline Validation leave_one_out(const Polynomial& model) {

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -35,15 +36,24 @@ namespace drawpoint::kriging {
 enum class RadialFunction { thin_plate, cubic, multiquadric, gaussian };
 
 inline std::string_view to_string(RadialFunction f) {
-  constexpr std::string_view names[] = {"thin_plate", "cubic", "multiquadric", "gaussian"};
-  return names[static_cast<int>(f)];
+  switch (f) {
+    case RadialFunction::thin_plate:
+      return "thin_plate";
+    case RadialFunction::cubic:
+      return "cubic";
+    case RadialFunction::multiquadric:
+      return "multiquadric";
+    case RadialFunction::gaussian:
+      return "gaussian";
+  }
+  return "unknown";
 }
 
 struct RadialOptions {
   RadialFunction function = RadialFunction::cubic;
-  double shape = 0;  ///< ε > 0 for multiquadric and gaussian; 0: estimated between 0.05 and 20
-  double ridge =
-      -1;  ///< λ as a share of the largest eigenvalue, 0: interpolate; below 0: estimated, up to 10
+  std::optional<double> shape = {};  ///< ε > 0, of multiquadric and gaussian; empty: estimated, 0.05 to 20
+  /// λ as a share of the largest eigenvalue, 0 or more, 0: interpolate; empty: estimated, up to 10.
+  std::optional<double> ridge = {};
   /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
   Eigen::VectorXd lower = {}, upper = {};
 };
@@ -83,6 +93,21 @@ inline double radial(RadialFunction f, double shape, double squared) {
       return -std::sqrt(1.0 + shape * shape * squared);
     case RadialFunction::gaussian:
       return std::exp(-shape * shape * squared);
+  }
+  return 0.0;
+}
+
+/// dφ/d(squared distance); 0 at a run for the thin plate, whose gradient vanishes there.
+inline double radial_slope(RadialFunction f, double shape, double squared) {
+  switch (f) {
+    case RadialFunction::thin_plate:
+      return squared > 0 ? 0.5 * (std::log(squared) + 1.0) : 0.0;
+    case RadialFunction::cubic:
+      return 1.5 * std::sqrt(squared);
+    case RadialFunction::multiquadric:
+      return -0.5 * shape * shape / std::sqrt(1.0 + shape * shape * squared);
+    case RadialFunction::gaussian:
+      return -shape * shape * std::exp(-shape * shape * squared);
   }
   return 0.0;
 }
@@ -152,6 +177,24 @@ class Radial {
 
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
 
+  /// Derivatives of the mean at one point x of d entries. Cost n d. Throws as predict.
+  Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {
+    detail::check_points("kriging::Radial", x.transpose(), variables());
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+    if (s_.X.rows() == 0) return gradient;
+    const Eigen::VectorXd z = s_.input.apply(x.transpose()).row(0);
+    for (Eigen::Index i = 0; i < s_.X.rows(); ++i) {
+      double squared = 0;
+      for (Eigen::Index k = 0; k < z.size(); ++k) squared += (z[k] - s_.X(i, k)) * (z[k] - s_.X(i, k));
+      const double slope = 2.0 * s_.w[i] * detail::radial_slope(s_.function, s_.shape, squared);
+      for (Eigen::Index k = 0; k < z.size(); ++k) gradient[k] += slope * (z[k] - s_.X(i, k));
+    }
+    for (Eigen::Index k = 0, j = 1; k < z.size() && j < s_.c.size(); ++k)
+      if (s_.input.factor[k] != 0.0) gradient[k] += s_.c[j++];
+    for (Eigen::Index k = 0; k < z.size(); ++k) gradient[k] *= s_.y_scale * s_.input.factor[k];
+    return gradient;
+  }
+
   Eigen::Index variables() const { return s_.input.centre.size(); }
   Eigen::Index runs() const { return s_.observed.size(); }
   double shape() const { return s_.shape; }  ///< ε, on scaled inputs
@@ -173,7 +216,7 @@ class Radial {
   Eigen::MatrixXd across_;  // Uᵀ
 };
 
-static_assert(Surrogate<Radial>);
+static_assert(SmoothSurrogate<Radial>);
 
 /// Closed form: ε and λ as found, weights and tail anew without each run.
 inline Validation leave_one_out(const Radial& model) {

@@ -17,10 +17,14 @@
 
 namespace drawpoint::kriging {
 
+struct SamplePathsOptions {
+  doe::Seed seed = 1;
+};
+
 /// X: m x d, natural units. Gives m x count, one path a column, unit of y. Throws std::invalid_argument for
 /// count < 1 and for models of infinite variance, and as Model::predict.
 inline Eigen::MatrixXd sample_paths(const Model& model, const Eigen::MatrixXd& X, int count,
-                                    doe::Seed seed = 1) {
+                                    const SamplePathsOptions& options = {}) {
   if (count < 1)
     throw std::invalid_argument("kriging::sample_paths: count is " + std::to_string(count) +
                                 "; allowed is 1 or more; ask for one path or more");
@@ -31,7 +35,7 @@ inline Eigen::MatrixXd sample_paths(const Model& model, const Eigen::MatrixXd& X
         "two runs or more; fit more runs");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
   const Eigen::VectorXd deviation = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  doe::RandomStream random(seed);
+  doe::RandomStream random(options.seed);
   Eigen::MatrixXd Z(X.rows(), count);
   for (auto column : Z.colwise())
     for (double& z : column) z = random.normal();

@@ -37,8 +37,21 @@ struct Validation {
 enum class ErrorFunction { rmse, nrmse, mae, q2, nlpd, coverage };
 
 inline std::string_view to_string(ErrorFunction error) {
-  constexpr std::string_view names[] = {"rmse", "nrmse", "mae", "q2", "nlpd", "coverage"};
-  return names[static_cast<int>(error)];
+  switch (error) {
+    case ErrorFunction::rmse:
+      return "rmse";
+    case ErrorFunction::nrmse:
+      return "nrmse";
+    case ErrorFunction::mae:
+      return "mae";
+    case ErrorFunction::q2:
+      return "q2";
+    case ErrorFunction::nlpd:
+      return "nlpd";
+    case ErrorFunction::coverage:
+      return "coverage";
+  }
+  return "unknown";
 }
 
 namespace detail {
@@ -86,8 +99,8 @@ inline double score(const Validation& v, ErrorFunction error, double level = 0.9
                              [](double sum, double x) { return sum + std::abs(x); }) /
              n;
     case ErrorFunction::q2: {
-      const Eigen::VectorXd spread = detail::affine(v.observed, 1.0, -detail::mean_of(v.observed));
-      return range > 0 ? 1.0 - detail::square(e) / detail::square(spread) : none;
+      const Eigen::VectorXd centred = detail::affine(v.observed, 1.0, -detail::mean_of(v.observed));
+      return range > 0 ? 1.0 - detail::square(e) / detail::square(centred) : none;
     }
     case ErrorFunction::nlpd:
       return detail::negative_log_density(e, v.observation_variance);

@@ -21,12 +21,18 @@ concept Surrogate = requires(const S& s, const Eigen::MatrixXd& X) {
   { s.mean(X) } -> std::convertible_to<Eigen::VectorXd>;
 };
 
+/// Surrogates whose mean has derivatives: mean_gradient(x) at one point x of d entries.
+template <class S>
+concept SmoothSurrogate = Surrogate<S> && requires(const S& s, const Eigen::VectorXd& x) {
+  { s.mean_gradient(x) } -> std::convertible_to<Eigen::VectorXd>;
+};
+
 template <class F>
 concept Fitter = requires(const F& f, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   { f(X, y) } -> Surrogate;
 };
 
-static_assert(Surrogate<Model>);
+static_assert(SmoothSurrogate<Model>);
 
 namespace detail {
 

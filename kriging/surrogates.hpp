@@ -2,67 +2,88 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Several models as one black box: the mean of each, in their order. A search may use it in the place of the
-/// simulation.
+/// Several surrogates, of one kind or mixed, as one black box: the mean of each, in their order. A search may
+/// use it in the place of the simulation, and polishing too, by the gradients of the means.
 ///
 /// It is a doe::BatchFunction: a whole population is predicted at once. Seeds are ignored; the answer is the
-/// mean.
+/// mean. At one point it gives the means with their derivatives, where every member has them: Model,
+/// Polynomial and Radial do.
 
 #include <Eigen/Core>
-#include <drawpoint/doe/black_box.hpp>
-#include <drawpoint/kriging/model.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/doe/value_and_jacobian.hpp>
+#include <drawpoint/kriging/any_surrogate.hpp>
+#include <drawpoint/kriging/model.hpp>
 
 namespace drawpoint::kriging {
 
 class Surrogates {
  public:
-  /// One model a response, all of the same variables. Throws std::invalid_argument when there is none or they
-  /// differ.
-  explicit Surrogates(std::vector<Model> models) : models_(std::move(models)) {
-    if (models_.empty())
-      throw std::invalid_argument("kriging::Surrogates: 0 models; allowed is 1 or more; give one a response");
-    for (const Model& model : models_)
-      if (model.variables() != models_.front().variables())
-        throw std::invalid_argument("kriging::Surrogates: a model of " + std::to_string(model.variables()) +
-                                    " variables beside one of " +
-                                    std::to_string(models_.front().variables()) +
-                                    "; fit all responses to the same X");
+  /// One surrogate per response, all of the same variables. Throws std::invalid_argument when there is none
+  /// or they differ.
+  explicit Surrogates(std::vector<AnySurrogate> members) : members_(std::move(members)) { check(); }
+
+  /// The same of one kind, such as std::vector<Model>.
+  template <Surrogate S>
+  explicit Surrogates(const std::vector<S>& members) : members_(members.begin(), members.end()) {
+    check();
   }
 
-  /// X: m x d, natural units. Gives m outcomes of one value a model.
+  /// X: m x d, natural units. Gives m outcomes of one value per member.
   std::vector<doe::Outcome> operator()(const Eigen::MatrixXd& X, std::span<const doe::Seed>) const {
-    Eigen::MatrixXd Y(models_.size(), X.rows());
-    for (std::size_t j = 0; j < models_.size(); ++j) Y.row(j) = models_[j].mean(X).transpose();
+    Eigen::MatrixXd Y(members_.size(), X.rows());
+    for (std::size_t j = 0; j < members_.size(); ++j) Y.row(j) = members_[j].mean(X).transpose();
     std::vector<doe::Outcome> outcomes;
     outcomes.reserve(X.rows());
     for (Eigen::Index i = 0; i < X.rows(); ++i) outcomes.emplace_back(Eigen::VectorXd(Y.col(i)));
     return outcomes;
   }
 
-  const std::vector<Model>& models() const { return models_; }
+  /// The means at one point x of d entries and their derivatives: one row per member. Throws
+  /// std::invalid_argument for a member without mean_gradient.
+  doe::ValueAndJacobian operator()(const Eigen::VectorXd& x) const {
+    const auto r = static_cast<Eigen::Index>(members_.size());
+    doe::ValueAndJacobian y{Eigen::VectorXd(r), Eigen::MatrixXd(r, x.size())};
+    for (Eigen::Index j = 0; j < r; ++j) {
+      const AnySurrogate& member = members_[static_cast<std::size_t>(j)];
+      const std::optional<Eigen::VectorXd> gradient = member.mean_gradient(x);
+      if (!gradient)
+        throw std::invalid_argument("kriging::Surrogates: member " + std::to_string(j) +
+                                    " has no derivatives; allowed are surrogates with mean_gradient(x); "
+                                    "search without polishing, or fit another kind");
+      y.values[j] = member(x);
+      y.jacobian.row(j) = gradient->transpose();
+    }
+    return y;
+  }
+
+  const std::vector<AnySurrogate>& members() const { return members_; }
 
  private:
-  std::vector<Model> models_;
+  void check() const {
+    if (members_.empty())
+      throw std::invalid_argument(
+          "kriging::Surrogates: 0 models; allowed is 1 or more; give one per response");
+    std::optional<Eigen::Index> first;
+    for (const AnySurrogate& member : members_) {
+      const std::optional<Eigen::Index> d = member.variables();
+      if (!first) first = d;
+      if (d && *d != *first)
+        throw std::invalid_argument("kriging::Surrogates: a model of " + std::to_string(*d) +
+                                    " variables beside one of " + std::to_string(*first) +
+                                    "; fit all responses to the same X");
+    }
+  }
+
+  std::vector<AnySurrogate> members_;
 };
-
-/// The means of models of the same d variables at one point: one entry a model. Throws as Model::mean.
-inline Eigen::VectorXd means_at(const std::vector<Model>& models, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y(static_cast<Eigen::Index>(models.size()));
-  for (std::size_t j = 0; j < models.size(); ++j) y[static_cast<Eigen::Index>(j)] = models[j](x);
-  return y;
-}
-
-/// Their derivatives: models x d. Throws as Model::mean_gradient.
-inline Eigen::MatrixXd mean_gradients_at(const std::vector<Model>& models, const Eigen::VectorXd& x) {
-  Eigen::MatrixXd J(static_cast<Eigen::Index>(models.size()), x.size());
-  for (std::size_t j = 0; j < models.size(); ++j)
-    J.row(static_cast<Eigen::Index>(j)) = models[j].mean_gradient(x).transpose();
-  return J;
-}
 
 static_assert(doe::BatchFunction<Surrogates> && doe::PointFunction<Model>);
 

@@ -78,7 +78,7 @@ inline void check(const std::string& place, const PredictedResponses& p) {
 inline Eigen::MatrixXd normal_net(int count, int dimensions, doe::Seed seed) {
   doe::Problem unit{{}, {{"none", "1"}}};
   for (int j = 0; j < dimensions; ++j) unit.variables.push_back({std::to_string(j), "1", 0.0, 1.0});
-  Eigen::MatrixXd Z = doe::scrambled_sobol(unit, count, seed);
+  Eigen::MatrixXd Z = doe::scrambled_sobol(unit, count, {.seed = seed});
   for (double& z : Z.reshaped()) z = doe::detail::normal_quantile(std::clamp(z, 0x1p-54, 1.0 - 0x1p-53));
   return Z;
 }

@@ -16,15 +16,12 @@
 #include <functional>
 #include <vector>
 
+#include <drawpoint/doe/value_and_jacobian.hpp>
 #include <drawpoint/pareto/detail/population.hpp>
 
 namespace drawpoint::pareto {
 
-/// All responses at a point (r) and their derivatives by the variables (r x d), natural units.
-struct ValueAndJacobian {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd jacobian;
-};
+using doe::ValueAndJacobian;
 
 template <class F>
 concept DifferentiableFunction = requires(const F& f, const Eigen::VectorXd& x) {

@@ -56,7 +56,7 @@ inline Eigen::MatrixXd places_in_box(const Eigen::RowVectorXd& low, const Eigen:
                                      doe::Seed seed) {
   doe::Problem unit{{}, {{"none", "1"}}};
   for (Eigen::Index j = 0; j < low.size(); ++j) unit.variables.push_back({std::to_string(j), "1", 0.0, 1.0});
-  const Eigen::MatrixXd U = doe::scrambled_sobol(unit, k, seed);
+  const Eigen::MatrixXd U = doe::scrambled_sobol(unit, k, {.seed = seed});
   return (U * (high - low).asDiagonal()).rowwise() + low;
 }
 

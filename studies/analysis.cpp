@@ -41,6 +41,7 @@ doe::Evaluations table_of(const std::vector<Run>& runs, const doe::Problem& prob
 kriging::FitOptions bounds_of(const doe::Problem& problem) {
   const auto dimension = static_cast<Eigen::Index>(problem.variables.size());
   kriging::FitOptions options;
+  options.threads = 0;
   options.lower.resize(dimension);
   options.upper.resize(dimension);
   for (Eigen::Index k = 0; k < dimension; ++k) {
@@ -52,8 +53,8 @@ kriging::FitOptions bounds_of(const doe::Problem& problem) {
 
 /// The ways to fit that are compared: smooth and less smooth responses, without and with a slope. The first
 /// is the default.
-std::vector<kriging::Candidate<kriging::Model>> ways_to_fit(const doe::Problem& problem) {
-  std::vector<kriging::Candidate<kriging::Model>> ways;
+std::vector<kriging::NamedFitter<kriging::Model>> ways_to_fit(const doe::Problem& problem) {
+  std::vector<kriging::NamedFitter<kriging::Model>> ways;
   for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
     for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
       kriging::FitOptions options = bounds_of(problem);
@@ -73,8 +74,8 @@ std::vector<kriging::Candidate<kriging::Model>> ways_to_fit(const doe::Problem& 
 /// another has a leave-one-out error that is lower by a tenth. Throws
 /// std::invalid_argument if the runs do not allow it.
 std::vector<std::string> fit_models(ReportInput& input) {
-  const kriging::Criterion criterion{.estimator = kriging::Estimator::leave_one_out,
-                                     .error = kriging::ErrorFunction::rmse};
+  const kriging::Measure measure{.estimator = kriging::Estimator::leave_one_out,
+                                 .error = kriging::ErrorFunction::rmse};
   // Smaller gains are mostly chance: without this, choosing made 13 of 48 smooth fits worse and 5 better.
   const double worth = 0.9;
   const auto ways = ways_to_fit(input.problem);
@@ -83,8 +84,8 @@ std::vector<std::string> fit_models(ReportInput& input) {
   std::vector<std::string> chosen;
   for (const auto& response : input.problem.responses) {
     const Eigen::VectorXd y = input.training.y(response.name);
-    const auto best = kriging::compare(criterion, X, y, ways);
-    const bool better = best.table[best.best].judgement.value < worth * best.table[0].judgement.value;
+    const auto best = kriging::compare(measure, X, y, ways);
+    const bool better = best.table[best.best].assessment.value < worth * best.table[0].assessment.value;
     chosen.push_back(better ? best.name() : ways[0].name);
     input.models.push_back(better ? best.model : ways[0].fitter(X, y));
     if (X_new.rows() == 0) continue;

@@ -15,15 +15,6 @@
 namespace drawpoint::studies {
 namespace {
 
-/// The means of the models with their gradients, as polish takes them.
-struct SmoothMeans {
-  const std::vector<kriging::Model>& models;
-
-  pareto::ValueAndJacobian operator()(const Eigen::VectorXd& x) const {
-    return {kriging::means_at(models, x), kriging::mean_gradients_at(models, x)};
-  }
-};
-
 /// Empty when the front can be polished.
 std::string why_not(const doe::Problem& problem, const pareto::Front& front) {
   for (const auto& variable : problem.variables) {
@@ -87,7 +78,7 @@ Eigen::VectorXd on_bounds(Eigen::VectorXd x, const doe::Problem& problem) {
 
 /// Ipopt stays about 1e-8 of the range away from the bounds that hold it, and searches end as near. Nobody
 /// wants to read that, or both beside each other.
-void put_on_bounds(pareto::Front& front, const SmoothMeans& means, const doe::Problem& problem) {
+void put_on_bounds(pareto::Front& front, const kriging::Surrogates& means, const doe::Problem& problem) {
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     const Eigen::VectorXd x = front.X.row(i).transpose(), there = on_bounds(x, problem);
     if (there == x) continue;
@@ -151,7 +142,7 @@ ModelFront arrived_points(const pareto::Polished& polished) {
 
 /// All points met on the way from a searched front to the polished one.
 ModelFront polished_points(const pareto::Polished& first, const pareto::Front& searched,
-                           const SmoothMeans& means, const doe::Problem& problem) {
+                           const kriging::Surrogates& means, const doe::Problem& problem) {
   ModelFront before{.front = searched, .polishing = {.residual = first.residual_before}};
   ModelFront after{.front = first.front, .polishing = {.residual = first.residual}};
   put_on_bounds(before.front, means, problem);
@@ -184,7 +175,7 @@ ModelFront finished(const pareto::Front& searched, const std::vector<kriging::Mo
   if (searched.X.rows() == 0) return {.front = searched, .polishing = {}};
   if (const std::string reason = why_not(problem, searched); !reason.empty())
     return {.front = searched, .polishing = {.skipped = reason}};
-  const SmoothMeans means{models};
+  const kriging::Surrogates means(models);
   const pareto::Polished first = pareto::polish(means, problem, searched);
   ModelFront result = best_of(polished_points(first, searched, means, problem), problem);
   if (searched.Y.cols() == 1)

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/doe/uniform.hpp>
@@ -26,12 +27,6 @@ doe::Seed seed_of(const Identity& identity, Kind kind, std::int64_t point, int r
   return doe::run_seed(study, static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(replicate));
 }
 
-void shuffle(std::vector<int>& items, doe::RandomStream& random) {
-  for (int i = static_cast<int>(items.size()) - 1; i > 0; --i) {
-    std::swap(items[static_cast<std::size_t>(i)], items[static_cast<std::size_t>(random.below(i + 1))]);
-  }
-}
-
 /// Strata of [lower, upper] cut in `strata` equal parts that hold none of the values, in random order.
 std::vector<int> empty_strata(const Eigen::VectorXd& values, const doe::Variable& axis, int strata,
                               doe::RandomStream& random) {
@@ -44,7 +39,7 @@ std::vector<int> empty_strata(const Eigen::VectorXd& values, const doe::Variable
   for (int s = 0; s < strata; ++s) {
     if (!taken[static_cast<std::size_t>(s)]) result.push_back(s);
   }
-  shuffle(result, random);
+  doe::detail::shuffle(result, random);
   return result;
 }
 
@@ -92,7 +87,7 @@ bool has_corners(const doe::Problem& problem, int runs) {
 Eigen::MatrixXd first_design(const Identity& identity, int runs) {
   return doe::latin_hypercube(
       identity.problem, runs,
-      {.corners = identity.corners, .seed = stream_seed(identity, Stream::training, 0)});
+      {.seed = stream_seed(identity, Stream::training, 0), .corners = identity.corners});
 }
 
 Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& existing, int runs) {
@@ -130,7 +125,7 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
   }
   if (validation > validated) {
     const auto seed = stream_seed(identity, Stream::validation_points, static_cast<std::uint64_t>(validated));
-    const auto X = doe::uniform_random(identity.problem, validation - validated, seed);
+    const auto X = doe::uniform_random(identity.problem, validation - validated, {.seed = seed});
     append(added, identity, Kind::validation, X, {validated + 1, existing.size() + added.size() + 1});
   }
   return added;

@@ -85,19 +85,18 @@ void measure(const std::string& name, const Design& design, int runs) {
 
 Design optimized(LatinCriterion criterion, int p = 10, LatinStart start = LatinStart::best) {
   return [=](const Problem& problem, int n, Seed seed) {
-    return optimized_latin_hypercube(problem, n, seed, {.criterion = criterion, .p = p, .start = start});
+    return optimized_latin_hypercube(problem, n,
+                                     {.seed = seed, .criterion = criterion, .p = p, .start = start});
   };
 }
 
 const std::vector<std::pair<std::string, Design>> designs{
-    {"uniform", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, s); }},
-    {"scrambled Sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, s); }},
-    {"scrambled Halton", [](const Problem& p, int n, Seed s) { return halton(p, n, s); }},
-    {"random-start Halton",
-     [](const Problem& p, int n, Seed s) { return halton(p, n, s, {HaltonKind::random_start}); }},
-    {"Latin hypercube", [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, s); }},
+    {"uniform", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, {.seed = s}); }},
+    {"scrambled Sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, {.seed = s}); }},
+    {"scrambled Halton", [](const Problem& p, int n, Seed s) { return halton(p, n, {.seed = s}); }},
+    {"Latin hypercube", [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s}); }},
     {"Latin hypercube, centred",
-     [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, s, {.centred = true}); }},
+     [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s, .centred = true}); }},
     {"optimised: maximin (default)", optimized(LatinCriterion::maximin)},
     {"optimised: phi_10", optimized(LatinCriterion::phi_p)},
     {"optimised: phi_50", optimized(LatinCriterion::phi_p, 50)},
@@ -105,7 +104,7 @@ const std::vector<std::pair<std::string, Design>> designs{
     {"annealed only: maximin", optimized(LatinCriterion::maximin, 10, LatinStart::random)},
     {"annealed only: CD2", optimized(LatinCriterion::centred_discrepancy, 10, LatinStart::random)},
     {"orthogonal array of the next size", [](const Problem& p, int n, Seed s) {
-       return orthogonal_latin_hypercube(p, orthogonal_array_runs(n, 4), s);
+       return orthogonal_latin_hypercube(p, orthogonal_array_runs(n, 4), {.seed = s});
      }}};
 
 Eigen::MatrixXd read_table(const std::string& path) {

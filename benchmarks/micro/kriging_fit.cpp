@@ -21,10 +21,12 @@ namespace {
 
 void fit_case(benchmark::State& state, const std::string& name, int runs) {
   const reference::Data data = reference::training(name, runs);
+  FitOptions options;
+  options.threads = 0;
   double likelihood = 0;
   int evaluations = 0;
   for (auto _ : state) {
-    const Model model = fit(data.X, data.y);
+    const Model model = fit(data.X, data.y, options);
     likelihood = model.log_likelihood() + runs * std::log(reference::deviation(data.y));
     evaluations = model.report().evaluations;
   }
@@ -38,6 +40,7 @@ Model model_of_500() {
   FitOptions options;
   options.theta_lower = options.theta_upper = 0.1;
   options.nugget_lower = options.nugget_upper = 4e-4;
+  options.threads = 0;
   return fit(data.X, data.y, options);
 }
 

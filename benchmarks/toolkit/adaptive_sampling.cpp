@@ -65,7 +65,7 @@ std::vector<Case> cases() {
 kriging::Model fitted(const doe::Evaluations& runs) { return kriging::fit(runs.X(), runs.y("y")); }
 
 double error(const Case& c, const doe::Evaluations& runs) {
-  const Eigen::MatrixXd X = doe::scrambled_sobol(c.problem, 4000, 4711);
+  const Eigen::MatrixXd X = doe::scrambled_sobol(c.problem, 4000, {.seed = 4711});
   return kriging::validate(fitted(runs), X, kriging::reference::values(c.f, X)).nrmse;
 }
 
@@ -92,10 +92,8 @@ doe::Mix alone(doe::Sampler sampler) { return doe::Mix({{1.0, std::move(sampler)
 
 doe::Mix sampler(const std::string& method, doe::Seed seed) {
   if (method == "max variance") return alone(widest);
-  if (method == "Voronoi") return alone(doe::voronoi_sampler({}, seed));
+  if (method == "Voronoi") return alone(doe::voronoi_sampler({.seed = seed}));
   if (method == "LOLA-Voronoi") return alone(doe::LolaVoronoi({.seed = seed}));
-  if (method == "LOLA product")
-    return alone(doe::LolaVoronoi({.hybrid = doe::Hybrid::product, .seed = seed}));
   return doe::Mix({{0.7, doe::LolaVoronoi({.seed = seed})}, {0.3, change_of_model()}});
 }
 
@@ -103,19 +101,19 @@ doe::Mix sampler(const std::string& method, doe::Seed seed) {
 std::vector<double> one_shot(const Case& c, bool sobol, doe::Seed seed) {
   std::vector<double> errors;
   for (const int n : c.budgets) {
-    const Eigen::MatrixXd X =
-        sobol ? doe::scrambled_sobol(c.problem, n, seed) : doe::latin_hypercube(c.problem, n, {.seed = seed});
+    const Eigen::MatrixXd X = sobol ? doe::scrambled_sobol(c.problem, n, {.seed = seed})
+                                    : doe::latin_hypercube(c.problem, n, {.seed = seed});
     errors.push_back(error(c, doe::evaluate(c.f, c.problem, X)));
   }
   return errors;
 }
 
 std::vector<double> adaptive(const Case& c, const std::string& method, doe::Seed seed) {
-  const Eigen::MatrixXd first = doe::latin_hypercube(c.problem, c.first, {.corners = true, .seed = seed});
+  const Eigen::MatrixXd first = doe::latin_hypercube(c.problem, c.first, {.seed = seed, .corners = true});
   doe::RefineOptions options{.max_points = c.budgets.back()};
   options.propose.batch = 5;
   options.propose.seed = seed;
-  if (method == "max variance") options.propose.spread = doe::Spread::penalty;
+  if (method == "max variance") options.propose.rule = doe::BatchRule::penalty;
   const doe::Evaluations runs = doe::refine(c.f, c.problem, first, sampler(method, seed), options).runs;
   std::vector<double> errors;
   for (const int n : c.budgets)
@@ -128,7 +126,7 @@ void compare(const Case& c, int seeds) {
   for (const int n : c.budgets) std::printf("  %-26d", n);
   std::printf("\n");
   for (const std::string method :
-       {"LHS", "Sobol", "max variance", "Voronoi", "LOLA-Voronoi", "LOLA product", "0.7 LV + 0.3 e"}) {
+       {"LHS", "Sobol", "max variance", "Voronoi", "LOLA-Voronoi", "0.7 LV + 0.3 e"}) {
     std::vector<Eigen::VectorXd> errors(c.budgets.size(), Eigen::VectorXd(seeds));
     for (int s = 0; s < seeds; ++s) {
       const doe::Seed seed = 1 + s;

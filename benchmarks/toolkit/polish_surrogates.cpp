@@ -80,15 +80,6 @@ std::vector<kriging::Model> fitted(double noise) {
   return models;
 }
 
-/// The means of the models with their gradients, as polish takes them.
-struct SmoothSurrogates {
-  const std::vector<kriging::Model>& models;
-
-  pareto::ValueAndJacobian operator()(const Eigen::VectorXd& x) const {
-    return {kriging::means_at(models, x), kriging::mean_gradients_at(models, x)};
-  }
-};
-
 /// Joint paths of the models, independent between the responses.
 struct Paths {
   const std::vector<kriging::Model>& models;
@@ -96,7 +87,7 @@ struct Paths {
   pareto::Draws operator()(const Eigen::MatrixXd& X, int draws, doe::Seed seed) const {
     std::vector<Eigen::MatrixXd> paths;
     for (std::size_t j = 0; j < models.size(); ++j)
-      paths.push_back(kriging::sample_paths(models[j], X, draws, doe::run_seed(seed, j, 0)));
+      paths.push_back(kriging::sample_paths(models[j], X, draws, {.seed = doe::run_seed(seed, j, 0)}));
     return pareto::draws_of_paths(paths);
   }
 };
@@ -123,7 +114,7 @@ pareto::Front search(const std::vector<kriging::Model>& models, int generations,
 void polish_row(const std::vector<kriging::Model>& models, const pareto::Front& front, const char* name,
                 pareto::ScalarForm form) {
   double seconds = 0.0;
-  const SmoothSurrogates f{models};
+  const kriging::Surrogates f(models);
   const pareto::Polished p = timed(
       seconds, [&] { return pareto::polish(f, problem, front, {.form = form, .reference = reference}); });
   const double before = volume_in_ranges(front.Y), after = volume_in_ranges(p.front.Y);
@@ -152,7 +143,7 @@ void answers(const std::vector<kriging::Model>& models, const pareto::Front& fro
   const pareto::Choice choice =
       pareto::best(problem, front, "production", {pareto::at_most("joint_damage", 12.0)});
   const pareto::LocalTradeOff local =
-      pareto::local_trade_off(SmoothSurrogates{models}, problem, front, choice.row);
+      pareto::local_trade_off(kriging::Surrogates(models), problem, front, choice.row);
   std::printf(
       "  best production with damage at most 12 s: %.1f kg/s; there 1 s of damage buys %.2f kg/s, 0.01 of "
       "spill %.2f kg/s (residual %.1e); %zu knee(s)\n",
@@ -192,7 +183,7 @@ int main() {
       if (seed > 1) continue;
       longer_searches(models, seed);
       const pareto::Polished polished =
-          pareto::polish(SmoothSurrogates{models}, problem, front, {.reference = reference});
+          pareto::polish(kriging::Surrogates(models), problem, front, {.reference = reference});
       answers(models, polished.front);
       certainty(models, polished.front);
     }

@@ -28,7 +28,7 @@
 namespace {
 
 using namespace drawpoint;
-using Way = kriging::Candidate<>;
+using Way = kriging::NamedFitter<>;
 
 struct Table {
   Eigen::MatrixXd X, Y;
@@ -80,6 +80,7 @@ void add_kriging(const Box& box, std::vector<Way>& ways) {
       options.upper = box.upper;
       options.correlation = correlation;
       options.trend = trend;
+      options.threads = 0;
       ways.push_back({std::string(to_string(correlation)) + ", " + name,
                       [options](const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
                         return kriging::fit(X, y, options);
@@ -114,8 +115,8 @@ void row(const Way& way, const Eigen::MatrixXd& X, const Eigen::VectorXd& y, con
   const kriging::AnySurrogate model = way.fitter(X, y);
   const double seconds = benchmarks::cpu_seconds() - start;
   const auto error = [&](kriging::Estimator estimator) {
-    return kriging::judge({.estimator = estimator, .error = kriging::ErrorFunction::nrmse, .folds = 10}, X, y,
-                          way.fitter)
+    return kriging::assess({.estimator = estimator, .error = kriging::ErrorFunction::nrmse, .folds = 10}, X,
+                           y, way.fitter)
         .value;
   };
   std::printf("| %-28s | %.4f | %.4f |", way.name.c_str(), error(kriging::Estimator::leave_one_out),

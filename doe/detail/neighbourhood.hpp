@@ -48,8 +48,8 @@ inline double adhesion(const Eigen::MatrixXd& P) {
 /// P: m x d with m = 2d. In [0, 1]; 0 when all neighbours coincide with the site.
 inline double cross_polytope_ratio(const Eigen::MatrixXd& P) {
   if (P.cols() == 1 && P.rows() == 2) {
-    const double spread = std::abs(P(0)) + std::abs(P(1)) + std::abs(P(0) - P(1));
-    return spread > 0.0 ? 1.0 - std::abs(P(0) + P(1)) / spread : 0.0;
+    const double extent = std::abs(P(0)) + std::abs(P(1)) + std::abs(P(0) - P(1));
+    return extent > 0.0 ? 1.0 - std::abs(P(0) + P(1)) / extent : 0.0;
   }
   const double c = cohesion(P);
   return c > 0.0 ? adhesion(P) / (std::numbers::sqrt2 * c) : 0.0;

@@ -53,5 +53,13 @@ inline Eigen::MatrixXd monomial_matrix(const std::vector<Monomial>& terms, const
   return F;
 }
 
+/// ∂/∂x_k of one term at a scaled point x of d entries.
+inline double monomial_slope(const Monomial& term, const Eigen::VectorXd& x, Eigen::Index k) {
+  double slope = term[static_cast<std::size_t>(k)];
+  for (Eigen::Index j = 0; j < x.size() && slope != 0.0; ++j)
+    for (int a = j == k ? 1 : 0; a < term[static_cast<std::size_t>(j)]; ++a) slope *= x[j];
+  return slope;
+}
+
 }  // namespace detail
 }  // namespace drawpoint::kriging

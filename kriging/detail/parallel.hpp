@@ -12,11 +12,6 @@
 
 namespace drawpoint::kriging::detail {
 
-/// 0 means one a processor that this process may use.
-inline int thread_count(int wanted) {
-  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 /// A task without its type, so that the threads are compiled once.
 struct AnyTask {
   const void* task;

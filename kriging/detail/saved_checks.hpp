@@ -6,22 +6,11 @@
 /// factor is stored: the lower triangle by columns.
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <cstdio>
-#include <string>
-
-#include <drawpoint/kriging/detail/model_state.hpp>
+#include <drawpoint/doe/detail/hash.hpp>
 
 namespace drawpoint::kriging::detail {
 
-/// 64-bit FNV-1a as 16 hexadecimal digits: any change of one byte changes it.
-inline std::string checksum(const std::string& text) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001B3ULL;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
+using doe::detail::checksum;
 
 /// n(n + 1)/2 numbers.
 inline Eigen::VectorXd packed_lower(const Eigen::MatrixXd& L) {
@@ -35,16 +24,6 @@ inline Eigen::MatrixXd unpacked_lower(const Eigen::VectorXd& values, Eigen::Inde
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index j = 0, k = 0; j < n; k += n - j, ++j) L.col(j).tail(n - j) = values.segment(k, n - j);
   return L;
-}
-
-/// Whether L Lᵀα = y − Fβ to a backward error of 1e-9: what fits, appended runs and the floor of a
-/// re-interpolation leave is n times the round-off. Cost n².
-inline bool weights_fit(const ModelState& s) {
-  if (s.X.rows() == 0) return true;
-  const Eigen::VectorXd half = s.L.triangularView<Eigen::Lower>().transpose() * s.gls.alpha;
-  const Eigen::VectorXd product = s.L.triangularView<Eigen::Lower>() * half;
-  const Eigen::VectorXd miss = product + s.F * s.gls.beta - s.y;
-  return miss.norm() <= 1e-9 * (s.L.squaredNorm() * s.gls.alpha.norm() + s.y.norm());
 }
 
 }  // namespace drawpoint::kriging::detail

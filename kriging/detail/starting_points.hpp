@@ -52,7 +52,7 @@ inline Eigen::MatrixXd thinned(const Eigen::MatrixXd& X, Eigen::Index limit) {
   return rows;
 }
 
-struct Candidate {
+struct RankedPoint {
   Eigen::VectorXd p;
   double value = 0;
 };
@@ -67,12 +67,12 @@ inline std::vector<int> ranking(const std::vector<double>& values) {
 }
 
 /// Best first; ties keep the order of drawing.
-inline std::vector<Candidate> ranked_candidates(Likelihood& likelihood, const Box& box, int count,
-                                                doe::Seed seed) {
+inline std::vector<RankedPoint> ranked_candidates(Likelihood& likelihood, const Box& box, int count,
+                                                  doe::Seed seed) {
   doe::RandomStream random(seed);
-  std::vector<Candidate> all(count), ranked;
+  std::vector<RankedPoint> all(count), ranked;
   std::vector<double> values;
-  for (Candidate& c : all) {
+  for (RankedPoint& c : all) {
     c.p = candidate(random, box, likelihood.variables());
     c.value = likelihood.value(c.p);
     values.push_back(c.value);
@@ -82,11 +82,11 @@ inline std::vector<Candidate> ranked_candidates(Likelihood& likelihood, const Bo
 }
 
 /// Those that lie apart from all better ones: on average e apart or more in each θ, e³ in λ.
-inline std::vector<Candidate> spread(const std::vector<Candidate>& ranked) {
-  std::vector<Candidate> kept;
-  for (const Candidate& c : ranked) {
+inline std::vector<RankedPoint> kept_apart(const std::vector<RankedPoint>& ranked) {
+  std::vector<RankedPoint> kept;
+  for (const RankedPoint& c : ranked) {
     const Eigen::Index d = c.p.size() - 1;
-    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const RankedPoint& other) {
       const Eigen::VectorXd step = difference(c.p, other.p);
       return dot(step.data(), step.data(), d) + step[d] * step[d] / 9.0 >= 1.25 * static_cast<double>(d + 1);
     });
@@ -96,9 +96,9 @@ inline std::vector<Candidate> spread(const std::vector<Candidate>& ranked) {
 }
 
 /// The first `count`, taken in turn from the two explanations while both last.
-inline std::vector<Eigen::VectorXd> alternated(const std::vector<Candidate>& ranked, int count) {
+inline std::vector<Eigen::VectorXd> alternated(const std::vector<RankedPoint>& ranked, int count) {
   std::vector<Eigen::VectorXd> smooth, noisy, starts;
-  for (const Candidate& c : ranked)
+  for (const RankedPoint& c : ranked)
     (c.p[c.p.size() - 1] < std::log(interpolation_nugget) ? smooth : noisy).push_back(c.p);
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     if (i < smooth.size()) starts.push_back(smooth[i]);
@@ -111,7 +111,7 @@ inline std::vector<Eigen::VectorXd> alternated(const std::vector<Candidate>& ran
 /// options.starts points of the box or fewer, never none.
 inline std::vector<Eigen::VectorXd> starting_points(Likelihood& likelihood, const Box& box,
                                                     const FitOptions& options) {
-  return alternated(spread(ranked_candidates(likelihood, box, options.candidates, options.seed)),
+  return alternated(kept_apart(ranked_candidates(likelihood, box, options.candidates, options.seed)),
                     options.starts);
 }
 

@@ -158,8 +158,7 @@ inline void check_options(const FitOptions& options, Eigen::Index d) {
   if (options.max_iterations < 1)
     reject("max_iterations is " + std::to_string(options.max_iterations) + "; allowed is 1 or more; use 200");
   if (options.threads < 0)
-    reject("threads is " + std::to_string(options.threads) +
-           "; allowed is 0 or more; use 0 for all processors");
+    reject("threads is " + std::to_string(options.threads) + "; allowed is 0 or more; use 0 for all cores");
   if ((options.trend == Trend::user) != static_cast<bool>(options.basis.values))
     reject(options.trend == Trend::user ? "trend is user but basis.values is empty; give the functions"
                                         : "basis.values is given but trend is not user; set trend to user");

@@ -20,8 +20,8 @@ std::optional<Surface> surface(const kriging::Model& model) {
 Eigen::VectorXd influence(const kriging::Model& model, const doe::Problem& problem) {
   constexpr int samples = 512;
   const auto d = static_cast<Eigen::Index>(problem.variables.size());
-  const Eigen::MatrixXd A = doe::uniform_random(problem, samples, 1),
-                        B = doe::uniform_random(problem, samples, 2);
+  const Eigen::MatrixXd A = doe::uniform_random(problem, samples, {.seed = 1}),
+                        B = doe::uniform_random(problem, samples, {.seed = 2});
   const Eigen::VectorXd at_a = model.mean(A), at_b = model.mean(B);
   const double centre = 0.5 * (at_a.mean() + at_b.mean());
   const double variance =

@@ -12,5 +12,5 @@ using namespace drawpoint;
 // Each call has a fitter of its own, for the compiler complains once a type.
 void a_number_is_no_surrogate(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   kriging::hold_out(X, y, 0.2, [](const Eigen::MatrixXd&, const Eigen::VectorXd& z) { return z.mean(); });
-  kriging::judge({}, X, y, [](const Eigen::MatrixXd&, const Eigen::VectorXd& z) { return z.mean(); });
+  kriging::assess({}, X, y, [](const Eigen::MatrixXd&, const Eigen::VectorXd& z) { return z.mean(); });
 }

@@ -38,7 +38,7 @@ bool shares_are_right() {
 
 // Forty springs to make and measure: a Latin hypercube with the corners of the box in it.
 bool plan_is_sound() {
-  const Eigen::MatrixXd X = doe::optimized_latin_hypercube(spring, 40, 1, {.corners = true});
+  const Eigen::MatrixXd X = doe::optimized_latin_hypercube(spring, 40, {.corners = true});
   const doe::Evaluations runs = doe::evaluate(rate, spring, X);
   const doe::DesignQuality quality = doe::design_quality(spring, X);
   std::printf("%d springs, rates from %.0f to %.0f N/m, nearest two %.2f of the box apart\n",

@@ -53,10 +53,11 @@ double range(const Eigen::VectorXd& x) {
 
 int main() {
   const doe::Evaluations runs =
-      doe::evaluate(range, throwing, doe::optimized_latin_hypercube(throwing, 50, 1, {.corners = true}));
+      doe::evaluate(range, throwing, doe::optimized_latin_hypercube(throwing, 50, {.corners = true}));
   const kriging::Model model = kriging::fit(runs.X(), runs.y("range"));
 
-  const doe::Evaluations others = doe::evaluate(range, throwing, doe::latin_hypercube(throwing, 200, 2));
+  const doe::Evaluations others =
+      doe::evaluate(range, throwing, doe::latin_hypercube(throwing, 200, {.seed = 2}));
   const double unseen = kriging::validate(model, others.X(), others.y("range")).nrmse;
   const double left_out = kriging::leave_one_out(model).nrmse;
 

@@ -77,15 +77,14 @@ double front_error(const pareto::Front& front, const doe::Evaluations& confirmed
 int main() {
   std::vector<kriging::Model> models;
   doe::RefineOptions options{.max_points = 120};
-  options.stop = [&](const doe::Evaluations& runs) {
+  options.enough = [&](const doe::Evaluations& runs) {
     models.clear();
     for (const doe::Response& r : car.responses) models.push_back(kriging::fit(runs.X(), runs.y(r.name)));
     return std::all_of(models.begin(), models.end(),
                        [](const kriging::Model& m) { return kriging::leave_one_out(m).nrmse < 0.005; });
   };
-  const doe::Refinement study =
-      doe::refine(simulate, car, doe::optimized_latin_hypercube(car, 16, 1, {.corners = true}),
-                  doe::LolaVoronoi(), options);
+  const doe::Refinement study = doe::refine(
+      simulate, car, doe::optimized_latin_hypercube(car, 16, {.corners = true}), doe::LolaVoronoi(), options);
   const pareto::Front front = pareto::nsga2(kriging::Surrogates(models), car, {.population = 50});
   const doe::Evaluations confirmed = doe::evaluate(simulate, car, front.X);
 

@@ -23,7 +23,7 @@ double ring(const Eigen::VectorXd& x) {
 Problem ring_problem() { return {{{"a", "1", -2, 2}, {"b", "1", -2, 2}}, {{"y", "1", Goal::minimize}}}; }
 
 Eigen::MatrixXd first_design(int n = 16) {
-  return latin_hypercube(ring_problem(), n, {.corners = true, .seed = 5});
+  return latin_hypercube(ring_problem(), n, {.seed = 5, .corners = true});
 }
 
 RefineOptions budget(int points, int batch = 8) {
@@ -87,12 +87,13 @@ TEST(Refine, IsALoopOfItsParts) {
 TEST(Refine, StopsWhenTheCriterionHolds) {
   RefineOptions options = budget(200, 5);
   std::vector<std::size_t> asked;
-  options.stop = [&asked](const Evaluations& runs) {
+  options.enough = [&asked](const Evaluations& runs) {
     asked.push_back(runs.rows.size());
     return runs.rows.size() >= 24;
   };
   const Refinement r = refine(ring, ring_problem(), first_design(), LolaVoronoi(), options);
   EXPECT_EQ(r.status, RefineStatus::criterion_met);
+  EXPECT_EQ(to_string(r.status), "criterion_met");
   EXPECT_EQ(asked, (std::vector<std::size_t>{16, 21, 26}));
   EXPECT_EQ(r.message, "the stopping criterion held after 26 points, 2 batches");
 }

@@ -26,16 +26,14 @@ using Design = std::function<Eigen::MatrixXd(const Problem&, int, Seed)>;
 /// Every design of a given number of runs, by name.
 const std::vector<std::pair<std::string, Design>> designs{
     {"latin_hypercube",
-     [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.corners = false, .seed = s}); }},
+     [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s, .corners = false}); }},
     {"optimized_latin_hypercube",
      [](const Problem& p, int n, Seed s) {
-       return optimized_latin_hypercube(p, n, s, {.sweeps = 1, .centred = false});
+       return optimized_latin_hypercube(p, n, {.seed = s, .sweeps = 1, .centred = false});
      }},
-    {"halton", [](const Problem& p, int n, Seed s) { return halton(p, n, s); }},
-    {"random_start_halton",
-     [](const Problem& p, int n, Seed s) { return halton(p, n, s, {HaltonKind::random_start}); }},
-    {"uniform_random", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, s); }},
-    {"scrambled_sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, s); }}};
+    {"halton", [](const Problem& p, int n, Seed s) { return halton(p, n, {.seed = s}); }},
+    {"uniform_random", [](const Problem& p, int n, Seed s) { return uniform_random(p, n, {.seed = s}); }},
+    {"scrambled_sobol", [](const Problem& p, int n, Seed s) { return scrambled_sobol(p, n, {.seed = s}); }}};
 
 /// A problem whose ranges span many orders of magnitude.
 Problem arbitrary_problem() {
@@ -65,7 +63,7 @@ RC_GTEST_PROP(LatinHypercube, OneRunInEachStratumOfEachVariable, ()) {
   const Problem problem = arbitrary_problem();
   const int runs = *rc::gen::inRange(1, 300);
   RC_ASSERT(is_latin(
-      problem, latin_hypercube(problem, runs, {.corners = false, .seed = *rc::gen::arbitrary<Seed>()})));
+      problem, latin_hypercube(problem, runs, {.seed = *rc::gen::arbitrary<Seed>(), .corners = false})));
 }
 
 RC_GTEST_PROP(Designs, IntegersAreWholeAndLevelsAreIndices, ()) {
@@ -84,7 +82,7 @@ RC_GTEST_PROP(LatinHypercube, HoldsEachValueOfADiscreteVariableEquallyOften, ())
   const int runs = *rc::gen::inRange(1, 100);
   const Seed seed = *rc::gen::arbitrary<Seed>();
   for (const bool centred : {false, true}) {
-    const Eigen::MatrixXd X = latin_hypercube(problem, runs, seed, {.centred = centred});
+    const Eigen::MatrixXd X = latin_hypercube(problem, runs, {.seed = seed, .centred = centred});
     for (const Eigen::Index j : {2, 3}) RC_ASSERT(support::is_balanced(X.col(j), problem.variables[j]));
   }
 }
@@ -93,7 +91,8 @@ RC_GTEST_PROP(LatinHypercube, HoldsEachValueOfADiscreteVariableEquallyOften, ())
 RC_GTEST_PROP(LatinHypercube, CentredRunsStandInTheMiddleOfTheirStrata, ()) {
   const Problem problem = support::unit_problem(*rc::gen::inRange(1, 7));
   const int runs = *rc::gen::inRange(1, 300);
-  const Eigen::MatrixXd X = latin_hypercube(problem, runs, *rc::gen::arbitrary<Seed>(), {.centred = true});
+  const Eigen::MatrixXd X =
+      latin_hypercube(problem, runs, {.seed = *rc::gen::arbitrary<Seed>(), .centred = true});
   RC_ASSERT(is_latin(problem, X));
   for (const double x : X.reshaped())
     RC_ASSERT(std::abs(x * runs - std::floor(x * runs) - 0.5) < 1e-15 * (2 + runs));
@@ -104,7 +103,7 @@ RC_GTEST_PROP(LatinHypercube, CornersComeFirstAndTheRestIsLatin, ()) {
   const auto d = static_cast<int>(problem.variables.size());
   const int corners = 1 << d, others = *rc::gen::inRange(0, 60);
   const Eigen::MatrixXd X =
-      latin_hypercube(problem, corners + others, {.corners = true, .seed = *rc::gen::arbitrary<Seed>()});
+      latin_hypercube(problem, corners + others, {.seed = *rc::gen::arbitrary<Seed>(), .corners = true});
   std::set<std::vector<bool>> seen;
   for (int i = 0; i < corners; ++i) {
     std::vector<bool> upper;
@@ -122,7 +121,7 @@ RC_GTEST_PROP(LatinHypercube, CornersComeFirstAndTheRestIsLatin, ()) {
 RC_GTEST_PROP(ScrambledSobol, OneRunInEachStratumOfEachVariable, ()) {
   const int m = *rc::gen::inRange(0, 10);
   const Problem problem = support::unit_problem(*rc::gen::inRange(1, detail::sobol_max_dimensions + 1));
-  RC_ASSERT(is_latin(problem, scrambled_sobol(problem, 1 << m, *rc::gen::arbitrary<Seed>())));
+  RC_ASSERT(is_latin(problem, scrambled_sobol(problem, 1 << m, {.seed = *rc::gen::arbitrary<Seed>()})));
 }
 
 RC_GTEST_PROP(Designs, TheFirstRunsOfALongerSequenceAreTheShorterOne, ()) {
@@ -130,7 +129,7 @@ RC_GTEST_PROP(Designs, TheFirstRunsOfALongerSequenceAreTheShorterOne, ()) {
   const int runs = *rc::gen::inRange(1, 100), more = *rc::gen::inRange(0, 100);
   RC_ASSERT(uniform_random(problem, runs + more).topRows(runs) == uniform_random(problem, runs));
   RC_ASSERT(scrambled_sobol(problem, runs + more).topRows(runs) == scrambled_sobol(problem, runs));
-  RC_ASSERT(halton(problem, runs + more, 5).topRows(runs) == halton(problem, runs, 5));
+  RC_ASSERT(halton(problem, runs + more, {.seed = 5}).topRows(runs) == halton(problem, runs, {.seed = 5}));
 }
 
 RC_GTEST_PROP(FullFactorial, EveryCombinationOnceInLexicographicOrder, ()) {
@@ -149,6 +148,24 @@ RC_GTEST_PROP(FullFactorial, EveryCombinationOnceInLexicographicOrder, ()) {
           levels[j] == 1 ? 2.0 * x - 1.0 : x * (levels[j] - 1);  // a single level stands at 1/2
       RC_ASSERT(std::abs(level - std::round(level)) < 1e-14);    // x = k/(L-1) to an ulp, times at most 4
     }
+}
+
+// A seed is named; a number in its place is refused, and nothing given is seed 1.
+template <class... A>
+concept PlansWith = requires(const Problem& p, A... a) {
+  latin_hypercube(p, 4, a...);
+}
+|| requires(const Problem& p, A... a) { uniform_random(p, 4, a...); }
+|| requires(const Problem& p, A... a) { scrambled_sobol(p, 4, a...); }
+|| requires(const Problem& p, A... a) { halton(p, 4, a...); }
+|| requires(const Problem& p, A... a) { optimized_latin_hypercube(p, 4, a...); };
+static_assert(PlansWith<> && !PlansWith<int> && !PlansWith<Seed>);
+
+TEST(Designs, WithoutOptionsHaveSeedOne) {
+  const Problem problem = support::unit_problem(2);
+  EXPECT_EQ(latin_hypercube(problem, 4, {}), latin_hypercube(problem, 4, {.seed = 1}));
+  EXPECT_EQ(latin_hypercube(problem, 4), latin_hypercube(problem, 4, {.seed = 1}));
+  EXPECT_NE(latin_hypercube(problem, 4), latin_hypercube(problem, 4, {.seed = 0}));
 }
 
 TEST(Designs, TooFewRunsAreRefused) {

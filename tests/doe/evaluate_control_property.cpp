@@ -60,9 +60,9 @@ TEST(EvaluateControl, ProgressCountsEveryRunOnce) {
     if (x[0] < 0.3) return Failure{"stuck"};
     return x[0];
   };
-  std::vector<Progress> seen;
+  std::vector<EvaluateProgress> seen;
   EvaluateOptions options{.threads = 4, .replicates = 2};
-  options.on_progress = [&seen](const Progress& p) { seen.push_back(p); };
+  options.progress = [&seen](const EvaluateProgress& p) { seen.push_back(p); };
   const Evaluations table = evaluate(f, problem, uniform_random(problem, 30), options);
   ASSERT_EQ(seen.size(), 60U);
   for (std::size_t k = 0; k < seen.size(); ++k) {
@@ -141,7 +141,7 @@ TEST(EvaluateControl, BadInputIsNamed) {
   };
   EXPECT_EQ(text({.time_limit = 0.0}),
             "doe::evaluate: time_limit is 0 s; allowed is a time above 0 s; leave it out for no limit");
-  EXPECT_EQ(text({.batch_size = -1}), "doe::evaluate: batch_size is -1; allowed is 0 or more");
+  EXPECT_EQ(text({.batch_size = 0}), "doe::evaluate: batch_size is 0; allowed is 1 or more");
 }
 
 }  // namespace

@@ -40,11 +40,11 @@ void expect_equal(const Evaluation& a, const Evaluation& b) {
 
 TEST(Evaluate, OneTwoAndEightThreadsGiveTheSameTable) {
   const Problem problem = support::unit_problem(2, 2);
-  const Eigen::MatrixXd X = uniform_random(problem, 100, 5);
-  const Evaluations one = evaluate(troubled, problem, X, {.threads = 1, .replicates = 3, .seed = 9});
+  const Eigen::MatrixXd X = uniform_random(problem, 100, {.seed = 5});
+  const Evaluations one = evaluate(troubled, problem, X, {.seed = 9, .threads = 1, .replicates = 3});
   ASSERT_EQ(one.rows.size(), 300U);
-  for (const int threads : {2, 8}) {
-    const Evaluations many = evaluate(troubled, problem, X, {.threads = threads, .replicates = 3, .seed = 9});
+  for (const int threads : {0, 2, 8}) {  // 0: all cores
+    const Evaluations many = evaluate(troubled, problem, X, {.seed = 9, .threads = threads, .replicates = 3});
     ASSERT_EQ(many.rows.size(), one.rows.size());
     for (std::size_t i = 0; i < one.rows.size(); ++i) expect_equal(one.rows[i], many.rows[i]);
   }
@@ -72,9 +72,9 @@ TEST(Evaluate, SeedsDependOnStudyRunAndReplicateOnly) {
   const Problem problem = support::unit_problem(1);
   const auto f = [](const Eigen::VectorXd& x) { return x[0]; };
   const Eigen::MatrixXd X = uniform_random(problem, 20);
-  const Evaluations all = evaluate(f, problem, X, {.replicates = 2, .seed = 4});
+  const Evaluations all = evaluate(f, problem, X, {.seed = 4, .replicates = 2});
   const Evaluations later =
-      evaluate(f, problem, X.bottomRows(15), {.replicates = 2, .seed = 4, .on_result = {}, .first_run = 5});
+      evaluate(f, problem, X.bottomRows(15), {.seed = 4, .replicates = 2, .on_result = {}, .first_run = 5});
   std::set<Seed> seeds;
   for (const Evaluation& row : all.rows) seeds.insert(row.seed);
   EXPECT_EQ(seeds.size(), all.rows.size());
@@ -84,7 +84,7 @@ TEST(Evaluate, SeedsDependOnStudyRunAndReplicateOnly) {
 
 TEST(Evaluate, ABatchFunctionSeesAllRowsAtOnceAndAgreesWithThePointFunction) {
   const Problem problem = support::unit_problem(2, 2);
-  const Eigen::MatrixXd X = uniform_random(problem, 50, 5);
+  const Eigen::MatrixXd X = uniform_random(problem, 50, {.seed = 5});
   int calls = 0;
   const auto batch = [&calls](const Eigen::MatrixXd& points, std::span<const Seed> seeds) {
     ++calls;
@@ -100,8 +100,8 @@ TEST(Evaluate, ABatchFunctionSeesAllRowsAtOnceAndAgreesWithThePointFunction) {
     }
     return outcomes;
   };
-  const Evaluations from_batch = evaluate(batch, problem, X, {.replicates = 2, .seed = 3});
-  const Evaluations from_points = evaluate(troubled, problem, X, {.replicates = 2, .seed = 3});
+  const Evaluations from_batch = evaluate(batch, problem, X, {.seed = 3, .replicates = 2});
+  const Evaluations from_points = evaluate(troubled, problem, X, {.seed = 3, .replicates = 2});
   EXPECT_EQ(calls, 1);
   for (std::size_t i = 0; i < from_points.rows.size(); ++i)
     expect_equal(from_batch.rows[i], from_points.rows[i]);
@@ -159,7 +159,7 @@ TEST(Evaluate, BadInputIsNamed) {
   const auto text = [&](const EvaluateOptions& options = {}) {
     return support::thrown_text<std::invalid_argument>([&] { evaluate(f, problem, X, options); });
   };
-  EXPECT_EQ(text({.threads = 0}), "doe::evaluate: threads is 0; allowed is 1 or more");
+  EXPECT_EQ(text({.threads = -1}), "doe::evaluate: threads is -1; allowed is 0 or more");
   EXPECT_EQ(text({.replicates = -1}), "doe::evaluate: replicates is -1; allowed is 1 or more");
   X(2, 0) = 7.5;
   EXPECT_EQ(

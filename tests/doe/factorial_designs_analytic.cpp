@@ -126,7 +126,7 @@ TEST(CentralComposite, TheDefaultIsRotatableInsideTheBounds) {
 
 TEST(CentralComposite, TheThreeKinds) {
   const Problem problem = coded_problem(3);
-  const auto design = [&](CentralCompositeKind kind, double alpha = 0.0) {
+  const auto design = [&](CentralCompositeKind kind, std::optional<double> alpha = {}) {
     return central_composite(problem, {.kind = kind, .alpha = alpha});
   };
   const double alpha = std::pow(8.0, 0.25);
@@ -173,8 +173,9 @@ TEST(ResponseSurfaceDesigns, IntegersAreRoundedAndBadInputRefused) {
   const Eigen::VectorXd edges = box_behnken(problem).col(2), stars = central_composite(problem).col(2);
   for (const double teeth : edges) EXPECT_TRUE(teeth == 2 || teeth == 4 || teeth == 6);
   for (const double teeth : stars) EXPECT_EQ(teeth, std::round(teeth));
-  EXPECT_EQ(text([&] { central_composite(problem, {.alpha = 0.5}); }),
-            "doe::central_composite: alpha is 0.5; allowed is 1 or more, or 0 for the rotatable design");
+  EXPECT_EQ(
+      text([&] { central_composite(problem, {.alpha = 0.5}); }),
+      "doe::central_composite: alpha is 0.5; allowed is 1 or more; leave it out for the rotatable design");
   EXPECT_EQ(text([&] { central_composite(problem, {.centre_runs = -1}); }),
             "doe::central_composite: centre_runs is -1; allowed is 0 or more");
   EXPECT_EQ(text([&] { box_behnken(support::unit_problem(2)); }),

@@ -15,7 +15,7 @@ namespace {
 constexpr double rounding = 0.5e-8;
 
 void expect_first_row(int runs, Seed seed, const Eigen::RowVector4d& expected) {
-  const Eigen::MatrixXd X = latin_hypercube(support::unit_problem(4), runs, {.corners = false, .seed = seed});
+  const Eigen::MatrixXd X = latin_hypercube(support::unit_problem(4), runs, {.seed = seed, .corners = false});
   EXPECT_LE((X.row(0) - expected).cwiseAbs().maxCoeff(), rounding) << X.row(0);
 }
 

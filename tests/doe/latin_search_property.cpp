@@ -41,7 +41,7 @@ void for_exchanges(Criterion criterion, Eigen::Index movable,
 
 // Both values are sums of 40²/2 terms near 1: 1e-16 each, over n²; 1e-14 leaves a margin of some 50.
 TEST(CentredDiscrepancyState, ForetellsTheChange) {
-  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(4), 40, Seed{2});
+  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(4), 40, {.seed = 2});
   for_exchanges(detail::CentredDiscrepancy(U), 30, [](double change, double before, double after) {
     EXPECT_NEAR(before + change, after, 1e-14);
   });
@@ -50,7 +50,7 @@ TEST(CentredDiscrepancyState, ForetellsTheChange) {
 // Terms lie between 1e-10 and 1e20, all positive: the error is 1e-16·(terms) of the larger sum, before or
 // after.
 TEST(PairPotentialState, ForetellsTheChangeAndIsPhiP) {
-  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(4), 40, Seed{2});
+  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(4), 40, {.seed = 2});
   for (const int p : {2, 10, 34}) {
     for_exchanges(detail::PairPotential(U, p), 30, [](double change, double before, double after) {
       EXPECT_NEAR(before + change, after, 1e-13 * std::max(before, after));
@@ -67,11 +67,11 @@ TEST(OptimizedLatinHypercube, IsLatinRepeatsAndIsNoWorseThanRandom) {
         for (const bool centred : {false, true}) {
           const Problem problem = support::unit_problem(d);
           const OptimizedLatinOptions options{
-              .criterion = criterion, .sweeps = 10, .start = start, .centred = centred};
-          const Eigen::MatrixXd X = optimized_latin_hypercube(problem, n, 11, options);
+              .seed = 11, .criterion = criterion, .sweeps = 10, .start = start, .centred = centred};
+          const Eigen::MatrixXd X = optimized_latin_hypercube(problem, n, options);
           EXPECT_TRUE(is_latin(problem, X)) << n << " x " << d;
-          EXPECT_EQ(X, optimized_latin_hypercube(problem, n, 11, options));
-          const Eigen::MatrixXd random = latin_hypercube(problem, n, 11, {.centred = centred});
+          EXPECT_EQ(X, optimized_latin_hypercube(problem, n, options));
+          const Eigen::MatrixXd random = latin_hypercube(problem, n, {.seed = 11, .centred = centred});
           if (n < 12 || d == 1) continue;  // nothing to choose, or close to it
           if (criterion == LatinCriterion::maximin)
             EXPECT_GE(minimum_distance(X), minimum_distance(random));
@@ -104,7 +104,8 @@ TEST(OptimizedLatinHypercube, FindsTheBestOfAllSmallDesigns) {
   for (const int n : {3, 4, 5, 6, 7, 8}) {
     const int best = exhaustive_maximin(n);
     for (Seed seed = 1; seed <= 5; ++seed) {
-      const double found = minimum_distance(optimized_latin_hypercube(support::unit_problem(2), n, seed)) * n;
+      const double found =
+          minimum_distance(optimized_latin_hypercube(support::unit_problem(2), n, {.seed = seed})) * n;
       EXPECT_EQ(std::lround(found * found), best) << n << " runs, seed " << seed;
     }
   }
@@ -117,7 +118,7 @@ TEST(OptimizedLatinHypercube, BeatsThePublishedToolsAt500RunsOfFourVariables) {
   const Problem problem = support::unit_problem(4);
   for (Seed seed = 1; seed <= 3; ++seed) {
     const auto X = [&](LatinCriterion criterion) {
-      return optimized_latin_hypercube(problem, 500, seed, {.criterion = criterion, .sweeps = 10});
+      return optimized_latin_hypercube(problem, 500, {.seed = seed, .criterion = criterion, .sweeps = 10});
     };
     EXPECT_GE(minimum_distance(X(LatinCriterion::maximin)), 0.131);
     EXPECT_LE(phi_p(X(LatinCriterion::phi_p), 10.0), 10.62);
@@ -127,17 +128,17 @@ TEST(OptimizedLatinHypercube, BeatsThePublishedToolsAt500RunsOfFourVariables) {
 
 TEST(OptimizedLatinHypercube, CornersComeFirstAndTheRestIsLatin) {
   const Problem problem = support::loader_problem();
-  const Eigen::MatrixXd X = optimized_latin_hypercube(problem, 28, 3, {.corners = true});
+  const Eigen::MatrixXd X = optimized_latin_hypercube(problem, 28, {.seed = 3, .corners = true});
   EXPECT_EQ(X.topRows(8), latin_hypercube(problem, 28, {.corners = true}).topRows(8));
   EXPECT_TRUE(is_latin(problem, X.bottomRows(20)));
-  EXPECT_EQ(optimized_latin_hypercube(problem, 8, 3, {.corners = true}), X.topRows(8));
+  EXPECT_EQ(optimized_latin_hypercube(problem, 8, {.seed = 3, .corners = true}), X.topRows(8));
 }
 
 TEST(OptimizedLatinHypercube, KeepsDiscreteVariablesBalanced) {
   const Problem problem = support::mixed_problem();
   for (const int n : {2, 9, 30, 47})
     for (const LatinCriterion criterion : criteria) {
-      const Eigen::MatrixXd X = optimized_latin_hypercube(problem, n, 5, {.criterion = criterion});
+      const Eigen::MatrixXd X = optimized_latin_hypercube(problem, n, {.seed = 5, .criterion = criterion});
       for (const Eigen::Index j : {2, 3}) EXPECT_TRUE(support::is_balanced(X.col(j), problem.variables[j]));
     }
 }
@@ -146,12 +147,13 @@ TEST(AugmentedLatinHypercube, KeepsTheOldRunsAndIsLatinAtMultiples) {
   for (const auto& [n, more, d] : {std::tuple{1, 4, 3}, {10, 10, 2}, {12, 24, 5}, {7, 7, 1}})
     for (const bool centred : {false, true}) {
       const Problem problem = support::unit_problem(d);
-      const Eigen::MatrixXd X = latin_hypercube(problem, n, Seed{4}, {.centred = centred});
+      const Eigen::MatrixXd X = latin_hypercube(problem, n, {.seed = 4, .centred = centred});
       const Eigen::MatrixXd grown =
-          augmented_latin_hypercube(problem, X, more, 9, {.sweeps = 10, .centred = centred});
+          augmented_latin_hypercube(problem, X, more, {.seed = 9, .sweeps = 10, .centred = centred});
       EXPECT_EQ(grown.topRows(n), X);
       EXPECT_TRUE(is_latin(problem, grown)) << n << " + " << more;
-      EXPECT_EQ(grown, augmented_latin_hypercube(problem, X, more, 9, {.sweeps = 10, .centred = centred}));
+      EXPECT_EQ(grown,
+                augmented_latin_hypercube(problem, X, more, {.seed = 9, .sweeps = 10, .centred = centred}));
     }
 }
 
@@ -166,8 +168,8 @@ std::size_t strata_met(const Eigen::VectorXd& u, int strata) {
 TEST(AugmentedLatinHypercube, FillsFreeStrataOnly) {
   const Problem problem = support::unit_problem(3);
   for (Seed seed = 1; seed <= 20; ++seed) {
-    const Eigen::MatrixXd X = latin_hypercube(problem, 17, seed);
-    const Eigen::MatrixXd grown = augmented_latin_hypercube(problem, X, 9, seed, {.sweeps = 5});
+    const Eigen::MatrixXd X = latin_hypercube(problem, 17, {.seed = seed});
+    const Eigen::MatrixXd grown = augmented_latin_hypercube(problem, X, 9, {.seed = seed, .sweeps = 5});
     for (Eigen::Index j = 0; j < 3; ++j)
       EXPECT_EQ(strata_met(grown.col(j), 26), strata_met(X.col(j), 26) + 9);
   }
@@ -177,7 +179,7 @@ TEST(AugmentedLatinHypercube, KeepsDiscreteVariablesBalanced) {
   const Problem problem = support::mixed_problem();
   for (int more = 1; more <= 20; ++more) {
     const Eigen::MatrixXd X =
-        augmented_latin_hypercube(problem, latin_hypercube(problem, 13), more, 2, {.sweeps = 5});
+        augmented_latin_hypercube(problem, latin_hypercube(problem, 13), more, {.seed = 2, .sweeps = 5});
     for (const Eigen::Index j : {2, 3}) EXPECT_TRUE(support::is_balanced(X.col(j), problem.variables[j]));
   }
 }
@@ -185,7 +187,7 @@ TEST(AugmentedLatinHypercube, KeepsDiscreteVariablesBalanced) {
 TEST(NestedLatinHypercube, EveryLayerIsLatin) {
   const Problem problem = support::unit_problem(4);
   const std::vector<int> sizes{5, 10, 30, 60};
-  const Eigen::MatrixXd X = nested_latin_hypercube(problem, sizes, 3, {.sweeps = 20});
+  const Eigen::MatrixXd X = nested_latin_hypercube(problem, sizes, {.seed = 3, .sweeps = 20});
   ASSERT_EQ(X.rows(), 60);
   for (const int size : sizes) EXPECT_TRUE(is_latin(problem, X.topRows(size))) << size;
 }
@@ -193,13 +195,13 @@ TEST(NestedLatinHypercube, EveryLayerIsLatin) {
 TEST(LatinSearch, BadOptionsAreRefused) {
   const Problem problem = support::unit_problem(2);
   const auto text = [](const auto& action) { return support::thrown_text<std::invalid_argument>(action); };
-  EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 5, 1, {.p = 7}); }),
+  EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 5, {.seed = 1, .p = 7}); }),
             "doe::optimized_latin_hypercube: p is 7; allowed is an even number from 2 to 100; 10 is usual");
-  EXPECT_EQ(
-      text([&] { optimized_latin_hypercube(problem, 5, 1, {.sweeps = -2}); }),
-      "doe::optimized_latin_hypercube: sweeps is -2; allowed is 0 or more, or automatic_sweeps; 50 to 500 is "
-      "usual");
-  EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 3, 1, {.corners = true}); }),
+  EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 5, {.seed = 1, .sweeps = -2}); }),
+            "doe::optimized_latin_hypercube: sweeps is -2; allowed is 0 or more; leave it out for a budget "
+            "by size, "
+            "50 to 500 is usual");
+  EXPECT_EQ(text([&] { optimized_latin_hypercube(problem, 3, {.seed = 1, .corners = true}); }),
             "doe::optimized_latin_hypercube: runs is 3, fewer than the 2^2 corner points of 2 variables; ask "
             "for more "
             "runs or set corners = false");

@@ -77,8 +77,6 @@ TEST(LolaVoronoi, HybridsAreTheirFormulas) {
     return LolaVoronoi({.hybrid = form, .voronoi_weight = w}).scores(runs).hybrid;
   };
   EXPECT_EQ(s.hybrid, s.volume + s.nonlinear);
-  EXPECT_TRUE(hybrid(Hybrid::product)
-                  .isApprox(Eigen::VectorXd((s.volume.array() + 1) * (s.nonlinear.array() + 1)), 1e-15));
   EXPECT_TRUE(hybrid(Hybrid::weighted, 0.25).isApprox(0.25 * s.volume + 0.75 * s.nonlinear, 1e-15));
   EXPECT_EQ(hybrid(Hybrid::weighted, 1.0), s.volume);
   EXPECT_EQ(voronoi_sampler().scores(runs).hybrid, s.volume);

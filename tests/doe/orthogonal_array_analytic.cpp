@@ -84,21 +84,22 @@ TEST(OrthogonalLatinHypercube, IsLatinAndKeepsTheArray) {
   for (const int sweeps : {0, 10})
     for (const LatinCriterion criterion : {LatinCriterion::maximin, LatinCriterion::centred_discrepancy}) {
       const Problem problem = support::unit_problem(5);
-      const OrthogonalLatinOptions options{.criterion = criterion, .sweeps = sweeps};
-      const Eigen::MatrixXd X = orthogonal_latin_hypercube(problem, 49, 6, options);
+      const OrthogonalLatinOptions options{.seed = 6, .criterion = criterion, .sweeps = sweeps};
+      const Eigen::MatrixXd X = orthogonal_latin_hypercube(problem, 49, options);
       EXPECT_TRUE(support::is_latin(problem, X));
-      EXPECT_EQ(X, orthogonal_latin_hypercube(problem, 49, 6, options));
+      EXPECT_EQ(X, orthogonal_latin_hypercube(problem, 49, options));
       for (Eigen::Index j = 0; j < 5; ++j)
         for (Eigen::Index k = 0; k < j; ++k) EXPECT_TRUE(balanced(cells_of(X, 7), {j, k}, 7));
     }
-  const Eigen::MatrixXd X = orthogonal_latin_hypercube(support::unit_problem(3), 64, 6, {.strength = 3});
+  const Eigen::MatrixXd X =
+      orthogonal_latin_hypercube(support::unit_problem(3), 64, {.seed = 6, .strength = 3});
   EXPECT_TRUE(balanced(cells_of(X, 4), {0, 1, 2}, 4));
 }
 
 TEST(OrthogonalLatinHypercube, TheSearchLowersTheCriterion) {
   const Problem problem = support::unit_problem(4);
-  const Eigen::MatrixXd plain = orthogonal_latin_hypercube(problem, 64, 2, {.sweeps = 0}),
-                        searched = orthogonal_latin_hypercube(problem, 64, 2);
+  const Eigen::MatrixXd plain = orthogonal_latin_hypercube(problem, 64, {.seed = 2, .sweeps = 0}),
+                        searched = orthogonal_latin_hypercube(problem, 64, {.seed = 2});
   EXPECT_LT(squared_centred_discrepancy(searched), squared_centred_discrepancy(plain));
 }
 

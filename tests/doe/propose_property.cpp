@@ -58,7 +58,7 @@ TEST(Propose, EqualRunsOptionsAndSeedGiveEqualBits) {
   const Evaluations runs = some_runs();
   const ProposeOptions options{.batch = 8};
   EXPECT_EQ(propose(runs, LolaVoronoi(), options), propose(runs, LolaVoronoi(), options));
-  EXPECT_NE(propose(runs, LolaVoronoi(), options), propose(runs, LolaVoronoi(), {.batch = 8, .seed = 2}));
+  EXPECT_NE(propose(runs, LolaVoronoi(), options), propose(runs, LolaVoronoi(), {.seed = 2, .batch = 8}));
 }
 
 TEST(Propose, ACellGivesOnePointUntilAllHaveGivenOne) {
@@ -89,7 +89,7 @@ TEST(Propose, PlacesThePointFarthestFromAllRuns) {
 // Each choice has the highest (score − lowest) Π min(1, |x − c|²/r_c²) of all candidates, worked out anew.
 TEST(Propose, PenaltyIsItsFormula) {
   const Evaluations runs = some_runs(3);
-  const ProposeOptions options{.batch = 6, .candidates = 2000, .spread = Spread::penalty};
+  const ProposeOptions options{.batch = 6, .candidates = 2000, .rule = BatchRule::penalty};
   const Eigen::MatrixXd X = propose(runs, peaked, options);
   ASSERT_EQ(X.rows(), 6);
   std::uint64_t counter = 0;
@@ -118,7 +118,7 @@ TEST(Propose, TheBelieverIsAskedAfterEachChoice) {
     return distance_to_runs(so_far);
   };
   std::vector<double> believed;
-  ProposeOptions options{.batch = 3, .spread = Spread::believer};
+  ProposeOptions options{.batch = 3, .rule = BatchRule::believer};
   options.believe = [&believed](const Eigen::VectorXd& x) -> Outcome {
     believed.push_back(x[0]);
     return x.sum();
@@ -215,12 +215,10 @@ TEST(Propose, BadInputIsNamed) {
     return support::thrown_text<std::invalid_argument>([&] { propose(runs, peaked, options); });
   };
   EXPECT_EQ(text({.batch = 0}), "doe::propose: batch is 0; allowed is 1 or more; ask for at least one point");
-  EXPECT_EQ(
-      text({.candidates = -1}),
-      "doe::propose: candidates is -1; allowed is 1 or more, or 0 for 100 a run; give a number of random "
-      "points");
-  EXPECT_EQ(text({.spread = Spread::believer}),
-            "doe::propose: spread is believer, but believe is empty; give what a run at x would give");
+  EXPECT_EQ(text({.candidates = 0}),
+            "doe::propose: candidates is 0; allowed is 1 or more; leave it out for 100 per run");
+  EXPECT_EQ(text({.rule = BatchRule::believer}),
+            "doe::propose: rule is believer, but believe is empty; give what a run at x would give");
   const auto short_of = [](const Evaluations&) -> Criterion {
     return [](const Eigen::MatrixXd&) -> Eigen::VectorXd { return Eigen::VectorXd::Ones(3); };
   };

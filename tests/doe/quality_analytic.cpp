@@ -81,7 +81,7 @@ Simpson rule_of(const Eigen::MatrixXd& U) {
 // covers both.
 TEST(Discrepancy, StarIsTheMeanSquaredGapOfBoxesAtTheOrigin) {
   for (Seed seed = 1; seed <= 5; ++seed) {
-    const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(2), 7, seed);
+    const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(2), 7, {.seed = seed});
     EXPECT_NEAR(squared_star_discrepancy(U), mean_squared_gap(U, origin, rule_of(U)), 1e-10);
   }
 }
@@ -89,7 +89,7 @@ TEST(Discrepancy, StarIsTheMeanSquaredGapOfBoxesAtTheOrigin) {
 // Hickernell's centred discrepancy adds the gaps of every projection: both axes and the square.
 TEST(Discrepancy, CentredIsTheSumOverProjectionsForBoxesAtTheNearestCorner) {
   for (Seed seed = 1; seed <= 5; ++seed) {
-    const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(2), 7, seed);
+    const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(2), 7, {.seed = seed});
     const Simpson rule = rule_of(U);
     const double sum = mean_squared_gap(Eigen::VectorXd(U.col(0)), nearest_corner, rule) +
                        mean_squared_gap(Eigen::VectorXd(U.col(1)), nearest_corner, rule) +
@@ -111,7 +111,7 @@ TEST(Discrepancy, MidpointsOfOneVariable) {
 
 // A shift on the torus changes nothing: 2e-16 a term of the double sum, divided by n².
 TEST(Discrepancy, WrapAroundDoesNotSeeShifts) {
-  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(3), 20, Seed{4});
+  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(3), 20, {.seed = 4});
   Eigen::MatrixXd shifted = U.array() + 0.37;
   for (double& u : shifted.reshaped()) u -= std::floor(u);
   EXPECT_NEAR(squared_wrap_around_discrepancy(U), squared_wrap_around_discrepancy(shifted), 1e-14);
@@ -154,7 +154,7 @@ TEST(Correlation, TheLargestOfAllPairs) {
 TEST(DesignQuality, IsTakenInTheUnitBox) {
   Problem wide = support::unit_problem(2);
   wide.variables[1] = {"x1", "m", -100.0, 300.0};
-  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(2), 12, Seed{3});
+  const Eigen::MatrixXd U = latin_hypercube(support::unit_problem(2), 12, {.seed = 3});
   Eigen::MatrixXd X = U;
   X.col(1) = -100.0 + 400.0 * U.col(1).array();
   const DesignQuality q = design_quality(wide, X, 4.0);

@@ -26,12 +26,17 @@ const std::vector<std::pair<std::string, Region>> regions{
 using Design = std::function<ConstrainedDesign(const Problem&, int, const Region&, Seed)>;
 
 const std::vector<std::pair<std::string, Design>> designs{
-    {"sequence", [](const auto& p, int n, const Region& r, Seed s) { return feasible_sequence(p, n, r, s); }},
-    {"maximin", [](const auto& p, int n, const Region& r, Seed s) { return feasible_maximin(p, n, r, s); }},
-    {"replacement", [](const auto& p, int n, const Region& r,
-                       Seed s) { return feasible_replacement(p, latin_hypercube(p, n, s), r, s); }},
-    {"latin",
-     [](const auto& p, int n, const Region& r, Seed s) { return constrained_latin_hypercube(p, n, r, s); }}};
+    {"sequence",
+     [](const auto& p, int n, const Region& r, Seed s) { return feasible_sequence(p, n, r, {.seed = s}); }},
+    {"maximin",
+     [](const auto& p, int n, const Region& r, Seed s) { return feasible_maximin(p, n, r, {.seed = s}); }},
+    {"replacement",
+     [](const auto& p, int n, const Region& r, Seed s) {
+       return feasible_replacement(p, latin_hypercube(p, n, {.seed = s}), r, {.seed = s});
+     }},
+    {"latin", [](const auto& p, int n, const Region& r, Seed s) {
+       return constrained_latin_hypercube(p, n, r, {.seed = s});
+     }}};
 
 TEST(ConstrainedDesigns, EveryRunIsAllowedInsideTheBoundsAndRepeats) {
   const Problem problem = support::unit_problem(3);
@@ -56,8 +61,8 @@ TEST(ConstrainedDesigns, EverywhereAllowedChangesNothing) {
   const ConstrainedDesign same = feasible_replacement(problem, X, everywhere);
   EXPECT_EQ(same.X, X);
   EXPECT_EQ(same.replaced, 0);
-  EXPECT_EQ(feasible_sequence(problem, 20, everywhere, 3).X, halton(problem, 20, 3));
-  EXPECT_EQ(feasible_sequence(problem, 20, everywhere, 3).feasible_share, 1.0);
+  EXPECT_EQ(feasible_sequence(problem, 20, everywhere, {.seed = 3}).X, halton(problem, 20, {.seed = 3}));
+  EXPECT_EQ(feasible_sequence(problem, 20, everywhere, {.seed = 3}).feasible_share, 1.0);
 }
 
 TEST(ConstrainedLatinHypercube, StaysLatinWhereThatIsPossible) {
@@ -65,7 +70,8 @@ TEST(ConstrainedLatinHypercube, StaysLatinWhereThatIsPossible) {
   for (const auto& [name, region] : {regions[0], regions[1]})
     for (Seed seed = 1; seed <= 5; ++seed)
       for (const bool centred : {false, true}) {
-        const auto found = constrained_latin_hypercube(problem, 40, region, seed, {.centred = centred});
+        const auto found =
+            constrained_latin_hypercube(problem, 40, region, {.seed = seed, .centred = centred});
         EXPECT_EQ(found.status, RegionStatus::complete) << name << ", seed " << seed << ": " << found.message;
         EXPECT_TRUE(support::is_latin(problem, found.X)) << name << ", seed " << seed;
       }
@@ -76,7 +82,7 @@ TEST(ConstrainedLatinHypercube, StaysLatinWhereThatIsPossible) {
 TEST(ConstrainedLatinHypercube, SaysWhenTheRunsLeaveTheirStrata) {
   const Problem problem = support::unit_problem(2);
   const auto found = constrained_latin_hypercube(
-      problem, 20, [](const Eigen::VectorXd& x) { return x[0] < 0.4; }, 3, {.exchanges = 5});
+      problem, 20, [](const Eigen::VectorXd& x) { return x[0] < 0.4; }, {.seed = 3, .exchanges = 5});
   EXPECT_EQ(found.status, RegionStatus::not_latin);
   EXPECT_EQ(found.X.rows(), 20);
   EXPECT_LT(found.X.col(0).maxCoeff(), 0.4);
@@ -91,8 +97,8 @@ TEST(FeasibleMaximin, SpreadsTheRuns) {
   const Problem problem = support::unit_problem(3);
   for (const auto& [name, region] : regions)
     for (Seed seed = 1; seed <= 3; ++seed)
-      EXPECT_GT(minimum_distance(feasible_maximin(problem, 50, region, seed).X),
-                2.0 * minimum_distance(feasible_sequence(problem, 50, region, seed).X))
+      EXPECT_GT(minimum_distance(feasible_maximin(problem, 50, region, {.seed = seed}).X),
+                2.0 * minimum_distance(feasible_sequence(problem, 50, region, {.seed = seed}).X))
           << name;
 }
 
@@ -109,18 +115,16 @@ TEST(FeasibleMaximin, FarthestPointsKeepHalfOfTheBestDistance) {
 TEST(ConstrainedDesigns, ARegionThatIsTooSmallIsReported) {
   const Problem problem = support::unit_problem(3);
   const Region tiny = [](const Eigen::VectorXd& x) { return x.norm() < 1e-3; };
-  const ConstrainedDesign none = feasible_sequence(problem, 10, tiny, 1, {.tries = 1000});
+  const ConstrainedDesign none = feasible_sequence(problem, 10, tiny, {.tries = 1000});
   EXPECT_EQ(none.status, RegionStatus::too_small);
   EXPECT_EQ(none.X.rows(), 0);
   EXPECT_EQ(none.message,
             "only 0 of 10 runs: distinct allowed points ran out, 0 of those tried are allowed; widen the "
             "region, shrink "
             "the bounds around it, or raise tries");
-  EXPECT_EQ(feasible_maximin(problem, 10, tiny, 1, {.tries = 1000}).X.rows(), 0);
-  EXPECT_EQ(feasible_replacement(problem, latin_hypercube(problem, 10), tiny, 1, {.tries = 1000}).X.rows(),
-            0);
-  EXPECT_EQ(constrained_latin_hypercube(problem, 10, tiny, 1, {.region = {.tries = 1000}}).status,
-            RegionStatus::too_small);
+  EXPECT_EQ(feasible_maximin(problem, 10, tiny, {.tries = 1000}).X.rows(), 0);
+  EXPECT_EQ(feasible_replacement(problem, latin_hypercube(problem, 10), tiny, {.tries = 1000}).X.rows(), 0);
+  EXPECT_EQ(constrained_latin_hypercube(problem, 10, tiny, {.tries = 1000}).status, RegionStatus::too_small);
   const Problem discrete{{integer_variable("a", "1", 0, 2), integer_variable("b", "1", 0, 2)}, {{"f", "1"}}};
   const Region diagonal = [](const Eigen::VectorXd& x) { return x[0] == x[1]; };
   const ConstrainedDesign three = feasible_maximin(discrete, 5, diagonal);
@@ -142,9 +146,11 @@ TEST(LinearConstraints, AreCheckedRowByRow) {
 TEST(ConstrainedDesigns, BadOptionsAreRefused) {
   const Problem problem = support::unit_problem(2);
   const auto text = [](const auto& action) { return support::thrown_text<std::invalid_argument>(action); };
-  EXPECT_EQ(text([&] { feasible_maximin(problem, 5, regions[1].second, 1, {.tries = 0}); }),
-            "doe::feasible_maximin: candidates is 0, tries is 0; allowed are 0 or more and 1 or more");
-  EXPECT_EQ(text([&] { constrained_latin_hypercube(problem, 5, regions[1].second, 1, {.exchanges = -1}); }),
+  EXPECT_EQ(text([&] { feasible_maximin(problem, 5, regions[1].second, {.tries = 0}); }),
+            "doe::feasible_maximin: tries is 0; allowed is 1 or more");
+  EXPECT_EQ(text([&] { feasible_maximin(problem, 5, regions[1].second, {.candidates = 0}); }),
+            "doe::feasible_maximin: candidates is 0; allowed is 1 or more");
+  EXPECT_EQ(text([&] { constrained_latin_hypercube(problem, 5, regions[1].second, {.exchanges = -1}); }),
             "doe::constrained_latin_hypercube: exchanges is -1; allowed is 0 or more; 200 is usual");
 }
 

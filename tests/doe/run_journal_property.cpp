@@ -114,7 +114,7 @@ TEST_F(RunJournalTest, DamageBeforeTheLastLineIsNamed) {
 
 TEST_F(RunJournalTest, AnotherDesignOrProblemIsRefused) {
   evaluate(noisy, problem_, uniform_random(problem_, 4), {.replicates = 2, .journal = path_});
-  EXPECT_EQ(error(uniform_random(problem_, 4, 2)),
+  EXPECT_EQ(error(uniform_random(problem_, 4, {.seed = 2})),
             "doe::RunJournal: \"" + path_.string() +
                 "\" has run 0, replicate 0 at another point or with another seed; it is of another design: "
                 "repeat the call that began it, or choose another file");

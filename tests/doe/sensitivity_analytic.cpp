@@ -98,6 +98,8 @@ TEST(SobolIndices, LeaveOutPairsWithAFailure) {
   const Sensitivity none = sobol_indices(never, c.problem, {.samples = 16});
   EXPECT_EQ(none.pairs, 0);
   EXPECT_EQ(none.responses[0].status, SensitivityStatus::too_few_runs);
+  EXPECT_EQ(to_string(none.responses[0].status), "too_few_runs");
+  EXPECT_EQ(none.responses[0].message.substr(0, 5), "0 of ");
   EXPECT_TRUE(none.responses[0].first.value.array().isNaN().all());
 }
 
@@ -106,6 +108,7 @@ TEST(SobolIndices, OfAConstantResponseAreZero) {
   const auto f = [](const Eigen::VectorXd& x) -> Outcome { return {0.1, x[0]}; };
   const Sensitivity s = sobol_indices(f, problem, {.samples = 64});
   EXPECT_EQ(s.responses[0].status, SensitivityStatus::constant_response);
+  EXPECT_EQ(s.responses[0].message.find("all responses equal "), 0u);
   EXPECT_EQ(s.responses[0].total.value, Eigen::Vector2d::Zero());
   EXPECT_EQ(s.responses[1].status, SensitivityStatus::estimated);
   EXPECT_EQ(s.responses[1].response, "f1");
@@ -173,6 +176,9 @@ TEST(MainEffects, BadInputAndFailures) {
   };
   const auto effects = main_effects(f, c.problem, {.levels = 3, .samples = 8});
   EXPECT_TRUE(std::isnan(effects[0].mean[2]));
+  EXPECT_EQ(effects[0].status, SensitivityStatus::too_few_runs);
+  EXPECT_EQ(effects[0].message.find("every run failed at 1 of 3 levels"), 0u);
+  EXPECT_EQ(effects[1].status, SensitivityStatus::estimated);
   EXPECT_DOUBLE_EQ(effects[0].mean[0], -std::numbers::pi);
   std::stop_source cancel;
   cancel.request_stop();

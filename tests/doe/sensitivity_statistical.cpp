@@ -22,11 +22,11 @@ Repeats repeated(const support::SensitivityCase& c, SobolEstimator estimator) {
   Repeats result{Eigen::MatrixXd(repeats, 2 * d), Eigen::VectorXi::Zero(2 * d)};
   for (int k = 0; k < repeats; ++k) {
     const SobolIndices s = sobol_indices(c.f, c.problem,
-                                         {.samples = pairs,
+                                         {.seed = static_cast<Seed>(1000 + k),
+                                          .samples = pairs,
                                           .estimator = estimator,
                                           .resamples = 200,
-                                          .quasi_random = false,
-                                          .seed = static_cast<Seed>(1000 + k)})
+                                          .quasi_random = false})
                                .responses[0];
     for (Eigen::Index j = 0; j < 2 * d; ++j) {
       const IndexEstimates& e = j < d ? s.first : s.total;
@@ -79,7 +79,7 @@ TEST(SobolIndicesStatistics, QuasiRandomPairsAreBetter) {
     double sum = 0;
     for (Seed seed = 1; seed <= 20; ++seed)
       sum += (sobol_indices(c.f, c.problem,
-                            {.samples = 512, .resamples = 100, .quasi_random = quasi, .seed = seed})
+                            {.seed = seed, .samples = 512, .resamples = 100, .quasi_random = quasi})
                   .responses[0]
                   .first.value -
               c.first)

@@ -37,7 +37,7 @@ bool equidistributed(const Eigen::MatrixXd& X, const std::vector<int>& bits, Eig
 // scrambling keeps nets.
 TEST(ScrambledSobol, TheFirstTwoVariablesFormANet) {
   constexpr int m = 10;
-  const Eigen::MatrixXd X = scrambled_sobol(support::unit_problem(2), 3 << m, 7);
+  const Eigen::MatrixXd X = scrambled_sobol(support::unit_problem(2), 3 << m, {.seed = 7});
   for (int block = 0; block < 3; ++block)
     for (int k = 0; k <= m; ++k)
       EXPECT_TRUE(equidistributed(X, {k, m - k}, block << m, 1 << m)) << "block " << block << ", split " << k;
@@ -48,7 +48,8 @@ TEST(ScrambledSobol, TheFirstTwoVariablesFormANet) {
 // with probability 1/2 or more.
 TEST(ScrambledSobol, PropertyAHoldsInEveryNumberOfVariables) {
   for (int d = 1; d <= 16; ++d) {
-    const Eigen::MatrixXd X = scrambled_sobol(support::unit_problem(d), 1 << d, static_cast<Seed>(d));
+    const Eigen::MatrixXd X =
+        scrambled_sobol(support::unit_problem(d), 1 << d, {.seed = static_cast<Seed>(d)});
     EXPECT_TRUE(equidistributed(X, std::vector<int>(static_cast<std::size_t>(d), 1), 0, 1 << d))
         << d << " variables";
   }
@@ -114,7 +115,7 @@ TEST(SobolDirections, PolynomialsArePrimitiveAndDifferAndNumbersAreOddAndSmall) 
 // sqrt(((13/12)^5 - 1)/n) = 0.011 at n = 4096; a scrambled net of smooth f does far better, so a tenth of it
 // is asked for.
 TEST(ScrambledSobol, IntegratesASmoothFunctionBetterThanRandomPoints) {
-  const Eigen::MatrixXd X = scrambled_sobol(support::unit_problem(5), 4096, 3);
+  const Eigen::MatrixXd X = scrambled_sobol(support::unit_problem(5), 4096, {.seed = 3});
   const double mean = (X.array() + 0.5).rowwise().prod().mean();
   const double random_error = std::sqrt((std::pow(13.0 / 12.0, 5) - 1.0) / 4096.0);
   EXPECT_LT(std::abs(mean - 1.0), 0.1 * random_error);

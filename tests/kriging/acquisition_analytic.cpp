@@ -200,7 +200,7 @@ TEST(Believer, LetsABatchSpreadByItsOwnExpectations) {
   const MatrixXd batch = doe::propose(runs, improve,
                                       {.batch = 3,
                                        .candidates = 500,
-                                       .spread = doe::Spread::believer,
+                                       .rule = doe::BatchRule::believer,
                                        .believe = believer(std::vector<Model>{model})});
   ASSERT_EQ(batch.rows(), 3);
   for (int i = 0; i < 3; ++i)
@@ -219,8 +219,8 @@ TEST(Acquisition, RefusesWhatItCannotServe) {
       }),
       "kriging::probability_of_feasibility: response \"cost\" has the goal minimize; allowed are at_most and "
       "at_least; use expected_improvement for objectives");
-  EXPECT_EQ(refusal([] { product({}); }),
-            "kriging::product: 0 criteria; allowed is 1 or more; name at least one");
+  EXPECT_EQ(refusal([] { product_of_criteria({}); }),
+            "kriging::product_of_criteria: 0 criteria; allowed is 1 or more; name at least one");
   const doe::Problem problem{.variables = {{"x", "m", 0, 1}}, .responses = {{"length", "m"}}};
   EXPECT_EQ(refusal([&] { constrained_improvement(problem, {}); }),
             "kriging::constrained_improvement: 0 models; the problem has 1 responses; give one model a "

@@ -153,7 +153,7 @@ TEST(BadInput, TrendsAndThreads) {
       }),
       "kriging::fit: basis.values is 0 at all runs; allowed is one function that is not; add the constant 1");
   EXPECT_EQ(refusal([](Call& c) { c.options.threads = -1; }),
-            "kriging::fit: threads is -1; allowed is 0 or more; use 0 for all processors");
+            "kriging::fit: threads is -1; allowed is 0 or more; use 0 for all cores");
 }
 
 TEST(BadInput, Points) {

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-const std::vector<Candidate<>> candidates{
+const std::vector<NamedFitter<>> fitters{
     {"constant", [](const MatrixXd& X, const VectorXd& y) { return fit_polynomial(X, y, {.degree = 0}); }},
     {"quadratic", [](const MatrixXd& X, const VectorXd& y) { return fit_polynomial(X, y); }},
     {"cubic splines", [](const MatrixXd& X, const VectorXd& y) { return fit_radial(X, y); }},
@@ -34,15 +34,15 @@ TEST(Compare, PicksTheKindThatFits) {
   for (double& value : noisy) value += 0.02 * random.normal();
   const VectorXd bent = reference::values(wave, X);
   for (const Estimator estimator : {Estimator::leave_one_out, Estimator::k_fold}) {
-    const Criterion criterion{.estimator = estimator, .error = ErrorFunction::rmse, .target = 0.1};
-    EXPECT_EQ(compare(criterion, X, noisy, candidates).name(), "quadratic") << "its own kind";
-    const Comparison<> c = compare(criterion, X, bent, candidates);
+    const Measure measure{.estimator = estimator, .error = ErrorFunction::rmse, .target = 0.1};
+    EXPECT_EQ(compare(measure, X, noisy, fitters).name(), "quadratic") << "its own kind";
+    const Comparison<> c = compare(measure, X, bent, fitters);
     EXPECT_EQ(c.name(), "kriging");
     EXPECT_NE(c.model.as<Model>(), nullptr);
     EXPECT_EQ(c.model.as<Radial>(), nullptr);
     EXPECT_EQ(c.table.size(), 4u);
-    EXPECT_EQ(c.met, c.table[3].judgement.value <= 0.1);
-    EXPECT_EQ(best_of(criterion, X, bent, candidates).mean(X), fit(X, bent).mean(X));
+    EXPECT_EQ(c.met, c.table[3].assessment.value <= 0.1);
+    EXPECT_EQ(best_of(measure, X, bent, fitters).mean(X), fit(X, bent).mean(X));
   }
 }
 
@@ -50,11 +50,11 @@ TEST(Compare, PicksTheKindThatFits) {
 TEST(Compare, UsesTheClosedFormOfEachKind) {
   const MatrixXd X = reference::design(20, 2, 3);
   const VectorXd y = reference::values(wave, X);
-  const Criterion criterion{.estimator = Estimator::leave_one_out, .error = ErrorFunction::rmse};
-  const Comparison<> c = compare(criterion, X, y, candidates);
-  EXPECT_EQ(c.table[1].judgement.value, leave_one_out(fit_polynomial(X, y)).rmse);
-  EXPECT_EQ(c.table[2].judgement.value, leave_one_out(fit_radial(X, y)).rmse);
-  EXPECT_EQ(c.table[3].judgement.value, leave_one_out(fit(X, y)).rmse);
+  const Measure measure{.estimator = Estimator::leave_one_out, .error = ErrorFunction::rmse};
+  const Comparison<> c = compare(measure, X, y, fitters);
+  EXPECT_EQ(c.table[1].assessment.value, leave_one_out(fit_polynomial(X, y)).rmse);
+  EXPECT_EQ(c.table[2].assessment.value, leave_one_out(fit_radial(X, y)).rmse);
+  EXPECT_EQ(c.table[3].assessment.value, leave_one_out(fit(X, y)).rmse);
 }
 
 struct Mean {
@@ -69,27 +69,27 @@ struct Mean {
 TEST(Compare, RefitsWithoutAClosedForm) {
   const MatrixXd X = reference::design(10, 2, 3);
   const VectorXd y = reference::values(wave, X);
-  const std::vector<Candidate<>> own{
+  const std::vector<NamedFitter<>> own{
       {"mean", [](const MatrixXd&, const VectorXd& v) { return Mean{v.mean()}; }}};
   const Comparison<> c =
       compare({.estimator = Estimator::leave_one_out, .error = ErrorFunction::rmse}, X, y, own);
   const double expected = std::sqrt((y.array() - y.mean()).square().mean()) * 10 / 9;
-  EXPECT_NEAR(c.table[0].judgement.value, expected, 1e-14);
+  EXPECT_NEAR(c.table[0].assessment.value, expected, 1e-14);
 }
 
 TEST(Compare, TakesTheFirstOfEquals) {
   const MatrixXd X = reference::design(12, 2, 3);
   const VectorXd y = reference::values(wave, X);
   const auto same = [](const MatrixXd& P, const VectorXd& v) { return fit_polynomial(P, v); };
-  const Criterion criterion{.estimator = Estimator::k_fold, .error = ErrorFunction::q2};
-  EXPECT_EQ(compare<Polynomial>(criterion, X, y, {{"a", same}, {"b", same}}).best, 0u);
+  const Measure measure{.estimator = Estimator::k_fold, .error = ErrorFunction::q2};
+  EXPECT_EQ(compare<Polynomial>(measure, X, y, {{"a", same}, {"b", same}}).best, 0u);
   // NRMSE of equal responses is NaN for all.
-  const Criterion undefined{.estimator = Estimator::k_fold, .error = ErrorFunction::nrmse};
-  EXPECT_EQ(compare(undefined, X, VectorXd::Ones(12), candidates).best, 0u);
+  const Measure undefined{.estimator = Estimator::k_fold, .error = ErrorFunction::nrmse};
+  EXPECT_EQ(compare(undefined, X, VectorXd::Ones(12), fitters).best, 0u);
 }
 
 TEST(Compare, RefusesNothingToCompare) {
-  const auto refusal = [](const std::vector<Candidate<>>& all) -> std::string {
+  const auto refusal = [](const std::vector<NamedFitter<>>& all) -> std::string {
     try {
       compare({}, reference::design(12, 2, 3), VectorXd::LinSpaced(12, 0, 1), all);
     } catch (const std::invalid_argument& e) {
@@ -97,8 +97,8 @@ TEST(Compare, RefusesNothingToCompare) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal({}), "kriging::compare: 0 candidates; allowed is 1 or more; name at least one fitter");
+  EXPECT_EQ(refusal({}), "kriging::compare: 0 fitters; allowed is 1 or more; name at least one");
   EXPECT_EQ(refusal({{"empty", {}}}),
-            "kriging::compare: candidate \"empty\" has no fitter; give a function of (X, y) that returns a "
+            "kriging::compare: fitter \"empty\" has no function; give one of (X, y) that returns a "
             "surrogate");
 }

@@ -100,7 +100,7 @@ TEST(KFold, PredictsEachRunByAModelThatHasNotSeenIt) {
   EXPECT_EQ(v.observed, y);
   const Model third = fit(without(X, 3), without(y, 3), fixed(fit(X, y)));
   EXPECT_EQ(v.predicted[3], third.mean(X.row(3))[0]);
-  EXPECT_EQ(k_fold(X, y, 5, fitter, 2).predicted, k_fold(X, y, 5, fitter, 2).predicted);
+  EXPECT_EQ(k_fold(X, y, 5, fitter, {.seed = 2}).predicted, k_fold(X, y, 5, fitter, {.seed = 2}).predicted);
 }
 
 TEST(HoldOut, PredictsTheShareThatWasAskedFor) {
@@ -117,21 +117,22 @@ TEST(HoldOut, PredictsTheShareThatWasAskedFor) {
   for (const double value : v.observed) EXPECT_TRUE(all.count(value));
 }
 
-TEST(Criterion, IsMetOnTheRightSideOfItsTarget) {
+TEST(Measure, IsMetOnTheRightSideOfItsTarget) {
   const MatrixXd X = reference::design(20, 2, 8);
   const VectorXd y = reference::values(wave, X);
   for (const Estimator estimator : {Estimator::leave_one_out, Estimator::k_fold, Estimator::hold_out}) {
-    const Judgement error = judge({.estimator = estimator, .error = ErrorFunction::rmse}, X, y, fitter);
+    const Assessment error = assess({.estimator = estimator, .error = ErrorFunction::rmse}, X, y, fitter);
     EXPECT_EQ(error.value, score(error.validation, ErrorFunction::rmse));
     EXPECT_TRUE(
-        judge({.estimator = estimator, .error = ErrorFunction::rmse, .target = error.value}, X, y, fitter)
+        assess({.estimator = estimator, .error = ErrorFunction::rmse, .target = error.value}, X, y, fitter)
             .met);
-    EXPECT_FALSE(judge({.estimator = estimator, .error = ErrorFunction::rmse, .target = 0.99 * error.value},
-                       X, y, fitter)
+    EXPECT_FALSE(assess({.estimator = estimator, .error = ErrorFunction::rmse, .target = 0.99 * error.value},
+                        X, y, fitter)
                      .met);
-    EXPECT_TRUE(judge({.estimator = estimator, .error = ErrorFunction::q2, .target = 0.5}, X, y, fitter).met);
+    EXPECT_TRUE(
+        assess({.estimator = estimator, .error = ErrorFunction::q2, .target = 0.5}, X, y, fitter).met);
     EXPECT_FALSE(
-        judge({.estimator = estimator, .error = ErrorFunction::q2, .target = 1.0}, X, y, fitter).met);
+        assess({.estimator = estimator, .error = ErrorFunction::q2, .target = 1.0}, X, y, fitter).met);
   }
 }
 

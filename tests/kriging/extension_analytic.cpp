@@ -115,7 +115,7 @@ TEST(SamplePaths, HaveTheMeanAndTheCovariance) {
   const Model model = model_of(kinds[0]);
   const MatrixXd Z = reference::design(3, 2, 12);
   const int N = 4000;
-  const MatrixXd paths = sample_paths(model, Z, N, 9);
+  const MatrixXd paths = sample_paths(model, Z, N, {.seed = 9});
   const MatrixXd C = model.covariance(Z);
   const MatrixXd deviations = paths.colwise() - model.mean(Z);
   const MatrixXd found = deviations * deviations.transpose() / N;
@@ -124,7 +124,7 @@ TEST(SamplePaths, HaveTheMeanAndTheCovariance) {
     for (Eigen::Index j = 0; j < 3; ++j)
       EXPECT_NEAR(found(i, j), C(i, j), 5 * std::sqrt((C(i, i) * C(j, j) + C(i, j) * C(i, j)) / N));
   }
-  EXPECT_EQ(paths, sample_paths(model, Z, N, 9));
+  EXPECT_EQ(paths, sample_paths(model, Z, N, {.seed = 9}));
   EXPECT_THROW(sample_paths(model, Z, 0), std::invalid_argument);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <filesystem>
@@ -72,10 +73,8 @@ TEST(Fit, ScalesWithTheUnits) {
 // below another maximum.
 TEST(Fit, DependsNeitherOnOffsetsNorOnTheOrderOfTheRuns) {
   const Runs runs = hilly(40, 0.05);
-  std::vector<int> order(40);
-  std::iota(order.begin(), order.end(), 0);
   doe::RandomStream random(9);
-  for (int i = 39; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
+  const std::vector<int> order = doe::detail::permutation(40, random);
   Runs moved = runs;
   for (int i = 0; i < 40; ++i) {
     moved.X.row(i) = runs.X.row(order[i]).array() + 7.3;

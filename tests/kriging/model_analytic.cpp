@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/fit_radial.hpp>
+#include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
@@ -127,4 +129,56 @@ TEST(Surrogates, AreOneBlackBoxOfAllMeans) {
   }
   EXPECT_THROW(Surrogates({}), std::invalid_argument);
   EXPECT_THROW(Surrogates({a, fit(X.leftCols(1), X.col(1), fixed(1, 1e-4))}), std::invalid_argument);
+}
+
+// A set of kinds gives what its members give, the derivatives too.
+TEST(Surrogates, MayBeOfSeveralKinds) {
+  const MatrixXd X = reference::design(20, 2, 9), Z = reference::design(5, 2, 10);
+  const VectorXd y = reference::values(wave, X), x = Z.row(2).transpose();
+  const Model model = fit(X, y, fixed(1.0, 1e-4));
+  const Polynomial polynomial = fit_polynomial(X, y);
+  const Radial radial = fit_radial(X, y);
+  const Surrogates surrogates({model, polynomial, radial});
+  const std::vector<doe::Outcome> outcomes = surrogates(Z, std::vector<doe::Seed>(5, 1));
+  EXPECT_EQ(outcomes[2].values(),
+            Eigen::Vector3d(model.mean(Z)[2], polynomial.mean(Z)[2], radial.mean(Z)[2]));
+  const doe::ValueAndJacobian at = surrogates(x);
+  EXPECT_EQ(at.values, Eigen::Vector3d(model(x), polynomial(x), radial(x)));
+  EXPECT_EQ(at.jacobian.row(0).transpose(), model.mean_gradient(x));
+  EXPECT_EQ(at.jacobian.row(1).transpose(), polynomial.mean_gradient(x));
+  EXPECT_EQ(at.jacobian.row(2).transpose(), radial.mean_gradient(x));
+  EXPECT_THROW(Surrogates({model, fit_polynomial(X.leftCols(1), y)}), std::invalid_argument);
+}
+
+// A surrogate of the user with nothing but predictions.
+struct Flat {
+  Prediction predict(const MatrixXd& X, Target = Target::latent) const {
+    return {VectorXd::Zero(X.rows()), VectorXd::Zero(X.rows())};
+  }
+  VectorXd mean(const MatrixXd& X) const { return VectorXd::Zero(X.rows()); }
+};
+
+TEST(AnySurrogate, TellsWhatItsSurrogateTells) {
+  const MatrixXd X = reference::design(20, 2, 9);
+  const Model model = fit(X, X.col(1), fixed(0.2, 1e-4));
+  const AnySurrogate any = model, flat = Flat{};
+  EXPECT_EQ(any.status(), model.status());
+  EXPECT_EQ(any.message(), model.message());
+  EXPECT_EQ(any.variables(), 2);
+  EXPECT_FALSE(flat.status() || flat.variables() || flat.mean_gradient(X.row(0).transpose()));
+  EXPECT_EQ(flat.message(), "");
+}
+
+TEST(Surrogates, WithoutDerivativesCanBeSearchedOnly) {
+  const MatrixXd X = reference::design(20, 2, 9);
+  const Surrogates surrogates({fit(X, X.col(1), fixed(0.2, 1e-4)), Flat{}});
+  EXPECT_EQ(surrogates(X, std::vector<doe::Seed>(20, 1))[0].values()[1], 0.0);
+  try {
+    surrogates(X.row(0).transpose());
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(e.what(),
+                 "kriging::Surrogates: member 1 has no derivatives; allowed are surrogates with "
+                 "mean_gradient(x); search without polishing, or fit another kind");
+  }
 }

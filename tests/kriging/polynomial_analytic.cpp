@@ -140,3 +140,17 @@ TEST(PolynomialStatus, RefusesBadInput) {
                  "kriging::Polynomial: X has 3 columns; the model has 2 variables; give one point a row");
   }
 }
+
+// A cubic is its own polynomial, so its derivatives are the formula's; the error of β is that of
+// ReproducesAPolynomial, times the degree and the scale of the inputs.
+TEST(PolynomialGradient, IsThatOfThePolynomial) {
+  const MatrixXd X = reference::design(40, 2, 3), points = reference::design(20, 2, 4);
+  const Polynomial model = fit_polynomial(X, reference::values(cubic, X), {.degree = 3, .interaction = 2});
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const VectorXd x = points.row(i).transpose();
+    const Eigen::Vector2d exact(2 + 3 * x[1] * x[1] - x[0], -1 + 6 * x[0] * x[1]);
+    EXPECT_LE((model.mean_gradient(x) - exact).cwiseAbs().maxCoeff(), 1e-11);
+  }
+  const Polynomial constant = fit_polynomial(X, VectorXd::Constant(40, 2.5));
+  EXPECT_EQ(constant.mean_gradient(X.row(0).transpose()), VectorXd::Zero(2));
+}

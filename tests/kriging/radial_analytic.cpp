@@ -22,7 +22,7 @@ double wave(const VectorXd& x) { return std::sin(4 * x[0]) + x[1] * x[1]; }
 
 RadialOptions with(RadialFunction f, double ridge) {
   return {.function = f,
-          .shape = detail::has_shape(f) ? 1.5 : 0.0,
+          .shape = detail::has_shape(f) ? std::optional(1.5) : std::nullopt,
           .ridge = ridge,
           .lower = VectorXd::Zero(2),
           .upper = VectorXd::Ones(2)};
@@ -125,6 +125,26 @@ TEST(RadialFit, FindsShapeAndRidgeByLeaveOneOut) {
   }
 }
 
+// Central differences with h = 1e-5 of a mean of size 1 whose third derivatives are below 1e3: 1e3 h²/6 = 2e-8,
+// and the round-off of the mean (RadialFit.InterpolatesWithoutARidge: 1e-10 and less) over h: 1e-5.
+TEST(RadialGradient, IsThatOfTheMean) {
+  const MatrixXd X = reference::design(30, 2, 3), points = reference::design(20, 2, 4);
+  const VectorXd y = reference::values(wave, X);
+  constexpr double h = 1e-5;
+  for (const RadialFunction f : functions) {
+    const Radial model = fit_radial(X, y, with(f, 1e-6));
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const VectorXd x = points.row(i).transpose(), gradient = model.mean_gradient(x);
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        const VectorXd step = h * VectorXd::Unit(2, k);
+        EXPECT_NEAR(gradient[k], (model(x + step) - model(x - step)) / (2 * h), 1e-5) << to_string(f);
+      }
+    }
+    EXPECT_EQ(fit_radial(X, VectorXd::Ones(30), with(f, 0.0)).mean_gradient(X.row(0).transpose()),
+              VectorXd::Zero(2));
+  }
+}
+
 TEST(RadialStatus, TellsWhatTheRunsAllow) {
   const MatrixXd X = reference::design(6, 2, 3);
   const VectorXd y = reference::values(wave, X);
@@ -157,12 +177,15 @@ TEST(RadialStatus, RefusesBadInput) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal({.shape = 2.0}),
-            "kriging::fit_radial: shape is 2 but cubic has none; allowed is 0; leave it out");
+  EXPECT_EQ(refusal({.shape = 2.0}), "kriging::fit_radial: shape is 2 but cubic has none; leave it out");
   EXPECT_EQ(
       refusal({.function = RadialFunction::gaussian, .shape = -2.0}),
-      "kriging::fit_radial: shape is -2; allowed are finite numbers above 0, or 0; use 0 to estimate it");
-  EXPECT_EQ(refusal({.ridge = std::nan("")}),
-            "kriging::fit_radial: ridge is nan; allowed are finite numbers; use -1 to estimate it");
+      "kriging::fit_radial: shape is -2; allowed are finite numbers above 0; leave it out to estimate it");
+  EXPECT_EQ(
+      refusal({.ridge = std::nan("")}),
+      "kriging::fit_radial: ridge is nan; allowed are finite numbers from 0 on; leave it out to estimate it");
+  EXPECT_EQ(
+      refusal({.ridge = -1.0}),
+      "kriging::fit_radial: ridge is -1; allowed are finite numbers from 0 on; leave it out to estimate it");
   EXPECT_EQ(refusal({.lower = VectorXd::Zero(2)}).substr(0, 38), "kriging::fit_radial: the box has 2 low");
 }

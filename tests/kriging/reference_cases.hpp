@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <functional>
 #include <numbers>
@@ -26,10 +27,8 @@ inline constexpr double pi = std::numbers::pi;
 inline Eigen::MatrixXd design(int n, int d, doe::Seed seed) {
   doe::RandomStream random(seed);
   Eigen::MatrixXd X(n, d);
-  std::vector<int> order(n);
   for (int j = 0; j < d; ++j) {
-    for (int i = 0; i < n; ++i) order[i] = i;
-    for (int i = n - 1; i >= 1; --i) std::swap(order[i], order[random.below(i + 1)]);
+    const std::vector<int> order = doe::detail::permutation(n, random);
     for (int i = 0; i < n; ++i) X(i, j) = (order[i] + random.uniform()) / n;
   }
   return X;

@@ -86,6 +86,21 @@ TEST(SavedModel, PredictsTheSameBits) {
   }
 }
 
+// By count, so that an enumerator that to_string forgets fails here too.
+TEST(SavedModel, EveryEnumeratorReadsBack) {
+  const auto read_back = [](auto first, int count) {
+    using Enum = decltype(first);
+    for (int k = 0; k < count; ++k) {
+      const auto value = static_cast<Enum>(k);
+      EXPECT_EQ(doe::detail::enumerator_of<Enum>(to_string(value)), value) << to_string(value);
+    }
+    EXPECT_EQ(to_string(static_cast<Enum>(count)), "unknown");
+    EXPECT_FALSE(doe::detail::enumerator_of<Enum>("unknown"));
+  };
+  read_back(Status::converged, 5);
+  read_back(Correlation::gaussian, 4);
+}
+
 TEST(SavedModel, CanBeAppendedTo) {
   const Model model = all_kinds()[0], back = from_text(to_text(model));
   const MatrixXd more = reference::design(2, 2, 11);
@@ -146,8 +161,6 @@ TEST(SavedModel, FaultsAreNamedWithTheirPlace) {
               f["model"]["trend"][0] = {5, -1};
             })),
             "kriging::load: the text: model/trend: a term names input 5 of 2" + end);
-  EXPECT_EQ(refusal(rewritten([](auto& f) { f["model"]["solution"]["alpha"][4] = 3.0; })),
-            "kriging::load: the text: model/solution: its weights do not solve their equations" + end);
   EXPECT_EQ(refusal(rewritten([](auto& f) { f["model"].erase("nothing"); })), "accepted")
       << "the rewriting is sound";
   std::string spaced = to_text(all_kinds()[0]);

@@ -7,10 +7,12 @@
 
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
+#include <drawpoint/pareto/polish.hpp>
 #include <drawpoint/studies/front.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
@@ -58,6 +60,25 @@ double median_distance(const Eigen::MatrixXd& X) {
   for (Eigen::Index i = 0; i < X.rows(); ++i) distances.push_back(distance_to_segment(X.row(i).transpose()));
   std::sort(distances.begin(), distances.end());
   return distances[distances.size() / 2];
+}
+
+// The formulas are quadratics, which polynomials and Kriging models with a quadratic trend both are to 1e-9: the
+// polished points of a mixed set are near the known set as those of the models alone below.
+TEST(Front, OfAMixedSetOfSurrogatesIsPolished) {
+  const doe::Problem problem = support::unit_problem(3, 2);
+  const Eigen::MatrixXd X = doe::latin_hypercube(problem, 30);
+  Eigen::VectorXd y(X.rows());
+  for (Eigen::Index i = 0; i < X.rows(); ++i) y[i] = near_b(X.row(i).transpose());
+  const kriging::Surrogates mixed({exact_models(problem, {near_a})[0], kriging::fit_polynomial(X, y)});
+  const pareto::Front front =
+      pareto::nsga2(mixed, problem, {.population = 20, .stopping = {.generations = 20}});
+  const pareto::Polished polished = pareto::polish(mixed, problem, front);
+  EXPECT_GE(polished.hypervolume, polished.hypervolume_before);
+  for (Eigen::Index i = 0; i < polished.front.X.rows(); ++i) {
+    if (polished.residual[i] > certified_residual) continue;
+    EXPECT_LE(distance_to_segment(polished.front.X.row(i).transpose()), 2.0 * certified_residual);
+  }
+  EXPECT_GE((polished.residual.array() <= certified_residual).count(), 18);
 }
 
 // The models' gradients are those of the formulas to about 1e-9 (a correlated rest of rounding, 1e-16 of the

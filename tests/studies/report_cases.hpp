@@ -46,7 +46,7 @@ inline ReportInput input(int d, int r, int runs, int validation) {
   const auto f = [r](const Eigen::VectorXd& x) { return doe::Outcome(formula(x, r)); };
   in.training = doe::evaluate(f, in.problem, doe::latin_hypercube(in.problem, runs));
   if (validation > 0)
-    in.validation = doe::evaluate(f, in.problem, doe::uniform_random(in.problem, validation, 7));
+    in.validation = doe::evaluate(f, in.problem, doe::uniform_random(in.problem, validation, {.seed = 7}));
   in.validation.problem = in.problem;
   in.front.X = in.training.X();
   in.front.Y.resize(runs, r);
