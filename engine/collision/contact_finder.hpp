@@ -76,6 +76,11 @@ class ContactFinder {
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
 
+  /// Each remembered pair has a slot of its own, below slots(), which its manifolds name; -1 for a pair that is not
+  /// remembered or has a removed collider. restore() gives slots anew.
+  int slots() const;
+  int slot_of(int collider_a, int collider_b) const;
+
   /// Drops everything remembered between calls (manifolds, axes, boxes).
   void forget();
 

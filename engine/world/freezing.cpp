@@ -186,7 +186,8 @@ std::vector<int> Freezing::nudged(const std::vector<Rock>& rocks, const ContactP
   return spread_from(std::move(found), options_.spread - 1);
 }
 
-std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactProblem& problem) {
+std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactProblem& problem,
+                                  detail::PairMemory& memory) {
   std::vector<int> frozen_now;
   for (const int rock : awake_) {
     const Rock& body = rocks[static_cast<std::size_t>(rock)];
@@ -201,7 +202,7 @@ std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactP
   veto(frozen_now, problem);
   if (frozen_now.empty()) return frozen_now;
   for (const int rock : frozen_now) state_.rocks[static_cast<std::size_t>(rock)].frozen = true;
-  hold(problem);
+  hold(problem, memory);
   list_awake();
   return frozen_now;
 }
