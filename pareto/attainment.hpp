@@ -37,7 +37,7 @@ namespace detail {
 inline void check_places(const std::string& place, const Eigen::MatrixXd& at, std::size_t m) {
   if (at.cols() != static_cast<Eigen::Index>(m) || at.hasNaN())
     throw std::invalid_argument(place + "at has " + std::to_string(at.cols()) +
-                                " columns; give one number an objective (" + std::to_string(m) +
+                                " columns; give one number per objective (" + std::to_string(m) +
                                 ") at each place");
 }
 

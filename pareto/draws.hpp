@@ -35,7 +35,7 @@ struct PredictedResponses {
   Eigen::MatrixXd mean, deviation;
 };
 
-/// One matrix a draw, each n x r: all responses at all points.
+/// One matrix per draw, each n x r: all responses at all points.
 using Draws = std::vector<Eigen::MatrixXd>;
 
 struct DrawOptions {
@@ -49,8 +49,8 @@ concept PredictiveFunction = requires(const F& f, const Eigen::MatrixXd& X) {
 };
 
 template <class F>
-concept PathFunction = requires(const F& f, const Eigen::MatrixXd& X, int draws, doe::Seed seed) {
-  { f(X, draws, seed) } -> std::convertible_to<Draws>;
+concept PathFunction = requires(const F& f, const Eigen::MatrixXd& X, const DrawOptions& options) {
+  { f(X, options) } -> std::convertible_to<Draws>;
 };
 
 template <class F>
@@ -158,10 +158,11 @@ Draws draws_at(const F& f, const Eigen::MatrixXd& X, const DrawOptions& options 
       UncertainFunction<F>,
       "drawpoint: not an uncertain function. Expected pareto::PredictedResponses f(const "
       "Eigen::MatrixXd& X) const; with mean and deviation of all responses (n x r), or pareto::Draws "
-      "f(const Eigen::MatrixXd& X, int draws, doe::Seed seed) const; with one n x r matrix a draw.");
+      "f(const Eigen::MatrixXd& X, const pareto::DrawOptions& options) const; with one n x r matrix per "
+      "draw, options.draws of them from options.seed.");
   if constexpr (PathFunction<F>) {
     detail::check_range("pareto::draws_at: ", "draws", options.draws, options.draws >= 2, "2 or more");
-    return f(X, options.draws, options.seed);
+    return f(X, options);
   } else if constexpr (PredictiveFunction<F>) {
     return draws_of_normals(f(X), options);
   } else {

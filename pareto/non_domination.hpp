@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <drawpoint/pareto/detail/normalized.hpp>
+#include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/draws.hpp>
 
 namespace drawpoint::pareto {

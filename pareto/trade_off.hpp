@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,15 +42,16 @@ inline TradeOff trade_off_between(const NormalizedFront& scaled, const Front& fr
 
 }  // namespace detail
 
-/// From one row to its `count` nearest others (all for 0) in scaled objectives, nearest first. Throws
-/// std::invalid_argument for a row that does not exist and for a front of another problem.
+/// From one row to its `count` nearest others (1 or more; none: all) in scaled objectives, nearest first.
+/// Throws std::invalid_argument for a row that does not exist and for a front of another problem.
 inline std::vector<TradeOff> trade_offs(const doe::Problem& problem, const Front& front, int row,
-                                        int count = 4) {
+                                        std::optional<int> count = 4) {
   const std::string place = "pareto::trade_offs: ";
   detail::check_front(place, problem, front);
   const auto n = static_cast<int>(front.Y.rows());
   detail::check_range(place, "row", row, row >= 0 && row < n, "0 to the number of points - 1");
-  detail::check_range(place, "count", count, count >= 0, "0 (all) or more");
+  detail::check_range(place, "count", count.value_or(1), count.value_or(1) >= 1,
+                      "1 or more; std::nullopt for all");
   const detail::NormalizedFront scaled = detail::normalized(problem, front);
   std::vector<int> others = detail::neighbours_of(scaled.F, row, count);
   others =

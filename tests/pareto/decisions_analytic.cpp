@@ -244,7 +244,7 @@ TEST(Preference, PseudoWeightsOfTheEndsAreAllForOne) {
 TEST(Preference, BadInputIsNamed) {
   const auto text = [](const auto& call) { return support::thrown_text<std::invalid_argument>(call); };
   EXPECT_EQ(text([] { by_aspiration(kinked_problem, kinked_front(), Eigen::Vector3d::Zero()); }),
-            "pareto::by_aspiration: aspiration has 3 entries; give one finite number an objective (2)");
+            "pareto::by_aspiration: aspiration has 3 entries; give one finite number per objective (2)");
   EXPECT_EQ(text([] { by_weights(kinked_problem, kinked_front(), Eigen::Vector2d(1, -1)); }),
             "pareto::by_weights: a weight is -1; allowed is 0 or more");
   EXPECT_EQ(text([] { by_weights(kinked_problem, kinked_front(), Eigen::Vector2d::Zero()); }),

@@ -113,7 +113,7 @@ TEST(Draws, PathsAndFunctionsGiveTheSame) {
     for (int j = 0; j < 2; ++j)
       paths[static_cast<std::size_t>(j)].col(s) = drawn[static_cast<std::size_t>(s)].col(j);
   EXPECT_EQ(draws_of_paths(paths), drawn);
-  const auto path_function = [&](const Eigen::MatrixXd&, int, doe::Seed) { return drawn; };
+  const auto path_function = [&](const Eigen::MatrixXd&, const DrawOptions&) { return drawn; };
   EXPECT_EQ(draws_at(path_function, X), drawn);
 }
 
@@ -205,7 +205,7 @@ TEST(UncertainFront, BadInputIsNamed) {
       "pareto::probability_non_dominated: a draw is 2 x 2; each must have 3 responses at the same points, "
       "one at least");
   EXPECT_EQ(text([&] { front_band(two, draws, Eigen::MatrixXd::Zero(1, 3)); }),
-            "pareto::front_band: at has 3 columns; give one number an objective (2) at each place");
+            "pareto::front_band: at has 3 columns; give one number per objective (2) at each place");
   EXPECT_EQ(text([&] { front_band(two, draws, Eigen::MatrixXd::Zero(1, 2), 1.0); }),
             "pareto::front_band: confidence is 1; allowed is above 0 and below 1");
   EXPECT_EQ(
