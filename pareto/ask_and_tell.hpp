@@ -56,8 +56,8 @@ class Search {
   std::vector<doe::Seed> seeds() const;
 
   /// outcomes: one per row of ask(), in that order; a wrong count of values or a value that is not finite
-  /// counts as a failure. Calls `progress` at the end of a generation. Throws std::invalid_argument for
-  /// another number of outcomes, and once the search has ended.
+  /// counts as a failure. Calls `progress` last, at the end of a generation; it may save the search. Throws
+  /// std::invalid_argument for another number of outcomes, and once the search has ended.
   void tell(const std::vector<doe::Outcome>& outcomes);
 
   /// The best points so far, in rising order of the minimised objectives. Before the end `stopped_by` is
@@ -109,10 +109,9 @@ class Search {
   void close_generation(int generation, const Eigen::MatrixXd& best, const Worst& worst,
                         int next_evaluations) {
     generation_ = generation;
-    const SearchProgress now{generation, evaluations_, failed_, static_cast<int>(best.rows()),
-                             course_.measured(best, worst)};
-    if (setting_.search.progress) setting_.search.progress(now);
-    ended_ = course_.end(now, next_evaluations);
+    news_ = SearchProgress{generation, evaluations_, failed_, static_cast<int>(best.rows()),
+                           course_.measured(best, worst)};
+    ended_ = course_.end(*news_, next_evaluations);
   }
 
  private:
@@ -145,6 +144,7 @@ class Search {
   std::string first_reason_;  // of the first failure
   Eigen::RowVectorXd largest_;
   std::optional<StopReason> ended_;
+  std::optional<SearchProgress> news_;  // of the generation that ended, until the caller has been told
 };
 
 inline std::vector<doe::Seed> Search::seeds() const {
@@ -172,7 +172,9 @@ inline void Search::tell(const std::vector<doe::Outcome>& outcomes) {
   detail::Population told = detail::assess(problem_, asked_, checked);
   const Eigen::RowVectorXd largest = told.violations.colwise().maxCoeff();
   largest_ = largest_.size() == 0 ? largest : largest_.cwiseMax(largest);
+  news_.reset();
   asked_ = next(std::move(told));
+  if (news_ && setting_.search.progress) setting_.search.progress(*news_);
 }
 
 /// Without a feasible point: why there is none.
