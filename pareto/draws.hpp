@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/normal_quantile.hpp>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/pareto/search.hpp>
@@ -83,14 +84,6 @@ inline Eigen::MatrixXd normal_net(int count, int dimensions, doe::Seed seed) {
   return Z;
 }
 
-inline std::vector<int> shuffled(int n, doe::Seed seed) {
-  std::vector<int> order(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
-  doe::RandomStream random(seed);
-  for (int i = n - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
-  return order;
-}
-
 /// Draws agree in shape with each other and the problem, and are finite.
 inline void check_draws(const std::string& place, const doe::Problem& problem, const Draws& draws) {
   doe::check(problem);
@@ -124,7 +117,8 @@ inline Draws draws_of_normals(const PredictedResponses& p, const DrawOptions& op
     const auto number = static_cast<std::uint64_t>(first);
     const Eigen::MatrixXd Z = detail::normal_net(options.draws, static_cast<int>(points * r),
                                                  doe::run_seed(options.seed, number, 0));
-    const std::vector<int> order = detail::shuffled(options.draws, doe::run_seed(options.seed, number, 1));
+    doe::RandomStream random(doe::run_seed(options.seed, number, 1));
+    const std::vector<int> order = doe::detail::permutation(options.draws, random);
     for (std::size_t s = 0; s < draws.size(); ++s)
       for (Eigen::Index i = 0; i < points; ++i)
         for (Eigen::Index j = 0; j < r; ++j)

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/pareto/nsga3.hpp>
 
 namespace drawpoint::pareto {
@@ -106,7 +107,9 @@ class Moead : public Search {
       members_ = std::move(told);
     } else {
       scale();
-      for (const int k : shuffled(everyone_, random_)) replace(told, k, random_);
+      std::vector<int> order = everyone_;
+      doe::detail::shuffle(order, random_);
+      for (const int k : order) replace(told, k);
     }
     close();
     if (ended()) return {};
@@ -153,7 +156,7 @@ class Moead : public Search {
     const Eigen::Index n = members_.size();
     Eigen::MatrixXd children(breeder().space().dimension(), n);
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto& mates = mates_of(static_cast<int>(k), random_);
+      const auto& mates = mates_of(static_cast<int>(k));
       const int count = static_cast<int>(mates.size());
       children.col(k) = members_.U.row(mates[random_.below(count)]).transpose();
       Eigen::VectorXd second = members_.U.row(mates[random_.below(count)]).transpose();
@@ -162,19 +165,15 @@ class Moead : public Search {
     return children.transpose();
   }
 
-  const std::vector<int>& mates_of(int k, doe::RandomStream& random) const {
-    return random.uniform() < options_.neighbour_probability ? neighbours_[k] : everyone_;
+  const std::vector<int>& mates_of(int k) {
+    return random_.uniform() < options_.neighbour_probability ? neighbours_[k] : everyone_;
   }
 
-  static std::vector<int> shuffled(std::vector<int> rows, doe::RandomStream& random) {
-    for (int i = static_cast<int>(rows.size()) - 1; i >= 1; --i)
-      std::swap(rows[i], rows[random.below(i + 1)]);
-    return rows;
-  }
-
-  void replace(const Population& children, int k, doe::RandomStream& random) {
+  void replace(const Population& children, int k) {
     int left = options_.replacements;
-    for (const int i : shuffled(mates_of(k, random), random)) {
+    std::vector<int> mates = mates_of(k);
+    doe::detail::shuffle(mates, random_);
+    for (const int i : mates) {
       if (left == 0) return;
       if (!better(children, k, i)) continue;
       members_.U.row(i) = children.U.row(k);

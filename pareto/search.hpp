@@ -14,7 +14,6 @@
 ///   the front is that of the populations before.
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -30,10 +29,9 @@ namespace drawpoint::pareto {
 
 struct Stopping {
   int generations = 250;             ///< after the first population, 0 or more
-  std::optional<int> evaluations{};  ///< in all, the first population included, 0 or more; none: no limit
-  std::optional<int>
-      stall_generations{};   ///< w, 1 or more; none: never. 20 to 50 is usual; costs a hypervolume
-                             ///< per generation
+  std::optional<int> evaluations{};  ///< in all, the first population included, 1 or more; none: no limit
+  /// w, 1 or more; none: never. 20 to 50 is usual. Costs a hypervolume per generation.
+  std::optional<int> stall_generations{};
   double stall_gain = 1e-4;  ///< share of the hypervolume, 0 or more; below it no plot shows the difference
 };
 
@@ -66,10 +64,19 @@ struct SearchOptions {
   std::function<void(const SearchProgress&)> progress{};  ///< called after each generation
 };
 
-enum class SearchStatus { completed, no_feasible_point, all_failed, nothing_evaluated };
-enum class StopReason { generations, evaluations, stall, stopped };
-inline constexpr std::array stop_reasons{StopReason::generations, StopReason::evaluations, StopReason::stall,
-                                         StopReason::stopped};
+enum class SearchStatus {
+  completed,
+  no_feasible_point,  ///< no evaluation met every limit
+  all_failed,         ///< no evaluation gave values
+  nothing_evaluated   ///< stopped before the first population was complete
+};
+
+enum class StopReason {
+  generations,
+  evaluations,
+  stall,
+  stopped  ///< by the token; also of a front that is asked for before the end
+};
 
 inline std::string_view to_string(SearchStatus status) {
   switch (status) {

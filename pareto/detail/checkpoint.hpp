@@ -20,10 +20,10 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/enumerators.hpp>
 #include <drawpoint/doe/run_journal.hpp>
 #include <drawpoint/pareto/detail/population.hpp>
 #include <drawpoint/pareto/detail/setting.hpp>
@@ -101,7 +101,8 @@ class CheckpointWriter {
   void item(const char* name, const Eigen::PlainObjectBase<Matrix>& values) {
     std::string text = std::to_string(values.rows()) + " " + std::to_string(values.cols());
     for (Eigen::Index j = 0; j < values.cols(); ++j)
-      for (Eigen::Index i = 0; i < values.rows(); ++i) text += " " + doe::detail::number_text(values(i, j));
+      for (Eigen::Index i = 0; i < values.rows(); ++i)
+        text.append(" ").append(doe::detail::number_text(values(i, j)));
     line(name, text);
   }
 
@@ -124,7 +125,9 @@ class CheckpointWriter {
   }
 
  private:
-  void line(const char* name, const std::string& rest) { text_ += name + (" " + rest) + "\n"; }
+  void line(const char* name, const std::string& rest) {
+    text_.append(name).append(" ").append(rest).append("\n");
+  }
 
   std::string text_;
 };
@@ -174,9 +177,7 @@ class CheckpointReader {
 
   void item(const char* name, std::optional<StopReason>& reason) {
     const std::string text = after(name);
-    reason.reset();
-    for (const StopReason known : stop_reasons)
-      if (to_string(known) == text) reason = known;
+    reason = doe::detail::enumerator_of<StopReason>(text);
     if (!reason && text != "none") damaged(name);
   }
 

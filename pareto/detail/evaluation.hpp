@@ -18,13 +18,9 @@
 #include <vector>
 
 #include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/doe/detail/threads.hpp>
 
 namespace drawpoint::pareto::detail {
-
-inline std::size_t threads_for(int asked, std::size_t points) {
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  return std::min(asked == 0 ? cores : static_cast<std::size_t>(asked), points);
-}
 
 /// X: n x d; one seed per row. Nothing when stop was requested before all points were evaluated.
 template <doe::BlackBox F>
@@ -50,7 +46,8 @@ std::optional<std::vector<doe::Outcome>> outcomes_of(const F& f, const doe::Prob
     };
     {
       std::vector<std::jthread> others;
-      for (std::size_t t = 1; t < threads_for(threads, outcomes.size()); ++t) others.emplace_back(work);
+      const auto most = static_cast<std::size_t>(doe::detail::thread_count(threads));
+      for (std::size_t t = 1; t < std::min(most, outcomes.size()); ++t) others.emplace_back(work);
       work();
     }
     if (cut) return std::nullopt;

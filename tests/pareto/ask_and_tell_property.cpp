@@ -315,7 +315,7 @@ TEST(AskAndTell, SearchesAreValues) {
 
 TEST(AskAndTell, StatusesHaveTexts) {
   EXPECT_EQ(to_string(SearchStatus::nothing_evaluated), "nothing_evaluated");
-  for (const StopReason reason : stop_reasons) EXPECT_NE(to_string(reason), "unknown");
+  EXPECT_EQ(to_string(StopReason::stopped), "stopped");
 }
 
 }  // namespace

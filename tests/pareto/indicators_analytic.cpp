@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/pareto/crowding.hpp>
+#include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/indicators.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
@@ -40,6 +42,46 @@ TEST(Epsilon, IsTheLeastShiftThatCoversTheReference) {
   EXPECT_EQ(additive_epsilon(Y, Z), 3.0);
   EXPECT_EQ(additive_epsilon(Z, Z), 0.0);
   EXPECT_EQ(additive_epsilon(Z.array() - 0.5, Z), -0.5);
+}
+
+/// Production is maximised, damage minimised; mass is only recorded.
+const doe::Problem loading{{{"x", "1", 0.0, 1.0}},
+                           {{"production", "kg/s", doe::Goal::maximize},
+                            {"mass", "t", doe::Goal::record},
+                            {"damage", "s", doe::Goal::minimize}}};
+
+// Within production above 0 and damage below 5 the points (100, 1) and (250, 2) dominate 100·4 + 150·3; each
+// loses what the other does not cover, 100·1 and 150·3; (90, 3) lies behind both.
+TEST(Signs, VolumesInNaturalSigns) {
+  const Eigen::MatrixXd Y = points({{100, 1}, {250, 2}, {90, 3}});
+  EXPECT_EQ(hypervolume(loading, Y, Eigen::Vector2d(0, 5)), 850.0);
+  EXPECT_EQ(hypervolume_contributions(loading, Y, Eigen::Vector2d(0, 5)), Eigen::Vector3d(100, 450, 0));
+}
+
+TEST(Signs, DominanceInNaturalSigns) {
+  const Eigen::MatrixXd Y = points({{100, 1}, {250, 2}, {90, 3}});
+  EXPECT_EQ(non_dominated(loading, Y), (std::vector<int>{0, 1}));
+  EXPECT_EQ(non_dominated_sort(loading, Y), (std::vector<std::vector<int>>{{0, 1}, {2}}));
+  EXPECT_TRUE(dominates(loading, Eigen::Vector2d(100, 1), Eigen::Vector2d(90, 3)));
+  EXPECT_FALSE(dominates(loading, Eigen::Vector2d(90, 3), Eigen::Vector2d(100, 1)));
+  EXPECT_EQ(crowding_distance(loading, Y.topRows(2)), crowding_distance(Y.topRows(2)));
+}
+
+// (3, 4) misses (6, 4) by 3 of production alone, and gives nothing for being better.
+TEST(Signs, DistancesInNaturalSigns) {
+  EXPECT_EQ(igd(loading, points({{3, 4}}), points({{6, 0}})), 5.0);
+  EXPECT_EQ(igd_plus(loading, points({{3, 4}}), points({{6, 4}})), 3.0);
+  EXPECT_EQ(igd_plus(loading, points({{6, 4}}), points({{3, 4}})), 0.0);
+  EXPECT_EQ(additive_epsilon(loading, points({{3, 4}}), points({{6, 4}})), 3.0);
+}
+
+TEST(Signs, MinimisedIsItsOwnInverse) {
+  const Eigen::MatrixXd Y = points({{100, 1}, {250, 2}});
+  EXPECT_EQ(minimised(loading, Y), points({{-100, 1}, {-250, 2}}));
+  EXPECT_EQ(minimised(loading, minimised(loading, Y)), Y);
+  EXPECT_EQ(
+      support::thrown_text<std::invalid_argument>([] { minimised(loading, Eigen::MatrixXd::Zero(1, 3)); }),
+      "pareto::minimised: Y has 3 columns, the problem has 2 objectives; give one column per objective");
 }
 
 TEST(Indicators, BadInputIsNamed) {

@@ -59,6 +59,7 @@ TEST_P(Forms, BringEveryPointToTheKnownSet) {
   const doe::Problem problem = support::unit_problem(4, 2);
   const Front rough = rough_front(paraboloids, problem, around_the_segment());
   const Polished polished = polish(paraboloids, problem, rough, {.form = GetParam()});
+  EXPECT_EQ(polished.status, PolishStatus::completed);
   EXPECT_EQ(polished.message, "");
   const Eigen::Vector4d direction = (b - a).normalized();
   for (Eigen::Index i = 0; i < rough.X.rows(); ++i) {
@@ -143,8 +144,18 @@ TEST(Polish, APointWhereTheFunctionFailsStays) {
   EXPECT_EQ(polished.front.X.row(3), rough.X.row(3));
   EXPECT_TRUE(std::isnan(polished.residual[3]));
   EXPECT_EQ(polished.points[4], PolishedPoint::improved);
+  EXPECT_EQ(polished.status, PolishStatus::points_failed);
   EXPECT_EQ(polished.message,
             "1 of 11 points were left as they were: the function failed there, or the search did not end");
+}
+
+TEST(Polish, AnEmptyFrontHasNothingToPolish) {
+  Front none;
+  none.X.resize(0, 4);
+  none.Y.resize(0, 2);
+  const Polished polished = polish(paraboloids, support::unit_problem(4, 2), none);
+  EXPECT_EQ(polished.status, PolishStatus::empty_front);
+  EXPECT_EQ(polished.message, "the front has no points");
 }
 
 TEST(Polish, BadInputIsNamed) {

@@ -166,6 +166,7 @@ TEST(Vorobev, TwoNestedFronts) {
   const Vorobev v = vorobev(two, draws, {.samples = 4096, .reference = Eigen::Vector2d(2, 2)});
   // A quarter of 4096 scrambled net points lie in the quarter square, up to its border.
   const double error = 4.0 * 2.0 / 4096.0;
+  EXPECT_EQ(v.status, VorobevStatus::completed);
   EXPECT_EQ(v.threshold, 0.5);
   EXPECT_NEAR(v.expected_volume, 2.5, error);
   EXPECT_NEAR(v.deviation, 1.5, error);
@@ -177,6 +178,14 @@ TEST(Vorobev, ACertainFrontHasNoDeviationAndItsOwnVolume) {
   const Vorobev v = vorobev(two, {Y, Y}, {.samples = 4096, .reference = Eigen::Vector2d(2, 2)});
   EXPECT_EQ(v.deviation, 0.0);
   EXPECT_NEAR(v.expected_volume, 3.0, 4.0 * 2.0 / 4096.0);
+}
+
+TEST(Vorobev, AReferenceThatNothingReachesLeavesNoVolume) {
+  const Vorobev v = vorobev(two, {Eigen::RowVector2d(1, 1), Eigen::RowVector2d(2, 0)},
+                            {.reference = Eigen::Vector2d(0.5, 0.5)});
+  EXPECT_EQ(v.status, VorobevStatus::no_volume);
+  EXPECT_EQ(v.message, "no draw dominates the reference point; give one that is worse in every objective");
+  EXPECT_EQ(v.expected_volume, 0.0);
 }
 
 TEST(Vorobev, DeviationGrowsWithTheErrorOfTheSurrogate) {
