@@ -58,7 +58,7 @@ class Search {
   /// outcomes: one per row of ask(), in that order; a wrong count of values or a value that is not finite
   /// counts as a failure. Calls `progress` last, at the end of a generation; it may save the search. Throws
   /// std::invalid_argument for another number of outcomes, and once the search has ended.
-  void tell(const std::vector<doe::Outcome>& outcomes);
+  void tell(std::vector<doe::Outcome> outcomes);
 
   /// The best points so far, in rising order of the minimised objectives. Before the end `stopped_by` is
   /// `stopped`.
@@ -154,7 +154,7 @@ inline std::vector<doe::Seed> Search::seeds() const {
   return seeds;
 }
 
-inline void Search::tell(const std::vector<doe::Outcome>& outcomes) {
+inline void Search::tell(std::vector<doe::Outcome> outcomes) {
   if (ended_)
     throw std::invalid_argument("pareto::Search::tell: the search has ended (" +
                                 std::string(to_string(*ended_)) + "); ask done() first");
@@ -162,14 +162,12 @@ inline void Search::tell(const std::vector<doe::Outcome>& outcomes) {
     throw std::invalid_argument("pareto::Search::tell: " + std::to_string(outcomes.size()) +
                                 " outcomes for " + std::to_string(asked_.rows()) +
                                 " points; give one per row of ask()");
-  std::vector<doe::Outcome> checked;
-  checked.reserve(outcomes.size());
-  for (const doe::Outcome& outcome : outcomes) {
-    checked.push_back(doe::detail::checked(outcome, problem_));
-    if (checked.back().failed() && failed_++ == 0) first_reason_ = checked.back().reason();
+  for (doe::Outcome& outcome : outcomes) {
+    outcome = doe::detail::checked(std::move(outcome), problem_);
+    if (outcome.failed() && failed_++ == 0) first_reason_ = outcome.reason();
   }
   evaluations_ += static_cast<int>(outcomes.size());
-  detail::Population told = detail::assess(problem_, asked_, checked);
+  detail::Population told = detail::assess(problem_, std::move(asked_), outcomes);
   const Eigen::RowVectorXd largest = told.violations.colwise().maxCoeff();
   largest_ = largest_.size() == 0 ? largest : largest_.cwiseMax(largest);
   news_.reset();
@@ -219,9 +217,9 @@ Front finish(Search& search, const F& black_box) {
   doe::require_black_box<F>();
   if constexpr (doe::BlackBox<F>) {
     while (!search.done()) {
-      const auto outcomes = detail::outcomes_of(black_box, search.problem(), search.ask(), search.seeds(),
-                                                search.options().threads, search.options().stop);
-      if (outcomes) search.tell(*outcomes);
+      auto outcomes = detail::outcomes_of(black_box, search.problem(), search.ask(), search.seeds(),
+                                          search.options().threads, search.options().stop);
+      if (outcomes) search.tell(std::move(*outcomes));
     }
   }
   return search.front();
