@@ -47,6 +47,14 @@ inline std::vector<Condition> conditions_of(const doe::Problem& problem) {
   return conditions;
 }
 
+/// Whether a point meets the problem's own limits; y: r, all responses in natural units.
+inline bool meets_limits(const doe::Problem& problem, const Eigen::VectorXd& y) {
+  const detail::Roles role = detail::roles(problem);
+  return std::all_of(role.constraints.begin(), role.constraints.end(), [&](int c) {
+    return detail::violation(problem.responses[static_cast<std::size_t>(c)], y[c]) == 0.0;
+  });
+}
+
 namespace detail {
 
 inline void check(const std::string& place, const std::vector<Condition>& conditions) {

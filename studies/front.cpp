@@ -52,16 +52,6 @@ ModelFront joined(const ModelFront& a, const ModelFront& b) {
   return all;
 }
 
-bool meets_limits(const Eigen::VectorXd& y, const doe::Problem& problem) {
-  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    const auto& response = problem.responses[j];
-    const double value = y[static_cast<Eigen::Index>(j)];
-    if (response.goal == doe::Goal::at_most && value > response.limit) return false;
-    if (response.goal == doe::Goal::at_least && value < response.limit) return false;
-  }
-  return true;
-}
-
 /// x with what lies within 1e-7 of the range of a bound on the bound.
 Eigen::VectorXd on_bounds(Eigen::VectorXd x, const doe::Problem& problem) {
   for (std::size_t k = 0; k < problem.variables.size(); ++k) {
@@ -81,7 +71,7 @@ void put_on_bounds(pareto::Front& front, const SmoothMeans& means, const doe::Pr
     const Eigen::VectorXd x = front.X.row(i).transpose(), there = on_bounds(x, problem);
     if (there == x) continue;
     const Eigen::VectorXd y = means(there).values;
-    if (!meets_limits(y, problem)) continue;
+    if (!pareto::meets_limits(problem, y)) continue;
     front.X.row(i) = there.transpose();
     front.responses.row(i) = y.transpose();
   }

@@ -102,9 +102,8 @@ struct Paths {
 };
 
 double volume_in_ranges(const Eigen::MatrixXd& Y) {
-  const Eigen::RowVector3d scale(-1.0 / ranges[0], 1.0 / ranges[1], 1.0 / ranges[2]);
-  return pareto::hypervolume(Y * scale.asDiagonal(),
-                             (reference.transpose() * scale.asDiagonal()).transpose());
+  return pareto::hypervolume(problem, Y * ranges.cwiseInverse().asDiagonal(),
+                             reference.cwiseQuotient(ranges));
 }
 
 double median(Eigen::VectorXd values) {

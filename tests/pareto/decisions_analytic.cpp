@@ -71,6 +71,8 @@ TEST(Filter, LimitsOfTheProblemAreConditions) {
   ASSERT_EQ(conditions.size(), 1u);
   EXPECT_EQ(meeting(problem, loading_front(), conditions), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(best(problem, loading_front(), "mass").row, 2);  // more is better for at_least
+  EXPECT_TRUE(meets_limits(problem, Eigen::Vector3d(0, 0, 3.5)));
+  EXPECT_FALSE(meets_limits(problem, Eigen::Vector3d(0, 0, 3.4)));
 }
 
 // Production misses 400 by 75 of its range 225 in row 4, by 80 in row 3; damage is met by rows 0 to 4.
