@@ -73,8 +73,8 @@ class Search {
   }
 
   /// Into a search of the same kind, problem and options; what it did before is forgotten. Throws
-  /// std::runtime_error, and leaves the search as it was, when the file cannot be read, is cut off or altered,
-  /// or is of another search, problem or other options.
+  /// std::runtime_error, and leaves the search as it was, when the file cannot be read, is cut off or
+  /// altered, or is of another search, problem or other options.
   void restore(const std::filesystem::path& path) {
     detail::CheckpointReader in(path, detail::identity(problem_, setting_));
     fields(*this, in);

@@ -4,8 +4,9 @@
 
 /// Pareto dominance and non-dominated sorting.
 ///
-/// The forms with a problem take natural signs, the others minimise every column (minimised.hpp). a dominates b iff a_j <= b_j for all j and a_j < b_j for some j. Front 1 holds the points that nothing
-/// dominates, front k+1 those that only fronts 1..k dominate. Equal points share a front. Points are taken in
+/// The forms with a problem take natural signs, the others minimise every column (minimised.hpp). a dominates
+/// b iff a_j <= b_j for all j and a_j < b_j for some j. Front 1 holds the points that nothing dominates,
+/// front k+1 those that only fronts 1..k dominate. Equal points share a front. Points are taken in
 /// lexicographic order, so that nothing later dominates anything earlier, and each is put into the first
 /// front that does not dominate it, found by bisection (Zhang, Tian, Cheng, Jin 2015, "An efficient approach
 /// to non-dominated sorting", ENS-BS). A front is kept as what decides dominance: nothing for one objective,

@@ -13,7 +13,7 @@
 /// Normals come by quasi Monte Carlo: scrambled Sobol points (doe/sobol.hpp) for blocks of as many points as
 /// fit into 37 dimensions, each block in its own random order: Latin supercube sampling (Owen 1998, "Latin
 /// supercube sampling for very high-dimensional simulations"). Each draw alone is a plain one, so means over
-/// draws are unbiased. Equal seeds give equal bits. Memory 8 n r bytes a draw.
+/// draws are unbiased. Equal seeds give equal bits. Memory 8 n r bytes per draw.
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -94,7 +94,8 @@ inline double direction(const std::string& place, const doe::Response& r) {
   return sign_of(r.goal);
 }
 
-/// "joint_damage is 7.5 s at best" for each condition that no row meets alone, or that they exclude each other.
+/// "joint_damage is 7.5 s at best" for each condition that no row meets alone, or that they exclude each
+/// other.
 inline std::string why_none(const doe::Problem& problem, const Front& front,
                             const std::vector<Condition>& conditions, const Eigen::MatrixXd& missed) {
   std::string text;

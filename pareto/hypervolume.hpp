@@ -5,11 +5,11 @@
 /// Exact hypervolume and what each point contributes to it alone.
 ///
 /// The forms with a problem take points and reference in natural signs, the others minimise every column
-/// (minimised.hpp). H(P, r) = volume of ∪_p [p_1, r_1]×...×[p_m, r_m], bounded by the reference point r. The exclusive
-/// contribution of p is H(P) - H(P without p). Points that are not better than r in every objective add
-/// nothing; dominated and repeated points are allowed. H: a sweep over the last objective with the union of
-/// the others (box_union.hpp), O(n log n) for m = 2, near it for m = 3, O(n²) for m = 4, a factor n for each
-/// objective more at worst; meant for m <= 6. Contributions: O(n log n) for m = 2, near it for m = 3
+/// (minimised.hpp). H(P, r) = volume of ∪_p [p_1, r_1]×...×[p_m, r_m], bounded by the reference point r. The
+/// exclusive contribution of p is H(P) - H(P without p). Points that are not better than r in every objective
+/// add nothing; dominated and repeated points are allowed. H: a sweep over the last objective with the union
+/// of the others (box_union.hpp), O(n log n) for m = 2, near it for m = 3, O(n²) for m = 4, a factor n for
+/// each objective more at worst; meant for m <= 6. Contributions: O(n log n) for m = 2, near it for m = 3
 /// (volume_contributions.hpp), n unions beyond. Relative rounding error of H below about n·1e-16, of a
 /// contribution about n·1e-16 of p's own box.
 

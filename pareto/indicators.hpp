@@ -7,12 +7,12 @@
 /// Y: n x m, the front; Z: k x m, the reference front. With d(z, Y) the distance of z to its nearest point of
 /// Y, objectives minimised:
 /// * igd = mean over z of d, Euclidean (Coello, Reyes Sierra 2004; the mean as most programs take it);
-/// * igd_plus = the same with max(y - z, 0) in the place of y - z: only what is worse counts, so that it never
-///   prefers a front that another one dominates (Ishibuchi, Masuda, Tanigaki, Nojima 2015);
-/// * additive_epsilon = max_z min_y max_j (y_j - z_j): the least shift by which Y covers Z, negative when Y is
-///   better throughout (Zitzler et al. 2003).
-/// The forms with a problem take natural signs, the others minimise every column (minimised.hpp). Units: scale
-/// the objectives first where they differ. Cost O(n k m), no memory beyond the input.
+/// * igd_plus = the same with max(y - z, 0) in the place of y - z: only what is worse counts, so that it
+///   never prefers a front that another one dominates (Ishibuchi, Masuda, Tanigaki, Nojima 2015);
+/// * additive_epsilon = max_z min_y max_j (y_j - z_j): the least shift by which Y covers Z, negative when Y
+///   is better throughout (Zitzler et al. 2003).
+/// The forms with a problem take natural signs, the others minimise every column (minimised.hpp). Units:
+/// scale the objectives first where they differ. Cost O(n k m), no memory beyond the input.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -55,8 +55,8 @@ Eigen::VectorXd nearest(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z, cons
 
 }  // namespace detail
 
-/// Inverted generational distance. This and the next two minimise every column, and throw std::invalid_argument when a front is empty,
-/// the columns differ or a number is not finite.
+/// Inverted generational distance. This and the next two minimise every column, and throw
+/// std::invalid_argument when a front is empty, the columns differ or a number is not finite.
 inline double igd(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z) {
   detail::check_fronts("pareto::igd: ", Y, Z);
   const auto square = [m = Y.cols()](const double* y, const double* z) {

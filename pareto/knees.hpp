@@ -10,8 +10,9 @@
 ///   Pareto curve based on normal-boundary intersection"); for more, the plane of equal weights stands in for
 ///   the one through the extreme points, which need not be unique. A knee has a strength above 0.
 /// * trade_off: min over neighbours k of Σ_j max(F_kj - F_ij, 0) / Σ_j max(F_ij - F_kj, 0), what must be
-///   given up for one unit of gain, at the best offer (Rachmawati, Srinivasan 2009, IEEE TEC 13(4), 810-824). 1 on
-///   a straight front, above 1 at a knee. Needs no convexity and finds knees in any number of objectives.
+///   given up for one unit of gain, at the best offer (Rachmawati, Srinivasan 2009, IEEE TEC 13(4), 810-824).
+///   1 on a straight front, above 1 at a knee. Needs no convexity and finds knees in any number of
+///   objectives.
 /// A knee is a point at least as strong as all its neighbours: the k nearest in F, or the whole front. Cost
 /// O(n² m).
 

@@ -10,7 +10,7 @@
 /// dominance (population.hpp). Two departures: survivors may be chosen by controlled elitism (elitism.hpp),
 /// and the result comes from an archive of the best points met (archive.hpp). Goals minimize and maximize are
 /// objectives, at_most and at_least constraints, record is ignored. A population is one batch: a batch
-/// function gets it in one call. Same (black box, problem, options), same result. Cost a generation
+/// function gets it in one call. Same (black box, problem, options), same result. Cost per generation
 /// O(m N log N) for m <= 3, and N evaluations.
 
 #include <Eigen/Core>

@@ -14,8 +14,8 @@
 /// from differences of gradients. F are the objectives, minimised and scaled by their ranges on the front, x
 /// in the unit box. A result is kept only when it is feasible and no objective is worse than at x°, so the
 /// dominated volume never falls. Every point, moved or not, gets the residual of the first-order conditions
-/// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations a point, each
-/// one evaluation and d for the Hessian, plus about half a millisecond an iteration inside Ipopt.
+/// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations per point, each
+/// one evaluation and d for the Hessian, plus about half a millisecond per iteration inside Ipopt.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -41,7 +41,7 @@ struct PolishOptions {
   int objective = 0;           ///< k of epsilon_constraint: its place among the objectives
   double augmentation = 1e-4;  ///< ρ >= 0; above 0 no result is only weakly optimal
   double tolerance = 1e-9;     ///< of Ipopt's optimality error in scaled units, above 0
-  int iterations = 100;        ///< most iterations a point, 1 or more
+  int iterations = 100;        ///< most iterations per point, 1 or more
   /// Of the hypervolumes: m, natural units; none: worst of the front + a tenth.
   std::optional<Eigen::VectorXd> reference{};
 };

@@ -6,8 +6,8 @@
 ///
 /// F: the objectives minimised and scaled to 0..1 on the front (normalized.hpp).
 /// * by_aspiration: the point of least s = max_j w_j (F_j - a_j) + ρ Σ_j w_j (F_j - a_j), a the aspired
-///   values (Wierzbicki 1980, "The use of reference objectives in multiobjective optimization"). s <= 0 says that
-///   the aspiration is met, s > 0 by how much of a range the worst objective misses it. Any point of the
+///   values (Wierzbicki 1980, "The use of reference objectives in multiobjective optimization"). s <= 0 says
+///   that the aspiration is met, s > 0 by how much of a range the worst objective misses it. Any point of the
 ///   front is the answer to some aspiration.
 /// * by_weights, chebyshev: the same from the ideal point, a = 0: weighs the loss against the best of each.
 /// * by_weights, sum: the point of least Σ_j w_j F_j. It never answers with a point in a dent of the front.

@@ -12,7 +12,8 @@
 /// deviations that would remain if the chosen ones had been run without noise: draws are projected off the
 /// chosen columns, which is conditioning by their sample covariance. So runs whose results would repeat each
 /// other are not chosen together, provided the draws are joint paths. p stays that of the start. It looks one
-/// batch ahead and does not weigh how much volume a run would win. Cost O(N n r) a choice beside the fronts.
+/// batch ahead and does not weigh how much volume a run would win. Cost O(N n r) per choice beside the
+/// fronts.
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -7,7 +7,8 @@
 /// A step from row i to row k changes the objectives by Δ = y_k - y_i; Δ_a/Δ_b is the average rate between
 /// the two, e.g. -12 kg/s per second of damage. loss and gain are Σ_j of what gets worse and better, each in
 /// ranges of the front; price = loss/gain is 1 on a straight front. Between neighbours only: on a curved
-/// front the rate at the point itself is local_trade_off (local_trade_off.hpp). Cost O(n m + n log n) a call.
+/// front the rate at the point itself is local_trade_off (local_trade_off.hpp). Cost O(n m + n log n) per
+/// call.
 
 #include <Eigen/Core>
 #include <algorithm>

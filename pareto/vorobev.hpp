@@ -71,7 +71,7 @@ inline Eigen::RowVectorXd usual_reference(const doe::Problem& problem, const Dra
   return worst + 0.1 * (worst - Y.colwise().minCoeff());
 }
 
-/// k places between low and high, one a row.
+/// k places between low and high, one per row.
 inline Eigen::MatrixXd places_in_box(const Eigen::RowVectorXd& low, const Eigen::RowVectorXd& high, int k,
                                      doe::Seed seed) {
   doe::Problem unit{{}, {{"none", "1"}}};

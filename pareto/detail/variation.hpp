@@ -82,13 +82,13 @@ struct Parents {
   Eigen::Index size() const { return points.size(); }
 };
 
-/// Deals the parents to tournaments of two in random order, all of them once before any of them again, so
+/// Assigns the parents to tournaments of two in random order, all of them once before any of them again, so
 /// that each child-bearing round gives every parent the same number of chances.
 class Tournaments {
  public:
   Tournaments(const Parents& parents, doe::RandomStream& random)
-      : parents_(parents), random_(random), deck_(parents.rank.size()) {
-    std::iota(deck_.begin(), deck_.end(), 0);
+      : parents_(parents), random_(random), order_(parents.rank.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
   }
 
   /// A row of the parents.
@@ -100,16 +100,16 @@ class Tournaments {
 
  private:
   int next() {
-    if (dealt_ == deck_.size()) dealt_ = 0;
-    const auto left = static_cast<int>(deck_.size() - dealt_);
-    std::swap(deck_[dealt_], deck_[dealt_ + static_cast<std::size_t>(random_.below(left))]);
-    return deck_[dealt_++];
+    if (assigned_ == order_.size()) assigned_ = 0;
+    const auto left = static_cast<int>(order_.size() - assigned_);
+    std::swap(order_[assigned_], order_[assigned_ + static_cast<std::size_t>(random_.below(left))]);
+    return order_[assigned_++];
   }
 
   const Parents& parents_;
   doe::RandomStream& random_;
-  std::vector<int> deck_;
-  std::size_t dealt_ = 0;
+  std::vector<int> order_;
+  std::size_t assigned_ = 0;
 };
 
 /// Makes children of the space's variables, one pair of columns (d each) at a time.
@@ -129,7 +129,7 @@ class Breeder {
 
   /// count x d, parents by tournament.
   Eigen::MatrixXd children(const Parents& parents, int count, doe::RandomStream random) const {
-    Eigen::MatrixXd result(space_.dimension(), count + count % 2);  // one a column while they are made
+    Eigen::MatrixXd result(space_.dimension(), count + count % 2);  // one per column while they are made
     Tournaments tournaments(parents, random);
     for (Eigen::Index i = 0; i < count; i += 2) {
       auto first = result.col(i), second = result.col(i + 1);
@@ -145,7 +145,7 @@ class Breeder {
              doe::RandomStream& random) const {
     for (Eigen::Index block = 0; block < first.size(); block += 64) {
       const Eigen::Index left = first.size() - block;
-      std::uint64_t takes_part = random();  // one bit a variable
+      std::uint64_t takes_part = random();  // one bit per variable
       const std::uint64_t swaps = random();
       if (left < 64) takes_part &= (std::uint64_t{1} << left) - 1;
       for (; takes_part != 0; takes_part &= takes_part - 1) {

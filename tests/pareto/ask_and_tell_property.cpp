@@ -137,7 +137,8 @@ TEST_P(DrivenSearches, GiveTheSameBitsOnAnyNumberOfThreads) {
   for (const int threads : {2, 8, 0}) expect_equal(finish(*made(quick(threads)), noisy), front);
 }
 
-// Before the first population, within the search, at its end; resumed by another object on 1, 2 and 8 threads.
+// Before the first population, within the search, at its end; resumed by another object on 1, 2 and 8
+// threads.
 TEST_P(DrivenSearches, SavedAndResumedGoOnToTheSameBits) {
   const Front front = finish(*made(), noisy);
   const auto interrupted = made();
@@ -168,8 +169,8 @@ TEST_P(DrivenSearches, SavedAndReadAndSavedIsTheSameFile) {
   EXPECT_EQ(content(path_), first);
 }
 
-// A stop within the third population: it is dropped, and what a new search makes of the checkpoint is what the
-// search would have become.
+// A stop within the third population: it is dropped, and what a new search makes of the checkpoint is what
+// the search would have become.
 TEST_P(DrivenSearches, StopWithinAPopulationAndGoOn) {
   for (const int threads : {1, 4}) {
     std::stop_source source;

@@ -122,8 +122,9 @@ TEST_P(Searches, LeaveAFailingHalfOfTheBox) {
   EXPECT_GE(front.X.col(0).minCoeff(), 5.0);
 }
 
-// Pieces n in 1..9 and a switch s in {0, 1}, both of kind integer: cost n + 4 (1 - s), time 12/n: the front is s = 1 and each n, nine points. All of them are found; MOEA/D by PBI owes only those that
-// are best for one of its directions.
+// Pieces n in 1..9 and a switch s in {0, 1}, both of kind integer: cost n + 4 (1 - s), time 12/n: the front
+// is s = 1 and each n, nine points. All of them are found; MOEA/D by PBI owes only those that are best for
+// one of its directions.
 TEST_P(Searches, FindEveryPointOfASmallIntegerFront) {
   const doe::Problem problem{
       {doe::integer_variable("n", "1", 1, 9), {"x", "m", -1.0, 1.0}, doe::integer_variable("s", "1", 0, 1)},

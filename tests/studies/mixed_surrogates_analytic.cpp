@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// Surrogates of different kinds in one set, as a comparison of fits leaves them: searched, polished and drawn.
+/// Surrogates of different kinds in one set, as a comparison of fits leaves them: searched, polished and
+/// drawn.
 ///
-/// |x - a|² is fitted by a Kriging model and |x - b|² by a polynomial, both exact for a quadratic response: the
-/// Pareto set is the segment from a to b.
+/// |x - a|² is fitted by a Kriging model and |x - b|² by a polynomial, both exact for a quadratic response:
+/// the Pareto set is the segment from a to b.
 
 #include <gtest/gtest.h>
 
