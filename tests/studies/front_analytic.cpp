@@ -52,7 +52,7 @@ std::vector<kriging::Model> exact_models(const doe::Problem& problem, const std:
 
 pareto::Front searched(const std::vector<kriging::Model>& models, const doe::Problem& problem) {
   return pareto::nsga2(kriging::Surrogates(models), problem,
-                       {.population = 60, .stopping = {.generations = 60}, .seed = 3});
+                       {.search = {.population = 60, .stopping = {.generations = 60}, .seed = 3}});
 }
 
 double median_distance(const Eigen::MatrixXd& X) {
