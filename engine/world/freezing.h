@@ -34,8 +34,8 @@
 /// balance within `tolerance` of the load that it carries. A thawed rock starts at rest from the impulses
 /// that were held. Freezing takes a rock's kinetic energy away: at most ½ m (distance / hold)².
 ///
-/// Pure function of the calls: same bits for any number of threads. Cost: 50 ns an awake rock and 10 ns a
-/// solved point a step; some µs a change; nothing for a frozen rock. A step that is solved again costs twice.
+/// Pure function of the calls: same bits for any number of threads. Cost per step: 50 ns per awake rock and 10 ns
+/// per solved point; some µs per change; nothing for a frozen rock. A step that is solved again costs twice.
 namespace drawpoint::engine {
 
 /// All that later decisions depend on, beside the held pairs of the memory.
