@@ -80,12 +80,12 @@ set(drawpoint_same "= ${PROJECT_VERSION}")
 drawpoint_pkg_config(doe "Designed experiments over any black box (headers, C++20)" REQUIRES "eigen3 >= 3.4")
 drawpoint_pkg_config(kriging "Regression Kriging (headers, C++20)" REQUIRES "drawpoint-doe ${drawpoint_same}")
 drawpoint_pkg_config(pareto "Multi-objective search (headers, C++20)" REQUIRES "drawpoint-doe ${drawpoint_same}")
+# Neither fcl.pc nor simbody.pc is named: they ask for C++11.
 if(DRAWPOINT_BUILD_CONTACT)
-  drawpoint_pkg_config(contact "Convex rocks and their contacts (C++20)" REQUIRES "eigen3 >= 3.4" hdf5 fcl
-                       CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 LIBS -lhwy -pthread)
+  drawpoint_pkg_config(contact "Convex rocks and their contacts (C++20)" REQUIRES "eigen3 >= 3.4" hdf5
+                       CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 LIBS -lfcl -lhwy -pthread)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
-  # Not by simbody.pc, which asks for C++11.
   drawpoint_pkg_config(engine "Articulated machines among convex rocks (C++20)" REQUIRES "drawpoint-contact ${drawpoint_same}"
                        LIBS -lSimTKsimbody -lSimTKmath -lSimTKcommon)
 endif()

@@ -46,8 +46,10 @@ MassProperties mass_properties(const ConvexPolyhedron& shape, double density) {
 }
 
 Eigen::Isometry3d principal_frame(const MassProperties& properties) {
+  Eigen::Isometry3d frame(Eigen::Translation3d(properties.centre));
+  const Matrix3d products = properties.inertia - Matrix3d(properties.inertia.diagonal().asDiagonal());
+  if (products.cwiseAbs().maxCoeff() <= 1e-9 * properties.inertia.trace()) return frame;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(properties.inertia);
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   frame.linear() = eigen.eigenvectors();
   for (int k : {0, 1}) {
     Eigen::Index largest;
@@ -55,7 +57,6 @@ Eigen::Isometry3d principal_frame(const MassProperties& properties) {
     if (frame.linear()(largest, k) < 0) frame.linear().col(k) *= -1;
   }
   frame.linear().col(2) = frame.linear().col(0).cross(frame.linear().col(1));
-  frame.translation() = properties.centre;
   return frame;
 }
 

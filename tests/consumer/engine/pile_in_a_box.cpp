@@ -25,11 +25,11 @@ MaterialTable rock_on_rock() {
   return table;
 }
 
-// An open box of 2 m x 2 m: the ground and four walls, each the half-space beyond its plane.
+// An open box of 1.2 m x 1.2 m: the ground and four walls, each the half-space beyond its plane.
 void add_box(World& world) {
   for (const Vector3d& inward :
        {Vector3d(0, 0, 1), Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
-    const double offset = inward.z() > 0 ? 0.0 : -1.0;
+    const double offset = inward.z() > 0 ? 0.0 : -0.6;
     world.add_static(std::make_shared<const Shape>(HalfSpace{inward, offset}), Eigen::Isometry3d::Identity(),
                      0);
   }
@@ -47,7 +47,7 @@ void add_rocks(World& world) {
   CounterRandom random(7);
   for (int k = 0; k < rocks; ++k) {
     Eigen::Isometry3d pose(random.rotation());
-    pose.translation() = Vector3d(0.5 * (k % 4) - 0.75, 0.5 * (k / 4 % 4) - 0.75, 0.4 + 0.5 * (k / 16));
+    pose.translation() = Vector3d(0.4 * (k % 3) - 0.4, 0.4 * (k / 3 % 3) - 0.4, 0.3 + 0.45 * (k / 9));
     world.add_rock(random_rock(random), pose);
   }
 }

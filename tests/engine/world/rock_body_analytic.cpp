@@ -54,6 +54,13 @@ TEST(RockBody, FromTheHullOfABrick) {
   EXPECT_LT((inside.inertia - Eigen::Matrix3d(body.inertia.asDiagonal())).norm(), 13000 * 1e-12);
 }
 
+// A cube has any axes as principal ones: it keeps those that it was given.
+TEST(RockBody, AxesThatArePrincipalAreKept) {
+  const PlacedHull cube = place_hull(moved(box({0.2, 0.2, 0.2}), at(1, 2, 3)), 2700);
+  EXPECT_EQ(cube.X_PB.linear(), Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  EXPECT_LT((cube.X_PB.translation() - Vector3d(1, 2, 3)).norm(), 1e-14);
+}
+
 // Each corner of the placed body is one of the points.
 TEST(RockBody, PlacedWhereItsPointsAre) {
   const std::vector<Vector3d> points{{0, 0, 0}, {1, 0, 0}, {0, 0.8, 0}, {0, 0, 0.6}, {0.5, 0.5, 0.5}};
