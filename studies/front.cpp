@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/front.h>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/filter.hpp>
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/polish.hpp>
-#include <drawpoint/studies/front.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/settings.h>
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/doe/uniform.hpp>
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/settings.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/process_pool.hpp>
+#include <drawpoint/studies/process_pool.h>
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/store.h>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/columns.hpp>
-#include <drawpoint/studies/store_errors.hpp>
+#include <drawpoint/studies/columns.h>
+#include <drawpoint/studies/store_errors.h>
 
 #include <ctime>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/summary.h>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/studies/summary.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/studies/report/data.hpp>
-#include <drawpoint/studies/report/panels.hpp>
-#include <drawpoint/studies/report/summary.hpp>
-#include <drawpoint/studies/report/surface.hpp>
-#include <drawpoint/studies/report/text.hpp>
+#include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/summary.h>
+#include <drawpoint/studies/report/surface.h>
+#include <drawpoint/studies/report/text.h>
 
 #include <algorithm>
 #include <numeric>

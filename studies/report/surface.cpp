@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/surface.h>
 #include <drawpoint/doe/uniform.hpp>
-#include <drawpoint/studies/report/surface.hpp>
 
 namespace drawpoint::studies::detail {
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <drawpoint/studies/front.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
@@ -13,7 +14,6 @@
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/polish.hpp>
-#include <drawpoint/studies/front.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 
 #include "support.hpp"
 
+#include <drawpoint/studies/execution.h>
+#include <drawpoint/studies/process_pool.h>
 #include <signal.h>
-#include <drawpoint/studies/execution.hpp>
-#include <drawpoint/studies/process_pool.hpp>
 
 #include <chrono>
 #include <map>

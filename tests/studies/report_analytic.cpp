@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <drawpoint/studies/report/panels.hpp>
-#include <drawpoint/studies/report/summary.hpp>
-#include <drawpoint/studies/report/surface.hpp>
-#include <drawpoint/studies/report/text.hpp>
+#include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/summary.h>
+#include <drawpoint/studies/report/surface.h>
+#include <drawpoint/studies/report/text.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 
 using namespace drawpoint;

@@ -5,9 +5,9 @@
 
 #include "support.hpp"
 
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/session.h>
 #include <sys/wait.h>
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/session.hpp>
 
 #include <nlohmann/json.hpp>
 

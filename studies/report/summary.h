@@ -8,7 +8,7 @@
 /// (fewer than 3 in 4 validation points within two standard deviations), and a predicted best beyond
 /// everything simulated.
 
-#include <drawpoint/studies/report/report.hpp>
+#include <drawpoint/studies/report/report.h>
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -13,10 +13,10 @@
 /// objectives takes too long: such fronts stay as searched, and say why. One objective leaves one point.
 /// Cost: 10 to 30 iterations of half a millisecond per point inside Ipopt, beside n d per gradient.
 
+#include <drawpoint/studies/polishing.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/pareto/search.hpp>
-#include <drawpoint/studies/polishing.hpp>
 
 #include <vector>
 

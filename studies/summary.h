@@ -3,8 +3,8 @@
 #pragma once
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
+#include <drawpoint/studies/polishing.h>
 #include <drawpoint/studies/headline.hpp>
-#include <drawpoint/studies/polishing.hpp>
 
 #include <filesystem>
 #include <string>

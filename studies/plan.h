@@ -14,7 +14,7 @@
 /// out of the count, and are never added later. A grown design is not the one that the larger number would
 /// have given from the start.
 
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/store.h>
 
 #include <Eigen/Core>
 #include <vector>

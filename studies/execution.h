@@ -8,11 +8,11 @@
 /// run that fails while the disk is full does not count: it is planned again and the study stops, because the
 /// next ones would fail too.
 
+#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/process_pool.h>
+#include <drawpoint/studies/settings.h>
+#include <drawpoint/studies/store.h>
 #include <drawpoint/doe/outcome.hpp>
-#include <drawpoint/studies/folder.hpp>
-#include <drawpoint/studies/process_pool.hpp>
-#include <drawpoint/studies/settings.hpp>
-#include <drawpoint/studies/store.hpp>
 #include <drawpoint/studies/study.hpp>
 
 #include <string>
