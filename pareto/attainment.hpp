@@ -37,7 +37,7 @@ namespace detail {
 inline void check_places(const std::string& place, const Eigen::MatrixXd& at, std::size_t m) {
   if (at.cols() != static_cast<Eigen::Index>(m) || at.hasNaN())
     throw std::invalid_argument(place + "at has " + std::to_string(at.cols()) +
-                                " columns; give one number an objective (" + std::to_string(m) +
+                                " columns; give one number per objective (" + std::to_string(m) +
                                 ") at each place");
 }
 
@@ -62,7 +62,7 @@ inline double quantile(const std::vector<double>& rising, double p) {
   return rising[static_cast<std::size_t>(std::clamp(place, 1.0, static_cast<double>(rising.size()))) - 1];
 }
 
-/// One k x m matrix a probability, natural units.
+/// One k x m matrix per probability, natural units.
 inline std::vector<Eigen::MatrixXd> attainment_levels(const std::string& place, const doe::Problem& problem,
                                                       const Draws& draws, const Eigen::MatrixXd& at,
                                                       const std::vector<double>& probabilities) {

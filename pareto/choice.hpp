@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drawpoint::pareto {
@@ -18,6 +19,18 @@ enum class ChoiceStatus {
   none_meets,  ///< no point meets the conditions: `row` is the nearest to meeting them
   empty_front  ///< there is nothing to choose from: `row` is -1
 };
+
+inline std::string_view to_string(ChoiceStatus status) {
+  switch (status) {
+    case ChoiceStatus::found:
+      return "found";
+    case ChoiceStatus::none_meets:
+      return "none_meets";
+    case ChoiceStatus::empty_front:
+      return "empty_front";
+  }
+  return "unknown";
+}
 
 struct Choice {
   ChoiceStatus status = ChoiceStatus::found;
@@ -29,7 +42,7 @@ struct Choice {
 
 namespace detail {
 
-/// `rows` by rising cost (one entry a row of the front); the earlier row wins a tie.
+/// `rows` by rising cost (one entry per row of the front); the earlier row wins a tie.
 inline std::vector<int> ranked(std::vector<int> rows, const Eigen::VectorXd& cost) {
   std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return cost[a] < cost[b]; });
   return rows;

@@ -66,4 +66,10 @@ inline Eigen::VectorXd crowding_distance(const Eigen::MatrixXd& Y) {
   return distance;
 }
 
+/// The same in natural signs (minimised.hpp). A turned sign mirrors an objective and leaves its gaps, so the
+/// two forms can differ only in which of equal points has the distance.
+inline Eigen::VectorXd crowding_distance(const doe::Problem& problem, const Eigen::MatrixXd& Y) {
+  return crowding_distance(minimised(problem, Y));
+}
+
 }  // namespace drawpoint::pareto

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Pareto dominance and non-dominated sorting, every objective minimised.
+/// Pareto dominance and non-dominated sorting.
 ///
-/// a dominates b iff a_j <= b_j for all j and a_j < b_j for some j. Front 1 holds the points that nothing
-/// dominates, front k+1 those that only fronts 1..k dominate. Equal points share a front. Points are taken in
+/// The forms with a problem take natural signs, the others minimise every column (minimised.hpp). a dominates
+/// b iff a_j <= b_j for all j and a_j < b_j for some j. Front 1 holds the points that nothing dominates,
+/// front k+1 those that only fronts 1..k dominate. Equal points share a front. Points are taken in
 /// lexicographic order, so that nothing later dominates anything earlier, and each is put into the first
 /// front that does not dominate it, found by bisection (Zhang, Tian, Cheng, Jin 2015, "An efficient approach
 /// to non-dominated sorting", ENS-BS). A front is kept as what decides dominance: nothing for one objective,
@@ -26,10 +27,11 @@
 #include <vector>
 
 #include <drawpoint/pareto/detail/ranked_points.hpp>
+#include <drawpoint/pareto/minimised.hpp>
 
 namespace drawpoint::pareto {
 
-/// a and b: one point each, of equal length.
+/// a and b: one point each, of equal length, minimised.
 template <class A, class B>
 bool dominates(const Eigen::DenseBase<A>& a, const Eigen::DenseBase<B>& b) {
   bool better = false;
@@ -198,7 +200,7 @@ auto with_fronts_for(const Eigen::MatrixXd& Y, const Body& body) {
 
 }  // namespace detail
 
-/// Y: n x m, one point a row, minimised. Returns the fronts from the best, each the row numbers in rising
+/// Y: n x m, one point per row, minimised. Returns the fronts from the best, each the row numbers in rising
 /// order; together they hold every row once. Throws std::invalid_argument when Y holds NaN.
 inline std::vector<std::vector<int>> non_dominated_sort(const Eigen::MatrixXd& Y) {
   return detail::with_fronts_for(Y, [](auto front, const auto& points) {
@@ -211,6 +213,20 @@ inline std::vector<int> non_dominated(const Eigen::MatrixXd& Y) {
   return detail::with_fronts_for(Y, [](auto front, const auto& points) {
     return detail::first_front<typename decltype(front)::type>(points);
   });
+}
+
+/// The same in natural signs; a, b: m each.
+inline bool dominates(const doe::Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return dominates(minimised(problem, a.transpose()), minimised(problem, b.transpose()));
+}
+
+inline std::vector<std::vector<int>> non_dominated_sort(const doe::Problem& problem,
+                                                        const Eigen::MatrixXd& Y) {
+  return non_dominated_sort(minimised(problem, Y));
+}
+
+inline std::vector<int> non_dominated(const doe::Problem& problem, const Eigen::MatrixXd& Y) {
+  return non_dominated(minimised(problem, Y));
 }
 
 }  // namespace drawpoint::pareto

@@ -13,7 +13,7 @@
 /// Normals come by quasi Monte Carlo: scrambled Sobol points (doe/sobol.hpp) for blocks of as many points as
 /// fit into 37 dimensions, each block in its own random order: Latin supercube sampling (Owen 1998, "Latin
 /// supercube sampling for very high-dimensional simulations"). Each draw alone is a plain one, so means over
-/// draws are unbiased. Equal seeds give equal bits. Memory 8 n r bytes a draw.
+/// draws are unbiased. Equal seeds give equal bits. Memory 8 n r bytes per draw.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/normal_quantile.hpp>
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/pareto/search.hpp>
@@ -35,7 +36,7 @@ struct PredictedResponses {
   Eigen::MatrixXd mean, deviation;
 };
 
-/// One matrix a draw, each n x r: all responses at all points.
+/// One matrix per draw, each n x r: all responses at all points.
 using Draws = std::vector<Eigen::MatrixXd>;
 
 struct DrawOptions {
@@ -49,8 +50,8 @@ concept PredictiveFunction = requires(const F& f, const Eigen::MatrixXd& X) {
 };
 
 template <class F>
-concept PathFunction = requires(const F& f, const Eigen::MatrixXd& X, int draws, doe::Seed seed) {
-  { f(X, draws, seed) } -> std::convertible_to<Draws>;
+concept PathFunction = requires(const F& f, const Eigen::MatrixXd& X, const DrawOptions& options) {
+  { f(X, options) } -> std::convertible_to<Draws>;
 };
 
 template <class F>
@@ -81,14 +82,6 @@ inline Eigen::MatrixXd normal_net(int count, int dimensions, doe::Seed seed) {
   Eigen::MatrixXd Z = doe::scrambled_sobol(unit, count, {.seed = seed});
   for (double& z : Z.reshaped()) z = doe::detail::normal_quantile(std::clamp(z, 0x1p-54, 1.0 - 0x1p-53));
   return Z;
-}
-
-inline std::vector<int> shuffled(int n, doe::Seed seed) {
-  std::vector<int> order(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
-  doe::RandomStream random(seed);
-  for (int i = n - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
-  return order;
 }
 
 /// Draws agree in shape with each other and the problem, and are finite.
@@ -124,7 +117,8 @@ inline Draws draws_of_normals(const PredictedResponses& p, const DrawOptions& op
     const auto number = static_cast<std::uint64_t>(first);
     const Eigen::MatrixXd Z = detail::normal_net(options.draws, static_cast<int>(points * r),
                                                  doe::run_seed(options.seed, number, 0));
-    const std::vector<int> order = detail::shuffled(options.draws, doe::run_seed(options.seed, number, 1));
+    doe::RandomStream random(doe::run_seed(options.seed, number, 1));
+    const std::vector<int> order = doe::detail::permutation(options.draws, random);
     for (std::size_t s = 0; s < draws.size(); ++s)
       for (Eigen::Index i = 0; i < points; ++i)
         for (Eigen::Index j = 0; j < r; ++j)
@@ -158,10 +152,11 @@ Draws draws_at(const F& f, const Eigen::MatrixXd& X, const DrawOptions& options 
       UncertainFunction<F>,
       "drawpoint: not an uncertain function. Expected pareto::PredictedResponses f(const "
       "Eigen::MatrixXd& X) const; with mean and deviation of all responses (n x r), or pareto::Draws "
-      "f(const Eigen::MatrixXd& X, int draws, doe::Seed seed) const; with one n x r matrix a draw.");
+      "f(const Eigen::MatrixXd& X, const pareto::DrawOptions& options) const; with one n x r matrix per "
+      "draw, options.draws of them from options.seed.");
   if constexpr (PathFunction<F>) {
     detail::check_range("pareto::draws_at: ", "draws", options.draws, options.draws >= 2, "2 or more");
-    return f(X, options.draws, options.seed);
+    return f(X, options);
   } else if constexpr (PredictiveFunction<F>) {
     return draws_of_normals(f(X), options);
   } else {

@@ -47,6 +47,14 @@ inline std::vector<Condition> conditions_of(const doe::Problem& problem) {
   return conditions;
 }
 
+/// Whether a point meets the problem's own limits; y: r, all responses in natural units.
+inline bool meets_limits(const doe::Problem& problem, const Eigen::VectorXd& y) {
+  const detail::Roles role = detail::roles(problem);
+  return std::all_of(role.constraints.begin(), role.constraints.end(), [&](int c) {
+    return detail::violation(problem.responses[static_cast<std::size_t>(c)], y[c]) == 0.0;
+  });
+}
+
 namespace detail {
 
 inline void check(const std::string& place, const std::vector<Condition>& conditions) {
@@ -63,7 +71,7 @@ inline Eigen::MatrixXd misses(const doe::Problem& problem, const Front& front,
   Eigen::MatrixXd missed(front.Y.rows(), static_cast<Eigen::Index>(conditions.size()));
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     const int column = doe::response_index(problem, conditions[c].response);
-    const double sign = conditions[c].goal == doe::Goal::at_most ? 1.0 : -1.0;
+    const double sign = sign_of(conditions[c].goal);
     missed.col(static_cast<Eigen::Index>(c)) =
         (sign * (front.responses.col(column).array() - conditions[c].limit)).max(0.0);
   }
@@ -83,7 +91,7 @@ inline double direction(const std::string& place, const doe::Response& r) {
     throw std::invalid_argument(place + "response \"" + r.name +
                                 "\" is only recorded, so no value of it is better than another; give it a "
                                 "goal or ask with a condition");
-  return r.goal == doe::Goal::maximize || r.goal == doe::Goal::at_least ? -1.0 : 1.0;
+  return sign_of(r.goal);
 }
 
 /// "joint_damage is 7.5 s at best" for each condition that no row meets alone, or that they exclude each

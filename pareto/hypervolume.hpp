@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Exact hypervolume and what each point contributes to it alone, every objective minimised.
+/// Exact hypervolume and what each point contributes to it alone.
 ///
-/// H(P, r) = volume of ∪_p [p_1, r_1]×...×[p_m, r_m], bounded by the reference point r. The exclusive
-/// contribution of p is H(P) - H(P without p). Points that are not better than r in every objective add
-/// nothing; dominated and repeated points are allowed. H: a sweep over the last objective with the union of
-/// the others (box_union.hpp), O(n log n) for m = 2, near it for m = 3, O(n²) for m = 4, a factor n for each
-/// objective more at worst; meant for m <= 6. Contributions: O(n log n) for m = 2, near it for m = 3
-/// (volume_contributions.hpp), n unions beyond. Relative
-/// rounding error of H below about n·1e-16, of a contribution about n·1e-16 of p's own box.
+/// The forms with a problem take points and reference in natural signs, the others minimise every column
+/// (minimised.hpp). H(P, r) = volume of ∪_p [p_1, r_1]×...×[p_m, r_m], bounded by the reference point r. The
+/// exclusive contribution of p is H(P) - H(P without p). Points that are not better than r in every objective
+/// add nothing; dominated and repeated points are allowed. H: a sweep over the last objective with the union
+/// of the others (box_union.hpp), O(n log n) for m = 2, near it for m = 3, O(n²) for m = 4, a factor n for
+/// each objective more at worst; meant for m <= 6. Contributions: O(n log n) for m = 2, near it for m = 3
+/// (volume_contributions.hpp), n unions beyond. Relative rounding error of H below about n·1e-16, of a
+/// contribution about n·1e-16 of p's own box.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -22,6 +23,7 @@
 
 #include <drawpoint/pareto/detail/box_union.hpp>
 #include <drawpoint/pareto/detail/volume_contributions.hpp>
+#include <drawpoint/pareto/minimised.hpp>
 
 namespace drawpoint::pareto {
 
@@ -79,7 +81,7 @@ inline void check_volume_input(const std::string& place, const Eigen::MatrixXd& 
   if (points.cols() != reference.size() || reference.size() == 0)
     throw std::invalid_argument(place + "points has " + std::to_string(points.cols()) +
                                 " columns, reference has " + std::to_string(reference.size()) +
-                                " entries; both need one an objective");
+                                " entries; both need one per objective");
   if (points.cols() > most_volume_objectives)
     throw std::invalid_argument(
         place + "points has " + std::to_string(points.cols()) + " objectives; allowed are up to " +
@@ -185,6 +187,18 @@ inline Eigen::VectorXd hypervolume_contributions(const Eigen::MatrixXd& points,
   const detail::Boxes boxes = detail::boxes(points, reference);
   return detail::with_dimension(
       points.cols(), [&](auto m) { return detail::contributions<decltype(m)::value>(boxes, points.rows()); });
+}
+
+/// The same in natural signs; reference: m, worse than what counts in every objective.
+inline double hypervolume(const doe::Problem& problem, const Eigen::MatrixXd& Y,
+                          const Eigen::VectorXd& reference) {
+  return hypervolume(minimised(problem, Y), minimised(problem, reference.transpose()).transpose());
+}
+
+inline Eigen::VectorXd hypervolume_contributions(const doe::Problem& problem, const Eigen::MatrixXd& Y,
+                                                 const Eigen::VectorXd& reference) {
+  return hypervolume_contributions(minimised(problem, Y),
+                                   minimised(problem, reference.transpose()).transpose());
 }
 
 }  // namespace drawpoint::pareto

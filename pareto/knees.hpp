@@ -10,9 +10,9 @@
 ///   Pareto curve based on normal-boundary intersection"); for more, the plane of equal weights stands in for
 ///   the one through the extreme points, which need not be unique. A knee has a strength above 0.
 /// * trade_off: min over neighbours k of Σ_j max(F_kj - F_ij, 0) / Σ_j max(F_ij - F_kj, 0), what must be
-/// given
-///   up for one unit of gain, at the best offer (Rachmawati, Srinivasan 2009, IEEE TEC 13(4), 810-824). 1 on
-///   a straight front, above 1 at a knee. Needs no convexity and finds knees in any number of objectives.
+///   given up for one unit of gain, at the best offer (Rachmawati, Srinivasan 2009, IEEE TEC 13(4), 810-824).
+///   1 on a straight front, above 1 at a knee. Needs no convexity and finds knees in any number of
+///   objectives.
 /// A knee is a point at least as strong as all its neighbours: the k nearest in F, or the whole front. Cost
 /// O(n² m).
 
@@ -20,7 +20,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <drawpoint/pareto/choice.hpp>
@@ -32,10 +34,23 @@ enum class KneeMeasure { distance, trade_off };
 
 struct KneeOptions {
   KneeMeasure measure = KneeMeasure::trade_off;  ///< the one that holds for bent and dented fronts alike
-  int neighbours = 0;  ///< k, 0 or more; 0: all points, so that there is one knee; 10 to 20 finds local ones
+  /// k, 1 or more; none: all points, so that there is one knee; 10 to 20 finds local ones.
+  std::optional<int> neighbours{};
 };
 
 enum class KneeStatus { found, no_knee, too_few_points };
+
+inline std::string_view to_string(KneeStatus status) {
+  switch (status) {
+    case KneeStatus::found:
+      return "found";
+    case KneeStatus::no_knee:
+      return "no_knee";
+    case KneeStatus::too_few_points:
+      return "too_few_points";
+  }
+  return "unknown";
+}
 
 struct Knees {
   KneeStatus status = KneeStatus::found;
@@ -46,18 +61,18 @@ struct Knees {
 
 namespace detail {
 
-/// The k nearest other rows of F, or all of them for k = 0; the earlier row wins a tie.
-inline std::vector<int> neighbours_of(const Eigen::MatrixXd& F, int i, int k) {
+/// The k nearest other rows of F, or all of them without k; the earlier row wins a tie.
+inline std::vector<int> neighbours_of(const Eigen::MatrixXd& F, int i, const std::optional<int>& k) {
   std::vector<int> rows = all_rows(F.rows());
   rows.erase(rows.begin() + i);
-  if (k == 0 || k >= static_cast<int>(rows.size())) return rows;
+  if (!k || *k >= static_cast<int>(rows.size())) return rows;
   const Eigen::VectorXd distance = (F.rowwise() - F.row(i)).rowwise().squaredNorm();
   rows = ranked(std::move(rows), distance);
-  rows.resize(static_cast<std::size_t>(k));
+  rows.resize(static_cast<std::size_t>(*k));
   return rows;
 }
 
-/// What point i gives up, a unit gained, by the best move to another; infinity when no move gains.
+/// What point i gives up per unit gained by the best move to another; infinity when no move gains.
 inline double price_of_leaving(const Eigen::MatrixXd& F, int i, const std::vector<int>& others) {
   double least = std::numeric_limits<double>::infinity();
   for (const int k : others) {
@@ -70,13 +85,13 @@ inline double price_of_leaving(const Eigen::MatrixXd& F, int i, const std::vecto
 
 }  // namespace detail
 
-/// Throws std::invalid_argument for a front of another problem and for neighbours < 0. A knee must exceed a
+/// Throws std::invalid_argument for a front of another problem and for neighbours < 1. A knee must exceed a
 /// straight front by more than 1e-9, so that rounding makes none.
 inline Knees knees(const doe::Problem& problem, const Front& front, const KneeOptions& options = {}) {
   constexpr double rounding = 1e-9;
   detail::check_front("pareto::knees: ", problem, front);
-  detail::check_range("pareto::knees: ", "neighbours", options.neighbours, options.neighbours >= 0,
-                      "0 (all) or more");
+  const int k = options.neighbours.value_or(1);
+  detail::check_range("pareto::knees: ", "neighbours", k, k >= 1, "1 or more; leave it out for all");
   Knees result;
   const auto n = static_cast<int>(front.Y.rows());
   if (n < 3) {

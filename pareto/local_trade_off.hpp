@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include <drawpoint/pareto/detail/normalized.hpp>
 #include <drawpoint/pareto/polish.hpp>
@@ -32,13 +33,26 @@ enum class LocalTradeOffStatus {
   failed           ///< the function gave no finite numbers there
 };
 
+inline std::string_view to_string(LocalTradeOffStatus status) {
+  switch (status) {
+    case LocalTradeOffStatus::stationary:
+      return "stationary";
+    case LocalTradeOffStatus::not_stationary:
+      return "not_stationary";
+    case LocalTradeOffStatus::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
 struct LocalTradeOff {
   LocalTradeOffStatus status = LocalTradeOffStatus::failed;
   /// m x m, entry (a, b) = ∂y_a/∂y_b in natural units, 1 on the diagonal. Infinity where λ_a = 0 (y_a falls
   /// to its optimum whatever y_b does), NaN where λ_b = 0 too.
   Eigen::MatrixXd rates;
-  Eigen::VectorXd weights;  ///< λ: m, sum 1, of the scaled objectives
-  double residual = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd weights;                                     ///< λ: m, sum 1, of the scaled objectives
+  double residual = std::numeric_limits<double>::quiet_NaN();  ///< NaN when failed
+  std::string message;                                         ///< empty when stationary
 };
 
 namespace detail {
@@ -58,12 +72,18 @@ inline LocalTradeOff trade_off_at(const ScaledProblem& scaled, const Eigen::Vect
                                   const Eigen::VectorXd& x, double tolerance) {
   LocalTradeOff result;
   const ScaledPoint point = scaled.at(scaled.unit(x));
-  if (!point.sound) return result;
+  if (!point.sound) {
+    result.message = "the function threw, or gave numbers that are not finite or of the wrong count, there";
+    return result;
+  }
   const Stationarity s = stationarity(point.gradients, active_gradients(point));
   result.weights = s.weights;
   result.residual = s.residual;
   result.status =
       s.residual <= tolerance ? LocalTradeOffStatus::stationary : LocalTradeOffStatus::not_stationary;
+  if (s.residual > tolerance)
+    result.message = "the residual is " + doe::detail::number_text(s.residual) + ", above the tolerance of " +
+                     doe::detail::number_text(tolerance) + "; polish the front first";
   const auto m = s.weights.size();
   Eigen::VectorXd slope(m);
   for (Eigen::Index j = 0; j < m; ++j)

@@ -18,30 +18,40 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/pareto/nsga3.hpp>
 
 namespace drawpoint::pareto {
 
 enum class Scalarisation { chebyshev, pbi };
 
+inline std::string_view to_string(Scalarisation form) {
+  switch (form) {
+    case Scalarisation::chebyshev:
+      return "chebyshev";
+    case Scalarisation::pbi:
+      return "pbi";
+  }
+  return "unknown";
+}
+
+/// Every pair crosses (probability 1) where nothing else is said.
 struct MoeadOptions {
-  int population = 100;  ///< most directions, one an objective or more; the population has one point for each
-  Eigen::MatrixXd directions{};  ///< k x m as in Nsga3Options; empty: reference_directions(m, population)
+  /// population: most directions, one per objective or more; the population has one point for each.
+  SearchOptions search{};
+  std::optional<Eigen::MatrixXd> directions{};  ///< k x m as in Nsga3Options
   Scalarisation scalarisation =
       Scalarisation::chebyshev;        ///< it reaches every shape of front; pbi is more even
   double penalty = 5.0;                ///< θ of pbi, above 0; the authors' value
   int neighbours = 20;                 ///< T, 2 or more; a fifth of the population, as the authors found best
   double neighbour_probability = 0.9;  ///< δ, 0 to 1
-  int replacements = 2;                ///< a child, 1 or more; more copies good points and loses variety
-  Stopping stopping{};
-  Variation variation{.crossover_probability = 1.0};
-  std::vector<int> integers{};  ///< places of the integer variables in Problem::variables
-  doe::Seed seed = 1;
-  ProgressFunction progress{};
+  int replacements = 2;                ///< per child, 1 or more; more copies good points and loses variety
 };
 
 namespace detail {
@@ -55,37 +65,59 @@ inline double scalarised(const MoeadOptions& options, const Eigen::RowVectorXd& 
   return along + options.penalty * (F - along * w).norm();
 }
 
-template <doe::BlackBox F>
-class Decomposition {
+inline Directed directed(const doe::Problem& problem, const MoeadOptions& o) {
+  Setting setting = setting_for("pareto::moead: ", problem, o.search, {.crossover_probability = 1.0});
+  check_range(setting.place, "penalty", o.penalty, o.penalty > 0.0, "above 0");
+  check_range(setting.place, "neighbours", o.neighbours, o.neighbours >= 2, "2 or more");
+  check_range(setting.place, "neighbour_probability", o.neighbour_probability,
+              o.neighbour_probability >= 0.0 && o.neighbour_probability <= 1.0, "0 to 1");
+  check_range(setting.place, "replacements", o.replacements, o.replacements >= 1, "1 or more");
+  setting.own = {{"scalarisation", std::string(to_string(o.scalarisation))},
+                 {"penalty", doe::detail::number_text(o.penalty)},
+                 {"neighbours", std::to_string(o.neighbours)},
+                 {"neighbour_probability", doe::detail::number_text(o.neighbour_probability)},
+                 {"replacements", std::to_string(o.replacements)}};
+  Directed result = directed(std::move(setting), o.directions, problem);
+  result.setting.population = result.setting.children = static_cast<int>(result.directions.rows());
+  return result;
+}
+
+}  // namespace detail
+
+/// Driven from outside (ask_and_tell.hpp). Throws as Nsga2 does.
+class Moead : public Search {
  public:
-  Decomposition(const F& black_box, const doe::Problem& problem, const MoeadOptions& options,
-                const Setting& setting, const Eigen::MatrixXd& directions)
-      : problem_(problem),
+  explicit Moead(const doe::Problem& problem, const MoeadOptions& options = {})
+      : Moead(problem, options, detail::directed(problem, options)) {}
+
+ private:
+  using Population = detail::Population;
+
+  Moead(const doe::Problem& problem, const MoeadOptions& options, const detail::Directed& given)
+      : Search(problem, given.setting),
         options_(options),
-        directions_(directions.rowwise().normalized()),
-        space_(setting.place, problem, options.integers),
-        course_(setting.place, options.stopping, options.progress, roles(problem).objectives.size()),
-        breeder_(space_, options.variation),
-        evaluate_(black_box, problem, space_, options.seed) {
+        directions_(given.directions.rowwise().normalized()),
+        random_(0) {
     find_neighbours();
   }
 
-  Front run() {
-    const int n = static_cast<int>(directions_.rows());
-    members_ = evaluate_(space_.start(n, doe::run_seed(options_.seed, 0, start_stream)));
-    meet(members_);
-    for (int generation = 0;; ++generation) {
-      if (ended(generation)) return result(generation);
-      doe::RandomStream random(
-          doe::run_seed(options_.seed, static_cast<std::uint64_t>(generation), generation_stream));
-      const Population children = evaluate_(bred(random));
-      meet(children);
+  Eigen::MatrixXd next(Population told) override {
+    meet(told);
+    if (generation_ == 0) {
+      members_ = std::move(told);
+    } else {
       scale();
-      for (const int k : shuffled(everyone_, random)) replace(children, k, random);
+      std::vector<int> order = everyone_;
+      doe::detail::shuffle(order, random_);
+      for (const int k : order) replace(told, k);
     }
+    close();
+    if (ended()) return {};
+    return bred(generation_++);
   }
 
- private:
+  Population best() const override { return detail::best_of(members_); }
+
   void find_neighbours() {
     const Eigen::Index n = directions_.rows();
     const auto count = std::min<std::ptrdiff_t>(options_.neighbours, n);
@@ -118,32 +150,30 @@ class Decomposition {
       if (!(r > 0.0)) r = 1.0;
   }
 
-  Eigen::MatrixXd bred(doe::RandomStream& random) {
+  /// The children of a generation; random_ stands behind them, where their replacing begins.
+  Eigen::MatrixXd bred(int generation) {
+    random_ = doe::RandomStream(stream(generation, detail::generation_stream));
     const Eigen::Index n = members_.size();
-    Eigen::MatrixXd children(space_.dimension(), n);
+    Eigen::MatrixXd children(breeder().space().dimension(), n);
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto& mates = mates_of(static_cast<int>(k), random);
+      const auto& mates = mates_of(static_cast<int>(k));
       const int count = static_cast<int>(mates.size());
-      children.col(k) = members_.U.row(mates[random.below(count)]).transpose();
-      Eigen::VectorXd second = members_.U.row(mates[random.below(count)]).transpose();
-      breeder_.breed(children.col(k), second, random);
+      children.col(k) = members_.U.row(mates[random_.below(count)]).transpose();
+      Eigen::VectorXd second = members_.U.row(mates[random_.below(count)]).transpose();
+      breeder().breed(children.col(k), second, random_);
     }
     return children.transpose();
   }
 
-  const std::vector<int>& mates_of(int k, doe::RandomStream& random) const {
-    return random.uniform() < options_.neighbour_probability ? neighbours_[k] : everyone_;
+  const std::vector<int>& mates_of(int k) {
+    return random_.uniform() < options_.neighbour_probability ? neighbours_[k] : everyone_;
   }
 
-  static std::vector<int> shuffled(std::vector<int> rows, doe::RandomStream& random) {
-    for (int i = static_cast<int>(rows.size()) - 1; i >= 1; --i)
-      std::swap(rows[i], rows[random.below(i + 1)]);
-    return rows;
-  }
-
-  void replace(const Population& children, int k, doe::RandomStream& random) {
+  void replace(const Population& children, int k) {
     int left = options_.replacements;
-    for (const int i : shuffled(mates_of(k, random), random)) {
+    std::vector<int> mates = mates_of(k);
+    doe::detail::shuffle(mates, random_);
+    for (const int i : mates) {
       if (left == 0) return;
       if (!better(children, k, i)) continue;
       members_.U.row(i) = children.U.row(k);
@@ -165,70 +195,54 @@ class Decomposition {
   }
 
   double value(const Population& points, int i, const Eigen::RowVectorXd& w) const {
-    return scalarised(options_, (points.Y.row(i) - ideal_).cwiseQuotient(range_), w);
+    return detail::scalarised(options_, (points.Y.row(i) - ideal_).cwiseQuotient(range_), w);
   }
 
   double violation(const Population& points, int i) const {
     if (points.failed[i]) return std::numeric_limits<double>::infinity();
-    const Eigen::RowVectorXd scale =
-        evaluate_.largest_violations().cwiseMax(std::numeric_limits<double>::min());
+    const Eigen::RowVectorXd scale = largest_violations().cwiseMax(std::numeric_limits<double>::min());
     return points.violations.cols() == 0 ? 0.0 : points.violations.row(i).cwiseQuotient(scale).sum();
   }
 
-  bool ended(int generation) {
-    Progress now;
-    now.generation = generation;
-    now.evaluations = evaluate_.evaluations();
-    now.failed = evaluate_.failed();
+  void close() {
     const auto worst = [&]() -> Eigen::RowVectorXd {
       scale();
       return ideal_ + range_;
     };
-    return course_.done(now, best_of(members_).Y, worst, static_cast<int>(directions_.rows()));
+    close_generation(generation_, best().Y, worst, static_cast<int>(directions_.rows()));
   }
 
-  Front result(int generation) const {
-    Front front = to_front(problem_, space_, best_of(members_), evaluate_);
-    front.generations = generation;
-    front.stopped_by = course_.reason();
-    return front;
+  void write(detail::CheckpointWriter& out) const override { fields(*this, out); }
+
+  void read(detail::CheckpointReader& in) override {
+    fields(*this, in);
+    if (generation_ > 0) bred(generation_ - 1);  // for the sake of random_
   }
 
-  const doe::Problem& problem_;
-  const MoeadOptions& options_;
+  template <class Self, class Stream>
+  static void fields(Self& self, Stream& stream) {
+    stream.item("next_generation", self.generation_);
+    stream.item("members", self.members_);
+    stream.item("ideal", self.ideal_);
+  }
+
+  MoeadOptions options_;
   Eigen::MatrixXd directions_;
-  SearchSpace space_;
-  Course course_;
-  Breeder breeder_;
-  Evaluator<F> evaluate_;
   std::vector<std::vector<int>> neighbours_;
   std::vector<int> everyone_;
   Population members_;
   Eigen::RowVectorXd ideal_, range_;
+  int generation_ = 0;  // of the points that were asked for
+  doe::RandomStream random_;
 };
 
-inline Setting setting_of(const MoeadOptions& o) {
-  Setting setting{.place = "pareto::moead: ", .population = o.population, .variation = o.variation};
-  check_range(setting.place, "penalty", o.penalty, o.penalty > 0.0, "above 0");
-  check_range(setting.place, "neighbours", o.neighbours, o.neighbours >= 2, "2 or more");
-  check_range(setting.place, "neighbour_probability", o.neighbour_probability,
-              o.neighbour_probability >= 0.0 && o.neighbour_probability <= 1.0, "0 to 1");
-  check_range(setting.place, "replacements", o.replacements, o.replacements >= 1, "1 or more");
-  return setting;
-}
-
-}  // namespace detail
-
-/// As nsga2: same problems, same errors, same result; at most one point a direction.
+/// As nsga2: same problems, same errors, same result; at most one point per direction.
 template <class F>
 Front moead(const F& black_box, const doe::Problem& problem, const MoeadOptions& options = {}) {
   doe::require_black_box<F>();
   if constexpr (doe::BlackBox<F>) {
-    const detail::Setting setting = detail::setting_of(options);
-    detail::check(setting, problem);
-    const Eigen::MatrixXd directions =
-        detail::directions_for(setting.place, options.directions, problem, options.population);
-    return detail::Decomposition<F>(black_box, problem, options, setting, directions).run();
+    Moead search(problem, options);
+    return finish(search, black_box);
   } else {
     return {};  // so that the message above stands alone
   }

@@ -8,13 +8,14 @@
 /// dominates it. About the given points only: a better point may lie between them. For two points of
 /// independent normals, P(b dominates a) = Π_j Φ((μ_aj - μ_bj)/√(σ_aj² + σ_bj²)). The standard error
 /// √(p(1-p)/N) is that of N unrelated draws; the quasi Monte Carlo draws do better. Cost: one non-dominated
-/// sort a draw.
+/// sort per draw.
 
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include <drawpoint/pareto/detail/normalized.hpp>
+#include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/draws.hpp>
 
 namespace drawpoint::pareto {

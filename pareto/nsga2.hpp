@@ -10,12 +10,13 @@
 /// dominance (population.hpp). Two departures: survivors may be chosen by controlled elitism (elitism.hpp),
 /// and the result comes from an archive of the best points met (archive.hpp). Goals minimize and maximize are
 /// objectives, at_most and at_least constraints, record is ignored. A population is one batch: a batch
-/// function gets it in one call. Same (black box, problem, options), same result. Cost a generation
+/// function gets it in one call. Same (black box, problem, options), same result. Cost per generation
 /// O(m N log N) for m <= 3, and N evaluations.
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <drawpoint/pareto/detail/elitism.hpp>
@@ -31,25 +32,36 @@ enum class Elitism {
 };
 
 struct Nsga2Options {
-  int population = 200;  ///< points a generation, 2 or more; also the most points of the front
-  Stopping stopping{};
-  Variation variation{};
+  SearchOptions search{};
   /// Plain: on five of the six problems of benchmarks/toolkit/pareto_table it has the largest median
   /// hypervolume. Controlled elitism spends places on dominated points, which pays where a front falls into
   /// pieces that a search can lose (docs/pareto.md).
   Elitism elitism = Elitism::plain;
   double elitism_ratio = 0.65;    ///< r of Elitism::geometric, 0 <= r < 1; Deb and Goel's value
   double pareto_fraction = 0.35;  ///< of Elitism::pareto_fraction, 0 < fraction <= 1; gamultiobj's default
-  std::vector<int> integers{};    ///< places of the integer variables in Problem::variables
-  doe::Seed seed = 1;
-  ProgressFunction progress{};
 };
+
+inline std::string_view to_string(Elitism elitism) {
+  switch (elitism) {
+    case Elitism::plain:
+      return "plain";
+    case Elitism::geometric:
+      return "geometric";
+    case Elitism::pareto_fraction:
+      return "pareto_fraction";
+  }
+  return "unknown";
+}
 
 namespace detail {
 
 class FrontSurvival {
  public:
-  explicit FrontSurvival(const Nsga2Options& options) : options_(options) {}
+  FrontSurvival(int population, const Nsga2Options& options)
+      : population_(population),
+        elitism_(options.elitism),
+        ratio_(options.elitism_ratio),
+        fraction_(options.pareto_fraction) {}
 
   /// Feasible fronts share the places by the kind of elitism, others fill what is left in order.
   Parents operator()(const Population& pool, const Ranking& ranking, doe::RandomStream&) const {
@@ -57,7 +69,7 @@ class FrontSurvival {
     for (std::size_t i = 0; i < ranking.feasible; ++i)
       sizes.push_back(static_cast<int>(ranking.fronts[i].size()));
     std::vector<int> taken = places(sizes);
-    int left = options_.population;
+    int left = population_;
     for (const int count : taken) left -= count;
     for (std::size_t i = ranking.feasible; i < ranking.fronts.size(); ++i) {
       taken.push_back(std::min(left, static_cast<int>(ranking.fronts[i].size())));
@@ -73,11 +85,9 @@ class FrontSurvival {
 
  private:
   std::vector<int> places(const std::vector<int>& sizes) const {
-    if (options_.elitism == Elitism::geometric)
-      return elitist_places(sizes, options_.population, options_.elitism_ratio);
-    if (options_.elitism == Elitism::pareto_fraction)
-      return fraction_places(sizes, options_.population, options_.pareto_fraction);
-    return elitist_places(sizes, options_.population, 0.0);
+    if (elitism_ == Elitism::geometric) return elitist_places(sizes, population_, ratio_);
+    if (elitism_ == Elitism::pareto_fraction) return fraction_places(sizes, population_, fraction_);
+    return elitist_places(sizes, population_, 0.0);
   }
 
   /// Up to `places` rows of one front, the least crowded first choice, appended to the survivors.
@@ -93,35 +103,45 @@ class FrontSurvival {
     }
   }
 
-  const Nsga2Options& options_;
+  int population_;
+  Elitism elitism_;
+  double ratio_, fraction_;
 };
 
-inline Setting setting_of(const Nsga2Options& o) {
-  Setting setting{.place = "pareto::nsga2: ",
-                  .population = o.population,
-                  .children = o.population,
-                  .archive = o.population,
-                  .stopping = o.stopping,
-                  .variation = o.variation,
-                  .integers = o.integers,
-                  .seed = o.seed,
-                  .progress = o.progress};
+inline Setting setting_of(const doe::Problem& problem, const Nsga2Options& o) {
+  Setting setting = setting_for("pareto::nsga2: ", problem, o.search, {.population = 200});
   check_range(setting.place, "elitism_ratio", o.elitism_ratio,
               o.elitism_ratio >= 0.0 && o.elitism_ratio < 1.0, "0 (plain) to below 1");
   check_range(setting.place, "pareto_fraction", o.pareto_fraction,
               o.pareto_fraction > 0.0 && o.pareto_fraction <= 1.0, "above 0 to 1");
+  setting.archive = setting.population;
+  setting.own = {{"elitism", std::string(to_string(o.elitism))},
+                 {"elitism_ratio", doe::detail::number_text(o.elitism_ratio)},
+                 {"pareto_fraction", doe::detail::number_text(o.pareto_fraction)}};
   return setting;
 }
 
 }  // namespace detail
 
-/// Searches the box of the problem. Throws std::invalid_argument on a faulty problem or option, or without an
-/// objective; evaluations that fail are ranked last and counted.
+/// Searches the box of the problem, driven from outside (ask_and_tell.hpp). Throws std::invalid_argument on a
+/// faulty problem or option, or without an objective.
+class Nsga2 : public detail::Evolution<detail::FrontSurvival> {
+ public:
+  explicit Nsga2(const doe::Problem& problem, const Nsga2Options& options = {})
+      : Nsga2(problem, options, detail::setting_of(problem, options)) {}
+
+ private:
+  Nsga2(const doe::Problem& problem, const Nsga2Options& options, const detail::Setting& setting)
+      : Evolution(problem, setting, detail::FrontSurvival(setting.population, options)) {}
+};
+
+/// The same on a black box, to the end. Evaluations that fail are ranked last and counted.
 template <class F>
 Front nsga2(const F& black_box, const doe::Problem& problem, const Nsga2Options& options = {}) {
   doe::require_black_box<F>();
   if constexpr (doe::BlackBox<F>) {
-    return detail::evolve(black_box, problem, detail::setting_of(options), detail::FrontSurvival(options));
+    Nsga2 search(problem, options);
+    return finish(search, black_box);
   } else {
     return {};  // so that the message above stands alone
   }

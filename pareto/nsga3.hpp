@@ -16,6 +16,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,18 +27,13 @@
 
 namespace drawpoint::pareto {
 
+/// Variation, where nothing is said, is the authors': every pair crosses (probability 1), and nearer to its
+/// parents (index 30), for in many objectives far parents make useless children.
 struct Nsga3Options {
-  int population = 100;  ///< points a generation, 2 or more
-  /// k x m, each row >= 0 with a positive sum; empty: reference_directions(m, population). Fewer rows look at
+  SearchOptions search{};
+  /// k x m, each row >= 0 with a positive sum; none: reference_directions(m, population). Fewer rows look at
   /// a part of the front ("preference").
-  Eigen::MatrixXd directions{};
-  Stopping stopping{};
-  /// The authors': every pair crosses, and nearer to its parents, for in many objectives far parents make
-  /// useless children.
-  Variation variation{.crossover_probability = 1.0, .crossover_index = 30.0};
-  std::vector<int> integers{};  ///< places of the integer variables in Problem::variables
-  doe::Seed seed = 1;
-  ProgressFunction progress{};
+  std::optional<Eigen::MatrixXd> directions{};
 };
 
 namespace detail {
@@ -57,6 +54,12 @@ class Normalisation {
     for (double& s : scale)
       if (!(s > 0.0)) s = 1.0;  // an objective that does not vary
     return (Y.rowwise() - ideal_) * scale.cwiseInverse().asDiagonal();
+  }
+
+  template <class Self, class Stream>
+  static void fields(Self& self, Stream& stream) {
+    stream.item("ideal", self.ideal_);
+    stream.item("extremes", self.extremes_);
   }
 
  private:
@@ -152,6 +155,11 @@ class NicheSurvival {
     return {selected(pool, rows), std::move(ranks), std::vector<double>(rows.size(), 0.0)};
   }
 
+  template <class Self, class Stream>
+  static void fields(Self& self, Stream& stream) {
+    Normalisation::fields(self.normalise_, stream);
+  }
+
  private:
   std::vector<int> feasible_survivors(const Population& pool, const Ranking& ranking,
                                       doe::RandomStream& random) {
@@ -178,48 +186,66 @@ class NicheSurvival {
   Normalisation normalise_;
 };
 
-inline Eigen::MatrixXd directions_for(const std::string& place, const Eigen::MatrixXd& given,
+inline Eigen::MatrixXd directions_for(const std::string& place, const std::optional<Eigen::MatrixXd>& given,
                                       const doe::Problem& problem, int population) {
   const auto m = static_cast<Eigen::Index>(roles(problem).objectives.size());
-  if (given.size() == 0) {
+  if (!given) {
     check_range(place, "population", population, population >= std::max<Eigen::Index>(2, m),
-                "2 or more, and one an objective or more");
+                "2 or more, and one per objective or more");
     return reference_directions(static_cast<int>(m), population);
   }
-  if (given.cols() != m)
-    throw std::invalid_argument(place + "directions has " + std::to_string(given.cols()) +
+  if (given->cols() != m)
+    throw std::invalid_argument(place + "directions has " + std::to_string(given->cols()) +
                                 " columns; the problem has " + std::to_string(m) + " objectives");
-  if (!given.allFinite() || given.minCoeff() < 0.0 || (given.rowwise().sum().array() <= 0.0).any())
+  if (given->rows() == 0)
+    throw std::invalid_argument(place + "directions has no rows; give one at least, or leave it out");
+  if (!given->allFinite() || given->minCoeff() < 0.0 || (given->rowwise().sum().array() <= 0.0).any())
     throw std::invalid_argument(place +
                                 "directions holds a row that points nowhere; allowed are numbers from 0 up, "
                                 "with at least one above 0 in each row");
-  return given;
+  return *given;
 }
 
-inline Setting setting_of(const Nsga3Options& o) {
-  return {.place = "pareto::nsga3: ",
-          .population = o.population,
-          .children = o.population,
-          .stopping = o.stopping,
-          .variation = o.variation,
-          .integers = o.integers,
-          .seed = o.seed,
-          .progress = o.progress};
+/// The setting of a search along directions.
+struct Directed {
+  Setting setting;
+  Eigen::MatrixXd directions;
+};
+
+inline Directed directed(Setting setting, const std::optional<Eigen::MatrixXd>& given,
+                         const doe::Problem& problem) {
+  Eigen::MatrixXd directions = directions_for(setting.place, given, problem, setting.population);
+  setting.own.emplace_back("directions", text_of(directions));
+  return {std::move(setting), std::move(directions)};
+}
+
+inline Directed directed(const doe::Problem& problem, const Nsga3Options& o) {
+  return directed(setting_for("pareto::nsga3: ", problem, o.search,
+                              {.crossover_probability = 1.0, .crossover_index = 30.0}),
+                  o.directions, problem);
 }
 
 }  // namespace detail
+
+/// Driven from outside (ask_and_tell.hpp). Throws as Nsga2 does.
+class Nsga3 : public detail::Evolution<detail::NicheSurvival> {
+ public:
+  explicit Nsga3(const doe::Problem& problem, const Nsga3Options& options = {})
+      : Nsga3(problem, detail::directed(problem, options)) {}
+
+ private:
+  Nsga3(const doe::Problem& problem, const detail::Directed& given)
+      : Evolution(problem, given.setting, detail::NicheSurvival(given.setting.population, given.directions)) {
+  }
+};
 
 /// As nsga2: same problems, same errors, same result; at most `population` points, from the last generation.
 template <class F>
 Front nsga3(const F& black_box, const doe::Problem& problem, const Nsga3Options& options = {}) {
   doe::require_black_box<F>();
   if constexpr (doe::BlackBox<F>) {
-    const detail::Setting setting = detail::setting_of(options);
-    detail::check(setting, problem);
-    return detail::evolve(
-        black_box, problem, setting,
-        detail::NicheSurvival(options.population, detail::directions_for(setting.place, options.directions,
-                                                                         problem, options.population)));
+    Nsga3 search(problem, options);
+    return finish(search, black_box);
   } else {
     return {};  // so that the message above stands alone
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/pareto/ask_and_tell.hpp>
 #include <drawpoint/pareto/attainment.hpp>
 #include <drawpoint/pareto/choice.hpp>
 #include <drawpoint/pareto/crowding.hpp>
@@ -12,6 +13,7 @@
 #include <drawpoint/pareto/indicators.hpp>
 #include <drawpoint/pareto/knees.hpp>
 #include <drawpoint/pareto/local_trade_off.hpp>
+#include <drawpoint/pareto/minimised.hpp>
 #include <drawpoint/pareto/moead.hpp>
 #include <drawpoint/pareto/non_domination.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
@@ -30,11 +32,12 @@
 /// Search for trade-offs and work with fronts: the whole of the module, in the order of use.
 ///
 /// Search:
-///   search.hpp                     what all searches share: when they stop, what they report and return
+///   search.hpp                     what all searches share: options, stopping, report, result
 ///   nsga2.hpp                      NSGA-II, plain or with controlled elitism, constraints included
 ///   nsga3.hpp                      NSGA-III, for three and more objectives
 ///   sms_emoa.hpp                   survival by hypervolume
 ///   moead.hpp                      one scalar problem per direction
+///   ask_and_tell.hpp               a search driven from outside, saved and resumed
 ///   reference_directions.hpp       evenly spread directions for NSGA-III and MOEA/D
 ///
 /// Polish and certify:
@@ -43,10 +46,11 @@
 ///   stationarity.hpp               how far a point is from first-order optimality
 ///
 /// Measure:
+///   minimised.hpp                  from natural signs to objectives that are all minimised
 ///   dominance.hpp                  dominance and sorting by it
 ///   crowding.hpp                   crowding distance
 ///   hypervolume.hpp                exact hypervolume and contributions
-///   indicators.hpp                 distances to a reference front and evenness
+///   indicators.hpp                 distances to a reference front
 ///
 /// Decide:
 ///   choice.hpp                     the answer to a question about a front

@@ -14,16 +14,18 @@
 /// from differences of gradients. F are the objectives, minimised and scaled by their ranges on the front, x
 /// in the unit box. A result is kept only when it is feasible and no objective is worse than at x°, so the
 /// dominated volume never falls. Every point, moved or not, gets the residual of the first-order conditions
-/// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations a point, each
-/// one evaluation and d for the Hessian, plus about half a millisecond an iteration inside Ipopt.
+/// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations per point, each
+/// one evaluation and d for the Hessian, plus about half a millisecond per iteration inside Ipopt.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,22 +41,57 @@ struct PolishOptions {
   int objective = 0;           ///< k of epsilon_constraint: its place among the objectives
   double augmentation = 1e-4;  ///< ρ >= 0; above 0 no result is only weakly optimal
   double tolerance = 1e-9;     ///< of Ipopt's optimality error in scaled units, above 0
-  int iterations = 100;        ///< most iterations a point, 1 or more
-  Eigen::VectorXd
-      reference{};  ///< of the hypervolumes: m, natural units; empty: worst of the front + a tenth
+  int iterations = 100;        ///< most iterations per point, 1 or more
+  /// Of the hypervolumes: m, natural units; none: worst of the front + a tenth.
+  std::optional<Eigen::VectorXd> reference{};
 };
 
-enum class PolishStatus { improved, unchanged, failed };
+enum class PolishedPoint {
+  improved,
+  unchanged,  ///< it was an optimum already, or the end point was no better
+  failed      ///< the function gave no finite numbers there, or Ipopt did not end
+};
+
+enum class PolishStatus {
+  completed,
+  points_failed,  ///< some points were left as they were
+  empty_front     ///< there was nothing to polish
+};
+
+inline std::string_view to_string(PolishedPoint point) {
+  switch (point) {
+    case PolishedPoint::improved:
+      return "improved";
+    case PolishedPoint::unchanged:
+      return "unchanged";
+    case PolishedPoint::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+inline std::string_view to_string(PolishStatus status) {
+  switch (status) {
+    case PolishStatus::completed:
+      return "completed";
+    case PolishStatus::points_failed:
+      return "points_failed";
+    case PolishStatus::empty_front:
+      return "empty_front";
+  }
+  return "unknown";
+}
 
 struct Polished {
   Front front;  ///< row i is polished from row i of the given front; rows may dominate each other
   Eigen::VectorXd residual_before, residual;  ///< of the first-order conditions, 0 to 1; NaN where f failed
   Eigen::MatrixXd weights;                    ///< n x m, λ of the conditions at the polished points
-  std::vector<PolishStatus> status;
+  std::vector<PolishedPoint> points;          ///< n: what became of each
   double hypervolume_before = 0.0, hypervolume = 0.0;
   Eigen::VectorXd reference;  ///< that they were taken with, natural units
   int evaluations = 0;
-  std::string message;  ///< empty unless points failed
+  PolishStatus status = PolishStatus::completed;
+  std::string message;  ///< empty when completed
 };
 
 namespace detail {
@@ -71,9 +108,9 @@ inline void check(const PolishOptions& o, const Front& front, std::size_t d, std
                                 std::to_string(front.Y.cols()) + " objectives, the problem has " +
                                 std::to_string(d) + " and " + std::to_string(m) +
                                 "; give the front of this problem");
-  if (o.reference.size() != 0 && o.reference.size() != static_cast<Eigen::Index>(m))
-    throw std::invalid_argument(place + "reference has " + std::to_string(o.reference.size()) +
-                                " entries; give one an objective or none");
+  if (o.reference && o.reference->size() != static_cast<Eigen::Index>(m))
+    throw std::invalid_argument(place + "reference has " + std::to_string(o.reference->size()) +
+                                " entries; give one per objective or leave it out");
 }
 
 /// Gradients of the active limits and bounds at a point, as stationarity() wants them. Active is what lies
@@ -97,7 +134,10 @@ class Polisher {
  public:
   Polisher(ScaledProblem::Function f, const doe::Problem& problem, const Front& front,
            const PolishOptions& options)
-      : options_(options), scaled_(std::move(f), problem, front.responses), before_(front) {
+      : options_(options),
+        problem_(problem),
+        scaled_(std::move(f), problem, front.responses),
+        before_(front) {
     result_.front = front;
     result_.residual_before = result_.residual =
         Eigen::VectorXd::Constant(front.X.rows(), std::numeric_limits<double>::quiet_NaN());
@@ -107,22 +147,24 @@ class Polisher {
   Polished run() {
     int failed = 0;
     for (Eigen::Index i = 0; i < before_.X.rows(); ++i) {
-      result_.status.push_back(polish(i));
-      failed += result_.status.back() == PolishStatus::failed;
+      result_.points.push_back(polish(i));
+      failed += result_.points.back() == PolishedPoint::failed;
     }
     measure();
     result_.evaluations = scaled_.evaluations();
-    if (failed > 0)
+    if (failed > 0) {
+      result_.status = PolishStatus::points_failed;
       result_.message =
           std::to_string(failed) + " of " + std::to_string(before_.X.rows()) +
           " points were left as they were: the function failed there, or the search did not end";
+    }
     return std::move(result_);
   }
 
  private:
-  PolishStatus polish(Eigen::Index i) {
+  PolishedPoint polish(Eigen::Index i) {
     const ScaledPoint start = scaled_.at(scaled_.unit(before_.X.row(i).transpose()));
-    if (!start.sound) return PolishStatus::failed;
+    if (!start.sound) return PolishedPoint::failed;
     result_.residual_before[i] = certify(i, start);
     const ScalarSolution end =
         solve_scalar(scaled_, start, {options_.form, options_.objective, options_.augmentation},
@@ -131,10 +173,10 @@ class Polisher {
                         (end.point.F.array() <= start.F.array()).all() && end.point.F != start.F;
     const double residual = result_.residual_before[i];
     result_.residual[i] = better ? certify(i, end.point) : residual;
-    if (!better) return end.converged ? PolishStatus::unchanged : PolishStatus::failed;
+    if (!better) return end.converged ? PolishedPoint::unchanged : PolishedPoint::failed;
     result_.front.X.row(i) = scaled_.natural(end.point.u).transpose();
     result_.front.responses.row(i) = end.point.responses.transpose();
-    return PolishStatus::improved;
+    return PolishedPoint::improved;
   }
 
   double certify(Eigen::Index i, const ScaledPoint& p) {
@@ -144,20 +186,18 @@ class Polisher {
   }
 
   void measure() {
-    const Roles& role = scaled_.roles();
-    result_.front.Y = result_.front.responses(Eigen::all, role.objectives);
-    Eigen::RowVectorXd sign(before_.Y.cols());
-    for (Eigen::Index j = 0; j < sign.size(); ++j) sign[j] = role.signs[j];
-    const Eigen::MatrixXd before = before_.Y * sign.asDiagonal(), after = result_.front.Y * sign.asDiagonal();
+    result_.front.Y = result_.front.responses(Eigen::all, scaled_.roles().objectives);
+    const Eigen::MatrixXd before = minimised(problem_, before_.Y);
     const Eigen::RowVectorXd worst = before.colwise().maxCoeff();
-    Eigen::RowVectorXd reference = worst + 0.1 * (worst - before.colwise().minCoeff());
-    if (options_.reference.size() > 0) reference = options_.reference.transpose().cwiseProduct(sign);
-    result_.reference = reference.cwiseProduct(sign).transpose();
-    result_.hypervolume_before = hypervolume(before, reference.transpose());
-    result_.hypervolume = hypervolume(after, reference.transpose());
+    const Eigen::RowVectorXd usual = worst + 0.1 * (worst - before.colwise().minCoeff());
+    result_.reference =
+        options_.reference ? *options_.reference : Eigen::VectorXd(minimised(problem_, usual).transpose());
+    result_.hypervolume_before = hypervolume(problem_, before_.Y, result_.reference);
+    result_.hypervolume = hypervolume(problem_, result_.front.Y, result_.reference);
   }
 
   const PolishOptions& options_;
+  const doe::Problem& problem_;
   ScaledProblem scaled_;
   const Front& before_;
   Polished result_;
@@ -181,6 +221,8 @@ Polished polish(const F& f, const doe::Problem& problem, const Front& front,
     if (front.X.rows() == 0) {
       Polished none;
       none.front = front;
+      none.status = PolishStatus::empty_front;
+      none.message = "the front has no points";
       return none;
     }
     return detail::Polisher([&f](const Eigen::VectorXd& x) -> ValueAndJacobian { return f(x); }, problem,

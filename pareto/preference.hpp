@@ -6,9 +6,8 @@
 ///
 /// F: the objectives minimised and scaled to 0..1 on the front (normalized.hpp).
 /// * by_aspiration: the point of least s = max_j w_j (F_j - a_j) + ρ Σ_j w_j (F_j - a_j), a the aspired
-/// values
-///   (Wierzbicki 1980, "The use of reference objectives in multiobjective optimization"). s <= 0 says that
-///   the aspiration is met, s > 0 by how much of a range the worst objective misses it. Any point of the
+///   values (Wierzbicki 1980, "The use of reference objectives in multiobjective optimization"). s <= 0 says
+///   that the aspiration is met, s > 0 by how much of a range the worst objective misses it. Any point of the
 ///   front is the answer to some aspiration.
 /// * by_weights, chebyshev: the same from the ideal point, a = 0: weighs the loss against the best of each.
 /// * by_weights, sum: the point of least Σ_j w_j F_j. It never answers with a point in a dent of the front.
@@ -17,6 +16,7 @@
 /// Weights are per range of an objective, so equal ones mean "all matter alike" in any units. O(n m).
 
 #include <Eigen/Core>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -26,7 +26,7 @@
 namespace drawpoint::pareto {
 
 struct PreferenceOptions {
-  Eigen::VectorXd weights{};   ///< m, >= 0, one at least > 0; empty: all 1
+  std::optional<Eigen::VectorXd> weights{};  ///< m, >= 0, one at least > 0; none: all 1
   double augmentation = 1e-4;  ///< ρ >= 0; above 0 no point is chosen that another one dominates
 };
 
@@ -37,7 +37,7 @@ namespace detail {
 inline void check_weights(const std::string& place, const Eigen::VectorXd& weights, Eigen::Index m) {
   if (weights.size() != m)
     throw std::invalid_argument(place + "weights has " + std::to_string(weights.size()) +
-                                " entries; give one an objective (" + std::to_string(m) + ")");
+                                " entries; give one per objective (" + std::to_string(m) + ")");
   for (const double w : weights) check_range(place, "a weight", w, std::isfinite(w) && w >= 0.0, "0 or more");
   if (!(weights.maxCoeff() > 0.0))
     throw std::invalid_argument(place + "all weights are 0; give one at least above 0");
@@ -61,8 +61,8 @@ inline Choice by_aspiration(const doe::Problem& problem, const Front& front,
   const auto m = static_cast<Eigen::Index>(detail::roles(problem).objectives.size());
   if (aspiration.size() != m || !aspiration.allFinite())
     throw std::invalid_argument(place + "aspiration has " + std::to_string(aspiration.size()) +
-                                " entries; give one finite number an objective (" + std::to_string(m) + ")");
-  const Eigen::VectorXd weights = options.weights.size() > 0 ? options.weights : Eigen::VectorXd::Ones(m);
+                                " entries; give one finite number per objective (" + std::to_string(m) + ")");
+  const Eigen::VectorXd weights = options.weights.value_or(Eigen::VectorXd::Ones(m));
   detail::check_weights(place, weights, m);
   detail::check_range(place, "augmentation", options.augmentation, options.augmentation >= 0.0, "0 or more");
   if (front.Y.rows() == 0) return detail::nothing_to_choose();

@@ -64,7 +64,7 @@ inline Eigen::MatrixXd reference_directions(int m, int at_most) {
   if (m < 1 || at_most < m)
     throw std::invalid_argument("pareto::reference_directions: at_most is " + std::to_string(at_most) +
                                 " for " + std::to_string(m) +
-                                " objectives; allowed is one an objective or more");
+                                " objectives; allowed is one per objective or more");
   const int outer = detail::most_divisions(m, at_most);
   const Eigen::MatrixXd lattice = simplex_lattice(m, outer);
   if (outer >= m) return lattice;

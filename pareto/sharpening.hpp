@@ -12,11 +12,13 @@
 /// deviations that would remain if the chosen ones had been run without noise: draws are projected off the
 /// chosen columns, which is conditioning by their sample covariance. So runs whose results would repeat each
 /// other are not chosen together, provided the draws are joint paths. p stays that of the start. It looks one
-/// batch ahead and does not weigh how much volume a run would win. Cost O(N n r) a choice beside the fronts.
+/// batch ahead and does not weigh how much volume a run would win. Cost O(N n r) per choice beside the
+/// fronts.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <drawpoint/pareto/choice.hpp>
@@ -24,11 +26,28 @@
 
 namespace drawpoint::pareto {
 
+enum class NextStatus {
+  completed,
+  fewer  ///< than asked for: the rest would tell nothing more of the front
+};
+
+inline std::string_view to_string(NextStatus status) {
+  switch (status) {
+    case NextStatus::completed:
+      return "completed";
+    case NextStatus::fewer:
+      return "fewer";
+  }
+  return "unknown";
+}
+
 struct NextSimulations {
   std::vector<int> rows;        ///< of the candidates, in the order of choice; none with score 0
   Eigen::VectorXd score;        ///< of the chosen when they were chosen
   Eigen::VectorXd probability;  ///< n: of being on the front
   Eigen::VectorXd uncertainty;  ///< n: √(Σ_j (σ_ij/range_j)²) before any is run
+  NextStatus status = NextStatus::completed;
+  std::string message;  ///< empty when completed
 };
 
 namespace detail {
@@ -86,6 +105,11 @@ inline NextSimulations next_simulations(const doe::Problem& problem, const Draws
     next.rows.push_back(row);
     scores.push_back(best);
     detail::learn(responses, row);
+  }
+  if (static_cast<int>(next.rows.size()) < count) {
+    next.status = NextStatus::fewer;
+    next.message = std::to_string(next.rows.size()) + " of " + std::to_string(count) +
+                   " simulations: all other candidates are known or not on the front";
   }
   next.score = Eigen::Map<const Eigen::VectorXd>(scores.data(), static_cast<Eigen::Index>(scores.size()));
   return next;

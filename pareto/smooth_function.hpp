@@ -17,7 +17,7 @@
 #include <vector>
 
 #include <drawpoint/doe/value_and_jacobian.hpp>
-#include <drawpoint/pareto/detail/population.hpp>
+#include <drawpoint/pareto/detail/roles.hpp>
 
 namespace drawpoint::pareto {
 
@@ -104,7 +104,7 @@ class ScaledProblem {
     for (Eigen::Index c = 0; c < k; ++c) {
       const int row = role_.constraints[c];
       const doe::Response& response = problem_.responses[row];
-      const double scale = (response.goal == doe::Goal::at_most ? 1.0 : -1.0) / range_[row];
+      const double scale = sign_of(response.goal) / range_[row];
       p.limits[c] = scale * (y.values[row] - response.limit);
       p.limit_gradients.row(c) = scale * y.jacobian.row(row).cwiseProduct(width_.transpose());
     }

@@ -22,7 +22,7 @@ namespace drawpoint::pareto {
 namespace detail {
 
 /// Coefficients of the chosen columns of A whose sum is nearest to b; 0 for a column that those before it
-/// make up to twelve digits. By Gram-Schmidt, twice a column: Eigen's QR costs its users seconds of compile
+/// make up to twelve digits. By Gram-Schmidt, twice per column: Eigen's QR costs its users seconds of compile
 /// time.
 inline Eigen::VectorXd nearest_sum(const Eigen::MatrixXd& A, const std::vector<int>& chosen,
                                    Eigen::VectorXd b) {

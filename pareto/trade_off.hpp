@@ -7,11 +7,13 @@
 /// A step from row i to row k changes the objectives by Δ = y_k - y_i; Δ_a/Δ_b is the average rate between
 /// the two, e.g. -12 kg/s per second of damage. loss and gain are Σ_j of what gets worse and better, each in
 /// ranges of the front; price = loss/gain is 1 on a straight front. Between neighbours only: on a curved
-/// front the rate at the point itself is local_trade_off (local_trade_off.hpp). Cost O(n m + n log n) a call.
+/// front the rate at the point itself is local_trade_off (local_trade_off.hpp). Cost O(n m + n log n) per
+/// call.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,15 +43,16 @@ inline TradeOff trade_off_between(const NormalizedFront& scaled, const Front& fr
 
 }  // namespace detail
 
-/// From one row to its `count` nearest others (all for 0) in scaled objectives, nearest first. Throws
-/// std::invalid_argument for a row that does not exist and for a front of another problem.
+/// From one row to its `count` nearest others (1 or more; none: all) in scaled objectives, nearest first.
+/// Throws std::invalid_argument for a row that does not exist and for a front of another problem.
 inline std::vector<TradeOff> trade_offs(const doe::Problem& problem, const Front& front, int row,
-                                        int count = 4) {
+                                        std::optional<int> count = 4) {
   const std::string place = "pareto::trade_offs: ";
   detail::check_front(place, problem, front);
   const auto n = static_cast<int>(front.Y.rows());
   detail::check_range(place, "row", row, row >= 0 && row < n, "0 to the number of points - 1");
-  detail::check_range(place, "count", count, count >= 0, "0 (all) or more");
+  detail::check_range(place, "count", count.value_or(1), count.value_or(1) >= 1,
+                      "1 or more; std::nullopt for all");
   const detail::NormalizedFront scaled = detail::normalized(problem, front);
   std::vector<int> others = detail::neighbours_of(scaled.F, row, count);
   others =

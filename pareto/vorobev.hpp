@@ -17,7 +17,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <drawpoint/doe/sobol.hpp>
@@ -26,16 +28,34 @@
 namespace drawpoint::pareto {
 
 struct VorobevOptions {
-  int samples = 2048;           ///< places in the box, 1 or more, best a power of 2
-  Eigen::VectorXd reference{};  ///< m, natural units; empty: worst of the mean draw's front + a tenth
+  int samples = 2048;  ///< places in the box, 1 or more, best a power of 2
+  /// m, natural units; none: worst of the front of the mean draw + a tenth.
+  std::optional<Eigen::VectorXd> reference{};
   doe::Seed seed = 1;
 };
+
+enum class VorobevStatus {
+  completed,
+  no_volume  ///< no draw has a point better than the reference in all objectives: volumes are 0
+};
+
+inline std::string_view to_string(VorobevStatus status) {
+  switch (status) {
+    case VorobevStatus::completed:
+      return "completed";
+    case VorobevStatus::no_volume:
+      return "no_volume";
+  }
+  return "unknown";
+}
 
 struct Vorobev {
   double threshold = 0.0;        ///< β*
   double expected_volume = 0.0;  ///< E vol A, product of the objectives' units
   double deviation = 0.0;        ///< E vol(A Δ Q), the same unit
   Eigen::VectorXd reference;     ///< that was taken, natural units
+  VorobevStatus status = VorobevStatus::completed;
+  std::string message;  ///< empty when completed
 };
 
 namespace detail {
@@ -51,7 +71,7 @@ inline Eigen::RowVectorXd usual_reference(const doe::Problem& problem, const Dra
   return worst + 0.1 * (worst - Y.colwise().minCoeff());
 }
 
-/// k places between low and high, one a row.
+/// k places between low and high, one per row.
 inline Eigen::MatrixXd places_in_box(const Eigen::RowVectorXd& low, const Eigen::RowVectorXd& high, int k,
                                      doe::Seed seed) {
   doe::Problem unit{{}, {{"none", "1"}}};
@@ -81,11 +101,11 @@ inline Vorobev vorobev(const doe::Problem& problem, const Draws& draws, const Vo
   const auto fronts = detail::fronts_of_draws(place, problem, draws);
   const Eigen::RowVectorXd sign = detail::signs_of(detail::roles(problem));
   detail::check_range(place, "samples", options.samples, options.samples >= 1, "1 or more");
-  if (options.reference.size() != 0 && options.reference.size() != sign.size())
-    throw std::invalid_argument(place + "reference has " + std::to_string(options.reference.size()) +
-                                " entries; give one an objective or none");
+  if (options.reference && options.reference->size() != sign.size())
+    throw std::invalid_argument(place + "reference has " + std::to_string(options.reference->size()) +
+                                " entries; give one per objective or leave it out");
   Eigen::RowVectorXd high = detail::usual_reference(problem, draws);
-  if (options.reference.size() > 0) high = options.reference.transpose().cwiseProduct(sign);
+  if (options.reference) high = options.reference->transpose().cwiseProduct(sign);
   Eigen::RowVectorXd low = high;
   for (const detail::DrawnFront& front : fronts)
     if (front.Y.rows() > 0) low = low.cwiseMin(front.Y.colwise().minCoeff());
@@ -96,6 +116,9 @@ inline Vorobev vorobev(const doe::Problem& problem, const Draws& draws, const Vo
     result = detail::vorobev_of(attainment_probability(problem, draws, at * sign.asDiagonal()));
     result.expected_volume *= box;
     result.deviation *= box;
+  } else {
+    result.status = VorobevStatus::no_volume;
+    result.message = "no draw dominates the reference point; give one that is worse in every objective";
   }
   result.reference = high.cwiseProduct(sign).transpose();
   return result;

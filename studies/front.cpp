@@ -5,6 +5,7 @@
 #include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/filter.hpp>
 #include <drawpoint/pareto/hypervolume.hpp>
+#include <drawpoint/pareto/minimised.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/polish.hpp>
 
@@ -27,18 +28,6 @@ std::string why_not(const doe::Problem& problem, const pareto::Front& front) {
          std::to_string(most_polished_objectives) + " takes too long";
 }
 
-/// The objectives of a front, minimised.
-Eigen::MatrixXd minimised(const pareto::Front& front, const doe::Problem& problem) {
-  Eigen::MatrixXd Y = front.Y;
-  Eigen::Index column = 0;
-  for (const auto& response : problem.responses) {
-    if (!doe::is_objective(response.goal)) continue;
-    if (response.goal == doe::Goal::maximize) Y.col(column) *= -1.0;
-    ++column;
-  }
-  return Y;
-}
-
 Eigen::MatrixXd stacked(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
   Eigen::MatrixXd all(top.rows() + bottom.rows(), top.cols());
   all << top, bottom;
@@ -52,16 +41,6 @@ ModelFront joined(const ModelFront& a, const ModelFront& b) {
   all.front.responses = stacked(a.front.responses, b.front.responses);
   all.polishing.residual = stacked(a.polishing.residual, b.polishing.residual);
   return all;
-}
-
-bool meets_limits(const Eigen::VectorXd& y, const doe::Problem& problem) {
-  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    const auto& response = problem.responses[j];
-    const double value = y[static_cast<Eigen::Index>(j)];
-    if (response.goal == doe::Goal::at_most && value > response.limit) return false;
-    if (response.goal == doe::Goal::at_least && value < response.limit) return false;
-  }
-  return true;
 }
 
 /// x with what lies within 1e-7 of the range of a bound on the bound.
@@ -83,7 +62,7 @@ void put_on_bounds(pareto::Front& front, const kriging::Surrogates& means, const
     const Eigen::VectorXd x = front.X.row(i).transpose(), there = on_bounds(x, problem);
     if (there == x) continue;
     const Eigen::VectorXd y = means(there).values;
-    if (!meets_limits(y, problem)) continue;
+    if (!pareto::meets_limits(problem, y)) continue;
     front.X.row(i) = there.transpose();
     front.responses.row(i) = y.transpose();
   }
@@ -98,7 +77,7 @@ void put_on_bounds(pareto::Front& front, const kriging::Surrogates& means, const
 /// others that end at the same minimum differ from it by rounding.
 ModelFront best_of(const ModelFront& all, const doe::Problem& problem) {
   Eigen::MatrixXd keys(all.front.X.rows(), all.front.Y.cols() + all.front.X.cols());
-  keys << minimised(all.front, problem), all.front.X;
+  keys << pareto::minimised(problem, all.front.Y), all.front.X;
   std::vector<int> rows = pareto::non_dominated(keys.leftCols(all.front.Y.cols()));
   std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) {
     return std::lexicographical_compare(keys.row(a).begin(), keys.row(a).end(), keys.row(b).begin(),
@@ -160,12 +139,9 @@ ModelFront polished_points(const pareto::Polished& first, const pareto::Front& s
 /// Added to the hypervolume up to the reference [%]; NaN when there was none.
 double gain_of(const pareto::Front& before, const pareto::Front& after, const doe::Problem& problem,
                const Eigen::VectorXd& reference) {
-  pareto::Front worst;
-  worst.Y = reference.transpose();
-  const Eigen::VectorXd corner = minimised(worst, problem).transpose();
-  const double was = pareto::hypervolume(minimised(before, problem), corner);
+  const double was = pareto::hypervolume(problem, before.Y, reference);
   if (!(was > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  return 100.0 * (pareto::hypervolume(minimised(after, problem), corner) / was - 1.0);
+  return 100.0 * (pareto::hypervolume(problem, after.Y, reference) / was - 1.0);
 }
 
 }  // namespace
@@ -186,7 +162,8 @@ ModelFront finished(const pareto::Front& searched, const std::vector<kriging::Mo
 }
 
 ModelFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem, doe::Seed seed) {
-  return finished(pareto::nsga2(kriging::Surrogates(models), problem, {.seed = seed}), models, problem);
+  return finished(pareto::nsga2(kriging::Surrogates(models), problem, {.search = {.seed = seed}}), models,
+                  problem);
 }
 
 }  // namespace drawpoint::studies

@@ -67,9 +67,9 @@ void search_row(const TestProblem& p, const char* name, const Search& search) {
 
 template <class Options>
 Options seeded(doe::Seed seed, Options options = {}) {
-  options.population = 100;
-  options.stopping.generations = 250;
-  options.seed = seed;
+  options.search.population = 100;
+  options.search.stopping.generations = 250;
+  options.search.seed = seed;
   return options;
 }
 

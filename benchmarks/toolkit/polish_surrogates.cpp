@@ -84,18 +84,18 @@ std::vector<kriging::Model> fitted(double noise) {
 struct Paths {
   const std::vector<kriging::Model>& models;
 
-  pareto::Draws operator()(const Eigen::MatrixXd& X, int draws, doe::Seed seed) const {
+  pareto::Draws operator()(const Eigen::MatrixXd& X, const pareto::DrawOptions& options) const {
     std::vector<Eigen::MatrixXd> paths;
     for (std::size_t j = 0; j < models.size(); ++j)
-      paths.push_back(kriging::sample_paths(models[j], X, draws, {.seed = doe::run_seed(seed, j, 0)}));
+      paths.push_back(
+          kriging::sample_paths(models[j], X, options.draws, {.seed = doe::run_seed(options.seed, j, 0)}));
     return pareto::draws_of_paths(paths);
   }
 };
 
 double volume_in_ranges(const Eigen::MatrixXd& Y) {
-  const Eigen::RowVector3d scale(-1.0 / ranges[0], 1.0 / ranges[1], 1.0 / ranges[2]);
-  return pareto::hypervolume(Y * scale.asDiagonal(),
-                             (reference.transpose() * scale.asDiagonal()).transpose());
+  return pareto::hypervolume(problem, Y * ranges.cwiseInverse().asDiagonal(),
+                             reference.cwiseQuotient(ranges));
 }
 
 double median(Eigen::VectorXd values) {
@@ -106,8 +106,9 @@ double median(Eigen::VectorXd values) {
 pareto::Front search(const std::vector<kriging::Model>& models, int generations, int population,
                      doe::Seed seed, double& seconds) {
   return timed(seconds, [&] {
-    return pareto::nsga2(kriging::Surrogates(models), problem,
-                         {.population = population, .stopping = {.generations = generations}, .seed = seed});
+    return pareto::nsga2(
+        kriging::Surrogates(models), problem,
+        {.search = {.population = population, .stopping = {.generations = generations}, .seed = seed}});
   });
 }
 
@@ -119,15 +120,15 @@ void polish_row(const std::vector<kriging::Model>& models, const pareto::Front& 
       seconds, [&] { return pareto::polish(f, problem, front, {.form = form, .reference = reference}); });
   const double before = volume_in_ranges(front.Y), after = volume_in_ranges(p.front.Y);
   const auto certified = (p.residual.array() <= 1e-6).count();
-  const auto count = [&](pareto::PolishStatus s) { return std::count(p.status.begin(), p.status.end(), s); };
+  const auto count = [&](pareto::PolishedPoint s) { return std::count(p.points.begin(), p.points.end(), s); };
   std::printf(
       "  %-18s hypervolume %.6f -> %.6f (+%.3f %%), median residual %.1e -> %.1e, %ld of %ld below 1e-6, "
       "%ld improved, %ld unchanged, %ld failed; %d evaluations, %.2f s CPU\n",
       name, before, after, 100.0 * (after / before - 1.0), median(p.residual_before), median(p.residual),
       static_cast<long>(certified), static_cast<long>(front.X.rows()),
-      static_cast<long>(count(pareto::PolishStatus::improved)),
-      static_cast<long>(count(pareto::PolishStatus::unchanged)),
-      static_cast<long>(count(pareto::PolishStatus::failed)), p.evaluations, seconds);
+      static_cast<long>(count(pareto::PolishedPoint::improved)),
+      static_cast<long>(count(pareto::PolishedPoint::unchanged)),
+      static_cast<long>(count(pareto::PolishedPoint::failed)), p.evaluations, seconds);
 }
 
 void longer_searches(const std::vector<kriging::Model>& models, doe::Seed seed) {

@@ -48,6 +48,11 @@ class Archive {
     members_ = selected(all, thinned(all.Y));
   }
 
+  template <class Self, class Stream>
+  static void fields(Self& self, Stream& stream) {
+    stream.item("archive", self.members_);
+  }
+
  private:
   /// Rows to keep of the n x m objectives.
   std::vector<int> thinned(const Eigen::MatrixXd& Y) const {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// When a search stops (the rules are in search.hpp): keeps the hypervolumes and asks the caller.
+/// When a search ends by its own rules (search.hpp): keeps the hypervolumes and tells the caller of progress.
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <drawpoint/pareto/hypervolume.hpp>
@@ -18,40 +18,19 @@ namespace drawpoint::pareto::detail {
 
 class Course {
  public:
-  /// Throws std::invalid_argument on a faulty rule; m: number of objectives.
-  Course(const std::string& place, const Stopping& stopping, ProgressFunction progress, std::size_t m)
-      : stopping_(stopping), progress_(std::move(progress)) {
-    check(place, stopping);
-    if (stopping.stall_generations > 0 && m > static_cast<std::size_t>(most_volume_objectives))
+  /// Throws std::invalid_argument when the rules need a hypervolume of too many objectives, m.
+  Course(const std::string& place, const Stopping& stopping, std::size_t m) : stopping_(stopping) {
+    if (stopping.stall_generations && m > static_cast<std::size_t>(most_volume_objectives))
       throw std::invalid_argument(place + "stall_generations needs the hypervolume, which is limited to " +
                                   std::to_string(most_volume_objectives) + " objectives, not " +
-                                  std::to_string(m) + "; set stall_generations = 0");
+                                  std::to_string(m) + "; leave stall_generations out");
   }
 
-  /// front: the best points so far, n x m; worst(): by objective, over the feasible points of this
-  /// population, asked for once, when there is a first front.
+  /// H of the best points so far, n x m, minimised, where the rules ask for it; worst(): by objective, over
+  /// the feasible points of this population, asked for once, when there is a first front.
   template <class Worst>
-  bool done(Progress now, const Eigen::MatrixXd& front, const Worst& worst, int next_evaluations) {
-    now.front = static_cast<int>(front.rows());
-    if (stopping_.stall_generations > 0) now.hypervolume = volume(front, worst);
-    if (progress_ && !progress_(now)) return stop(StopReason::progress);
-    if (stalled()) return stop(StopReason::stall);
-    if (now.generation >= stopping_.generations) return stop(StopReason::generations);
-    if (stopping_.evaluations > 0 && now.evaluations + next_evaluations > stopping_.evaluations)
-      return stop(StopReason::evaluations);
-    return false;
-  }
-
-  StopReason reason() const { return reason_; }
-
- private:
-  bool stop(StopReason reason) {
-    reason_ = reason;
-    return true;
-  }
-
-  template <class Worst>
-  double volume(const Eigen::MatrixXd& front, const Worst& worst) {
+  std::optional<double> measured(const Eigen::MatrixXd& front, const Worst& worst) {
+    if (!stopping_.stall_generations) return std::nullopt;
     if (front.rows() == 0) return 0.0;
     if (reference_.size() == 0) {
       const Eigen::RowVectorXd highest = worst();
@@ -61,18 +40,32 @@ class Course {
     return volumes_.back();
   }
 
+  /// next_evaluations: of the next generation.
+  std::optional<StopReason> end(const SearchProgress& now, int next_evaluations) const {
+    if (stalled()) return StopReason::stall;
+    if (now.generation >= stopping_.generations) return StopReason::generations;
+    if (stopping_.evaluations && now.evaluations + next_evaluations > *stopping_.evaluations)
+      return StopReason::evaluations;
+    return std::nullopt;
+  }
+
+  template <class Self, class Stream>
+  static void fields(Self& self, Stream& stream) {
+    stream.item("volume_reference", self.reference_);
+    stream.item("volumes", self.volumes_);
+  }
+
+ private:
   bool stalled() const {
-    const auto window = static_cast<std::size_t>(stopping_.stall_generations);
+    const auto window = static_cast<std::size_t>(stopping_.stall_generations.value_or(0));
     if (window == 0 || volumes_.size() <= window) return false;
     const double now = volumes_.back(), then = volumes_[volumes_.size() - 1 - window];
     return now - then <= stopping_.stall_gain * now;
   }
 
   Stopping stopping_;
-  ProgressFunction progress_;
   Eigen::VectorXd reference_;
   std::vector<double> volumes_;
-  StopReason reason_ = StopReason::generations;
 };
 
 }  // namespace drawpoint::pareto::detail

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <drawpoint/pareto/detail/population.hpp>
+#include <drawpoint/pareto/detail/roles.hpp>
 #include <drawpoint/pareto/search.hpp>
 
 namespace drawpoint::pareto::detail {
@@ -26,11 +26,6 @@ struct NormalizedFront {
     return (y.transpose().cwiseProduct(sign) - low).cwiseQuotient(range);
   }
 };
-
-inline Eigen::RowVectorXd signs_of(const Roles& role) {
-  return Eigen::Map<const Eigen::RowVectorXd>(role.signs.data(),
-                                              static_cast<Eigen::Index>(role.signs.size()));
-}
 
 /// Throws std::invalid_argument, `place` in front, for a front that is not one of this problem.
 inline void check_front(const std::string& place, const doe::Problem& problem, const Front& front) {

@@ -17,29 +17,12 @@
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/pareto/detail/roles.hpp>
 #include <drawpoint/pareto/dominance.hpp>
 
 namespace drawpoint::pareto::detail {
 
-/// Which responses are objectives (with the sign that makes them minimised) and which are constraints.
-struct Roles {
-  std::vector<int> objectives, constraints;
-  std::vector<double> signs;
-};
-
-inline Roles roles(const doe::Problem& problem) {
-  Roles result;
-  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    const doe::Goal goal = problem.responses[j].goal;
-    if (doe::is_constraint(goal)) result.constraints.push_back(static_cast<int>(j));
-    if (!doe::is_objective(goal)) continue;
-    result.objectives.push_back(static_cast<int>(j));
-    result.signs.push_back(goal == doe::Goal::maximize ? -1.0 : 1.0);
-  }
-  return result;
-}
-
-/// One point a row: place in the unit box, responses in natural units, minimised objectives, constraint
+/// One point per row: place in the unit box, responses in natural units, minimised objectives, constraint
 /// violations. The rows of a failed point hold zeros beyond U.
 struct Population {
   Eigen::MatrixXd U, responses, Y, violations;
@@ -48,11 +31,6 @@ struct Population {
   Eigen::Index size() const { return U.rows(); }
   bool feasible(Eigen::Index i) const { return !failed[i] && (violations.row(i).array() == 0.0).all(); }
 };
-
-inline double violation(const doe::Response& response, double value) {
-  const double excess = response.goal == doe::Goal::at_most ? value - response.limit : response.limit - value;
-  return std::max(excess, 0.0);
-}
 
 inline Population assess(const doe::Problem& problem, Eigen::MatrixXd U,
                          const std::vector<doe::Outcome>& outcomes) {
@@ -134,6 +112,16 @@ inline Ranking rank(const Population& p, const Eigen::RowVectorXd& largest) {
   rank_infeasible(p, largest, std::move(infeasible), ranking);
   if (!failed.empty()) ranking.fronts.push_back(std::move(failed));
   return ranking;
+}
+
+/// The feasible points that no other point of the population dominates.
+inline Population best_of(const Population& population) {
+  std::vector<int> feasible;
+  for (int i = 0; i < static_cast<int>(population.size()); ++i)
+    if (population.feasible(i)) feasible.push_back(i);
+  std::vector<int> rows = non_dominated(population.Y(feasible, Eigen::all));
+  for (int& i : rows) i = feasible[i];
+  return selected(population, rows);
 }
 
 }  // namespace drawpoint::pareto::detail

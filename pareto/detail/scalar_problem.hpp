@@ -21,6 +21,7 @@
 #include <utility>
 
 #include <drawpoint/doe/detail/ipopt_mutex.hpp>
+#include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/smooth_function.hpp>
 
 namespace drawpoint::pareto {

@@ -16,40 +16,16 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/pareto/detail/population.hpp>
 #include <drawpoint/pareto/detail/search_space.hpp>
-#include <drawpoint/pareto/search.hpp>
+#include <drawpoint/pareto/detail/setting.hpp>
 
-namespace drawpoint::pareto {
-
-/// Defaults: Deb's settings of NSGA-II for real variables.
-struct Variation {
-  double crossover_probability = 0.9;  ///< of a pair of parents, 0 to 1
-  double crossover_index = 20.0;       ///< η_c >= 0: larger keeps children nearer to the parents
-  double mutation_probability =
-      std::numeric_limits<double>::quiet_NaN();  ///< of a variable, 0 to 1; NaN: 1/d, one variable a child
-  double mutation_index = 20.0;                  ///< η_m >= 0: larger makes smaller steps
-};
-
-namespace detail {
-
-inline void check(const std::string& place, const Variation& v) {
-  const auto probability = [](double p) { return p >= 0.0 && p <= 1.0; };
-  check_range(place, "crossover_probability", v.crossover_probability, probability(v.crossover_probability),
-              "0 to 1");
-  check_range(place, "crossover_index", v.crossover_index, v.crossover_index >= 0.0, "0 or more");
-  check_range(place, "mutation_probability", v.mutation_probability,
-              std::isnan(v.mutation_probability) || probability(v.mutation_probability),
-              "0 to 1, or NaN for 1/d");
-  check_range(place, "mutation_index", v.mutation_index, v.mutation_index >= 0.0, "0 or more");
-}
+namespace drawpoint::pareto::detail {
 
 /// base^exponent, by multiplication where the exponent is a small whole number, as η + 1 mostly is.
 inline double power(double base, double exponent) {
@@ -106,13 +82,13 @@ struct Parents {
   Eigen::Index size() const { return points.size(); }
 };
 
-/// Deals the parents to tournaments of two in random order, all of them once before any of them again, so
+/// Assigns the parents to tournaments of two in random order, all of them once before any of them again, so
 /// that each child-bearing round gives every parent the same number of chances.
 class Tournaments {
  public:
   Tournaments(const Parents& parents, doe::RandomStream& random)
-      : parents_(parents), random_(random), deck_(parents.rank.size()) {
-    std::iota(deck_.begin(), deck_.end(), 0);
+      : parents_(parents), random_(random), order_(parents.rank.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
   }
 
   /// A row of the parents.
@@ -124,37 +100,36 @@ class Tournaments {
 
  private:
   int next() {
-    if (dealt_ == deck_.size()) dealt_ = 0;
-    const auto left = static_cast<int>(deck_.size() - dealt_);
-    std::swap(deck_[dealt_], deck_[dealt_ + static_cast<std::size_t>(random_.below(left))]);
-    return deck_[dealt_++];
+    if (assigned_ == order_.size()) assigned_ = 0;
+    const auto left = static_cast<int>(order_.size() - assigned_);
+    std::swap(order_[assigned_], order_[assigned_ + static_cast<std::size_t>(random_.below(left))]);
+    return order_[assigned_++];
   }
 
   const Parents& parents_;
   doe::RandomStream& random_;
-  std::vector<int> deck_;
-  std::size_t dealt_ = 0;
+  std::vector<int> order_;
+  std::size_t assigned_ = 0;
 };
 
 /// Makes children of the space's variables, one pair of columns (d each) at a time.
 class Breeder {
  public:
-  Breeder(const SearchSpace& space, const Variation& variation) : space_(space), variation_(variation) {
-    if (std::isnan(variation_.mutation_probability))
-      variation_.mutation_probability = 1.0 / static_cast<double>(space.dimension());
-  }
+  Breeder(SearchSpace space, const Rates& rates) : space_(std::move(space)), rates_(rates) {}
+
+  const SearchSpace& space() const { return space_; }
 
   /// Both hold a parent each and become children.
   void breed(Eigen::Ref<Eigen::VectorXd> first, Eigen::Ref<Eigen::VectorXd> second,
              doe::RandomStream& random) const {
-    if (random.uniform() < variation_.crossover_probability) cross(first, second, random);
+    if (random.uniform() < rates_.crossover_probability) cross(first, second, random);
     mutate(first, random);
     mutate(second, random);
   }
 
   /// count x d, parents by tournament.
   Eigen::MatrixXd children(const Parents& parents, int count, doe::RandomStream random) const {
-    Eigen::MatrixXd result(space_.dimension(), count + count % 2);  // one a column while they are made
+    Eigen::MatrixXd result(space_.dimension(), count + count % 2);  // one per column while they are made
     Tournaments tournaments(parents, random);
     for (Eigen::Index i = 0; i < count; i += 2) {
       auto first = result.col(i), second = result.col(i + 1);
@@ -170,13 +145,13 @@ class Breeder {
              doe::RandomStream& random) const {
     for (Eigen::Index block = 0; block < first.size(); block += 64) {
       const Eigen::Index left = first.size() - block;
-      std::uint64_t takes_part = random();  // one bit a variable
+      std::uint64_t takes_part = random();  // one bit per variable
       const std::uint64_t swaps = random();
       if (left < 64) takes_part &= (std::uint64_t{1} << left) - 1;
       for (; takes_part != 0; takes_part &= takes_part - 1) {
         const int bit = std::countr_zero(takes_part);
         const Eigen::Index j = block + bit;
-        sbx(first[j], second[j], variation_.crossover_index, (swaps >> bit) & 1u, random);
+        sbx(first[j], second[j], rates_.crossover_index, (swaps >> bit) & 1u, random);
         first[j] = space_.nearest(first[j], j);
         second[j] = space_.nearest(second[j], j);
       }
@@ -185,16 +160,15 @@ class Breeder {
 
   void mutate(Eigen::Ref<Eigen::VectorXd> child, doe::RandomStream& random) const {
     for (Eigen::Index j = 0; j < child.size(); ++j) {
-      if (random.uniform() >= variation_.mutation_probability) continue;
-      const double steps = space_.steps(j), index = variation_.mutation_index;
+      if (random.uniform() >= rates_.mutation_probability) continue;
+      const double steps = space_.steps(j), index = rates_.mutation_index;
       child[j] = steps > 0.0 ? integer_mutation(child[j], steps, index, random)
                              : polynomial_mutation(child[j], index, random);
     }
   }
 
-  const SearchSpace& space_;
-  Variation variation_;
+  SearchSpace space_;
+  Rates rates_;
 };
 
-}  // namespace detail
-}  // namespace drawpoint::pareto
+}  // namespace drawpoint::pareto::detail

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/pareto/minimised.hpp>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
 
@@ -20,12 +21,9 @@ constexpr double enough_coverage = 0.75;
 bool maximized(const doe::Response& r) { return r.goal == doe::Goal::maximize; }
 
 /// Row of the front where an objective is best.
-Eigen::Index best_row(const pareto::Front& front, Eigen::Index column, bool maximize) {
+Eigen::Index best_row(const ReportInput& input, Eigen::Index column) {
   Eigen::Index row = 0;
-  if (maximize)
-    front.Y.col(column).maxCoeff(&row);
-  else
-    front.Y.col(column).minCoeff(&row);
+  pareto::minimised(input.problem, input.front.Y).col(column).minCoeff(&row);
   return row;
 }
 
@@ -59,7 +57,7 @@ json cards(const ReportInput& input) {
   const auto chosen = objectives(input.problem);
   for (std::size_t k = 0; k < chosen.size() && k < 3 && input.front.Y.rows() > 0; ++k) {
     const doe::Response& r = input.problem.responses[chosen[k]];
-    const auto row = best_row(input.front, static_cast<Eigen::Index>(k), maximized(r));
+    const auto row = best_row(input, static_cast<Eigen::Index>(k));
     all.push_back({{"label", capital(superlative(r)) + " " + pretty(r.name) + " predicted"},
                    {"value", number(input.front.Y(row, static_cast<Eigen::Index>(k)))},
                    {"unit", r.unit == "1" ? "" : r.unit},
@@ -95,7 +93,7 @@ std::string best_simulated(const ReportInput& input, std::size_t response) {
 std::string best_sentence(const ReportInput& input, std::size_t k, std::size_t response) {
   const doe::Response& r = input.problem.responses[response];
   const auto column = static_cast<Eigen::Index>(k);
-  const auto row = best_row(input.front, column, maximized(r));
+  const auto row = best_row(input, column);
   const std::string others = values_text(input, row, column);
   return "The " + superlative(r) + " " + pretty(r.name) + " that the surrogates predict is " +
          number_with_unit(input.front.Y(row, column), r.unit) + ", at " +
@@ -197,7 +195,7 @@ void caution_about_extrapolation(const ReportInput& input, json& all) {
     const Eigen::VectorXd y = input.training.y(r.name);
     if (y.size() == 0) continue;
     const auto column = static_cast<Eigen::Index>(k);
-    const double best = input.front.Y(best_row(input.front, column, maximized(r)), column);
+    const double best = input.front.Y(best_row(input, column), column);
     const double range = y.maxCoeff() - y.minCoeff();
     const double beyond = maximized(r) ? best - y.maxCoeff() : y.minCoeff() - best;
     if (range > 0.0 && beyond > 0.1 * range)
@@ -240,14 +238,12 @@ std::vector<std::size_t> objectives(const doe::Problem& problem) {
 
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front) {
   if (front.Y.rows() == 0) return -1;
-  const auto chosen = objectives(problem);
-  Eigen::VectorXd distance = Eigen::VectorXd::Zero(front.Y.rows());
-  for (Eigen::Index k = 0; k < front.Y.cols(); ++k) {
-    const auto y = front.Y.col(k).array();
+  const Eigen::MatrixXd Y = pareto::minimised(problem, front.Y);
+  Eigen::VectorXd distance = Eigen::VectorXd::Zero(Y.rows());
+  for (Eigen::Index k = 0; k < Y.cols(); ++k) {
+    const auto y = Y.col(k).array();
     const double low = y.minCoeff(), high = y.maxCoeff();
-    if (!(high > low)) continue;
-    const double best = maximized(problem.responses[chosen[static_cast<std::size_t>(k)]]) ? high : low;
-    distance.array() += ((y - best) / (high - low)).square();
+    if (high > low) distance.array() += ((y - low) / (high - low)).square();
   }
   Eigen::Index row = 0;
   distance.minCoeff(&row);

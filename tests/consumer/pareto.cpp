@@ -54,7 +54,7 @@ bool within_limits(const Eigen::MatrixXd& responses) {
 
 int main() {
   const pareto::Front front =
-      pareto::nsga2(weld, beam, {.population = 200, .stopping = {.generations = 500}});
+      pareto::nsga2(weld, beam, {.search = {.population = 200, .stopping = {.generations = 500}}});
   const double cheapest = front.Y.col(0).minCoeff(), stiffest = front.Y.col(1).minCoeff();
   std::printf("%d designs, %.2f USD with %.4f in to %.2f USD with %.5f in\n",
               static_cast<int>(front.Y.rows()), cheapest, front.Y.col(1).maxCoeff(),

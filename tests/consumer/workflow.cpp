@@ -85,7 +85,7 @@ int main() {
   };
   const doe::Refinement study = doe::refine(
       simulate, car, doe::optimized_latin_hypercube(car, 16, {.corners = true}), doe::LolaVoronoi(), options);
-  const pareto::Front front = pareto::nsga2(kriging::Surrogates(models), car, {.population = 50});
+  const pareto::Front front = pareto::nsga2(kriging::Surrogates(models), car, {.search = {.population = 50}});
   const doe::Evaluations confirmed = doe::evaluate(simulate, car, front.X);
 
   const double error = front_error(front, confirmed);

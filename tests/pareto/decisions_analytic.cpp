@@ -71,6 +71,8 @@ TEST(Filter, LimitsOfTheProblemAreConditions) {
   ASSERT_EQ(conditions.size(), 1u);
   EXPECT_EQ(meeting(problem, loading_front(), conditions), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(best(problem, loading_front(), "mass").row, 2);  // more is better for at_least
+  EXPECT_TRUE(meets_limits(problem, Eigen::Vector3d(0, 0, 3.5)));
+  EXPECT_FALSE(meets_limits(problem, Eigen::Vector3d(0, 0, 3.4)));
 }
 
 // Production misses 400 by 75 of its range 225 in row 4, by 80 in row 3; damage is met by rows 0 to 4.
@@ -244,7 +246,7 @@ TEST(Preference, PseudoWeightsOfTheEndsAreAllForOne) {
 TEST(Preference, BadInputIsNamed) {
   const auto text = [](const auto& call) { return support::thrown_text<std::invalid_argument>(call); };
   EXPECT_EQ(text([] { by_aspiration(kinked_problem, kinked_front(), Eigen::Vector3d::Zero()); }),
-            "pareto::by_aspiration: aspiration has 3 entries; give one finite number an objective (2)");
+            "pareto::by_aspiration: aspiration has 3 entries; give one finite number per objective (2)");
   EXPECT_EQ(text([] { by_weights(kinked_problem, kinked_front(), Eigen::Vector2d(1, -1)); }),
             "pareto::by_weights: a weight is -1; allowed is 0 or more");
   EXPECT_EQ(text([] { by_weights(kinked_problem, kinked_front(), Eigen::Vector2d::Zero()); }),

@@ -90,8 +90,9 @@ TEST(Hypervolume, BadInputIsNamed) {
   const auto text = [](const Eigen::MatrixXd& Y, const Eigen::VectorXd& reference) {
     return support::thrown_text<std::invalid_argument>([&] { hypervolume(Y, reference); });
   };
-  EXPECT_EQ(text(Eigen::MatrixXd::Zero(2, 3), Eigen::VectorXd::Ones(2)),
-            "pareto::hypervolume: points has 3 columns, reference has 2 entries; both need one an objective");
+  EXPECT_EQ(
+      text(Eigen::MatrixXd::Zero(2, 3), Eigen::VectorXd::Ones(2)),
+      "pareto::hypervolume: points has 3 columns, reference has 2 entries; both need one per objective");
   EXPECT_EQ(text(Eigen::MatrixXd::Constant(2, 3, NAN), Eigen::VectorXd::Ones(3)),
             "pareto::hypervolume: points holds NaN or infinity; leave out failed runs");
   EXPECT_EQ(text(Eigen::MatrixXd::Zero(2, 3), Eigen::VectorXd::Constant(3, INFINITY)),

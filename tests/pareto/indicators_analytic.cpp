@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/pareto/crowding.hpp>
+#include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/indicators.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
@@ -34,34 +36,52 @@ TEST(IgdPlus, CountsOnlyWhatIsWorse) {
 }
 
 // To cover (1,5) the point (2,6) has to shift by 1, the point (4,4) by 3; to cover (4,1) the one needs 5, the
-// other 3: the larger of 1 and 3. As factors: max(2, 6/5) = 2 and 4 for (1,5); 6 and max(1, 4) = 4 for (4,1).
-TEST(Epsilon, IsTheLeastShiftOrFactorThatCoversTheReference) {
+// other 3: the larger of 1 and 3.
+TEST(Epsilon, IsTheLeastShiftThatCoversTheReference) {
   const Eigen::MatrixXd Y = points({{2, 6}, {4, 4}}), Z = points({{1, 5}, {4, 1}});
   EXPECT_EQ(additive_epsilon(Y, Z), 3.0);
-  EXPECT_EQ(multiplicative_epsilon(Y, Z), 4.0);
   EXPECT_EQ(additive_epsilon(Z, Z), 0.0);
-  EXPECT_EQ(multiplicative_epsilon(Z, Z), 1.0);
   EXPECT_EQ(additive_epsilon(Z.array() - 0.5, Z), -0.5);
 }
 
-// Points on the line (0,12) - (12,0) at x = 0, 3, 4, 12: gaps √2·(3, 1, 8), mean √2·4, deviations √2·(1, 3,
-// 4). With the ends met: 8/(3·4). With the reference's ends √2·3 beyond: (3 + 3 + 8)/(3 + 3 + 12). The budget
-// is a few roundings of numbers below 20.
-TEST(Spread, IsDebsDelta) {
-  const Eigen::MatrixXd Y = points({{4, 8}, {0, 12}, {12, 0}, {3, 9}});
-  EXPECT_NEAR(spread(Y, points({{0, 12}, {12, 0}})), 8.0 / 12.0, 1e-15);
-  EXPECT_NEAR(spread(Y, points({{-3, 15}, {15, -3}})), 14.0 / 18.0, 1e-15);
-  EXPECT_NEAR(spread(points({{0, 2}, {1, 1}, {2, 0}}), points({{0, 2}, {2, 0}})), 0.0, 1e-15);
+/// Production is maximised, damage minimised; mass is only recorded.
+const doe::Problem loading{{{"x", "1", 0.0, 1.0}},
+                           {{"production", "kg/s", doe::Goal::maximize},
+                            {"mass", "t", doe::Goal::record},
+                            {"damage", "s", doe::Goal::minimize}}};
+
+// Within production above 0 and damage below 5 the points (100, 1) and (250, 2) dominate 100·4 + 150·3; each
+// loses what the other does not cover, 100·1 and 150·3; (90, 3) lies behind both.
+TEST(Signs, VolumesInNaturalSigns) {
+  const Eigen::MatrixXd Y = points({{100, 1}, {250, 2}, {90, 3}});
+  EXPECT_EQ(hypervolume(loading, Y, Eigen::Vector2d(0, 5)), 850.0);
+  EXPECT_EQ(hypervolume_contributions(loading, Y, Eigen::Vector2d(0, 5)), Eigen::Vector3d(100, 450, 0));
 }
 
-// Points (0,8), (1,4), (3,2), (7,1), (8,0): finite crowding distances 9/8, 9/8, 7/8 (crowding_analytic.cpp):
-// mean 25/24, variance (2·(2/24)² + (4/24)²)/3 = 1/72. The extremes moved by 5 in each objective: from (3,12)
-// to (0,8) and from (12,3) to (8,0).
-TEST(MovingSpread, IsThatOfGamultiobj) {
-  const Eigen::MatrixXd Y = points({{0, 8}, {1, 4}, {3, 2}, {7, 1}, {8, 0}});
-  const double deviation = std::sqrt(1.0 / 72.0), way = 5.0 * 25.0 / 24.0;
-  EXPECT_NEAR(moving_spread(Y, Y), deviation / way, 1e-15);
-  EXPECT_NEAR(moving_spread(Y, points({{3, 12}, {12, 3}})), (10.0 + deviation) / (10.0 + way), 1e-15);
+TEST(Signs, DominanceInNaturalSigns) {
+  const Eigen::MatrixXd Y = points({{100, 1}, {250, 2}, {90, 3}});
+  EXPECT_EQ(non_dominated(loading, Y), (std::vector<int>{0, 1}));
+  EXPECT_EQ(non_dominated_sort(loading, Y), (std::vector<std::vector<int>>{{0, 1}, {2}}));
+  EXPECT_TRUE(dominates(loading, Eigen::Vector2d(100, 1), Eigen::Vector2d(90, 3)));
+  EXPECT_FALSE(dominates(loading, Eigen::Vector2d(90, 3), Eigen::Vector2d(100, 1)));
+  EXPECT_EQ(crowding_distance(loading, Y.topRows(2)), crowding_distance(Y.topRows(2)));
+}
+
+// (3, 4) misses (6, 4) by 3 of production alone, and gives nothing for being better.
+TEST(Signs, DistancesInNaturalSigns) {
+  EXPECT_EQ(igd(loading, points({{3, 4}}), points({{6, 0}})), 5.0);
+  EXPECT_EQ(igd_plus(loading, points({{3, 4}}), points({{6, 4}})), 3.0);
+  EXPECT_EQ(igd_plus(loading, points({{6, 4}}), points({{3, 4}})), 0.0);
+  EXPECT_EQ(additive_epsilon(loading, points({{3, 4}}), points({{6, 4}})), 3.0);
+}
+
+TEST(Signs, MinimisedIsItsOwnInverse) {
+  const Eigen::MatrixXd Y = points({{100, 1}, {250, 2}});
+  EXPECT_EQ(minimised(loading, Y), points({{-100, 1}, {-250, 2}}));
+  EXPECT_EQ(minimised(loading, minimised(loading, Y)), Y);
+  EXPECT_EQ(
+      support::thrown_text<std::invalid_argument>([] { minimised(loading, Eigen::MatrixXd::Zero(1, 3)); }),
+      "pareto::minimised: Y has 3 columns, the problem has 2 objectives; give one column per objective");
 }
 
 TEST(Indicators, BadInputIsNamed) {
@@ -69,17 +89,14 @@ TEST(Indicators, BadInputIsNamed) {
     return support::thrown_text<std::invalid_argument>([&] { indicator(Y, Z); });
   };
   const Eigen::MatrixXd two = Eigen::MatrixXd::Ones(2, 2), three = Eigen::MatrixXd::Ones(2, 3);
-  EXPECT_EQ(text(igd, Eigen::MatrixXd(0, 2), two), "pareto::igd: Y has no rows; give at least one point");
-  EXPECT_EQ(text(igd_plus, two, three),
-            "pareto::igd_plus: Y has 2 columns, Z has 3; both need one an objective");
-  EXPECT_EQ(text(additive_epsilon, two, NAN * two),
+  const auto of_igd = [](const auto& Y, const auto& Z) { return igd(Y, Z); };
+  const auto of_igd_plus = [](const auto& Y, const auto& Z) { return igd_plus(Y, Z); };
+  const auto of_epsilon = [](const auto& Y, const auto& Z) { return additive_epsilon(Y, Z); };
+  EXPECT_EQ(text(of_igd, Eigen::MatrixXd(0, 2), two), "pareto::igd: Y has no rows; give at least one point");
+  EXPECT_EQ(text(of_igd_plus, two, three),
+            "pareto::igd_plus: Y has 2 columns, Z has 3; both need one per objective");
+  EXPECT_EQ(text(of_epsilon, two, NAN * two),
             "pareto::additive_epsilon: Z holds NaN or infinity; leave out failed runs");
-  EXPECT_EQ(text(multiplicative_epsilon, -two, two),
-            "pareto::multiplicative_epsilon: Y holds -1; allowed is above 0; shift the objectives or use "
-            "additive_epsilon");
-  EXPECT_EQ(text(spread, three, three),
-            "pareto::spread: Y is 2 x 3; allowed is two objectives and two points or more; use "
-            "crowding_distance or moving_spread for others");
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ TEST(LocalTradeOff, SaysWhereThePointIsNotOnTheFront) {
   const LocalTradeOff off = local_trade_off(distances, opposed, front_at(distances, opposed, X), 2);
   EXPECT_EQ(off.status, LocalTradeOffStatus::not_stationary);
   EXPECT_GT(off.residual, 0.1);
+  EXPECT_NE(off.message.find("above the tolerance of 0.001; polish the front first"), std::string::npos);
 }
 
 /// x and y minimised with x y >= 1: the front is the limit itself, y = 1/x, of slope -1/x².
@@ -119,7 +120,9 @@ TEST(LocalTradeOff, ThreeObjectives) {
 TEST(LocalTradeOff, FailuresAndBadInputAreNamed) {
   const Front front = front_at(distances, opposed, on_the_segment());
   const auto broken = [](const Eigen::VectorXd&) -> ValueAndJacobian { throw std::runtime_error("no"); };
-  EXPECT_EQ(local_trade_off(broken, opposed, front, 1).status, LocalTradeOffStatus::failed);
+  const LocalTradeOff failed = local_trade_off(broken, opposed, front, 1);
+  EXPECT_EQ(failed.status, LocalTradeOffStatus::failed);
+  EXPECT_NE(failed.message, "");
   const auto text = [&](int row, LocalTradeOffOptions options) {
     return support::thrown_text<std::invalid_argument>(
         [&] { local_trade_off(distances, opposed, front, row, options); });

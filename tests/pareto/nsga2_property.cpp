@@ -8,6 +8,7 @@
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/pareto/test_functions.hpp>
+#include <stop_token>
 
 namespace drawpoint::pareto {
 namespace {
@@ -22,7 +23,7 @@ doe::Problem cost_problem(doe::Response third = {"third", "1", doe::Goal::record
           {{"cost", "kg", doe::Goal::minimize}, {"yield", "kg/s", doe::Goal::maximize}, third}};
 }
 
-const Nsga2Options quick{.population = 40, .stopping = {.generations = 40}};
+const Nsga2Options quick{.search = {.population = 40, .stopping = {.generations = 40}}};
 
 void expect_equal(const Front& a, const Front& b) {
   EXPECT_EQ(a.X, b.X);
@@ -46,8 +47,7 @@ TEST(Nsga2, TheFrontIsInNaturalUnitsAndSignAndConsistent) {
     EXPECT_EQ(front.Y.row(i), front.responses.row(i).head(2));
     EXPECT_TRUE(x[0] >= 0.0 && x[0] <= 10.0 && x[1] >= -1.0 && x[1] <= 1.0);
   }
-  const Eigen::MatrixXd minimised = front.Y * Eigen::Vector2d(1.0, -1.0).asDiagonal();
-  EXPECT_EQ(non_dominated(minimised).size(), 40U);
+  EXPECT_EQ(non_dominated(front.Y * Eigen::Vector2d(1.0, -1.0).asDiagonal()).size(), 40U);
   for (Eigen::Index i = 1; i < 40; ++i) EXPECT_GT(front.Y(i, 0), front.Y(i - 1, 0));
 }
 
@@ -56,7 +56,7 @@ TEST(Nsga2, SameSeedSameFrontOtherSeedAnother) {
   const Front front = nsga2(cost_and_yield, problem, quick);
   expect_equal(front, nsga2(cost_and_yield, problem, quick));
   Nsga2Options other = quick;
-  other.seed = 2;
+  other.search.seed = 2;
   EXPECT_NE(front.X, nsga2(cost_and_yield, problem, other).X);
 }
 
@@ -113,7 +113,7 @@ TEST(Nsga2, FindsASmallFeasibleRegion) {
   const auto f = [](const Eigen::VectorXd& x) -> doe::Outcome {
     return {x[0], x[1] - x[0], 1e3 * x.sum(), 1e-3 * x.sum()};
   };
-  const Front front = nsga2(f, problem, {.population = 60, .stopping = {.generations = 100}});
+  const Front front = nsga2(f, problem, {.search = {.population = 60, .stopping = {.generations = 100}}});
   EXPECT_EQ(front.status, SearchStatus::completed);
   ASSERT_GT(front.X.rows(), 10);
   EXPECT_GE(front.responses.col(2).minCoeff(), 400.0);
@@ -148,7 +148,8 @@ TEST(Nsga2, FailedRunsRankLastAndAreCounted) {
 
 TEST(Nsga2, ASearchWithoutResultSaysWhy) {
   const auto fails = [](const Eigen::VectorXd&) -> doe::Outcome { return doe::Failure{"no licence"}; };
-  const Front none = nsga2(fails, cost_problem(), {.population = 10, .stopping = {.generations = 2}});
+  const Front none =
+      nsga2(fails, cost_problem(), {.search = {.population = 10, .stopping = {.generations = 2}}});
   EXPECT_EQ(none.status, SearchStatus::all_failed);
   EXPECT_EQ(none.message, "all 30 evaluations failed; the first: no licence");
   EXPECT_EQ(none.X.rows(), 0);
@@ -156,7 +157,7 @@ TEST(Nsga2, ASearchWithoutResultSaysWhy) {
   EXPECT_EQ(none.Y.cols(), 2);
 
   const Front infeasible = nsga2(cost_and_yield, cost_problem({"third", "m", doe::Goal::at_least, 1e3}),
-                                 {.population = 10, .stopping = {.generations = 2}});
+                                 {.search = {.population = 10, .stopping = {.generations = 2}}});
   EXPECT_EQ(infeasible.status, SearchStatus::no_feasible_point);
   EXPECT_EQ(infeasible.message,
             "none of 30 evaluations met every limit; relax a limit, widen the bounds or search longer");
@@ -164,7 +165,7 @@ TEST(Nsga2, ASearchWithoutResultSaysWhy) {
 
 TEST(Nsga2, StopsBeforeTheBudgetIsExceeded) {
   const Front front =
-      nsga2(cost_and_yield, cost_problem(), {.population = 40, .stopping = {.evaluations = 230}});
+      nsga2(cost_and_yield, cost_problem(), {.search = {.population = 40, .stopping = {.evaluations = 230}}});
   EXPECT_EQ(front.evaluations, 200);
   EXPECT_EQ(front.generations, 4);
   EXPECT_EQ(front.stopped_by, StopReason::evaluations);
@@ -173,13 +174,13 @@ TEST(Nsga2, StopsBeforeTheBudgetIsExceeded) {
 // The rule as it is stated: H(g) - H(g - w) <= gain H(g) holds at the last generation and at none before.
 TEST(Nsga2, StopsWhenTheHypervolumeStalls) {
   std::vector<double> volumes;
-  Nsga2Options options{.population = 40,
-                       .stopping = {.generations = 500, .stall_generations = 10, .stall_gain = 1e-3}};
-  options.progress = [&](const Progress& now) {
+  Nsga2Options options{
+      .search = {.population = 40,
+                 .stopping = {.generations = 500, .stall_generations = 10, .stall_gain = 1e-3}}};
+  options.search.progress = [&](const SearchProgress& now) {
     EXPECT_EQ(now.generation, static_cast<int>(volumes.size()));
     EXPECT_EQ(now.evaluations, 40 * (now.generation + 1));
-    volumes.push_back(now.hypervolume);
-    return true;
+    volumes.push_back(now.hypervolume.value());
   };
   const Front front = nsga2(cost_and_yield, cost_problem(), options);
   EXPECT_EQ(front.stopped_by, StopReason::stall);
@@ -189,17 +190,23 @@ TEST(Nsga2, StopsWhenTheHypervolumeStalls) {
 }
 
 TEST(Nsga2, TheCallerMayStopIt) {
+  std::stop_source source;
   Nsga2Options options = quick;
-  options.progress = [](const Progress& now) { return now.generation < 3; };
+  options.search.stop = source.get_token();
+  options.search.progress = [&](const SearchProgress& now) {
+    EXPECT_FALSE(now.hypervolume.has_value());
+    if (now.generation == 3) source.request_stop();
+  };
   const Front front = nsga2(cost_and_yield, cost_problem(), options);
-  EXPECT_EQ(front.stopped_by, StopReason::progress);
+  EXPECT_EQ(front.stopped_by, StopReason::stopped);
   EXPECT_EQ(front.generations, 3);
+  EXPECT_EQ(front.evaluations, 40 * 4);
 }
 
 TEST(Nsga2, OneObjectiveAndOddPopulationsWork) {
   const auto f = [](const Eigen::VectorXd& x) { return (x.array() - 0.25).square().sum(); };
   const Front front =
-      nsga2(f, support::unit_problem(3), {.population = 41, .stopping = {.generations = 100}});
+      nsga2(f, support::unit_problem(3), {.search = {.population = 41, .stopping = {.generations = 100}}});
   ASSERT_GE(front.X.rows(), 1);
   EXPECT_LT(front.Y.maxCoeff(), 1e-4);  // each x within about 0.006 of the optimum
 }
@@ -208,28 +215,26 @@ TEST(Nsga2, BadInputIsNamed) {
   const auto text = [](const Nsga2Options& options, const doe::Problem& problem = cost_problem()) {
     return support::thrown_text<std::invalid_argument>([&] { nsga2(cost_and_yield, problem, options); });
   };
-  EXPECT_EQ(text({.population = 1}), "pareto::nsga2: population is 1; allowed is 2 or more");
-  EXPECT_EQ(text({.stopping = {.generations = -1}}),
+  EXPECT_EQ(text({.search = {.population = 1}}), "pareto::nsga2: population is 1; allowed is 2 or more");
+  EXPECT_EQ(text({.search = {.stopping = {.generations = -1}}}),
             "pareto::nsga2: generations is -1; allowed is 0 or more");
-  EXPECT_EQ(text({.variation = {.crossover_probability = 1.5}}),
+  EXPECT_EQ(text({.search = {.variation = {.crossover_probability = 1.5}}}),
             "pareto::nsga2: crossover_probability is 1.5; allowed is 0 to 1");
-  EXPECT_EQ(text({.variation = {.mutation_probability = -0.1}}),
-            "pareto::nsga2: mutation_probability is -0.1; allowed is 0 to 1, or NaN for 1/d");
+  EXPECT_EQ(text({.search = {.variation = {.mutation_probability = -0.1}}}),
+            "pareto::nsga2: mutation_probability is -0.1; allowed is 0 to 1");
   EXPECT_EQ(text({.elitism_ratio = 1.0}),
             "pareto::nsga2: elitism_ratio is 1; allowed is 0 (plain) to below 1");
   EXPECT_EQ(text({.pareto_fraction = 0.0}), "pareto::nsga2: pareto_fraction is 0; allowed is above 0 to 1");
-  EXPECT_EQ(text({.stopping = {.evaluations = -1}}),
-            "pareto::nsga2: evaluations is -1; allowed is 0 (no limit) or more");
-  EXPECT_EQ(text({.integers = {2}}),
-            "pareto::nsga2: integers holds 2; allowed is 0 to 1, places in Problem::variables");
-  doe::Problem fractional = cost_problem();
-  fractional.variables[0].upper = 9.5;
-  EXPECT_EQ(text({.integers = {0}}, fractional),
-            "pareto::nsga2: integer variable \"x0\" has bounds 0 m and 9.5 m; give whole numbers");
+  EXPECT_EQ(text({.search = {.stopping = {.evaluations = 0}}}),
+            "pareto::nsga2: evaluations is 0; allowed is 1 or more; leave it out for no limit");
+  EXPECT_EQ(text({.search = {.stopping = {.stall_generations = 0}}}),
+            "pareto::nsga2: stall_generations is 0; allowed is 1 or more; leave it out for never");
+  EXPECT_EQ(text({.search = {.threads = -1}}),
+            "pareto::nsga2: threads is -1; allowed is 0 (all cores) or more");
   EXPECT_EQ(
-      text({.stopping = {.stall_generations = 5}}, support::unit_problem(2, 9)),
+      text({.search = {.stopping = {.stall_generations = 5}}}, support::unit_problem(2, 9)),
       "pareto::nsga2: stall_generations needs the hypervolume, which is limited to 8 objectives, not 9; "
-      "set stall_generations = 0");
+      "leave stall_generations out");
   EXPECT_EQ(text({}, support::unit_problem(2, 3, doe::Goal::record)),
             "pareto::nsga2: no response has goal minimize or maximize; give at least one");
   EXPECT_NE(text({}, doe::Problem{}).find("doe::Problem: no variables"), std::string::npos);

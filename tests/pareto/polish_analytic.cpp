@@ -59,11 +59,12 @@ TEST_P(Forms, BringEveryPointToTheKnownSet) {
   const doe::Problem problem = support::unit_problem(4, 2);
   const Front rough = rough_front(paraboloids, problem, around_the_segment());
   const Polished polished = polish(paraboloids, problem, rough, {.form = GetParam()});
+  EXPECT_EQ(polished.status, PolishStatus::completed);
   EXPECT_EQ(polished.message, "");
   const Eigen::Vector4d direction = (b - a).normalized();
   for (Eigen::Index i = 0; i < rough.X.rows(); ++i) {
     const Eigen::Vector4d x = polished.front.X.row(i).transpose();
-    EXPECT_EQ(polished.status[static_cast<std::size_t>(i)], PolishStatus::improved);
+    EXPECT_EQ(polished.points[static_cast<std::size_t>(i)], PolishedPoint::improved);
     EXPECT_LE(x[3], 5e-8);
     Eigen::Vector4d across = x - a - direction * direction.dot(x - a);
     across[3] = 0.0;
@@ -85,7 +86,7 @@ TEST_P(Forms, LeaveATrueOptimumWhereItIs) {
   const Front optimal = rough_front(paraboloids, problem, X);
   const Polished polished = polish(paraboloids, problem, optimal, {.form = GetParam()});
   EXPECT_EQ(polished.front.X, optimal.X);
-  EXPECT_EQ(polished.status, std::vector<PolishStatus>(2, PolishStatus::unchanged));
+  EXPECT_EQ(polished.points, std::vector<PolishedPoint>(2, PolishedPoint::unchanged));
   EXPECT_LE(polished.residual.maxCoeff(), 1e-14);  // exact but for rounding
 }
 
@@ -139,12 +140,22 @@ TEST(Polish, APointWhereTheFunctionFailsStays) {
     return paraboloids(x);
   };
   const Polished polished = polish(f, problem, rough);
-  EXPECT_EQ(polished.status[3], PolishStatus::failed);
+  EXPECT_EQ(polished.points[3], PolishedPoint::failed);
   EXPECT_EQ(polished.front.X.row(3), rough.X.row(3));
   EXPECT_TRUE(std::isnan(polished.residual[3]));
-  EXPECT_EQ(polished.status[4], PolishStatus::improved);
+  EXPECT_EQ(polished.points[4], PolishedPoint::improved);
+  EXPECT_EQ(polished.status, PolishStatus::points_failed);
   EXPECT_EQ(polished.message,
             "1 of 11 points were left as they were: the function failed there, or the search did not end");
+}
+
+TEST(Polish, AnEmptyFrontHasNothingToPolish) {
+  Front none;
+  none.X.resize(0, 4);
+  none.Y.resize(0, 2);
+  const Polished polished = polish(paraboloids, support::unit_problem(4, 2), none);
+  EXPECT_EQ(polished.status, PolishStatus::empty_front);
+  EXPECT_EQ(polished.message, "the front has no points");
 }
 
 TEST(Polish, BadInputIsNamed) {
@@ -157,7 +168,7 @@ TEST(Polish, BadInputIsNamed) {
             "pareto::polish: objective is 2; allowed is 0 to the number of objectives - 1");
   EXPECT_EQ(text({.tolerance = 0.0}, problem), "pareto::polish: tolerance is 0; allowed is above 0");
   EXPECT_EQ(text({.reference = Eigen::VectorXd::Ones(3)}, problem),
-            "pareto::polish: reference has 3 entries; give one an objective or none");
+            "pareto::polish: reference has 3 entries; give one per objective or leave it out");
   EXPECT_EQ(
       text({}, support::unit_problem(3, 2)),
       "pareto::polish: front has 4 variables and 2 objectives, the problem has 3 and 2; give the front of "

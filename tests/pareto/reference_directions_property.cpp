@@ -56,7 +56,7 @@ TEST(ReferenceDirections, HaveTheSizesOfThePaper) {
 TEST(ReferenceDirections, BadInputIsNamed) {
   EXPECT_EQ(
       support::thrown_text<std::invalid_argument>([] { reference_directions(3, 2); }),
-      "pareto::reference_directions: at_most is 2 for 3 objectives; allowed is one an objective or more");
+      "pareto::reference_directions: at_most is 2 for 3 objectives; allowed is one per objective or more");
   EXPECT_EQ(support::thrown_text<std::invalid_argument>([] { simplex_lattice(3, 0); }),
             "pareto::simplex_lattice: 3 objectives and 0 divisions; allowed is 1 or more of both");
 }

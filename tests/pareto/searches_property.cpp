@@ -21,7 +21,6 @@ namespace {
 
 struct Control {
   int generations = 40;
-  std::vector<int> integers{};
   doe::Seed seed = 1;
 };
 
@@ -37,10 +36,9 @@ void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
 
 template <class Options>
 Options with(const Control& c, Options options = {}) {
-  options.population = 40;
-  options.stopping.generations = c.generations;
-  options.integers = c.integers;
-  options.seed = c.seed;
+  options.search.population = 40;
+  options.search.stopping.generations = c.generations;
+  options.search.seed = c.seed;
   return options;
 }
 
@@ -91,8 +89,8 @@ TEST_P(Searches, GiveConsistentNonDominatedPointsOfTheBox) {
     EXPECT_EQ(front.responses.row(i).transpose(), cost_and_yield(x).values());
     EXPECT_TRUE(x[0] >= 0.0 && x[0] <= 10.0 && x[1] >= -1.0 && x[1] <= 1.0);
   }
-  const Eigen::MatrixXd minimised = front.Y * Eigen::Vector2d(1.0, -1.0).asDiagonal();
-  EXPECT_EQ(static_cast<Eigen::Index>(non_dominated(minimised).size()), front.X.rows());
+  const std::vector<int> best = non_dominated(front.Y * Eigen::Vector2d(1.0, -1.0).asDiagonal());
+  EXPECT_EQ(static_cast<Eigen::Index>(best.size()), front.X.rows());
 }
 
 TEST_P(Searches, SameSeedSameFrontOtherSeedAnother) {
@@ -124,19 +122,19 @@ TEST_P(Searches, LeaveAFailingHalfOfTheBox) {
   EXPECT_GE(front.X.col(0).minCoeff(), 5.0);
 }
 
-// Pieces n in 1..9, of kind integer, and a switch s in {0, 1} that the options name: cost n + 4 (1 - s), time
-// 12/n: the front is s = 1 and each n, nine points. All of them are found; MOEA/D by PBI owes only those that
-// are best for one of its directions.
+// Pieces n in 1..9 and a switch s in {0, 1}, both of kind integer: cost n + 4 (1 - s), time 12/n: the front
+// is s = 1 and each n, nine points. All of them are found; MOEA/D by PBI owes only those that are best for
+// one of its directions.
 TEST_P(Searches, FindEveryPointOfASmallIntegerFront) {
   const doe::Problem problem{
-      {doe::integer_variable("n", "1", 1, 9), {"x", "m", -1.0, 1.0}, {"s", "1", 0.0, 1.0}},
+      {doe::integer_variable("n", "1", 1, 9), {"x", "m", -1.0, 1.0}, doe::integer_variable("s", "1", 0, 1)},
       {{"cost", "kg", doe::Goal::minimize}, {"time", "s", doe::Goal::minimize}}};
   const auto f = [](const Eigen::VectorXd& x) -> doe::Outcome {
     EXPECT_EQ(x[0], std::round(x[0]));
     EXPECT_TRUE(x[2] == 0.0 || x[2] == 1.0);
     return {x[0] + 4.0 * (1.0 - x[2]) + 1e-3 * x[1] * x[1], 12.0 / x[0]};
   };
-  const Front front = GetParam().search(f, problem, {.generations = 60, .integers = {2}});
+  const Front front = GetParam().search(f, problem, {.generations = 60});
   std::vector<int> found(10, 0);
   for (const auto& x : front.X.rowwise()) {
     EXPECT_EQ(x[2], 1.0);

@@ -43,7 +43,7 @@ const double dtlz2_volume = 1.1 * 1.1 * 1.1 - std::numbers::pi / 6.0;
 double zdt1_median(Elitism elitism) {
   const auto search = [elitism](doe::Seed seed) {
     return nsga2(support::zdt1, support::unit_problem(30, 2),
-                 {.population = 100, .elitism = elitism, .seed = seed});
+                 {.search = {.population = 100, .seed = seed}, .elitism = elitism});
   };
   return median_hypervolume(search, 2, zdt1_volume);
 }
@@ -56,7 +56,7 @@ TEST(Nsga2, PlainElitismOnZdt1IsAsGoodAsPagmo) {
 // pagmo: 0.702418 in [0.691, 0.717].
 TEST(Nsga2, PlainElitismOnDtlz2IsAsGoodAsPagmo) {
   const auto search = [](doe::Seed seed) {
-    return nsga2(support::dtlz2, support::unit_problem(12, 3), {.population = 100, .seed = seed});
+    return nsga2(support::dtlz2, support::unit_problem(12, 3), {.search = {.population = 100, .seed = seed}});
   };
   EXPECT_GE(median_hypervolume(search, 3, dtlz2_volume), 0.703808 - 4 * 0.005853);
 }
@@ -78,14 +78,14 @@ double dtlz2_median(const Search& search) {
 
 TEST(Nsga3, IsEvenOnDtlz2) {
   const auto search = [](const doe::Problem& problem, doe::Seed seed) {
-    return nsga3(support::dtlz2, problem, {.seed = seed});
+    return nsga3(support::dtlz2, problem, {.search = {.seed = seed}});
   };
   EXPECT_GE(dtlz2_median(search), 0.744329 - 4 * 0.000732);
 }
 
 TEST(Moead, IsEvenOnDtlz2) {
   const auto search = [](const doe::Problem& problem, doe::Seed seed) {
-    return moead(support::dtlz2, problem, {.scalarisation = Scalarisation::pbi, .seed = seed});
+    return moead(support::dtlz2, problem, {.search = {.seed = seed}, .scalarisation = Scalarisation::pbi});
   };
   EXPECT_GE(dtlz2_median(search), 0.743482 - 4 * 0.000235);
 }
@@ -93,7 +93,7 @@ TEST(Moead, IsEvenOnDtlz2) {
 TEST(SmsEmoa, FiftyPointsOnDtlz2) {
   const auto search = [](const doe::Problem& problem, doe::Seed seed) {
     return sms_emoa(support::dtlz2, problem,
-                    {.population = 50, .stopping = {.generations = 100}, .seed = seed});
+                    {.search = {.population = 50, .stopping = {.generations = 100}, .seed = seed}});
   };
   EXPECT_GE(dtlz2_median(search), 0.733342 - 4 * 0.000392);
 }

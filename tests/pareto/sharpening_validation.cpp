@@ -29,6 +29,8 @@ PredictedResponses five_candidates() {
 TEST(NextSimulations, PreferUncertainPointsNearTheFront) {
   const NextSimulations next = next_simulations(two, draws_of_normals(five_candidates()), 5);
   ASSERT_EQ(next.rows, std::vector<int>{2});  // all others are known or surely dominated
+  EXPECT_EQ(next.status, NextStatus::fewer);
+  EXPECT_EQ(next.message, "1 of 5 simulations: all other candidates are known or not on the front");
   EXPECT_EQ(next.probability[4], 0.0);
   EXPECT_GT(next.uncertainty[4], next.uncertainty[2]);
   EXPECT_GT(next.score[0], 0.0);
@@ -103,6 +105,7 @@ TEST(NextSimulations, ReduceTheVorobevDeviation) {
   };
   const NextSimulations next = next_simulations(two, Process(known).draws(512), 3);
   ASSERT_EQ(next.rows.size(), 3u);
+  EXPECT_EQ(next.status, NextStatus::completed);
   EXPECT_LT(next.rows[0], 20);
   const double chosen = left_by({next.rows[0]});
   int better = 0;

@@ -113,7 +113,7 @@ TEST(Draws, PathsAndFunctionsGiveTheSame) {
     for (int j = 0; j < 2; ++j)
       paths[static_cast<std::size_t>(j)].col(s) = drawn[static_cast<std::size_t>(s)].col(j);
   EXPECT_EQ(draws_of_paths(paths), drawn);
-  const auto path_function = [&](const Eigen::MatrixXd&, int, doe::Seed) { return drawn; };
+  const auto path_function = [&](const Eigen::MatrixXd&, const DrawOptions&) { return drawn; };
   EXPECT_EQ(draws_at(path_function, X), drawn);
 }
 
@@ -166,6 +166,7 @@ TEST(Vorobev, TwoNestedFronts) {
   const Vorobev v = vorobev(two, draws, {.samples = 4096, .reference = Eigen::Vector2d(2, 2)});
   // A quarter of 4096 scrambled net points lie in the quarter square, up to its border.
   const double error = 4.0 * 2.0 / 4096.0;
+  EXPECT_EQ(v.status, VorobevStatus::completed);
   EXPECT_EQ(v.threshold, 0.5);
   EXPECT_NEAR(v.expected_volume, 2.5, error);
   EXPECT_NEAR(v.deviation, 1.5, error);
@@ -177,6 +178,14 @@ TEST(Vorobev, ACertainFrontHasNoDeviationAndItsOwnVolume) {
   const Vorobev v = vorobev(two, {Y, Y}, {.samples = 4096, .reference = Eigen::Vector2d(2, 2)});
   EXPECT_EQ(v.deviation, 0.0);
   EXPECT_NEAR(v.expected_volume, 3.0, 4.0 * 2.0 / 4096.0);
+}
+
+TEST(Vorobev, AReferenceThatNothingReachesLeavesNoVolume) {
+  const Vorobev v = vorobev(two, {Eigen::RowVector2d(1, 1), Eigen::RowVector2d(2, 0)},
+                            {.reference = Eigen::Vector2d(0.5, 0.5)});
+  EXPECT_EQ(v.status, VorobevStatus::no_volume);
+  EXPECT_EQ(v.message, "no draw dominates the reference point; give one that is worse in every objective");
+  EXPECT_EQ(v.expected_volume, 0.0);
 }
 
 TEST(Vorobev, DeviationGrowsWithTheErrorOfTheSurrogate) {
@@ -205,7 +214,7 @@ TEST(UncertainFront, BadInputIsNamed) {
       "pareto::probability_non_dominated: a draw is 2 x 2; each must have 3 responses at the same points, "
       "one at least");
   EXPECT_EQ(text([&] { front_band(two, draws, Eigen::MatrixXd::Zero(1, 3)); }),
-            "pareto::front_band: at has 3 columns; give one number an objective (2) at each place");
+            "pareto::front_band: at has 3 columns; give one number per objective (2) at each place");
   EXPECT_EQ(text([&] { front_band(two, draws, Eigen::MatrixXd::Zero(1, 2), 1.0); }),
             "pareto::front_band: confidence is 1; allowed is above 0 and below 1");
   EXPECT_EQ(

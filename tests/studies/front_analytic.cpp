@@ -52,7 +52,7 @@ std::vector<kriging::Model> exact_models(const doe::Problem& problem, const std:
 
 pareto::Front searched(const std::vector<kriging::Model>& models, const doe::Problem& problem) {
   return pareto::nsga2(kriging::Surrogates(models), problem,
-                       {.population = 60, .stopping = {.generations = 60}, .seed = 3});
+                       {.search = {.population = 60, .stopping = {.generations = 60}, .seed = 3}});
 }
 
 double median_distance(const Eigen::MatrixXd& X) {
@@ -71,7 +71,7 @@ TEST(Front, OfAMixedSetOfSurrogatesIsPolished) {
   for (Eigen::Index i = 0; i < X.rows(); ++i) y[i] = near_b(X.row(i).transpose());
   const kriging::Surrogates mixed({exact_models(problem, {near_a})[0], kriging::fit_polynomial(X, y)});
   const pareto::Front front =
-      pareto::nsga2(mixed, problem, {.population = 20, .stopping = {.generations = 20}});
+      pareto::nsga2(mixed, problem, {.search = {.population = 20, .stopping = {.generations = 20}}});
   const pareto::Polished polished = pareto::polish(mixed, problem, front);
   EXPECT_GE(polished.hypervolume, polished.hypervolume_before);
   for (Eigen::Index i = 0; i < polished.front.X.rows(); ++i) {

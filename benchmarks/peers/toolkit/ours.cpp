@@ -42,13 +42,13 @@ TestFunction function_of(const std::string& name) {
 
 pareto::Nsga2Options deb(const peers::SearchCase& c, doe::Seed seed) {
   pareto::Nsga2Options options;
-  options.population = peers::population;
-  options.stopping.generations = peers::generations;
-  options.variation = {.crossover_probability = peers::crossover_rate,
-                       .crossover_index = peers::crossover_index,
-                       .mutation_probability = 1.0 / c.d,
-                       .mutation_index = peers::mutation_index};
-  options.seed = seed;
+  options.search.population = peers::population;
+  options.search.stopping.generations = peers::generations;
+  options.search.variation = {.crossover_probability = peers::crossover_rate,
+                              .crossover_index = peers::crossover_index,
+                              .mutation_probability = 1.0 / c.d,
+                              .mutation_index = peers::mutation_index};
+  options.search.seed = seed;
   return options;
 }
 

@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// A search on disk: a text of one item per line.
+///
+/// First the format and its version, the search, the problem and the options that decide the result, one line
+/// each, so that a file of another search is refused by the line that differs. After the line "state" the
+/// items of the search, a name and its numbers; numbers are the shortest text that reads back as the same
+/// double. The last line is the checksum of all before it (64-bit FNV-1a: against accidents, not against
+/// intent).
+
+#include <Eigen/Core>
+#include <charconv>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/doe/detail/enumerators.hpp>
+#include <drawpoint/doe/run_journal.hpp>
+#include <drawpoint/pareto/detail/population.hpp>
+#include <drawpoint/pareto/detail/setting.hpp>
+
+namespace drawpoint::pareto::detail {
+
+inline constexpr std::string_view checkpoint_format = "drawpoint pareto checkpoint 1";
+
+inline std::string line_of(const doe::Variable& v) {
+  std::string line = "variable \"" + v.name + "\" " + doe::detail::with_unit(v.lower, v.unit) + " to " +
+                     doe::detail::with_unit(v.upper, v.unit) + " " + std::string(to_string(v.kind));
+  for (const std::string& level : v.levels) line += " \"" + level + "\"";
+  return doe::detail::on_one_line(line);
+}
+
+inline std::string line_of(const doe::Response& r) {
+  std::string line = "response \"" + r.name + "\" [" + r.unit + "] " + std::string(to_string(r.goal));
+  if (doe::is_constraint(r.goal)) line += " " + doe::detail::number_text(r.limit);
+  return doe::detail::on_one_line(line);
+}
+
+inline std::string text_of(const std::optional<int>& value) {
+  return value ? std::to_string(*value) : "none";
+}
+
+inline std::string text_of(const Eigen::MatrixXd& values) {
+  std::string text;
+  for (const double value : values.reshaped()) text += doe::detail::number_text(value) + " ";
+  return std::to_string(values.rows()) + " x " + std::to_string(values.cols()) + ", checksum " +
+         doe::detail::checksum(text);
+}
+
+/// Options that all searches share and that decide the result: name and value.
+inline Setting::Named shared_options(const Setting& s) {
+  using doe::detail::number_text;
+  const Stopping& stopping = s.search.stopping;
+  return {{"population", std::to_string(s.population)},
+          {"children", std::to_string(s.children)},
+          {"seed", std::to_string(s.search.seed)},
+          {"generations", std::to_string(stopping.generations)},
+          {"evaluations", text_of(stopping.evaluations)},
+          {"stall_generations", text_of(stopping.stall_generations)},
+          {"stall_gain", number_text(stopping.stall_gain)},
+          {"crossover_probability", number_text(s.rates.crossover_probability)},
+          {"crossover_index", number_text(s.rates.crossover_index)},
+          {"mutation_probability", number_text(s.rates.mutation_probability)},
+          {"mutation_index", number_text(s.rates.mutation_index)}};
+}
+
+/// What a checkpoint must share with the search that goes on from it, one line each.
+inline std::vector<std::string> identity(const doe::Problem& problem, const Setting& s) {
+  std::vector<std::string> lines{std::string(checkpoint_format),
+                                 "search " + s.place.substr(0, s.place.find(": "))};
+  for (const doe::Variable& v : problem.variables) lines.push_back(line_of(v));
+  for (const doe::Response& r : problem.responses) lines.push_back(line_of(r));
+  for (const Setting::Named& options : {shared_options(s), s.own})
+    for (const auto& [name, value] : options) lines.push_back("option " + name + " " + value);
+  return lines;
+}
+
+class CheckpointWriter {
+ public:
+  explicit CheckpointWriter(const std::vector<std::string>& identity) {
+    for (const std::string& line : identity) text_ += line + "\n";
+    text_ += "state\n";
+  }
+
+  /// The whole file.
+  std::string text() const { return text_ + "checksum " + doe::detail::checksum(text_) + "\n"; }
+
+  void item(const char* name, int value) { line(name, std::to_string(value)); }
+  void item(const char* name, const std::string& value) { line(name, doe::detail::on_one_line(value)); }
+
+  template <class Matrix>
+  void item(const char* name, const Eigen::PlainObjectBase<Matrix>& values) {
+    std::string text = std::to_string(values.rows()) + " " + std::to_string(values.cols());
+    for (Eigen::Index j = 0; j < values.cols(); ++j)
+      for (Eigen::Index i = 0; i < values.rows(); ++i)
+        text.append(" ").append(doe::detail::number_text(values(i, j)));
+    line(name, text);
+  }
+
+  void item(const char* name, const std::vector<double>& values) {
+    item(name, Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                                 static_cast<Eigen::Index>(values.size()))));
+  }
+
+  void item(const char* name, const std::optional<StopReason>& reason) {
+    line(name, reason ? std::string(to_string(*reason)) : "none");
+  }
+
+  void item(const char* name, const Population& p) {
+    item(name, static_cast<int>(p.size()));
+    item("U", p.U);
+    item("responses", p.responses);
+    item("Y", p.Y);
+    item("violations", p.violations);
+    item("failed", std::vector<double>(p.failed.begin(), p.failed.end()));
+  }
+
+ private:
+  void line(const char* name, const std::string& rest) {
+    text_.append(name).append(" ").append(rest).append("\n");
+  }
+
+  std::string text_;
+};
+
+/// Reads what the writer wrote, in the same order. All members throw std::runtime_error.
+class CheckpointReader {
+ public:
+  CheckpointReader(const std::filesystem::path& path, const std::vector<std::string>& identity)
+      : path_(path.string()) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) fail("cannot be read; check the name and the permissions");
+    text_.assign(std::istreambuf_iterator<char>(file), {});
+    if (text_.substr(0, text_.find('\n')) != checkpoint_format)
+      fail("is no checkpoint that this version reads: its first line is not \"" +
+           std::string(checkpoint_format) + "\"");
+    cut_checksum();
+    for (const std::string& expected : identity) compare(expected);
+    if (const std::string found = next(); found != "state") refuse(found, "state");
+  }
+
+  void item(const char* name, int& value) {
+    const std::string rest = after(name);
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    if (error != std::errc() || end != rest.data() + rest.size()) damaged(name);
+  }
+
+  void item(const char* name, std::string& value) { value = doe::detail::from_one_line(after(name)); }
+
+  template <class Matrix>
+  void item(const char* name, Eigen::PlainObjectBase<Matrix>& values) {
+    const std::string rest = after(name);
+    const char *at = rest.data(), *const end = at + rest.size();
+    Eigen::Index rows = 0, columns = 0;
+    number(name, at, end, rows);
+    number(name, at, end, columns);
+    values.resize(rows, columns);
+    for (Eigen::Index j = 0; j < columns; ++j)
+      for (Eigen::Index i = 0; i < rows; ++i) number(name, at, end, values(i, j));
+    if (at != end) damaged(name);
+  }
+
+  void item(const char* name, std::vector<double>& values) {
+    Eigen::VectorXd numbers;
+    item(name, numbers);
+    values.assign(numbers.begin(), numbers.end());
+  }
+
+  void item(const char* name, std::optional<StopReason>& reason) {
+    const std::string text = after(name);
+    reason = doe::detail::enumerator_of<StopReason>(text);
+    if (!reason && text != "none") damaged(name);
+  }
+
+  void item(const char* name, Population& p) {
+    int size = 0;
+    std::vector<double> failed;
+    item(name, size);
+    item("U", p.U);
+    item("responses", p.responses);
+    item("Y", p.Y);
+    item("violations", p.violations);
+    item("failed", failed);
+    p.failed.assign(failed.begin(), failed.end());
+    if (p.size() != size) damaged(name);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error("pareto::Search::restore: \"" + path_ + "\" " + what);
+  }
+
+  [[noreturn]] void damaged(const std::string& name) const {
+    fail("is damaged at \"" + name + "\"; take an older copy or begin the search anew");
+  }
+
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    const bool option = found.starts_with("option ") && expected.starts_with("option ");
+    const bool search = expected.starts_with("search ");
+    fail(std::string(option   ? "was made with other options"
+                     : search ? "is of another search"
+                              : "is of another problem") +
+         ": it has \"" + found + "\" where this search has \"" + expected +
+         "\"; restore it into the search that it is of");
+  }
+
+  /// Leaves the text without its last line.
+  void cut_checksum() {
+    const std::size_t last = text_.size() < 2 ? 0 : text_.rfind('\n', text_.size() - 2) + 1;
+    const std::string line = text_.substr(last);
+    if (!line.starts_with("checksum ") || line.back() != '\n')
+      fail("is cut off: the checksum at its end is missing; take an older copy or begin the search anew");
+    text_.resize(last);
+    if (line != "checksum " + doe::detail::checksum(text_) + "\n")
+      fail("is damaged: its checksum does not fit; take an older copy or begin the search anew");
+  }
+
+  void compare(const std::string& expected) {
+    if (const std::string found = next(); found != expected) refuse(found, expected);
+  }
+
+  std::string next() {
+    const std::size_t end = text_.find('\n', at_);
+    if (end == std::string::npos) return "";
+    std::string line = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    return line;
+  }
+
+  std::string after(const std::string& name) {
+    const std::string line = next();
+    if (!line.starts_with(name + " ")) damaged(name);
+    return line.substr(name.size() + 1);
+  }
+
+  template <class Number>
+  void number(const char* name, const char*& at, const char* end, Number& value) const {
+    if (at != end && *at == ' ') ++at;
+    const auto [behind, error] = std::from_chars(at, end, value);
+    if (error != std::errc()) damaged(name);
+    at = behind;
+  }
+
+  std::string path_, text_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace drawpoint::pareto::detail

@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+/// Laws of a search that is driven from outside, saved and resumed, for every search.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <drawpoint/pareto/moead.hpp>
+#include <drawpoint/pareto/nsga2.hpp>
+#include <drawpoint/pareto/nsga3.hpp>
+#include <drawpoint/pareto/sms_emoa.hpp>
+#include <drawpoint/tests/doe/problems.hpp>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <ostream>
+#include <string>
+
+namespace drawpoint::pareto {
+namespace {
+
+using Maker = std::function<std::unique_ptr<Search>(const doe::Problem&, const SearchOptions&)>;
+
+struct Named {
+  std::string name;
+  Maker make;
+};
+
+void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
+
+template <class SearchType, class Options>
+Named named(const std::string& name, Options options) {
+  return {name, [options](const doe::Problem& problem, const SearchOptions& search) mutable {
+            options.search = search;
+            return std::make_unique<SearchType>(problem, options);
+          }};
+}
+
+std::vector<Named> all_searches() {
+  return {named<Nsga2>("nsga2", Nsga2Options{}),
+          named<Nsga2>("nsga2_geometric", Nsga2Options{.elitism = Elitism::geometric}),
+          named<Nsga3>("nsga3", Nsga3Options{}),
+          named<SmsEmoa>("sms_emoa", SmsEmoaOptions{.children = 5}),
+          named<Moead>("moead", MoeadOptions{}),
+          named<Moead>("moead_pbi", MoeadOptions{.scalarisation = Scalarisation::pbi})};
+}
+
+/// Two objectives of different signs, a limit, a whole number, noise from the seed and a corner that fails.
+const doe::Problem problem{
+    {{"x", "m", 0.0, 1.0}, {"y", "m", -1.0, 1.0}, doe::integer_variable("n", "1", 0, 4)},
+    {{"cost", "kg", doe::Goal::minimize},
+     {"yield", "kg/s", doe::Goal::maximize},
+     {"slope", "m", doe::Goal::at_most, 0.8}}};
+
+doe::Outcome noisy(const Eigen::VectorXd& x, doe::Seed seed) {
+  if (x[0] > 0.4 && x[1] > 0.3) return doe::Failure{"stuck\nin the \\ corner"};
+  const double noise = 1e-3 * doe::RandomStream(seed).uniform();
+  return {x[0] + x[1] * x[1] + 0.1 * x[2] + noise, std::sqrt(x[0]) - x[1] * x[1] + 0.2 * x[2], x[0] - x[1]};
+}
+
+SearchOptions quick(int threads = 1) {
+  return {.population = 20,
+          .stopping = {.generations = 12, .stall_generations = 12},
+          .seed = 7,
+          .threads = threads};
+}
+
+void expect_equal(const Front& a, const Front& b) {
+  EXPECT_EQ(a.X, b.X);
+  EXPECT_EQ(a.Y, b.Y);
+  EXPECT_EQ(a.responses, b.responses);
+  EXPECT_EQ(a.evaluations, b.evaluations);
+  EXPECT_EQ(a.failed, b.failed);
+  EXPECT_EQ(a.generations, b.generations);
+  EXPECT_EQ(a.stopped_by, b.stopped_by);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.message, b.message);
+}
+
+/// One population asked for, evaluated and told.
+void advance(Search& search) {
+  const Eigen::MatrixXd X = search.ask();
+  const std::vector<doe::Seed> seeds = search.seeds();
+  std::vector<doe::Outcome> outcomes;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    outcomes.push_back(noisy(X.row(static_cast<Eigen::Index>(i)).transpose(), seeds[i]));
+  search.tell(outcomes);
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+class DrivenSearches : public testing::TestWithParam<Named> {
+ protected:
+  ~DrivenSearches() override { std::filesystem::remove(path_); }
+
+  std::unique_ptr<Search> made(const SearchOptions& options = quick()) const {
+    return GetParam().make(problem, options);
+  }
+
+  /// What restore says of a text in the place of a checkpoint.
+  std::string refusal(Search& search, const std::string& text) const {
+    write(path_, text);
+    return support::thrown_text<std::runtime_error>([&] { search.restore(path_); });
+  }
+
+  const std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                      ("drawpoint-checkpoint-" + std::to_string(::getpid()) + ".txt");
+};
+
+TEST_P(DrivenSearches, DrivenFromOutsideGiveTheSameFront) {
+  const auto inside = made(), outside = made();
+  while (!outside->done()) {
+    EXPECT_EQ(outside->ask(), outside->ask());
+    advance(*outside);
+  }
+  const Front front = finish(*inside, noisy);
+  expect_equal(outside->front(), front);
+  EXPECT_EQ(front.stopped_by, StopReason::generations);
+  EXPECT_GT(front.failed, 0);
+  EXPECT_EQ(outside->ask().rows(), 0);
+}
+
+TEST_P(DrivenSearches, GiveTheSameBitsOnAnyNumberOfThreads) {
+  const Front front = finish(*made(), noisy);
+  for (const int threads : {2, 8, 0}) expect_equal(finish(*made(quick(threads)), noisy), front);
+}
+
+// Before the first population, within the search, at its end; resumed by another object on 1, 2 and 8
+// threads.
+TEST_P(DrivenSearches, SavedAndResumedGoOnToTheSameBits) {
+  const Front front = finish(*made(), noisy);
+  const auto interrupted = made();
+  for (int told = 0;; ++told) {
+    if (told < 4 || interrupted->done()) {
+      interrupted->save(path_);
+      for (const int threads : {1, 2, 8}) {
+        const auto resumed = made(quick(threads));
+        advance(*resumed);  // what it did before does not matter
+        resumed->restore(path_);
+        expect_equal(resumed->front(), interrupted->front());
+        expect_equal(finish(*resumed, noisy), front);
+      }
+    }
+    if (interrupted->done()) return;
+    advance(*interrupted);
+  }
+}
+
+TEST_P(DrivenSearches, SavedAndReadAndSavedIsTheSameFile) {
+  const auto search = made();
+  for (int i = 0; i < 3; ++i) advance(*search);
+  search->save(path_);
+  const std::string first = content(path_);
+  const auto other = made();
+  other->restore(path_);
+  other->save(path_);
+  EXPECT_EQ(content(path_), first);
+}
+
+// A stop within the third population: it is dropped, and what a new search makes of the checkpoint is what
+// the search would have become.
+TEST_P(DrivenSearches, StopWithinAPopulationAndGoOn) {
+  for (const int threads : {1, 4}) {
+    std::stop_source source;
+    std::atomic<int> calls{0};
+    const auto stopping = [&](const Eigen::VectorXd& x, doe::Seed seed) {
+      if (++calls == 45) source.request_stop();
+      return noisy(x, seed);
+    };
+    SearchOptions options = quick(threads);
+    options.stop = source.get_token();
+    const auto search = made(options);
+    const Front early = finish(*search, stopping);
+    EXPECT_TRUE(search->done());
+    EXPECT_EQ(early.stopped_by, StopReason::stopped);
+    EXPECT_LE(early.evaluations, 45);
+    EXPECT_GT(early.evaluations, 45 - 20);
+    EXPECT_LE(calls, 45 + threads);
+    search->save(path_);
+    const auto resumed = made();
+    resumed->restore(path_);
+    expect_equal(finish(*resumed, noisy), finish(*made(), noisy));
+  }
+}
+
+TEST_P(DrivenSearches, StoppedBeforeAnythingWasEvaluatedSaySo) {
+  std::stop_source source;
+  source.request_stop();
+  SearchOptions options = quick();
+  options.stop = source.get_token();
+  const Front none = finish(*made(options), noisy);
+  EXPECT_EQ(none.status, SearchStatus::nothing_evaluated);
+  EXPECT_EQ(none.message, "the search was stopped before its first population was evaluated");
+  EXPECT_EQ(none.X.rows(), 0);
+  EXPECT_EQ(none.Y.cols(), 2);
+}
+
+TEST_P(DrivenSearches, RefuseOutcomesThatDoNotFit) {
+  const auto search = made();
+  const auto text = [&](const std::vector<doe::Outcome>& outcomes) {
+    return support::thrown_text<std::invalid_argument>([&] { search->tell(outcomes); });
+  };
+  EXPECT_EQ(text({doe::Outcome(1.0)}),
+            "pareto::Search::tell: 1 outcomes for 20 points; give one per row of ask()");
+  finish(*search, noisy);
+  EXPECT_EQ(text({}), "pareto::Search::tell: the search has ended (generations); ask done() first");
+}
+
+TEST_P(DrivenSearches, TakeFaultyOutcomesForFailures) {
+  const auto search = made();
+  std::vector<doe::Outcome> outcomes(20, doe::Outcome({1.0, NAN, 0.0}));
+  outcomes.back() = doe::Outcome(1.0);
+  search->tell(outcomes);
+  EXPECT_EQ(search->front().failed, 20);
+  EXPECT_EQ(search->front().message, "all 20 evaluations failed; the first: response \"yield\" is nan");
+}
+
+// Cut anywhere, or with any byte changed, it is refused, and the search goes on as if nothing had been read.
+TEST_P(DrivenSearches, RefuseACheckpointThatIsCutOffOrAltered) {
+  const auto search = made(), other = made();
+  for (int i = 0; i < 2; ++i) advance(*search);
+  search->save(path_);
+  const std::string whole = content(path_);
+  EXPECT_NE(refusal(*other, whole.substr(0, whole.size() - 1)).find("is cut off"), std::string::npos);
+  EXPECT_NE(refusal(*other, whole.substr(0, whole.size() / 2)).find("is cut off"), std::string::npos);
+  for (std::size_t i = 0; i < whole.size(); i += 97) {
+    EXPECT_NE(refusal(*other, whole.substr(0, i)), "") << i;
+    std::string altered = whole;
+    altered[i] = static_cast<char>(altered[i] ^ 1);
+    EXPECT_NE(refusal(*other, altered), "") << i;
+  }
+  std::string altered = whole;
+  altered[whole.size() / 2] = '?';
+  EXPECT_NE(refusal(*other, altered).find("is damaged: its checksum does not fit"), std::string::npos);
+  EXPECT_NE(refusal(*other, "alpha,beta\n").find("its first line is not \"drawpoint pareto checkpoint 1\""),
+            std::string::npos);
+  expect_equal(finish(*other, noisy), finish(*made(), noisy));
+}
+
+TEST_P(DrivenSearches, RefuseACheckpointOfAnotherProblemOrOtherOptions) {
+  made()->save(path_);
+  const std::string begin = "pareto::Search::restore: \"" + path_.string() + "\" ";
+  const auto text = [&](const doe::Problem& of, const SearchOptions& options) {
+    const auto search = GetParam().make(of, options);
+    return support::thrown_text<std::runtime_error>([&] { search->restore(path_); });
+  };
+  doe::Problem wider = problem;
+  wider.variables[0].upper = 2.0;
+  EXPECT_EQ(text(wider, quick()),
+            begin +
+                "is of another problem: it has \"variable \"x\" 0 m to 1 m real\" where this search has "
+                "\"variable \"x\" 0 m to 2 m real\"; restore it into the search that it is of");
+  doe::Problem looser = problem;
+  looser.responses[2].limit = 0.9;
+  EXPECT_NE(
+      text(looser, quick()).find("is of another problem: it has \"response \"slope\" [m] at_most 0.8\""),
+      std::string::npos);
+  doe::Problem smaller = problem;
+  smaller.responses.pop_back();
+  EXPECT_NE(text(smaller, quick()).find("is of another problem"), std::string::npos);
+  SearchOptions longer = quick();
+  longer.stopping.generations = 13;
+  EXPECT_EQ(text(problem, longer), begin +
+                                       "was made with other options: it has \"option generations 12\" "
+                                       "where this search has \"option generations 13\"; restore it into "
+                                       "the search that it is of");
+  SearchOptions reseeded = quick();
+  reseeded.seed = 8;
+  EXPECT_NE(text(problem, reseeded).find("was made with other options"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DrivenSearches, testing::ValuesIn(all_searches()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(AskAndTell, ACheckpointOfAnotherSearchIsRefused) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("drawpoint-checkpoint-other-" + std::to_string(::getpid()) + ".txt");
+  Nsga2(problem, {.search = quick()}).save(path);
+  Nsga3 other(problem, {.search = quick()});
+  EXPECT_EQ(support::thrown_text<std::runtime_error>([&] { other.restore(path); }),
+            "pareto::Search::restore: \"" + path.string() +
+                "\" is of another search: it has \"search pareto::nsga2\" where this search has \"search "
+                "pareto::nsga3\"; restore it into the search that it is of");
+  Nsga2 geometric(problem, {.search = quick(), .elitism = Elitism::geometric});
+  EXPECT_NE(support::thrown_text<std::runtime_error>([&] {
+              geometric.restore(path);
+            }).find("it has \"option elitism plain\" where this search has \"option elitism geometric\""),
+            std::string::npos);
+  std::filesystem::remove(path);
+  EXPECT_EQ(support::thrown_text<std::runtime_error>([&] { other.restore(path); }),
+            "pareto::Search::restore: \"" + path.string() +
+                "\" cannot be read; check the name and the permissions");
+}
+
+// A copy is a search of its own: the two go on alike, and apart.
+TEST(AskAndTell, SearchesAreValues) {
+  Nsga2 search(problem, {.search = quick()});
+  advance(search);
+  Nsga2 copy = search;
+  const Front front = finish(search, noisy);
+  EXPECT_FALSE(copy.done());
+  expect_equal(finish(copy, noisy), front);
+}
+
+TEST(AskAndTell, StatusesHaveTexts) {
+  EXPECT_EQ(to_string(SearchStatus::nothing_evaluated), "nothing_evaluated");
+  EXPECT_EQ(to_string(StopReason::stopped), "stopped");
+}
+
+}  // namespace
+}  // namespace drawpoint::pareto
