@@ -220,7 +220,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     summary.nrmse[j].second = input.validations[j].nrmse;
   if (has_objective(study.problem)) {
-    ModelFront found = front_of(input.models, study.problem, store.identity().seed);
+    pareto::PolishedFront found = front_of(input.models, study.problem, store.identity().seed);
     input.front = std::move(found.front);
     input.polishing = std::move(found.polishing);
   }

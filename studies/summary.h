@@ -3,7 +3,7 @@
 #pragma once
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
-#include <drawpoint/studies/polishing.h>
+#include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/studies/headline.hpp>
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct Summary {
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
-  Polishing polishing = {};                                ///< of the front
+  pareto::Polishing polishing = {};                        ///< of the front
   std::filesystem::path report = {};                       ///< empty if there is none
   std::string error = {};                                  ///< why there is none
 };

@@ -10,11 +10,11 @@
 /// validation runs, one response, no objective, no successful run.
 /// studies::Study lists the kinds of figures ("panels") of a simulation.
 
-#include <drawpoint/studies/polishing.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/validate.hpp>
+#include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/pareto/search.hpp>
 #include <drawpoint/studies/headline.hpp>
 
@@ -34,7 +34,7 @@ struct ReportInput {
   std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
-  Polishing polishing;                           ///< of the front
+  pareto::Polishing polishing;                   ///< of the front
   nlohmann::json illustrations =
       nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions

@@ -16,10 +16,6 @@
 
 namespace drawpoint::studies::detail {
 
-/// Standard deviation of a new run at each validation point: the model's uncertainty and the run-to-run
-/// noise.
-Eigen::VectorXd deviation_of_runs(const kriging::Model& model, const kriging::Validation& validation);
-
 /// Row of the front nearest to the ideal point, each objective scaled to its range on the front; -1 without a
 /// front.
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front);
