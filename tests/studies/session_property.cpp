@@ -5,6 +5,7 @@
 
 #include "support.hpp"
 
+#include <drawpoint/studies/option_values.h>
 #include <drawpoint/studies/plan.h>
 #include <drawpoint/studies/session.h>
 #include <sys/wait.h>
