@@ -9,7 +9,7 @@ build="$root/build/release"
 say() { printf 'drawpoint: %s\n' "$*" >&2; }
 die() { say "$@"; exit 1; }
 
-# What cmake/packages.txt and the arguments name and dpkg does not have installed, one a line.
+# What cmake/packages.txt and the arguments name and dpkg does not have installed, one per line.
 missing_packages() {
   local wanted
   wanted=$({ sed 's/#.*//' "$root/cmake/packages.txt"; printf '%s\n' "$@"; } | xargs -n1 | sort -u)

@@ -4,7 +4,7 @@
 
 /// A black box is anything callable: f(x), f(x, seed), f(x, seed, stop) or f(X, seeds).
 ///
-/// x has one number a variable, X is n x d with one run a row, both in natural units. Equal (x, seed) must
+/// x has one number per variable, X is n x d with one run per row, both in natural units. Equal (x, seed) must
 /// give equal outcomes, and a black box may be called from several threads at once: so the call must be
 /// const. Where a type offers several forms, the batch form is used, for it is the one that can be faster
 /// than its rows one by one. The calls below turn what goes wrong (an exception, a wrong count, a value that
@@ -96,7 +96,7 @@ constexpr void require_black_box() {
       "Outcome f(const Eigen::VectorXd& x, doe::Seed seed); "
       "Outcome f(const Eigen::VectorXd& x, doe::Seed seed, std::stop_token stop); "
       "std::vector<Outcome> f(const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds); "
-      "where X has one run a row and Outcome may be a double, an Eigen::VectorXd or a doe::Failure.");
+      "where X has one run per row and Outcome may be a double, an Eigen::VectorXd or a doe::Failure.");
 }
 
 namespace detail {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The table of evaluated runs: one row a run and replicate, failed ones with their reason.
+/// The table of evaluated runs: one row per run and replicate, failed ones with their reason.
 ///
 /// On disk it is a CSV file with the header
 ///   run,replicate,seed,status,<variable> [unit],...,<response> [unit],...,seconds,failure

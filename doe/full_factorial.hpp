@@ -31,7 +31,7 @@ inline int factorial_runs(const Problem& problem, std::span<const int> levels) {
   if (levels.size() != problem.variables.size())
     throw std::invalid_argument(place + "levels has " + std::to_string(levels.size()) +
                                 " entries, the problem has " + std::to_string(problem.variables.size()) +
-                                " variables; give one a variable");
+                                " variables; give one per variable");
   std::int64_t runs = 1;
   for (std::size_t j = 0; j < levels.size(); ++j) {
     if (levels[j] < 1)

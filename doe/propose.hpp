@@ -88,7 +88,7 @@ class Chooser {
     }
   }
 
-  /// Natural units, one a row.
+  /// Natural units, one per row.
   Eigen::MatrixXd chosen() const {
     Eigen::MatrixXd X(static_cast<Eigen::Index>(chosen_.size()), X_.cols());
     for (std::size_t k = 0; k < chosen_.size(); ++k) X.row(static_cast<Eigen::Index>(k)) = X_.row(chosen_[k]);

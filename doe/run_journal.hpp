@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The runs of a study on disk, one line a run, written as each ends: after a crash or a cancelled evaluation
+/// The runs of a study on disk, one line per run, written as each ends: after a crash or a cancelled evaluation
 /// the same call goes on where it stopped.
 ///
 /// Each line is a row of the table of evaluations.hpp and its checksum (FNV-1a, 64 bits, in hexadecimal); the

@@ -48,7 +48,7 @@ struct SobolIndicesOptions {
   EvaluateOptions evaluate = {};
 };
 
-/// Estimates with their confidence intervals, one entry a variable.
+/// Estimates with their confidence intervals, one entry per variable.
 struct IndexEstimates {
   Eigen::VectorXd value, lower, upper;
 };
@@ -133,7 +133,7 @@ inline Eigen::MatrixXd saltelli_design(const Problem& problem, const SobolIndice
   return X;
 }
 
-/// Every sum that the estimators need, one row a pair: columns f(A), f(B), their squares, then for each input
+/// Every sum that the estimators need, one row per pair: columns f(A), f(B), their squares, then for each input
 /// the seven of `term`. Means of columns, weighted or not, give the indices.
 class SobolTerms {
  public:
@@ -160,7 +160,7 @@ class SobolTerms {
   Eigen::Index pairs() const { return terms_.rows(); }
 
   Eigen::VectorXd means() const { return terms_.colwise().mean().transpose(); }
-  /// weights: one a pair, sum 1.
+  /// weights: one per pair, sum 1.
   Eigen::VectorXd means(const Eigen::VectorXd& weights) const { return terms_.transpose() * weights; }
 
   /// S_1..S_d, T_1..T_d from the means; zeros without variance.

@@ -74,7 +74,7 @@ inline doe::Criterion product_of_criteria(std::vector<doe::Criterion> criteria) 
   };
 }
 
-/// That all limits of the problem are kept; 1 everywhere when it has none. models: one a response.
+/// That all limits of the problem are kept; 1 everywhere when it has none. models: one per response.
 template <class S>
 doe::Criterion probability_of_feasibility(const doe::Problem& problem, const std::vector<S>& models) {
   detail::check_models("kriging::probability_of_feasibility", problem, models);
@@ -113,7 +113,7 @@ inline std::vector<Eigen::Index> feasible_runs(const char* place, const doe::Pro
 
 }  // namespace detail
 
-/// For a problem with one objective, and limits if it has any. models: one a response, fitted to the same
+/// For a problem with one objective, and limits if it has any. models: one per response, fitted to the same
 /// runs. While no run is feasible there is nothing to improve on, and the score is the probability of
 /// feasibility alone. Throws std::invalid_argument for another number of objectives or models.
 inline doe::Criterion constrained_improvement(const doe::Problem& problem, const std::vector<Model>& models) {

@@ -198,7 +198,7 @@ inline void check_front(const FrontView& front, Eigen::Index m) {
 
 }  // namespace detail
 
-/// models: one a response of the problem; those of objectives are used, re-interpolated when they are Kriging
+/// models: one per response of the problem; those of objectives are used, re-interpolated when they are Kriging
 /// models. Multiply by probability_of_feasibility(problem, models) for limits. Throws std::invalid_argument
 /// when sizes do not fit or a number is not finite.
 template <class S>

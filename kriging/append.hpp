@@ -38,7 +38,7 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
         "anew");
   if (runs.X.cols() != model.variables())
     reject("X has " + std::to_string(runs.X.cols()) + " columns; the model has " +
-           std::to_string(model.variables()) + " variables; give one run a row");
+           std::to_string(model.variables()) + " variables; give one run per row");
   if (runs.X.rows() != runs.y.size())
     reject("X has " + std::to_string(runs.X.rows()) + " rows but y has " + std::to_string(runs.y.size()) +
            " entries; give one response a run");
@@ -48,7 +48,7 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
   if (runs.noise_variance.size() != wanted)
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +
            std::to_string(wanted) +
-           "; give one a run when the model was fitted with noise variances, else none");
+           "; give one per run when the model was fitted with noise variances, else none");
   if (!std::all_of(runs.noise_variance.begin(), runs.noise_variance.end(), [](double v) { return v >= 0; }))
     reject("noise_variance holds a number below 0 or NaN; allowed are numbers from 0 on; give variances");
 }
@@ -94,7 +94,7 @@ inline double extend_factor(ModelState& s) {
 
 }  // namespace detail
 
-/// X: m x d, y: m, natural units; noise_variance: one entry a run, unit of y squared, when the model was
+/// X: m x d, y: m, natural units; noise_variance: one entry per run, unit of y squared, when the model was
 /// fitted with them, else empty. Throws std::invalid_argument for other sizes, numbers that are not finite
 /// and constant models.
 inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,

@@ -159,7 +159,7 @@ inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
 
 }  // namespace detail
 
-/// X: n x d, one run a row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
+/// X: n x d, one run per row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
 /// lengths, numbers that are not finite, and options out of their range.
 inline Model fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const FitOptions& options = {}) {
   const detail::TrainingData data = detail::prepare(X, y, options);

@@ -183,7 +183,7 @@ inline Radial constant_radial(RadialState s, Eigen::Index n) {
 
 }  // namespace detail
 
-/// X: n x d, one run a row, natural units; y: n, any unit. With fewer than two runs more than the tail has
+/// X: n x d, one run per row, natural units; y: n, any unit. With fewer than two runs more than the tail has
 /// terms, or runs that lie in a plane where the tail needs more, the function is a multiquadric, whose tail
 /// is 1, and the status too_few_runs or ill_conditioned. Throws std::invalid_argument for no run, unequal
 /// lengths, numbers that are not finite, and options out of their range. Deterministic.

@@ -30,7 +30,7 @@
 namespace drawpoint::kriging {
 
 struct Prediction {
-  Eigen::VectorXd mean, variance;  ///< one entry a point
+  Eigen::VectorXd mean, variance;  ///< one entry per point
 };
 
 /// Derivatives by the d inputs at one point: [unit of y / unit of x] and [unit of y squared / unit of x].
@@ -161,7 +161,7 @@ class Model {
     if (columns != variables())
       throw std::invalid_argument("kriging::Model: X has " + std::to_string(columns) +
                                   " columns; the model has " + std::to_string(variables()) +
-                                  " variables; give one point a row");
+                                  " variables; give one point per row");
     if (!finite)
       throw std::invalid_argument(
           "kriging::Model: X holds a number that is not finite; allowed are finite numbers; remove the "

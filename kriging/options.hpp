@@ -27,7 +27,7 @@ enum class Noise {
 struct FitOptions {
   doe::Seed seed = 1;  ///< of the candidates
 
-  /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
+  /// The box that is scaled to [-1, 1], natural units, one entry per variable. Empty: the range of the data.
   /// Give the box of the problem when θ is to be compared between fits to different runs.
   Eigen::VectorXd lower, upper;
 
@@ -45,14 +45,14 @@ struct FitOptions {
   int max_iterations = 200;  ///< of one local search, >= 1
 
   Correlation correlation = Correlation::gaussian;
-  /// power_exponential only: pₖ in [1, 2], one entry a variable. Empty: estimated.
+  /// power_exponential only: pₖ in [1, 2], one entry per variable. Empty: estimated.
   Eigen::VectorXd exponent;
 
   Trend trend = Trend::constant;
   Basis basis;  ///< Trend::user only
 
   Noise noise = Noise::nugget;
-  /// Unit of y squared, one entry a run, >= 0, not all 0; Noise::known and Noise::proportional only.
+  /// Unit of y squared, one entry per run, >= 0, not all 0; Noise::known and Noise::proportional only.
   Eigen::VectorXd noise_variance;
 
   /// 0: all cores. They share the matrix work of 500 runs or more; results do not depend on them.

@@ -38,7 +38,7 @@ struct PolynomialOptions {
   int degree = 2;       ///< of a term, >= 0
   int interaction = 2;  ///< inputs in a term, >= 1; 1: no products
   Selection selection = Selection::all;
-  /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
+  /// The box that is scaled to [-1, 1], natural units, one entry per variable. Empty: the range of the data.
   Eigen::VectorXd lower = {}, upper = {};
 };
 
@@ -228,7 +228,7 @@ inline void regress(PolynomialState& s, const Eigen::MatrixXd& F, const Eigen::V
 
 }  // namespace detail
 
-/// X: n x d, one run a row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
+/// X: n x d, one run per row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
 /// lengths, numbers that are not finite, and options out of their range. Deterministic.
 inline Polynomial fit_polynomial(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                                  const PolynomialOptions& options = {}) {

@@ -54,7 +54,7 @@ struct RadialOptions {
   std::optional<double> shape = {};  ///< ε > 0, of multiquadric and gaussian; empty: estimated, 0.05 to 20
   /// λ as a share of the largest eigenvalue, 0 or more, 0: interpolate; empty: estimated, up to 10.
   std::optional<double> ridge = {};
-  /// The box that is scaled to [-1, 1], natural units, one entry a variable. Empty: the range of the data.
+  /// The box that is scaled to [-1, 1], natural units, one entry per variable. Empty: the range of the data.
   Eigen::VectorXd lower = {}, upper = {};
 };
 

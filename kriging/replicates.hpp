@@ -22,7 +22,7 @@ namespace drawpoint::kriging {
 enum class ReplicateNoise { pooled, own };
 
 struct Replicates {
-  Eigen::MatrixXd X;               ///< distinct points in the order of their first run, one a row
+  Eigen::MatrixXd X;               ///< distinct points in the order of their first run, one per row
   Eigen::VectorXd y;               ///< means
   Eigen::VectorXd noise_variance;  ///< of the means, unit of y squared
   Eigen::VectorXi count;           ///< runs of each point

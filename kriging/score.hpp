@@ -26,7 +26,7 @@
 
 namespace drawpoint::kriging {
 
-/// What was observed beside what was predicted without it, one entry a run.
+/// What was observed beside what was predicted without it, one entry per run.
 struct Validation {
   double rmse = std::numeric_limits<double>::quiet_NaN(), nrmse = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd observed, predicted;   ///< unit of y

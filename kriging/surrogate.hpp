@@ -41,7 +41,7 @@ constexpr void require_surrogate() {
   static_assert(
       Surrogate<S>,
       "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
-      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
+      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point per row");
 }
 
 template <class F>

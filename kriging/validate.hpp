@@ -42,7 +42,7 @@ Validation validate(const S& model, const Eigen::MatrixXd& X, const Eigen::Vecto
   static_assert(
       Surrogate<S>,
       "drawpoint: not a surrogate. Expected predict(X), predict(X, Target) giving a Prediction and mean(X) "
-      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point a row");
+      "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point per row");
   detail::check_validation(X, y, "kriging::validate: ");
   const Prediction p = model.predict(X);
   return detail::scored({.observed = y,

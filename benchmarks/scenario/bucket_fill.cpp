@@ -34,7 +34,7 @@ constexpr const char* about =
     "                                                        and solved as loosely as there";
 
 struct Settings {
-  std::string piles, materials = "calibrated", speeds = "thesis_like", curl = "hinge", lift = "surface",
+  std::string piles, materials = "calibrated", speeds = "lindmark2016", curl = "hinge", lift = "surface",
                      setting;
   std::vector<double> alphas = {0.3, 1.0, 1.6};
   Strategy strategy = {.alpha = 1, .beta = 0.4, .gamma = 0.5, .kappa = 0.5};
@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
   app.add_option("--steel-friction", s.steel_friction, "friction of rock on steel [1]")->check(coefficient);
   app.add_option("--mass", s.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
   app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
-      ->check(CLI::IsMember({"thesis_like", "machine"}))
+      ->check(CLI::IsMember({"lindmark2016", "machine"}))
       ->capture_default_str();
   app.add_option("--curl", s.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")

@@ -9,17 +9,17 @@
 #include "step_times.hpp"
 
 /// One loading cycle, with where its steps spend their time. The pile is poured once and kept in PILE_FILE.
-/// usage: loading_cycle PILE_FILE [--thesis-scale]
+/// usage: loading_cycle PILE_FILE [--lindmark2016-scale]
 using namespace drawpoint;
 using namespace drawpoint::engine::loading;
 
 int main(int argc, char** argv) try {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: loading_cycle PILE_FILE [--thesis-scale]\n");
+    std::fprintf(stderr, "usage: loading_cycle PILE_FILE [--lindmark2016-scale]\n");
     return 2;
   }
-  const bool thesis_scale = argc > 2 && std::strcmp(argv[2], "--thesis-scale") == 0;
-  Scenario scenario = thesis_scale ? lh621_at_thesis_scale() : lh621_in_a_drift();
+  const bool lindmark2016_scale = argc > 2 && std::strcmp(argv[2], "--lindmark2016-scale") == 0;
+  Scenario scenario = lindmark2016_scale ? lh621_at_lindmark2016_scale() : lh621_in_a_drift();
   scenario.cycles = 1;
   scenario.strategy = {1.2, 0.8, 0.8, 0.2};
   scenario.pile_file = argv[1];

@@ -23,7 +23,7 @@ struct Nearest {
         squared_distance(Eigen::VectorXd::Constant(points, std::numeric_limits<double>::infinity())) {}
 };
 
-/// Takes one more site into account for the points [first, first + count) of P (n x d, a point a row).
+/// Takes one more site into account for the points [first, first + count) of P (n x d, one point per row).
 inline void meet(Nearest& nearest, const Eigen::MatrixXd& P, const Eigen::RowVectorXd& site, int index,
                  Eigen::Index first, Eigen::Index count) {
   constexpr Eigen::Index block = 512;  // squared distances of a block stay in the first-level cache

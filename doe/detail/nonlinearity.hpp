@@ -62,7 +62,7 @@ inline Eigen::VectorXd local_gradient(const Eigen::MatrixXd& P, const Eigen::Vec
   return g;
 }
 
-/// P: k x d, dY: k x r. r entries, one a response. The residual needs no gradient: it is what stands off the
+/// P: k x d, dY: k x r. r entries, one per response. The residual needs no gradient: it is what stands off the
 /// span.
 inline Eigen::VectorXd nonlinearity(const Eigen::MatrixXd& P, const Eigen::MatrixXd& dY) {
   const Eigen::MatrixXd Q = detail::orthonormal_basis(P);

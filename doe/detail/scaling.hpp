@@ -7,7 +7,7 @@
 /// A real variable: x = lower + u·(upper - lower), kept inside the bounds where rounding would leave them. An
 /// integer or categorical one of L values: the unit interval is cut in L equal parts, x = lower + floor(u·L),
 /// u = 1 in the last; back again at the middle of the part. So a design that is even in u is even over the
-/// values. Every design is n x d, one run a row, natural units.
+/// values. Every design is n x d, one run per row, natural units.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -57,7 +57,7 @@ inline void check_inside(const Eigen::MatrixXd& X, const Problem& problem, const
   if (X.cols() != static_cast<Eigen::Index>(problem.variables.size()))
     throw std::invalid_argument(place + ": X has " + std::to_string(X.cols()) + " columns, the problem has " +
                                 std::to_string(problem.variables.size()) +
-                                " variables; X is n x d with one run a row");
+                                " variables; X is n x d with one run per row");
   for (Eigen::Index i = 0; i < X.rows(); ++i)
     for (Eigen::Index j = 0; j < X.cols(); ++j) {
       const Variable& v = problem.variables[j];

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 // FCL takes boxes that differ by round-off for equal and keeps the older one. Its boxes are larger by this
 // [m], and what it finds is checked against the true ones.
 constexpr double round_off = 1e-6;
-// Where one box in so many has changed, an iteration of the trees is cheaper than single look-ups.
-constexpr int sweep_share = 3;
+// Where one box in so many has changed, colliding the trees is cheaper than single look-ups.
+constexpr int full_share = 3;
 constexpr int most_trees = 8;           // a look-up asks each of them
 constexpr int look_ups_per_block = 64;  // that a thread takes at a time
 
@@ -71,8 +71,8 @@ class BroadPhase::Impl {
   explicit Impl(int threads)
       : moving_(static_cast<std::size_t>(std::min(threads, most_trees))), moved_(moving_.size()) {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j) iterations_.emplace_back(&moving_[i], &moving_[j]);
-      iterations_.emplace_back(&moving_[i], &fixed_);
+      for (std::size_t j = 0; j <= i; ++j) tree_pairs_.emplace_back(&moving_[i], &moving_[j]);
+      tree_pairs_.emplace_back(&moving_[i], &fixed_);
     }
   }
 
@@ -193,17 +193,17 @@ class BroadPhase::Impl {
   }
 
   // FCL's trees do not change while they are asked.
-  void sweep_all(const ThreadPool& pool) {
-    const std::size_t iterations = iterations_.size();
-    collect_blocks(pool, iterations + plane_ids_.size(), 1, [&](std::size_t k, std::vector<Pair>& found) {
-      if (k < iterations)
-        iteration(*iterations_[k].first, *iterations_[k].second, found);
+  void collide_all(const ThreadPool& pool) {
+    const std::size_t trees = tree_pairs_.size();
+    collect_blocks(pool, trees + plane_ids_.size(), 1, [&](std::size_t k, std::vector<Pair>& found) {
+      if (k < trees)
+        collide(*tree_pairs_[k].first, *tree_pairs_[k].second, found);
       else
-        meet_all(plane_ids_[k - iterations], found);
+        meet_all(plane_ids_[k - trees], found);
     });
   }
 
-  void iteration(Tree& first, Tree& second, std::vector<Pair>& found) const {
+  void collide(Tree& first, Tree& second, std::vector<Pair>& found) const {
     Collector collector{boxes_, found};
     if (&first == &second)
       first.collide(&collector, collect);
@@ -244,9 +244,9 @@ class BroadPhase::Impl {
     if (before_.empty()) return {false, false, pairs_};
     std::size_t size = fixed_.size();
     for (const Tree& tree : moving_) size += tree.size();
-    const bool everything = before_.size() * sweep_share > size;
+    const bool everything = before_.size() * full_share > size;
     if (everything)
-      sweep_all(pool);
+      collide_all(pool);
     else
       look_up_changed(pool);
     sorter_.sort(pairs_, entries_.size());
@@ -260,7 +260,7 @@ class BroadPhase::Impl {
   std::vector<int> plane_ids_;
   std::vector<Tree> moving_;  // each a thread's share, brought up to date side by side
   Tree fixed_;
-  std::vector<std::pair<Tree*, Tree*>> iterations_;  // of a tree with itself or another, that find all pairs
+  std::vector<std::pair<Tree*, Tree*>> tree_pairs_;  // of a tree with itself or another, that find all pairs
   std::vector<int> changed_, before_;
   std::vector<Objects> moved_;
   Objects fixed_moved_;

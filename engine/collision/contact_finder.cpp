@@ -165,6 +165,14 @@ class ContactFinder::Impl {
     }
   }
 
+  int slots() const { return pairs_.slots(); }
+
+  int slot_of(int a, int b) const {
+    const bool known =
+        a >= 0 && a < b && b < items_.size() && items_.traits[a].alive && items_.traits[b].alive;
+    return known ? pairs_.slot_of({a, b}) : -1;
+  }
+
   std::vector<std::byte> save() const { return detail::save_state({options_, items_, boxes_, pairs_}); }
 
   void restore(std::span<const std::byte> bytes) {
@@ -268,6 +276,10 @@ void ContactFinder::move(std::span<const ColliderMove> moves) { impl_->move(move
 void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }
+int ContactFinder::slots() const { return impl_->slots(); }
+int ContactFinder::slot_of(int collider_a, int collider_b) const {
+  return impl_->slot_of(collider_a, collider_b);
+}
 void ContactFinder::forget() { impl_->forget(); }
 std::vector<std::byte> ContactFinder::save() const { return impl_->save(); }
 void ContactFinder::restore(std::span<const std::byte> bytes) { impl_->restore(bytes); }

@@ -29,7 +29,7 @@
 ///
 /// Same calls, same bits, on any number of threads and any x86-64 machine. save() and restore() carry over
 /// all that later results depend on. Not for concurrent use. World frame, SI units. Cost in a pile of rocks:
-/// about 0.07 µs a pair at rest and 0.9 µs a pair computed (benchmarks/micro/collision, find_in_pile).
+/// about 0.07 µs per pair at rest and 0.9 µs per pair computed (benchmarks/micro/collision, find_in_pile).
 namespace drawpoint::engine {
 
 class ThreadPool;
@@ -75,6 +75,11 @@ class ContactFinder {
   /// All manifolds with at least one point, ordered by (collider_a, collider_b). Valid until the next call.
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
+
+  /// Each remembered pair has a slot of its own, below slots(), which its manifolds name; -1 for a pair that is not
+  /// remembered or has a removed collider. restore() gives slots anew.
+  int slots() const;
+  int slot_of(int collider_a, int collider_b) const;
 
   /// Drops everything remembered between calls (manifolds, axes, boxes).
   void forget();

@@ -62,9 +62,9 @@ struct Items {
     const Traits &ta = traits[a], &tb = traits[b];
     return ta.body != tb.body && (ta.moves || tb.moves) && (ta.family <= 0 || ta.family != tb.family);
   }
-  /// Two hulls that are there and do not move.
+  /// Two that are there and do not move.
   bool both_stand(int a, int b) const {
-    return placed[a].hull && placed[b].hull && !traits[a].moves && !traits[b].moves;
+    return traits[a].alive && traits[b].alive && !traits[a].moves && !traits[b].moves;
   }
 };
 

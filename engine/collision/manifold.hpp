@@ -21,6 +21,7 @@ struct ManifoldPoint {
 struct Manifold {
   int collider_a = -1, collider_b = -1;  ///< a < b
   int body_a = -1, body_b = -1;
+  int slot = -1;  ///< of the pair as long as the finder remembers it; for what a user remembers of it
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from A to B
   std::array<ManifoldPoint, 4> points;
   int count = 0;

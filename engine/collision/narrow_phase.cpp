@@ -61,6 +61,7 @@ void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& 
   const Traits &a = items.traits[entry.a], &b = items.traits[entry.b];
   manifold.collider_a = entry.a, manifold.collider_b = entry.b;
   manifold.body_a = a.body, manifold.body_b = b.body;
+  manifold.slot = entry.slot;
   manifold.normal = normal;
   manifold.radius = 1 / (a.inverse_radius + b.inverse_radius);
   manifold.count = 0;

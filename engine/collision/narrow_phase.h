@@ -37,7 +37,7 @@ class NarrowPhase {
   void run_in_blocks(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
                      const ThreadPool& pool);
 
-  std::vector<std::unique_ptr<Worker>> workers_;  // one a thread
+  std::vector<std::unique_ptr<Worker>> workers_;  // one per thread
   std::vector<std::vector<Manifold>> found_;      // by block
   std::vector<std::size_t> starts_;               // first manifold of each block
 };

@@ -5,6 +5,7 @@
 #include <drawpoint/engine/collision/broad_phase.h>
 #include <drawpoint/engine/geometry/convex_contact.h>
 #include <Eigen/Dense>
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <vector>
@@ -30,8 +31,8 @@ struct PairState {
 struct PairEntry {
   static constexpr double at_once = -std::numeric_limits<double>::infinity();
 
-  int a, b;  ///< a < b
-  int slot;
+  int a, b;                ///< a < b
+  int slot;                ///< of its state; the pair's own as long as it is remembered
   int count = 0;           ///< points of the contact
   double limit = at_once;  ///< sum of both motion bounds up to which what is remembered holds [m]
 };
@@ -48,6 +49,17 @@ class PairCache {
   }
 
   const Inactive& inactive() const { return inactive_; }
+  int slots() const { return static_cast<int>(states_.size()); }
+  /// -1 for a pair that is not remembered.
+  int slot_of(const BroadPhase::Pair& pair) const {
+    const auto entry = std::lower_bound(entries_.begin(), entries_.end(), pair,
+                                        [](const PairEntry& e, const BroadPhase::Pair& p) {
+                                          return BroadPhase::Pair{e.a, e.b} < p;
+                                        });
+    if (entry != entries_.end() && BroadPhase::Pair{entry->a, entry->b} == pair) return entry->slot;
+    const auto known = inactive_.find(pair);
+    return known == inactive_.end() ? -1 : known->second.slot;
+  }
 
   /// Takes over the changes; `allowed(a, b)` says which pairs count, `stands(a, b)` which of the others are
   /// inactive.

@@ -141,7 +141,7 @@ Axis AxisSearch::guess(const HullPair& pair, Witness& witness) {
 }
 
 // False as soon as a face separates the shapes by more than the margin.
-bool AxisSearch::sweep_faces(const HullPair& pair, const Witness& witness) {
+bool AxisSearch::search_faces(const HullPair& pair, const Witness& witness) {
   const auto note = [this](const Axis& axis) {
     if (axis.separation > best_.separation) {
       best_ = axis;
@@ -172,7 +172,7 @@ bool AxisSearch::sweep_faces(const HullPair& pair, const Witness& witness) {
 }
 
 // The best pair of edges, if one separates by more than `best_edges` already does.
-void AxisSearch::sweep_edges(const HullPair& pair, Axis& best_edges) {
+void AxisSearch::search_edges(const HullPair& pair, Axis& best_edges) {
   const Eigen::Matrix3d R = pair.X_AB.linear();
   const double least = best_edges.separation;
   edges_a_.clear();
@@ -204,11 +204,11 @@ Axis AxisSearch::find(const HullPair& pair, const AxisQuery& query) {
   best_ = hinted && !by_edges ? first : Axis{};
   if (hinted == by_edges) best_.separation = -infinity;  // no face yet
   if (by_edges) floor_ -= face_preference;               // a face may win that is worse by less
-  if (!sweep_faces(pair, witness)) return best_;
+  if (!search_faces(pair, witness)) return best_;
   const bool edges_lead = by_edges && first.separation > best_.separation + face_preference;
   Axis best_edges = edges_lead ? first : Axis{};
   if (!edges_lead) best_edges.separation = best_.separation + face_preference;
-  sweep_edges(pair, best_edges);
+  search_edges(pair, best_edges);
   if (best_edges.feature.kind == FeatureKind::edges) best_ = best_edges;
   if (best_.separation > query.margin) return best_;
   return hinted && first.separation >= best_.separation - query.hysteresis ? first : best_;

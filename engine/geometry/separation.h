@@ -95,8 +95,8 @@ class AxisSearch {
   Axis face_of_b(const HullPair& pair, int face) const;
   bool edge_axis(const HullPair& pair, const EdgeOfA& first, const EdgeOfB& second, Axis& axis) const;
   Witness witness_of(const HullPair& pair, const Axis& axis) const;
-  bool sweep_faces(const HullPair& pair, const Witness& witness);
-  void sweep_edges(const HullPair& pair, Axis& best_edges);
+  bool search_faces(const HullPair& pair, const Witness& witness);
+  void search_edges(const HullPair& pair, Axis& best_edges);
 
   SeparationBounds bounds_a_, bounds_b_;
   std::vector<EdgeOfA> edges_a_;

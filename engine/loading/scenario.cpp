@@ -17,11 +17,11 @@ void require(bool fine, const std::string& name, double value, const std::string
 
 Scenario lh621_in_a_drift() {
   Scenario s;
-  s.executor.speeds = thesis_like_speeds();
+  s.executor.speeds = lindmark2016_speeds();
   return s;
 }
 
-Scenario lh621_at_thesis_scale() {
+Scenario lh621_at_lindmark2016_scale() {
   Scenario s = lh621_in_a_drift();
   s.cycles = 30;
   s.drift.length = 24;

@@ -44,14 +44,14 @@ struct Scenario {
   std::filesystem::path log_file;  ///< run log to write (HDF5); empty: none
 };
 
-/// Speeds are the `thesis_like` preset, 2-3 times what such a machine's hydraulics deliver, as the 12 s
+/// Speeds are the `lindmark2016` preset, 2-3 times what such a machine's hydraulics deliver, as the 12 s
 /// cycles of Lindmark (2016) demand; set executor.speeds = machine_speeds() for engineering conclusions.
 ///
 /// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();
 
 /// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
-Scenario lh621_at_thesis_scale();
+Scenario lh621_at_lindmark2016_scale();
 
 /// Throws std::invalid_argument naming the place, the value and what is allowed.
 void check(const Scenario& scenario);

@@ -41,7 +41,6 @@ void ContactAssembly::begin_step(double h, double last) {
 void ContactAssembly::fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake) {
   manifolds_ = &manifolds;
   fill_bodies(awake);
-  warm_start_.rewind();
   fill_contacts();
 }
 
@@ -69,12 +68,13 @@ int ContactAssembly::solver_index(const Surface& surface) const {
   return surface.owner == Owner::rock ? body_of_rock_[surface.index] : world_body;
 }
 
-[[gnu::always_inline]] inline void ContactAssembly::prefetch_origins(const Manifold& m) const {
+[[gnu::always_inline]] inline void ContactAssembly::prefetch_sides(const Manifold& m) const {
   for (const int collider : {m.collider_a, m.collider_b}) {
     const Surface& surface = scene_.surface(collider);
     if (surface.owner == Owner::rock)
       prefetch(scene_.rocks()[surface.index].pose.translation().data(), sizeof(Vector3d));
   }
+  memory_.prefetch(m.slot);
 }
 
 // Each manifold is looked at twice, first to see which points join, then to write them where they belong, so
@@ -92,6 +92,7 @@ void ContactAssembly::fill_contacts() {
   }
   problem_.pairs.resize(static_cast<std::size_t>(end.pair));
   problem_.points.resize(static_cast<std::size_t>(end.point));
+  slots_.resize(static_cast<std::size_t>(end.pair));
   pool_->blocks(manifolds, manifolds_per_block, [&](int first, int last) { fill_pairs(first, last); });
 }
 
@@ -119,23 +120,22 @@ void ContactAssembly::count_joining(int first, int last) {
 }
 
 void ContactAssembly::fill_pairs(int first, int last) {
-  WarmStart::Reader reader(warm_start_);
   ContactPlace place = places_[first / manifolds_per_block];
   for (int k = first; k < last; ++k) {
-    if (k + pairs_ahead < last) prefetch_origins((*manifolds_)[k + pairs_ahead]);
+    if (k + pairs_ahead < last) prefetch_sides((*manifolds_)[k + pairs_ahead]);
     if (joins_[k] == 0) continue;
-    fill_pair((*manifolds_)[k], joins_[k], place, reader);
+    fill_pair((*manifolds_)[k], joins_[k], place);
     ++place.pair;
     place.point += std::popcount(joins_[k]);
   }
 }
 
-void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace place,
-                                WarmStart::Reader& reader) {
+void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace place) {
   const Surface &a = scene_.surface(m.collider_a), &b = scene_.surface(m.collider_b);
   const Material& material = scene_.materials().of(a.material, b.material);
   const Vector3d origin_a = scene_.origin_of(a), origin_b = scene_.origin_of(b);
-  reader.begin_pair(m.collider_a, m.collider_b);
+  PairMemory::Start start = memory_.start(m.slot, m.collider_a, m.collider_b);
+  slots_[place.pair] = m.slot;
   ContactPair& pair = problem_.pairs[place.pair];
   pair = ContactPair();
   pair.first = place.point;
@@ -146,7 +146,7 @@ void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace 
   pair.collider_b = m.collider_b;
   pair.rolling_arm = material.rolling * m.radius;
   pair.spinning_arm = material.spinning * m.radius;
-  pair.start = start_share_ * reader.rolling();
+  pair.start = start_share_ * start.rolling();
   const int touching = std::max<int>(1, std::count_if(m.points.begin(), m.points.begin() + m.count,
                                                       [](const ManifoldPoint& p) { return p.gap <= 0; }));
   for (int k = 0; k < m.count; ++k) {
@@ -166,25 +166,15 @@ void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace 
     c.damping_time = material.damping_time;
     c.friction = material.friction;
     c.restitution = material.restitution;
-    c.start = start_share_ * reader.point(p.feature, p.position);
+    c.start = start_share_ * start.point(p.feature, p.position);
   }
 }
 
 void ContactAssembly::keep_impulses() {
-  warm_start_.begin_store(problem_.pairs.size(), problem_.points.size());
+  memory_.begin_step(slots_, scene_.finder().slots());
   pool_->blocks(static_cast<int>(problem_.pairs.size()), manifolds_per_block, [&](int first, int last) {
-    for (int index = first; index < last; ++index) {
-      const ContactPair& pair = problem_.pairs[index];
-      warm_start_.store_pair(
-          index, {pair.collider_a, pair.collider_b, pair.start, static_cast<std::size_t>(pair.first),
-                  static_cast<std::size_t>(pair.count)});
-      for (int k = pair.first; k < pair.first + pair.count; ++k) {
-        const ContactPoint& p = problem_.points[k];
-        warm_start_.store_point(k, {p.feature, p.position, p.warm_start_fraction * p.start, false});
-      }
-    }
+    for (int k = first; k < last; ++k) memory_.store(problem_, k);
   });
-  warm_start_.end_store();
 }
 
 double ContactAssembly::deepest_overlap() {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/world/pair_memory.h>
 #include <drawpoint/engine/world/scene.h>
-#include <drawpoint/engine/world/warm_start.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <memory>
@@ -12,7 +12,7 @@
 /// From manifolds to the contact problem of a step, and from its impulses to what the next step starts from.
 ///
 /// Points that may come to bear within the step join the problem: those that overlap or are within 1 mm, and
-/// those that could close in at twice their present speed. Owns the problem and the remembered impulses.
+/// those that could close in at twice their present speed. Owns the problem and the memory of pairs.
 namespace drawpoint::engine::detail {
 
 class ContactAssembly {
@@ -31,8 +31,8 @@ class ContactAssembly {
 
   ContactProblem& problem() { return problem_; }
   const ContactProblem& problem() const { return problem_; }
-  WarmStart& warm_start() { return warm_start_; }
-  const WarmStart& warm_start() const { return warm_start_; }
+  PairMemory& memory() { return memory_; }
+  const PairMemory& memory() const { return memory_; }
 
  private:
   // Where the next pair and the next point go in the problem; at first, how many a block of manifolds has.
@@ -45,9 +45,9 @@ class ContactAssembly {
   unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
   void count_joining(int first, int last);    // of these manifolds
   void fill_pairs(int first, int last);
-  void fill_pair(const Manifold& m, unsigned joins, ContactPlace place, WarmStart::Reader& reader);
+  void fill_pair(const Manifold& m, unsigned joins, ContactPlace place);
   int solver_index(const Surface& surface) const;
-  inline void prefetch_origins(const Manifold& m) const;
+  inline void prefetch_sides(const Manifold& m) const;
 
   const WorldOptions& options_;
   const Scene& scene_;
@@ -59,7 +59,8 @@ class ContactAssembly {
   std::vector<double> deepest_;       // overlap by block of manifolds [m]
   std::vector<ContactPlace> places_;  // by block of manifolds
   ContactProblem problem_;
-  WarmStart warm_start_;
+  std::vector<int> slots_;  // by pair of the problem
+  PairMemory memory_;
 };
 
 }  // namespace drawpoint::engine::detail

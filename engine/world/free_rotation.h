@@ -19,7 +19,7 @@
 /// a tenth, L turns along, which keeps energy and changes the direction of L by the extra turn.
 namespace drawpoint::engine {
 
-/// [rad] A smaller turn, times √(largest over least moment), is made in one: an energy error of 1e-10 a step.
+/// [rad] A smaller turn, times √(largest over least moment), is made in one: an energy error of 1e-10 per step.
 constexpr double gyroscopic_angle = 1e-5;
 
 inline Eigen::Quaterniond rotation_of(const Eigen::Vector3d& turn) {

@@ -186,7 +186,8 @@ std::vector<int> Freezing::nudged(const std::vector<Rock>& rocks, const ContactP
   return spread_from(std::move(found), options_.spread - 1);
 }
 
-std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactProblem& problem) {
+std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactProblem& problem,
+                                  detail::PairMemory& memory) {
   std::vector<int> frozen_now;
   for (const int rock : awake_) {
     const Rock& body = rocks[static_cast<std::size_t>(rock)];
@@ -201,7 +202,7 @@ std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactP
   veto(frozen_now, problem);
   if (frozen_now.empty()) return frozen_now;
   for (const int rock : frozen_now) state_.rocks[static_cast<std::size_t>(rock)].frozen = true;
-  hold(problem);
+  hold(problem, memory);
   list_awake();
   return frozen_now;
 }
@@ -211,15 +212,15 @@ std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactP
 void Freezing::veto(std::vector<int>& candidates, const ContactProblem& problem) const {
   if (candidates.empty()) return;
   std::vector<int> kept;
-  const auto restless = [&](int rock) {
+  const auto unsteady = [&](int rock) {
     if (rock == no_rock) return false;
     if (frozen(rock)) return unbalance(rock) > options_.tolerance;
     return 2 * state_.rocks[static_cast<std::size_t>(rock)].calm < hold_steps_;
   };
   for (const ContactPair& pair : problem.pairs) {
     const int a = rock_of(pair.collider_a), b = rock_of(pair.collider_b);
-    if (restless(a)) kept.push_back(b);
-    if (restless(b)) kept.push_back(a);
+    if (unsteady(a)) kept.push_back(b);
+    if (unsteady(b)) kept.push_back(a);
   }
   std::sort(kept.begin(), kept.end());
   std::erase_if(candidates, [&](int rock) { return std::binary_search(kept.begin(), kept.end(), rock); });

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/world/warm_start.h>
+#include <drawpoint/engine/world/pair_memory.h>
 #include <Eigen/Dense>
 #include <drawpoint/engine/collision/manifold.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <drawpoint/engine/world/freezing_options.hpp>
 #include <drawpoint/engine/world/rock.hpp>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -22,7 +21,7 @@
 ///     for hold / 2 or are frozen with u ≤ tolerance. So a layer of calm rocks lies between the frozen ones
 ///     and what moves.
 ///   While frozen it is part of the fixed world. Contacts between two bodies that stand still are not looked
-///     for and not solved; their last impulses are held and their manifolds kept (pair_cache.hpp).
+///     for and not solved; their last impulses are held and their manifolds kept (pair_memory.h, pair_cache.h).
 ///   It thaws when a rock faster than `nudge` touches it or is about to; and when P and L, as exponential
 ///     means over `average`, leave the balance: u > tolerance. Resting contacts tick as they change features,
 ///     and a tick is no load. All that a frozen rock may take from a neighbour unnoticed is a momentum of
@@ -35,18 +34,11 @@
 /// balance within `tolerance` of the load that it carries. A thawed rock starts at rest from the impulses
 /// that were held. Freezing takes a rock's kinetic energy away: at most ½ m (distance / hold)².
 ///
-/// Pure function of the calls: same bits for any number of threads. Cost: 50 ns an awake rock and 10 ns a
-/// solved point a step; some µs a change; nothing for a frozen rock. A step that is solved again costs twice.
+/// Pure function of the calls: same bits for any number of threads. Cost per step: 50 ns per awake rock and 10 ns
+/// per solved point; some µs per change; nothing for a frozen rock. A step that is solved again costs twice.
 namespace drawpoint::engine {
 
-/// A contact between two bodies that stand still, with the impulses of the last step that solved it.
-struct HeldPair {
-  Eigen::Vector3d impulse;             ///< on B [N s]
-  Eigen::Vector3d moment_a, moment_b;  ///< on each about its centre [N m s]
-  WarmStart::Entry start;              ///< what the contact starts from once it is solved again
-};
-
-/// All that later decisions depend on.
+/// All that later decisions depend on, beside the held pairs of the memory.
 struct FreezingState {
   struct Stand {
     bool frozen = false;
@@ -56,7 +48,6 @@ struct FreezingState {
     Eigen::Isometry3d anchor = Eigen::Isometry3d::Identity();
   };
   std::vector<Stand> rocks;
-  std::map<std::pair<int, int>, HeldPair> held;  ///< by colliders, the smaller one first
 };
 
 class Freezing {
@@ -69,7 +60,7 @@ class Freezing {
 
   void add(int rock, const Rock& body);
   /// Forgets a rock that is taken away. Returns the frozen rocks that it bore or that bore it.
-  std::vector<int> remove(int rock);
+  std::vector<int> remove(int rock, detail::PairMemory& memory);
 
   /// Frozen rocks that a machine part is near enough to touch, and their neighbours; remembers all such rocks
   /// for this step's freeze().
@@ -88,17 +79,18 @@ class Freezing {
   /// u of a rock in the step that was weighed last [1]; 0 for a frozen rock without solved contacts.
   double unbalance(int rock) const;
 
-  /// Thaws frozen rocks. Returns the contacts that must be solved again, in order.
-  std::vector<WarmStart::Entry> thaw(const std::vector<int>& rocks);
+  /// Thaws frozen rocks and releases their contacts.
+  void thaw(const std::vector<int>& rocks, detail::PairMemory& memory);
   /// Evaluates the awake rocks after the step that was weighed last. Returns those that freeze now; they
   /// stand.
-  std::vector<int> freeze(const std::vector<Rock>& rocks, const ContactProblem& problem);
+  std::vector<int> freeze(const std::vector<Rock>& rocks, const ContactProblem& problem,
+                          detail::PairMemory& memory);
 
   const FreezingOptions& options() const { return options_; }
   const FreezingState& state() const { return state_; }
-  /// Takes a state over. Throws std::runtime_error when it is of another number of rocks or holds contacts of
+  /// Takes a state over. Throws std::runtime_error when it is of another number of rocks or the memory holds contacts of
   /// rocks that are awake, and then changes nothing.
-  void restore(const FreezingState& state);
+  void restore(const FreezingState& state, const detail::PairMemory& memory);
 
  private:
   struct Load {
@@ -106,10 +98,14 @@ class Freezing {
     double carried = 0;
     bool solved = false;
   };
+  struct Partner {
+    int collider, slot;  // of the held contact
+    bool bears;          // whether it has an impulse
+  };
   struct Body {
     int collider = -1;
-    double mass = 0, arm = 0;   // arm: radius of gyration
-    std::vector<int> partners;  // colliders of the held contacts, ascending
+    double mass = 0, arm = 0;       // arm: radius of gyration
+    std::vector<Partner> partners;  // by collider, ascending
     Load held;
   };
 
@@ -117,9 +113,10 @@ class Freezing {
   bool stands(int collider) const;
   Load& load_of(int rock);
   void add_pair(const ContactProblem& problem, const ContactPair& pair);
-  void hold(const ContactProblem& problem);
-  void drop(const std::pair<int, int>& pair);
-  void sum_held(int rock);
+  void hold(const ContactProblem& problem, detail::PairMemory& memory);
+  void join(int a, int b, int slot, const detail::HeldLoad& load);
+  void part(int a, int b);
+  void sum_held(int rock, const detail::PairMemory& memory);
   std::vector<int> spread_from(std::vector<int> rocks, int contacts_away) const;
   double speed(int rock, const Rock& body) const;
   void watch(int rock, const Rock& body);

@@ -11,9 +11,9 @@
 ///
 /// Normal law, selectable: *linear*, f = k δ, with k the stiffness of the pair of bodies shared by the points
 /// of its manifold; *Hertz*, f = k_n δ^(3/2) with k_n = (4/3) E* √R*, shared likewise, R* from the radii of
-/// the spheres of the bodies' volumes. The founding case's Young's modulus E is read as linear with k = E ℓ,
+/// the spheres of the bodies' volumes. Lindmark's (2016) Young's modulus E is read as linear with k = E ℓ,
 /// ℓ = 0.1 m for rock on rock (1e9 N/m); see docs/decisions. Friction: Coulomb with a circular cone. Rolling
-/// and spinning resistance: moments of at most μ_r R* and μ_s R* times the normal force, once a pair.
+/// and spinning resistance: moments of at most μ_r R* and μ_s R* times the normal force, once per pair.
 /// Restitution: Newton's law by an impulse stage before the step, for approaches faster than `impact_speed`.
 namespace drawpoint::engine {
 

@@ -56,12 +56,15 @@ PairImpulse solved_pair(const ContactProblem& problem, const ContactPair& pair) 
   return {pair.collider_a, pair.collider_b, centre.position(), impulse, moment};
 }
 
-PairImpulse held_pair(const HeldPair& held, const Vector3d& origin_b) {
+PairImpulse held_pair(const detail::RememberedPair& pair, const detail::HeldLoad& load,
+                      const Vector3d& origin_b) {
   Centre centre;
-  for (const WarmStart::Point& point : held.start.points) centre.add(point.position, point.impulse);
+  for (int k = 0; k < pair.count; ++k) {
+    const detail::PairMemoryPoint& point = pair.points[static_cast<std::size_t>(k)];
+    centre.add(point.position, point.impulse);
+  }
   const Vector3d position = centre.position();
-  return {held.start.a, held.start.b, position, held.impulse,
-          held.moment_b - (position - origin_b).cross(held.impulse)};
+  return {pair.a, pair.b, position, load.impulse, load.moment_b - (position - origin_b).cross(load.impulse)};
 }
 
 }  // namespace
@@ -74,8 +77,9 @@ std::vector<PairForce> World::Impl::pair_forces() const {
                       pair.impulse / last_step, pair.moment / last_step});
   };
   for (const ContactPair& pair : contacts.problem().pairs) add(solved_pair(contacts.problem(), pair));
-  for (const auto& [colliders, held] : freezing.state().held)
-    add(held_pair(held, scene.origin_of(scene.surface(colliders.second))));
+  const detail::PairMemory& memory = contacts.memory();
+  for (const int slot : memory.held())
+    add(held_pair(memory.pair(slot), memory.load(slot), scene.origin_of(scene.surface(memory.pair(slot).b))));
   return forces;
 }
 

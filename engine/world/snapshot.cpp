@@ -15,7 +15,7 @@
 namespace drawpoint::engine {
 namespace {
 
-constexpr std::uint64_t state_mark = 0x336574617473'7044;  // "Dpstate3": the version is the last digit
+constexpr std::uint64_t state_mark = 0x346574617473'7044;  // "Dpstate4": the version is the last digit
 
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);
@@ -54,34 +54,6 @@ void save_freezing(const FreezingState& state, ByteWriter& out) {
     out.put(stand.impulse);
     out.put(stand.moment);
   }
-  out.put_count(state.held.size());
-  for (const auto& [pair, held] : state.held) {
-    out.put(pair.first);
-    out.put(pair.second);
-    for (const Eigen::Vector3d& v : {held.impulse, held.moment_a, held.moment_b, held.start.rolling})
-      out.put(v);
-    out.put_count(held.start.points.size());
-    for (const WarmStart::Point& point : held.start.points) {
-      out.put(point.feature);
-      out.put(point.position);
-      out.put(point.impulse);
-    }
-  }
-}
-
-HeldPair restored_pair(ByteReader& in, int a, int b) {
-  HeldPair held;
-  held.start.a = a;
-  held.start.b = b;
-  for (Eigen::Vector3d* v : {&held.impulse, &held.moment_a, &held.moment_b, &held.start.rolling}) in.get(*v);
-  held.start.points.resize(in.get_count(52));
-  for (WarmStart::Point& point : held.start.points) {
-    in.get(point.feature);
-    in.get(point.position);
-    in.get(point.impulse);
-    point.used = false;
-  }
-  return held;
 }
 
 FreezingState restored_freezing(ByteReader& in, std::size_t rocks) {
@@ -95,12 +67,6 @@ FreezingState restored_freezing(ByteReader& in, std::size_t rocks) {
     in.get(stand.anchor);
     in.get(stand.impulse);
     in.get(stand.moment);
-  }
-  for (std::size_t left = in.get_count(112); left > 0; --left) {
-    const int a = in.get<int>(), b = in.get<int>();
-    if (!state.held.empty() && state.held.rbegin()->first >= std::pair(a, b))
-      in.fail("holds standing contacts that are not in order");
-    state.held.emplace(std::pair(a, b), restored_pair(in, a, b));
   }
   return state;
 }
@@ -202,11 +168,11 @@ std::vector<std::byte> World::save() const {
     out.put(rock.velocity);
     out.put(rock.angular_velocity);
   }
-  impl_->contacts.warm_start().save(out);
   save_freezing(impl_->freezing.state(), out);
   const std::vector<double> machine = this->machine() ? this->machine()->state() : std::vector<double>();
   out.put_count(machine.size());
   for (double x : machine) out.put(x);
+  out.put(impl_->contacts.memory().save(impl_->scene.finder()));
   out.put(impl_->scene.finder().save());
   return out.take();
 }
@@ -231,25 +197,26 @@ void World::restore(std::span<const std::byte> state) {
     in.get(rock.angular_velocity);
     check_motion(rock, in);
   }
-  WarmStart warm_start;
-  warm_start.restore(in);
-  Freezing freezing(impl_->options.freezing, impl_->options.step, impl_->options.gravity);
-  for (std::size_t k = 0; k < rocks.size(); ++k) freezing.add(static_cast<int>(k), rocks[k]);
-  for (std::size_t k = 0; k < rocks.size(); ++k)
-    if (!rocks[k].present) freezing.remove(static_cast<int>(k));
-  freezing.restore(restored_freezing(in, rocks.size()));
+  const FreezingState stands = restored_freezing(in, rocks.size());
   std::vector<double> machine(in.get_count(sizeof(double)));
   for (double& x : machine) in.get(x);
-  const std::span<const std::byte> contacts = in.get_bytes(in.get_count(1));
+  const std::span<const std::byte> pairs = in.get_bytes(in.get_count(1)),
+                                   contacts = in.get_bytes(in.get_count(1));
   in.expect_end();
   ContactFinder finder = impl_->scene.finder_for(rocks);
   finder.restore(contacts);
+  detail::PairMemory memory = detail::PairMemory::read(finder, pairs);
+  Freezing freezing(impl_->options.freezing, impl_->options.step, impl_->options.gravity);
+  for (std::size_t k = 0; k < rocks.size(); ++k) freezing.add(static_cast<int>(k), rocks[k]);
+  for (std::size_t k = 0; k < rocks.size(); ++k)
+    if (!rocks[k].present) freezing.remove(static_cast<int>(k), memory);
+  freezing.restore(stands, memory);
 
   ArticulatedBody* const attached = impl_->scene.machine();
   if (!attached && !machine.empty()) in.fail("holds a machine; there is none here:");
   if (attached) attached->set_state(machine);
   impl_->scene.replace(std::move(rocks), std::move(finder));
-  impl_->contacts.warm_start() = std::move(warm_start);
+  impl_->contacts.memory() = std::move(memory);
   impl_->freezing = std::move(freezing);
   impl_->time = time;
   impl_->last_step = last_step;

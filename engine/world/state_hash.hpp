@@ -10,7 +10,7 @@
 ///
 /// In it, in this order: time; of every rock whether it is present and, if so, pose (rotation by columns,
 /// then position), velocity and angular velocity; the machine's state, if there is one. Zeros of either sign
-/// differ. Cost: about 20 ns a rock.
+/// differ. Cost: about 20 ns per rock.
 namespace drawpoint::engine {
 
 std::uint64_t state_hash(const World& world);

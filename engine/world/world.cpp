@@ -57,7 +57,7 @@ void World::Impl::check_solution(const SuperBodySolution& solved) const {
 
 void World::Impl::thaw(const std::vector<int>& rocks) {
   for (const int rock : rocks) scene.set_moves(rock, true);
-  contacts.warm_start().insert(freezing.thaw(rocks));
+  freezing.thaw(rocks, contacts.memory());
 }
 
 void World::Impl::thaw_all() {
@@ -91,7 +91,7 @@ void World::Impl::settle_frozen() {
   std::vector<Rock>& rocks = scene.rocks();
   thaw(freezing.unbalanced());
   thaw(freezing.nudged(rocks, contacts.problem()));
-  for (const int rock : freezing.freeze(rocks, contacts.problem())) {
+  for (const int rock : freezing.freeze(rocks, contacts.problem(), contacts.memory())) {
     scene.set_moves(rock, false);
     rocks[rock].velocity.setZero();
     rocks[rock].angular_velocity.setZero();
@@ -148,7 +148,7 @@ int World::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const V
 
 void World::remove_rock(int rock) {
   impl_->scene.present_rock(rock, "remove_rock");
-  const std::vector<int> neighbours = impl_->freezing.remove(rock);
+  const std::vector<int> neighbours = impl_->freezing.remove(rock, impl_->contacts.memory());
   impl_->scene.remove_rock(rock);
   impl_->thaw(neighbours);
 }

@@ -49,6 +49,7 @@ namespace detail {
 /// For tests of what is inside.
 struct WorldAccess {
   static const Freezing& freezing(const World& world) { return world.impl_->freezing; }
+  static const PairMemory& memory(const World& world) { return world.impl_->contacts.memory(); }
 };
 
 }  // namespace detail

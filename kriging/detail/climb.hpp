@@ -6,7 +6,7 @@
 /// best.
 ///
 /// Projected quasi-Newton steps: parameters at a bound that the gradient pushes outward are held, the others
-/// move by B⁻¹g, clipped to the box and to e^2.5 a step, shortened until the gain is 1e-4 of the promised one
+/// move by B⁻¹g, clipped to the box and to e^2.5 per step, shortened until the gain is 1e-4 of the promised one
 /// (Armijo). B ≈ −∂²LL/∂p∂p by damped BFGS updates (Nocedal, Wright 2006, "Numerical Optimization", procedure
 /// 18.2 and section 16.7). A climb is done when ½ gᵀB⁻¹g, the gain that B promises, falls below a limit.
 /// Cost: one gradient a step, plus one value for each shortening.

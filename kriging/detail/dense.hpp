@@ -217,7 +217,7 @@ inline double orthogonalize(const Eigen::MatrixXd& Q, Index count, double* v, do
   return std::sqrt(dot(v, v, n));
 }
 
-/// Σⱼ Aᵢⱼ², one entry a row.
+/// Σⱼ Aᵢⱼ², one entry per row.
 inline Eigen::VectorXd row_squares(const Eigen::MatrixXd& A) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(A.rows());
   for (Index j = 0; j < A.cols(); ++j)

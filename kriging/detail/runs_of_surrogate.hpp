@@ -27,7 +27,7 @@ inline TrainingData runs_of_surrogate(const std::string& place, const Eigen::Mat
 inline void check_points(const std::string& place, const Eigen::MatrixXd& X, Eigen::Index variables) {
   if (X.cols() != variables)
     throw std::invalid_argument(place + ": X has " + std::to_string(X.cols()) + " columns; the model has " +
-                                std::to_string(variables) + " variables; give one point a row");
+                                std::to_string(variables) + " variables; give one point per row");
   if (!all_finite(X))
     throw std::invalid_argument(
         place + ": X holds a number that is not finite; allowed are finite numbers; remove the point");

@@ -76,8 +76,8 @@ inline void check_runs(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   if (X.rows() != y.size())
     reject("X has " + std::to_string(X.rows()) + " rows but y has " + std::to_string(y.size()) +
            " entries; give one response a run");
-  if (X.cols() < 1) reject("X has 0 columns; allowed is 1 or more; give one column a variable");
-  if (X.rows() < 1) reject("X has 0 runs; allowed is 1 or more; give one row a run");
+  if (X.cols() < 1) reject("X has 0 columns; allowed is 1 or more; give one column per variable");
+  if (X.rows() < 1) reject("X has 0 runs; allowed is 1 or more; give one row per run");
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     for (Eigen::Index k = 0; k < X.cols(); ++k)
       if (!is_usable(X(i, k)))

@@ -189,7 +189,7 @@ TEST(FullFactorial, WrongLevelsAreRefused) {
     return support::thrown_text<std::invalid_argument>([&] { full_factorial(problem, levels); });
   };
   EXPECT_EQ(text({3}),
-            "doe::full_factorial: levels has 1 entries, the problem has 2 variables; give one a variable");
+            "doe::full_factorial: levels has 1 entries, the problem has 2 variables; give one per variable");
   EXPECT_EQ(text({3, 0}),
             "doe::full_factorial: variable \"x1\" has 0 levels; allowed is 1 or more; 2 gives the bounds");
   EXPECT_EQ(text({1 << 16, 1 << 16}),

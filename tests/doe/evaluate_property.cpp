@@ -170,7 +170,7 @@ TEST(Evaluate, BadInputIsNamed) {
   EXPECT_NE(text().find("row 2, variable \"lip_angle\": nan deg is not within"), std::string::npos);
   X.resize(3, 2);
   EXPECT_EQ(text(),
-            "doe::evaluate: X has 2 columns, the problem has 3 variables; X is n x d with one run a row");
+            "doe::evaluate: X has 2 columns, the problem has 3 variables; X is n x d with one run per row");
 }
 
 TEST(Evaluate, AFractionOfAnIntegerIsRefused) {

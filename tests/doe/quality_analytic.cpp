@@ -182,7 +182,7 @@ TEST(DesignQuality, PointsOutsideAreRefused) {
             "or the bounds");
   EXPECT_EQ(
       text([&] { design_quality(problem, X.leftCols(3)); }),
-      "doe::design_quality: X has 3 columns, the problem has 4 variables; X is n x d with one run a row");
+      "doe::design_quality: X has 3 columns, the problem has 4 variables; X is n x d with one run per row");
   EXPECT_EQ(text([&] { squared_star_discrepancy(X); }),
             "doe::squared_star_discrepancy: the points span 0 to 5; allowed is 0 to 1; scale them by the "
             "bounds, or "

@@ -46,12 +46,12 @@ TEST(BadInput, Runs) {
   EXPECT_EQ(refusal([](Call& c) { c.y.conservativeResize(5); }),
             "kriging::fit: X has 6 rows but y has 5 entries; give one response a run");
   EXPECT_EQ(refusal([](Call& c) { c.X.resize(6, 0); }),
-            "kriging::fit: X has 0 columns; allowed is 1 or more; give one column a variable");
+            "kriging::fit: X has 0 columns; allowed is 1 or more; give one column per variable");
   EXPECT_EQ(refusal([](Call& c) {
               c.X.resize(0, 2);
               c.y.resize(0);
             }),
-            "kriging::fit: X has 0 runs; allowed is 1 or more; give one row a run");
+            "kriging::fit: X has 0 runs; allowed is 1 or more; give one row per run");
 }
 
 TEST(BadInput, Numbers) {

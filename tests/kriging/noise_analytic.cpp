@@ -63,7 +63,7 @@ TEST(Noise, ProportionalWithEqualWeightsIsTheNugget) {
 TEST(Noise, MeansOfReplicatesPredictAsAllRuns) {
   const MatrixXd X = reference::design(12, 2, 21);
   MatrixXd all(27, 2);
-  all << X, X, X.topRows(3);  // two or three runs a point
+  all << X, X, X.topRows(3);  // two or three runs per point
   const VectorXd y = noisy(all, 0.2, 5);
   const Replicates r = replicates(all, y);
   ASSERT_EQ(r.X, X);

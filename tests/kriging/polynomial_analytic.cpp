@@ -137,7 +137,7 @@ TEST(PolynomialStatus, RefusesBadInput) {
     ADD_FAILURE();
   } catch (const std::invalid_argument& e) {
     EXPECT_STREQ(e.what(),
-                 "kriging::Polynomial: X has 3 columns; the model has 2 variables; give one point a row");
+                 "kriging::Polynomial: X has 3 columns; the model has 2 variables; give one point per row");
   }
 }
 

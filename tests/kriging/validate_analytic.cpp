@@ -51,5 +51,5 @@ TEST(Validate, RejectsWhatItCannotCompare) {
             "kriging::validate: y holds a number that is not finite; allowed are finite numbers; leave "
             "failed runs out");
   EXPECT_EQ(message_of(Eigen::MatrixXd::Zero(1, 2), VectorXd::Zero(1)),
-            "kriging::Model: X has 2 columns; the model has 1 variables; give one point a row");
+            "kriging::Model: X has 2 columns; the model has 1 variables; give one point per row");
 }

@@ -21,7 +21,7 @@ constexpr int steps = 400;
 const Vector3d start(0, 0, 100), velocity(3, -1, 4);
 
 const engine::Rock& thrown() {
-  static engine::World world(validation::reference_settings(h), support::one_material({}));
+  static engine::World world(validation::reference_settings(h), support::one_material({.friction = 0}));
   if (world.rocks().empty()) {
     world.add_rock(support::rock_body(0, 0.5), support::at(start.x(), start.y(), start.z()), velocity);
     for (int k = 0; k < steps; ++k) world.step();

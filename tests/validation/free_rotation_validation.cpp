@@ -32,7 +32,7 @@ struct Spin {
 Spin spin(double step) {
   engine::WorldOptions options = validation::reference_settings(step);
   options.gravity = Vector3d::Zero();
-  engine::World world(options, support::one_material({}));
+  engine::World world(options, support::one_material({.friction = 0}));
   world.add_rock(block(), Eigen::Isometry3d::Identity(), Vector3d::Zero(), start);
   const Vector3d inertia = block().inertia;
   const auto momentum = [&] {

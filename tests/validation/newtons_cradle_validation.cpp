@@ -25,7 +25,7 @@ constexpr double side = 0.5, v = 2;  // halves and quarters: touching faces have
 World cradle(int n, double restitution, double apart) {
   engine::WorldOptions options;
   options.gravity.setZero();
-  World world(options, support::one_material({.restitution = restitution}));
+  World world(options, support::one_material({.friction = 0, .restitution = restitution}));
   for (int k = 0; k < n; ++k)
     world.add_rock(support::box_body({side / 2, side / 2, side / 2}),
                    support::at(k * (side + apart) - (k == 0 ? 0.005 : 0), 0, 0),

@@ -69,7 +69,7 @@ SpeedPreset machine_speeds() {
           .limits = {.drive = 2.5, .boom = 0.20, .tilt = 0.40}};
 }
 
-SpeedPreset thesis_like_speeds() {
+SpeedPreset lindmark2016_speeds() {
   return {.drive_in = 1.5,
           .lift = 1.1,
           .curl = 0.9,

@@ -41,7 +41,7 @@ struct SpeedPreset {
 /// What the hydraulics and first gear of an LH621-class machine deliver; a cycle of about 27 s (default).
 SpeedPreset machine_speeds();
 /// Fast enough for the 12 s cycles that Lindmark (2016) reports; 2-3 times what the machine can do.
-SpeedPreset thesis_like_speeds();
+SpeedPreset lindmark2016_speeds();
 
 struct ExecutorOptions {
   SpeedPreset speeds = machine_speeds();

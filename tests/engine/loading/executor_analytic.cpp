@@ -122,7 +122,7 @@ TEST(Executor, TimingOfTheStages) {
   const double root = std::sqrt(0.95), stretch = std::atanh(root) + (1 - root) / 0.05;
   EXPECT_NEAR(stretch, 2.7, 0.02);
   const Plan plan = example_plan(CurlMode::tip_fixed);
-  for (const SpeedPreset& preset : {machine_speeds(), thesis_like_speeds()}) {
+  for (const SpeedPreset& preset : {machine_speeds(), lindmark2016_speeds()}) {
     ExecutorOptions options = exact_options();
     options.speeds = preset;
     options.speeds.limits = {infinity, infinity, infinity};
@@ -144,7 +144,7 @@ TEST(Executor, CycleTimesOfBothPresets) {
   plan.corners = corner_points(plan, 2.0, arm);
   ExecutorOptions options = exact_options();
   EXPECT_NEAR(driven(plan, options).results.back().t_end, 27, 0.5);
-  options.speeds = thesis_like_speeds();
+  options.speeds = lindmark2016_speeds();
   options.speeds.limits = {infinity, infinity, infinity};
   EXPECT_NEAR(driven(plan, options).results.back().t_end, 12, 0.5);
 }
@@ -164,7 +164,7 @@ TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
     return ActuatorRates{0, set.boom, set.tilt};
   };
   ExecutorOptions options;
-  options.speeds = thesis_like_speeds();
+  options.speeds = lindmark2016_speeds();
   options.speeds.limits = {infinity, infinity, infinity};
   const Drive run = driven(plan, options, soft_wall);
   ASSERT_TRUE(run.finished);
@@ -202,7 +202,7 @@ TEST(Executor, AlongTheSlopeAShortDriveInStaysShort) {
 TEST(Executor, LimitsKeepTheDirection) {
   const Plan plan = example_plan();
   ExecutorOptions options = exact_options();
-  options.speeds = thesis_like_speeds();
+  options.speeds = lindmark2016_speeds();
   options.speeds.limits = {.drive = 0.8, .boom = 0.2, .tilt = 0.3};
   options.speeds.stage_limit = {60, 60, 60, 60};
   const Drive run = driven(plan, options);
