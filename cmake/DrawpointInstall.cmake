@@ -21,15 +21,16 @@ function(drawpoint_install component)
   endif()
   foreach(folder IN LISTS folders)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION include/drawpoint/${folder}
-            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp")
+            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" PATTERN report EXCLUDE) # of studies, all inside
   endforeach()
 endfunction()
 
 foreach(component doe kriging pareto)
   drawpoint_install(${component})
 endforeach()
-# The programs of docs/engine-guide.md and docs/library.md.
-file(GLOB drawpoint_examples ${PROJECT_SOURCE_DIR}/tests/consumer/*.cpp ${PROJECT_SOURCE_DIR}/tests/consumer/engine/*.cpp)
+# The programs of docs/engine-guide.md, docs/library.md and docs/studies.md.
+file(GLOB drawpoint_examples ${PROJECT_SOURCE_DIR}/tests/consumer/*.cpp ${PROJECT_SOURCE_DIR}/tests/consumer/engine/*.cpp
+     ${PROJECT_SOURCE_DIR}/tests/consumer/studies/*.cpp)
 install(FILES ${drawpoint_examples} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint/examples COMPONENT common)
 if(DRAWPOINT_BUILD_CONTACT)
   list(TRANSFORM drawpoint_contact_folders PREPEND engine/ OUTPUT_VARIABLE folders)
@@ -38,6 +39,9 @@ endif()
 if(DRAWPOINT_BUILD_ENGINE)
   list(TRANSFORM drawpoint_engine_folders PREPEND engine/ OUTPUT_VARIABLE folders)
   drawpoint_install(engine ${folders})
+endif()
+if(DRAWPOINT_BUILD_STUDIES)
+  drawpoint_install(studies)
 endif()
 
 # Which of the header-only modules hand Ipopt on to their users, so that the config looks for it there only.
@@ -134,5 +138,10 @@ if(DRAWPOINT_BUILD_ENGINE)
   list(APPEND CPACK_COMPONENTS_ALL engine)
   drawpoint_deb(engine "Drawpoint: articulated machines among convex rocks (library and headers)"
                 "libdrawpoint-contact-dev ${same_version}" libsimbody-dev)
+endif()
+if(DRAWPOINT_BUILD_STUDIES)
+  list(APPEND CPACK_COMPONENTS_ALL studies)
+  drawpoint_deb(studies "Drawpoint: a study as a program (library and headers)" "libdrawpoint-kriging-dev ${same_version}"
+                "libdrawpoint-pareto-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev)
 endif()
 include(CPack)

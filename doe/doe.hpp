@@ -22,9 +22,12 @@
 #include <drawpoint/doe/orthogonal_array.hpp>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/doe/process_pool.hpp>
+#include <drawpoint/doe/processes.hpp>
 #include <drawpoint/doe/propose.hpp>
 #include <drawpoint/doe/quality.hpp>
 #include <drawpoint/doe/region.hpp>
+#include <drawpoint/doe/remembered.hpp>
 #include <drawpoint/doe/response_surface_designs.hpp>
 #include <drawpoint/doe/run_journal.hpp>
 #include <drawpoint/doe/seed.hpp>
@@ -45,6 +48,9 @@
 ///   evaluate_options.hpp             threads, replicates, time limit, stop, journal, progress
 ///   evaluations.hpp                  the table of runs, as CSV too
 ///   run_journal.hpp                  runs on disk as they end; an interrupted evaluation resumes
+///   remembered.hpp                   a black box that never makes a run twice: a store in memory or on disk
+///   process_pool.hpp                 a program as a black box: each run a process of its own
+///   processes.hpp                    the child processes beneath it
 ///
 /// Designs:
 ///   latin_hypercube.hpp              one run in each of n strata of every variable; corners
@@ -73,5 +79,6 @@
 ///   main_effects.hpp                 how the mean of a response moves with one input
 ///   sensitivity.hpp                  Sobol' indices with intervals
 ///
+/// Apart from these, and not included here because it needs nlohmann-json: problem_json.hpp, a problem as JSON.
 /// What stands in detail/ may change in any version. Needs Eigen and a thread library.
 namespace drawpoint::doe {}

@@ -29,6 +29,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/doe/detail/hash.hpp>
@@ -104,6 +105,13 @@ class RunJournal {
   RunJournal& operator=(const RunJournal&) = delete;
 
   int size() const { return static_cast<int>(rows_.size()); }
+
+  /// The runs that were there when the file was opened, in order of run and replicate.
+  std::vector<Evaluation> rows() const {
+    std::vector<Evaluation> all;
+    for (const auto& [key, row] : rows_) all.push_back(row);
+    return all;
+  }
 
   /// The run that was planned as `row`, or nothing. Throws std::runtime_error when the journal has that run
   /// and replicate at another point or with another seed: it is of another design.

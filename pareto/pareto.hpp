@@ -19,6 +19,8 @@
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/nsga3.hpp>
 #include <drawpoint/pareto/polish.hpp>
+#include <drawpoint/pareto/polished_front.hpp>
+#include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/pareto/preference.hpp>
 #include <drawpoint/pareto/reference_directions.hpp>
 #include <drawpoint/pareto/search.hpp>
@@ -43,6 +45,8 @@
 /// Polish and certify:
 ///   smooth_function.hpp            a function with derivatives
 ///   polish.hpp                     from the points of a search to optima of smooth functions
+///   polished_front.hpp             the whole front of a smooth function: searched, polished, sorted out
+///   polishing.hpp                  how sure its points are, and what polishing brought
 ///   stationarity.hpp               how far a point is from first-order optimality
 ///
 /// Measure:

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis.h>
+#include <drawpoint/studies/facts.h>
+#include <drawpoint/studies/front.h>
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/report/report.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <drawpoint/studies/analysis.hpp>
-#include <drawpoint/studies/facts.hpp>
-#include <drawpoint/studies/front.hpp>
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/report/report.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -220,7 +220,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     summary.nrmse[j].second = input.validations[j].nrmse;
   if (has_objective(study.problem)) {
-    ModelFront found = front_of(input.models, study.problem, store.identity().seed);
+    pareto::PolishedFront found = front_of(input.models, study.problem, store.identity().seed);
     input.front = std::move(found.front);
     input.polishing = std::move(found.polishing);
   }

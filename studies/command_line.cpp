@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/commands.h>
+#include <drawpoint/studies/option_values.h>
 #include <CLI/CLI.hpp>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/studies/commands.hpp>
 
 #include <algorithm>
 #include <array>

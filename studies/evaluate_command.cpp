@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/commands.h>
+#include <drawpoint/studies/execution.h>
+#include <drawpoint/studies/option_values.h>
 #include <fcntl.h>
 #include <unistd.h>
 #include <drawpoint/doe/black_box.hpp>
-#include <drawpoint/studies/commands.hpp>
-#include <drawpoint/studies/execution.hpp>
 
 #include <cerrno>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/execution.hpp>
-#include <drawpoint/studies/interrupt.hpp>
-#include <drawpoint/studies/progress.hpp>
+#include <drawpoint/studies/execution.h>
+#include <drawpoint/studies/interrupt.h>
+#include <drawpoint/studies/progress.h>
 
 #include <chrono>
 #include <cstdio>
@@ -49,7 +49,8 @@ std::vector<std::string> with_options(std::vector<std::string> words, const Opti
   return words;
 }
 
-Job job_for(const Run& run, const Folder& folder, const OptionValues& options, double time_limit) {
+doe::Process process_for(const Run& run, const Folder& folder, const OptionValues& options,
+                         double time_limit) {
   std::error_code ignored;
   fs::remove(folder.unfinished_log(run.id), ignored);
   return {.id = run.id,
@@ -78,7 +79,7 @@ void publish_log(const Folder& folder, std::int64_t id) {
 bool disk_is_full(const Folder& folder) { return free_space(folder.path) < least_free_space; }
 
 /// True if the run failed.
-bool store_end(Store& store, const Folder& folder, const JobEnd& end) {
+bool store_end(Store& store, const Folder& folder, const doe::ProcessEnd& end) {
   const doe::Outcome outcome = outcome_of(end, folder.printed(end.id));
   if (outcome.failed() && disk_is_full(folder)) {
     std::error_code ignored;
@@ -115,12 +116,12 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
   const fs::path printed = folder.logs() / "prepare.txt";
   fs::remove_all(draft);
   fs::create_directory(draft);
-  ProcessPool pool(1);
+  doe::ProcessPool pool(1);
   pool.start(
       {.executable = own_executable(),
        .arguments = with_options({"prepare", "--shared=" + draft.string(), "--result-descriptor=3"}, options),
        .output = printed});
-  std::vector<JobEnd> ends;
+  std::vector<doe::ProcessEnd> ends;
   while (ends.empty()) {
     if (InterruptGuard::requested()) {
       pool.terminate(grace);
@@ -144,7 +145,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
     if (run.status == Status::planned) waiting.push_back(&run);
   }
   if (waiting.empty()) return;
-  ProcessPool pool(settings.jobs);
+  doe::ProcessPool pool(settings.jobs);
   Progress progress(message_descriptor, state_of(runs));
   while (!waiting.empty() || pool.running() > 0) {
     if (InterruptGuard::requested()) {
@@ -156,7 +157,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
     if (full && pool.running() == 0) stop_for_full_disk(folder);
     while (!full && !waiting.empty() && !pool.full()) {
       store.mark_running(waiting.front()->id);
-      pool.start(job_for(*waiting.front(), folder, store.identity().options, settings.time_limit));
+      pool.start(process_for(*waiting.front(), folder, store.identity().options, settings.time_limit));
       waiting.pop_front();
     }
     for (const auto& end : pool.wait(patience)) progress.finished_one(store_end(store, folder, end));
@@ -173,7 +174,7 @@ std::string reply_text(const doe::Outcome& outcome) {
   return json{{"values", std::vector<double>(y.begin(), y.end())}}.dump();
 }
 
-doe::Outcome outcome_of(const JobEnd& end, const fs::path& printed) {
+doe::Outcome outcome_of(const doe::ProcessEnd& end, const fs::path& printed) {
   const json reply = json::parse(end.reply, nullptr, false);
   if (reply.is_object() && reply.contains("failure"))
     return doe::Failure{reply["failure"].get<std::string>()};
@@ -182,7 +183,7 @@ doe::Outcome outcome_of(const JobEnd& end, const fs::path& printed) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
   }
-  std::string reason = "the run's process " + describe(end);
+  std::string reason = "the run's process " + doe::describe(end);
   std::error_code ignored;
   if (fs::exists(printed, ignored)) reason += "; it printed logs/" + printed.filename().string();
   return doe::Failure{reason};

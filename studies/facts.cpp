@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/facts.h>
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/progress.h>
 #include <sys/utsname.h>
-#include <drawpoint/studies/facts.hpp>
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/progress.hpp>
 
 #include <ctime>
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/identity.hpp>
+#include <drawpoint/studies/identity.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,22 +9,6 @@ namespace drawpoint::studies {
 namespace {
 
 using nlohmann::json;
-
-doe::Goal goal_from(const std::string& name) {
-  using doe::Goal;
-  for (const Goal goal : {Goal::minimize, Goal::maximize, Goal::at_most, Goal::at_least}) {
-    if (name == doe::to_string(goal)) return goal;
-  }
-  return Goal::record;
-}
-
-doe::VariableKind kind_from(const std::string& name) {
-  using doe::VariableKind;
-  for (const VariableKind kind : {VariableKind::integer, VariableKind::categorical}) {
-    if (name == doe::to_string(kind)) return kind;
-  }
-  return VariableKind::real;
-}
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
@@ -82,37 +66,6 @@ std::string difference(const std::vector<Item>& there, const std::vector<Item>& 
 }
 
 }  // namespace
-
-json to_json(const doe::Problem& problem) {
-  json variables = json::array();
-  for (const auto& v : problem.variables) {
-    json entry = {{"name", v.name}, {"unit", v.unit}, {"lower", v.lower}, {"upper", v.upper}};
-    if (v.kind != doe::VariableKind::real) entry["kind"] = std::string(to_string(v.kind));
-    if (!v.levels.empty()) entry["levels"] = v.levels;
-    variables.push_back(entry);
-  }
-  json responses = json::array();
-  for (const auto& r : problem.responses) {
-    json entry = {{"name", r.name}, {"unit", r.unit}, {"goal", name_of(r.goal)}};
-    if (!std::isnan(r.limit)) entry["limit"] = r.limit;
-    responses.push_back(entry);
-  }
-  return {{"variables", variables}, {"responses", responses}};
-}
-
-doe::Problem problem_from_json(const json& data) {
-  doe::Problem problem;
-  for (const auto& v : data.at("variables")) {
-    problem.variables.push_back({v.at("name"), v.at("unit"), v.at("lower"), v.at("upper"),
-                                 kind_from(v.value("kind", "real")),
-                                 v.value("levels", std::vector<std::string>{})});
-  }
-  for (const auto& r : data.at("responses")) {
-    problem.responses.push_back(
-        {r.at("name"), r.at("unit"), goal_from(r.at("goal")), r.value("limit", std::nan(""))});
-  }
-  return problem;
-}
 
 std::string difference(const doe::Problem& there, const doe::Problem& here) {
   const std::string text = difference(there.variables, here.variables, "variables");

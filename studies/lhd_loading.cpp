@@ -3,9 +3,9 @@
 /// The case of Lindmark (2016): how should an LHD load from a muckpile in a drift, and what does each choice
 /// cost?
 
+#include <drawpoint/studies/loading_figures.h>
+#include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
-#include <drawpoint/studies/loading_figures.hpp>
-#include <drawpoint/studies/loading_headlines.hpp>
 #include <drawpoint/studies/study.hpp>
 
 using namespace drawpoint;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
-#include <drawpoint/studies/loading_figures.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/engine/loading/responses.hpp>
-#include <drawpoint/studies/loading_headlines.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -22,21 +22,4 @@ struct StudyOption {
 /// A value per option.
 using OptionValues = std::map<std::string, std::string>;
 
-/// The values there are, in words: "ore, waste" or "whole numbers from 1 to 9".
-std::string allowed_values(const StudyOption& option);
-
-/// What is wrong with a value, in words, or "".
-std::string complaint(const StudyOption& option, const std::string& value);
-
-/// A value per option: the one given, or the default. What is given for no option is left out.
-OptionValues with_defaults(const std::vector<StudyOption>& options, const OptionValues& given);
-
-/// The first difference in words ("option materials: calibrated there, lindmark2016 here"), or "". An option
-/// that is missing on one side differs; `here` may leave out what it takes from there when `partly`.
-std::string difference(const OptionValues& there, const OptionValues& here, bool partly);
-
-/// Throws std::invalid_argument for a name that cannot be one, or that a command has already, and for a
-/// default that is not allowed.
-void check(const std::vector<StudyOption>& options);
-
 }  // namespace drawpoint::studies

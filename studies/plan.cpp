@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/doe/detail/permutation.hpp>
-#include <drawpoint/doe/latin_hypercube.hpp>
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/settings.h>
+#include <drawpoint/doe/augmented_latin_hypercube.hpp>
+#include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/doe/uniform.hpp>
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/settings.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -25,22 +25,6 @@ doe::Seed seed_of(const Identity& identity, Kind kind, std::int64_t point, int r
   const doe::Seed study =
       kind == Kind::training ? identity.seed : stream_seed(identity, Stream::validation_runs, 0);
   return doe::run_seed(study, static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(replicate));
-}
-
-/// Strata of [lower, upper] cut in `strata` equal parts that hold none of the values, in random order.
-std::vector<int> empty_strata(const Eigen::VectorXd& values, const doe::Variable& axis, int strata,
-                              doe::RandomStream& random) {
-  std::vector<bool> taken(static_cast<std::size_t>(strata), false);
-  for (const double value : values) {
-    const double share = (value - axis.lower) / (axis.upper - axis.lower);
-    taken[static_cast<std::size_t>(std::clamp(static_cast<int>(share * strata), 0, strata - 1))] = true;
-  }
-  std::vector<int> result;
-  for (int s = 0; s < strata; ++s) {
-    if (!taken[static_cast<std::size_t>(s)]) result.push_back(s);
-  }
-  doe::detail::shuffle(result, random);
-  return result;
 }
 
 Eigen::MatrixXd points_of(const std::vector<Run>& runs, Kind kind, Eigen::Index dimension) {
@@ -85,28 +69,17 @@ bool has_corners(const doe::Problem& problem, int runs) {
 }
 
 Eigen::MatrixXd first_design(const Identity& identity, int runs) {
-  return doe::latin_hypercube(
+  return doe::optimized_latin_hypercube(
       identity.problem, runs,
-      {.seed = stream_seed(identity, Stream::training, 0), .corners = identity.corners});
+      {.seed = stream_seed(identity, Stream::training, 0), .corners = identity.corners, .centred = false});
 }
 
 Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& existing, int runs) {
-  const auto& axes = identity.problem.variables;
-  const int corners = identity.corners ? 1 << axes.size() : 0;
-  const int strata = runs - corners;
-  const int wanted = runs - static_cast<int>(existing.rows());
-  doe::RandomStream random(
-      stream_seed(identity, Stream::training, static_cast<std::uint64_t>(existing.rows())));
-  Eigen::MatrixXd X(wanted, existing.cols());
-  for (Eigen::Index k = 0; k < X.cols(); ++k) {
-    const auto& axis = axes[static_cast<std::size_t>(k)];
-    const auto free = empty_strata(existing.col(k).tail(existing.rows() - corners), axis, strata, random);
-    for (int i = 0; i < wanted; ++i) {
-      const double share = (free[static_cast<std::size_t>(i)] + random.uniform()) / strata;
-      X(i, k) = doe::detail::to_natural(share, axis);
-    }
-  }
-  return X;
+  const int corners = identity.corners ? 1 << identity.problem.variables.size() : 0;
+  const auto more = runs - static_cast<int>(existing.rows());
+  const auto seed = stream_seed(identity, Stream::training, static_cast<std::uint64_t>(existing.rows()));
+  const Eigen::MatrixXd latin = existing.bottomRows(existing.rows() - corners);
+  return doe::augmented_latin_hypercube(identity.problem, latin, more, {.seed = seed}).bottomRows(more);
 }
 
 std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& existing, int runs,

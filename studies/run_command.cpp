@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis.h>
+#include <drawpoint/studies/commands.h>
+#include <drawpoint/studies/execution.h>
+#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/interrupt.h>
+#include <drawpoint/studies/session.h>
+#include <drawpoint/studies/summary.h>
 #include <unistd.h>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/studies/analysis.hpp>
-#include <drawpoint/studies/commands.hpp>
-#include <drawpoint/studies/execution.hpp>
-#include <drawpoint/studies/folder.hpp>
-#include <drawpoint/studies/interrupt.hpp>
-#include <drawpoint/studies/session.hpp>
-#include <drawpoint/studies/summary.hpp>
 
 #include <cstdio>
 #include <stdexcept>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/session.hpp>
+#include <drawpoint/studies/option_values.h>
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/session.h>
 
 #include <stdexcept>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/commands.hpp>
-#include <drawpoint/studies/folder.hpp>
-#include <drawpoint/studies/progress.hpp>
-#include <drawpoint/studies/session.hpp>
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/commands.h>
+#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/progress.h>
+#include <drawpoint/studies/session.h>
+#include <drawpoint/studies/store.h>
 
 #include <array>
 #include <cstdio>

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/store.h>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/columns.hpp>
-#include <drawpoint/studies/store_errors.hpp>
+#include <drawpoint/studies/columns.h>
+#include <drawpoint/studies/store_errors.h>
+#include <drawpoint/doe/problem_json.hpp>
 
 #include <ctime>
 #include <limits>
@@ -175,7 +176,7 @@ void Store::read_identity() {
   };
   try {
     identity_ = {get("name"),
-                 problem_from_json(nlohmann::json::parse(get("problem"))),
+                 doe::problem_from_json(nlohmann::json::parse(get("problem"))),
                  std::stoull(get("seed")),
                  std::stoi(get("replicates")),
                  get("corners") == "1",

@@ -11,6 +11,14 @@
 /// The program has the commands run, status, report and evaluate (docs/studies.md). Every run is a process of
 /// its own with one thread, so that a crash is one failed run; each finished run is stored before the next
 /// one starts. Equal (x, seed) must give equal outcomes: a run that was lost is simply run again.
+///
+/// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
+///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
+///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
+///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one per body]}], camera: {eye, target},
+///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside
+///   lines  series: [{name, x: [], y: []}]; x_label, y_label
+///   table  columns: [], rows: [[]..]
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -28,6 +36,12 @@
 #include <vector>
 
 namespace drawpoint::studies {
+
+// The library and its users hand Eigen's vectors to each other, and free them.
+static_assert(EIGEN_MAX_ALIGN_BYTES == 16,
+              "drawpoint: this file is compiled with another alignment of Eigen types than the library of "
+              "studies. Link Drawpoint::studies, or define EIGEN_MAX_ALIGN_BYTES=16 before Eigen is included "
+              "for the first time");
 
 /// Where one run may write and read, and what holds for all runs of its study.
 struct RunContext {
@@ -93,8 +107,7 @@ struct Study {
   /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
   /// writes is kept or nothing.
   std::function<void(const RunContext& context)> prepare = {};
-  /// Figures of one run for the report, from its log: a JSON array of panels (report/report.hpp lists the
-  /// kinds).
+  /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
   std::function<nlohmann::json(const std::filesystem::path& log)> illustrate = {};
   /// Figures from the logs of all runs that succeeded, said first in summary and report.
   std::function<std::vector<Headline>(const std::vector<std::filesystem::path>& logs)> headlines = {};

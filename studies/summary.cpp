@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/summary.h>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/studies/summary.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -28,12 +28,12 @@ std::string headline_text(const Headline& headline) {
 }
 
 std::string front_text(const Summary& summary) {
-  const Polishing& polishing = summary.polishing;
+  const pareto::Polishing& polishing = summary.polishing;
   std::string line = "Pareto front: " + std::to_string(summary.front) + " points";
   if (!polishing.skipped.empty()) return line + ", not polished: " + polishing.skipped;
   if (polishing.residual.size() == 0) return line;
   line += ", " + std::to_string(polishing.certified()) + " certified (KKT residual at most " +
-          doe::detail::number_text(certified_residual) + ")";
+          doe::detail::number_text(pareto::certified_residual) + ")";
   if (!std::isfinite(polishing.gain)) return line;
   return line + "; polishing added " + formatted("%.2f", polishing.gain) + " % of hypervolume";
 }
@@ -54,7 +54,7 @@ std::string json_line(const Summary& summary) {
     line["nrmse"][response] = number_or_null(value);
   }
   line["front"] = summary.front;
-  const Polishing& polishing = summary.polishing;
+  const pareto::Polishing& polishing = summary.polishing;
   line["certified"] = polishing.residual.size() > 0 ? nlohmann::ordered_json(polishing.certified())
                                                     : nlohmann::ordered_json();
   line["polishing_gain_percent"] = number_or_null(polishing.gain);

@@ -17,13 +17,13 @@
 #include <string>
 #include <vector>
 
+#include <drawpoint/studies/store.h>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <drawpoint/studies/store.hpp>
 
 namespace {
 

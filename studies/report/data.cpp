@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/studies/report/data.hpp>
-#include <drawpoint/studies/report/panels.hpp>
-#include <drawpoint/studies/report/summary.hpp>
-#include <drawpoint/studies/report/surface.hpp>
-#include <drawpoint/studies/report/text.hpp>
+#include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/summary.h>
+#include <drawpoint/studies/report/surface.h>
+#include <drawpoint/studies/report/text.h>
+#include <drawpoint/doe/problem_json.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -24,16 +25,6 @@ json to_json(const Eigen::MatrixXd& rows) {
   json all = json::array();
   for (Eigen::Index i = 0; i < rows.rows(); ++i) all.push_back(to_json(Eigen::VectorXd(rows.row(i))));
   return all;
-}
-
-json to_json(const doe::Problem& problem) {
-  json variables = json::array(), responses = json::array();
-  for (const doe::Variable& v : problem.variables)
-    variables.push_back({{"name", v.name}, {"unit", v.unit}, {"lower", v.lower}, {"upper", v.upper}});
-  for (const doe::Response& r : problem.responses)
-    responses.push_back(
-        {{"name", r.name}, {"unit", r.unit}, {"goal", doe::to_string(r.goal)}, {"limit", r.limit}});
-  return {{"variables", std::move(variables)}, {"responses", std::move(responses)}};
 }
 
 json to_json(const doe::Evaluations& table) {
@@ -75,21 +66,21 @@ json to_json(const kriging::Model& model, const std::optional<Surface>& s) {
           {"surface", std::move(formula)}};
 }
 
-json to_json(const kriging::Model& model, const kriging::Validation& v) {
+json to_json(const kriging::Validation& v) {
   if (v.observed.size() == 0) return json();
   return {{"rmse", v.rmse},
           {"nrmse", v.nrmse},
           {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
           {"observed", to_json(v.observed)},
           {"predicted", to_json(v.predicted)},
-          {"sd", to_json(deviation_of_runs(model, v))}};
+          {"sd", to_json(Eigen::VectorXd(v.observation_variance.cwiseMax(0.0).cwiseSqrt()))}};
 }
 
 /// A residual is null where it is unknown.
-json to_json(const Polishing& polishing) {
+json to_json(const pareto::Polishing& polishing) {
   return {{"residual", to_json(polishing.residual)},
           {"certified", polishing.certified()},
-          {"tolerance", certified_residual},
+          {"tolerance", pareto::certified_residual},
           {"gain", polishing.gain},
           {"skipped", polishing.skipped}};
 }
@@ -143,7 +134,7 @@ void check_results(const ReportInput& input) {
     reject(std::to_string(input.validations.size()) + " validations for " +
            std::to_string(input.models.size()) + " models; give one each or none");
   for (const kriging::Validation& v : input.validations)
-    if (v.predicted.size() != v.observed.size() || v.variance.size() != v.observed.size())
+    if (v.predicted.size() != v.observed.size() || v.observation_variance.size() != v.observed.size())
       reject(
           "a validation has unequal numbers of observed, predicted and variance; give what validate "
           "returned");
@@ -168,7 +159,7 @@ json report_data(const ReportInput& input) {
   ReportInput known = input;
   known.training.problem = known.validation.problem = input.problem;
   json models = json::array(), validations = json::array(), shares = json::array();
-  std::vector<Eigen::VectorXd> effects;
+  const std::vector<Eigen::VectorXd> effects = influence(input.models, input.problem);
   for (std::size_t j = 0; j < input.models.size(); ++j) {
     const kriging::Model& model = input.models[j];
     const auto formula = surface(model);
@@ -177,9 +168,8 @@ json report_data(const ReportInput& input) {
           "The response surface of " + pretty(input.problem.responses[j].name) +
           " is not drawn: the trend of its model is a function that this page does not know.");
     models.push_back(to_json(model, formula));
-    validations.push_back(j < input.validations.size() ? to_json(model, input.validations[j]) : json());
-    effects.push_back(influence(model, input.problem));
-    shares.push_back(to_json(effects.back()));
+    validations.push_back(j < input.validations.size() ? to_json(input.validations[j]) : json());
+    shares.push_back(to_json(effects[j]));
   }
   json panels = checked_panels(input.illustrations, known.warnings);
   return {{"study", input.study},

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/studies/report/assets.hpp>
-#include <drawpoint/studies/report/page.hpp>
+#include <drawpoint/studies/report/assets.h>
+#include <drawpoint/studies/report/page.h>
 
 #include <map>
 #include <string_view>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/studies/report/panels.hpp>
+#include <drawpoint/studies/report/panels.h>
 
 #include <algorithm>
 #include <array>

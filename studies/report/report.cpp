@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/report/page.h>
+#include <drawpoint/studies/report/report.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
-#include <drawpoint/studies/report/data.hpp>
-#include <drawpoint/studies/report/page.hpp>
-#include <drawpoint/studies/report/report.hpp>
 
 namespace drawpoint::studies {
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/summary.h>
+#include <drawpoint/studies/report/text.h>
 #include <drawpoint/pareto/minimised.hpp>
-#include <drawpoint/studies/report/summary.hpp>
-#include <drawpoint/studies/report/text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,7 @@ using nlohmann::json;
 constexpr double good_nrmse = 0.1, fair_nrmse = 0.2;
 constexpr Eigen::Index enough_points = 10;
 constexpr double enough_coverage = 0.75;
+constexpr double two_deviations = 0.9545;  // what a normal variable has within two standard deviations
 
 bool maximized(const doe::Response& r) { return r.goal == doe::Goal::maximize; }
 
@@ -168,20 +169,15 @@ json grade(const ReportInput& input, std::size_t j) {
   return verdict;
 }
 
-double coverage(const kriging::Model& model, const kriging::Validation& v) {
-  const Eigen::ArrayXd reach = 2.0 * deviation_of_runs(model, v).array();
-  return ((v.observed - v.predicted).array().abs() <= reach).cast<double>().mean();
-}
-
 void caution_about_models(const ReportInput& input, json& all) {
-  for (std::size_t j = 0; j < std::min(input.models.size(), input.validations.size()); ++j) {
+  for (std::size_t j = 0; j < input.validations.size(); ++j) {
     const kriging::Validation& v = input.validations[j];
     const std::string name = pretty(input.problem.responses[j].name);
     if (v.observed.size() == 0) continue;
     if (v.nrmse > fair_nrmse)
       all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
                     "): add runs, or read only its trends.");
-    const double within = coverage(input.models[j], v);
+    const double within = kriging::score(v, kriging::ErrorFunction::coverage, two_deviations);
     if (v.observed.size() >= enough_points && within < enough_coverage)
       all.push_back("The error bars of " + name + " are too narrow: only " + percent(within) +
                     " of the validation runs lie within two standard deviations.");
@@ -224,10 +220,6 @@ json cautions(const ReportInput& input) {
 }
 
 }  // namespace
-
-Eigen::VectorXd deviation_of_runs(const kriging::Model& model, const kriging::Validation& validation) {
-  return (validation.variance.array() + model.nugget() * model.process_variance()).max(0.0).sqrt();
-}
 
 std::vector<std::size_t> objectives(const doe::Problem& problem) {
   std::vector<std::size_t> chosen;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/doe/uniform.hpp>
-#include <drawpoint/studies/report/surface.hpp>
+#include <drawpoint/studies/report/surface.h>
+#include <drawpoint/doe/sensitivity.hpp>
+#include <drawpoint/kriging/surrogates.hpp>
 
 namespace drawpoint::studies::detail {
 
@@ -17,22 +18,14 @@ std::optional<Surface> surface(const kriging::Model& model) {
   return s;
 }
 
-Eigen::VectorXd influence(const kriging::Model& model, const doe::Problem& problem) {
-  constexpr int samples = 512;
-  const auto d = static_cast<Eigen::Index>(problem.variables.size());
-  const Eigen::MatrixXd A = doe::uniform_random(problem, samples, {.seed = 1}),
-                        B = doe::uniform_random(problem, samples, {.seed = 2});
-  const Eigen::VectorXd at_a = model.mean(A), at_b = model.mean(B);
-  const double centre = 0.5 * (at_a.mean() + at_b.mean());
-  const double variance =
-      ((at_a.array() - centre).square().sum() + (at_b.array() - centre).square().sum()) / (2.0 * samples);
-  Eigen::VectorXd total = Eigen::VectorXd::Zero(d);
-  if (!(variance > 0.0)) return total;
-  for (Eigen::Index k = 0; k < d; ++k) {
-    Eigen::MatrixXd mixed = A;
-    mixed.col(k) = B.col(k);
-    total[k] = (at_a - model.mean(mixed)).squaredNorm() / (2.0 * samples * variance);
-  }
+std::vector<Eigen::VectorXd> influence(const std::vector<kriging::Model>& models,
+                                       const doe::Problem& problem) {
+  std::vector<Eigen::VectorXd> total;
+  if (models.empty()) return total;
+  const doe::Sensitivity found =
+      doe::sobol_indices(kriging::Surrogates(models), problem, {.samples = 512, .resamples = 100});
+  for (const doe::SobolIndices& response : found.responses)
+    total.push_back(response.total.value.array().isFinite().select(response.total.value, 0.0));
   return total;
 }
 

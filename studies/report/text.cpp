@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/studies/report/text.hpp>
+#include <drawpoint/studies/report/text.h>
 
 #include <algorithm>
 #include <cmath>

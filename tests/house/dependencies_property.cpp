@@ -82,6 +82,8 @@ TEST(Dependencies, AnInternalHeaderStaysInside) {
   EXPECT_EQ(first_breach("studies/a.cpp", include), "studies/a.cpp" + why);
   EXPECT_EQ(first_breach("engine/machine/b.cpp", include), "");
   EXPECT_EQ(first_breach("engine/machine/b.h", include), "");
+  EXPECT_EQ(first_breach("studies/a.cpp", "#include <drawpoint/studies/report/a.h>"), "");
+  EXPECT_NE(first_breach("studies/a.hpp", "#include <drawpoint/studies/b.h>"), "");
   const std::string shared = "#include <drawpoint/engine/geometry/a.h>";
   EXPECT_EQ(first_breach("engine/collision/b.h", shared), "");
   EXPECT_NE(first_breach("engine/granular/b.cpp", shared), "");

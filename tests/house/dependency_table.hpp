@@ -36,6 +36,7 @@ inline std::vector<std::string> rooms(const std::vector<std::string>& names) {
 inline const std::vector<Row>& dependency_table() {
   static const std::vector<Row> table{
       {"doe/", {"doe/"}, {"Eigen"}, {}},
+      {"doe/problem_json.hpp", {"doe/"}, {"nlohmann-json"}, {}},  // no other header includes it
       {"kriging/", {"doe/", "kriging/"}, {"Eigen", "Ipopt"}, {}},
       {"kriging/save.hpp",
        {"doe/", "kriging/"},
@@ -110,10 +111,12 @@ inline const Row* row_of(const std::string& path) {
 /// Whether no user of the row's module ever sees the file.
 inline bool internal(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".h"); }
 
-/// Whether the file may see the internal header: one of its own room, or both are in the rooms that make up
-/// contact solving, which share theirs in the direction of the table.
+/// Whether the file may see the internal header: one of its own room (the studies with their report are one),
+/// or both are in the rooms that make up contact solving, which share theirs in the direction of the table.
 inline bool same_inside(const std::string& path, const std::string& header) {
-  const auto room = [](const std::string& file) { return file.substr(0, file.rfind('/') + 1); };
+  const auto room = [](const std::string& file) {
+    return file.starts_with("studies/") ? "studies/" : file.substr(0, file.rfind('/') + 1);
+  };
   const auto contact = [](const std::string& file) {
     for (const char* name : {"base", "geometry", "collision", "solver", "world"})
       if (file.starts_with("engine/" + std::string(name) + "/")) return true;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <drawpoint/studies/front.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
@@ -13,7 +14,6 @@
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/polish.hpp>
-#include <drawpoint/studies/front.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
 #include <algorithm>
@@ -71,14 +71,14 @@ TEST(Front, OfAMixedSetOfSurrogatesIsPolished) {
   for (Eigen::Index i = 0; i < X.rows(); ++i) y[i] = near_b(X.row(i).transpose());
   const kriging::Surrogates mixed({exact_models(problem, {near_a})[0], kriging::fit_polynomial(X, y)});
   const pareto::Front front =
-      pareto::nsga2(mixed, problem, {.population = 20, .stopping = {.generations = 20}});
+      pareto::nsga2(mixed, problem, {.search = {.population = 20, .stopping = {.generations = 20}}});
   const pareto::Polished polished = pareto::polish(mixed, problem, front);
   EXPECT_GE(polished.hypervolume, polished.hypervolume_before);
   for (Eigen::Index i = 0; i < polished.front.X.rows(); ++i) {
-    if (polished.residual[i] > certified_residual) continue;
-    EXPECT_LE(distance_to_segment(polished.front.X.row(i).transpose()), 2.0 * certified_residual);
+    if (polished.residual[i] > pareto::certified_residual) continue;
+    EXPECT_LE(distance_to_segment(polished.front.X.row(i).transpose()), 2.0 * pareto::certified_residual);
   }
-  EXPECT_GE((polished.residual.array() <= certified_residual).count(), 18);
+  EXPECT_GE((polished.residual.array() <= pareto::certified_residual).count(), 18);
 }
 
 // The models' gradients are those of the formulas to about 1e-9 (a correlated rest of rounding, 1e-16 of the
@@ -91,12 +91,12 @@ TEST(Front, CertifiedPointsLieOnTheKnownSet) {
   const doe::Problem problem = support::unit_problem(3, 2);
   const auto models = exact_models(problem, {near_a, near_b});
   const pareto::Front before = searched(models, problem);
-  const ModelFront after = finished(before, models, problem);
+  const pareto::PolishedFront after = pareto::polished_front(kriging::Surrogates(models), problem, before);
   ASSERT_EQ(after.polishing.residual.size(), after.front.X.rows());
   EXPECT_GT(median_distance(before.X), 1e-3);  // a search alone does not get there
   for (Eigen::Index i = 0; i < after.front.X.rows(); ++i) {
-    if (after.polishing.residual[i] > certified_residual) continue;
-    EXPECT_LE(distance_to_segment(after.front.X.row(i).transpose()), 2.0 * certified_residual);
+    if (after.polishing.residual[i] > pareto::certified_residual) continue;
+    EXPECT_LE(distance_to_segment(after.front.X.row(i).transpose()), 2.0 * pareto::certified_residual);
   }
   // The problem is convex, so nothing can hold Ipopt up: every point arrives.
   EXPECT_EQ(after.polishing.certified(), after.front.X.rows());
@@ -107,7 +107,7 @@ TEST(Front, NothingGetsWorse) {
   const doe::Problem problem = support::unit_problem(3, 2);
   const auto models = exact_models(problem, {near_a, near_b});
   const pareto::Front before = searched(models, problem);
-  const ModelFront after = finished(before, models, problem);
+  const pareto::PolishedFront after = pareto::polished_front(kriging::Surrogates(models), problem, before);
   EXPECT_EQ(pareto::non_dominated(after.front.Y).size(), static_cast<std::size_t>(after.front.Y.rows()));
   for (Eigen::Index i = 0; i < before.Y.rows(); ++i) {
     const auto as_good = (after.front.Y.rowwise() - before.Y.row(i)).rowwise().maxCoeff().minCoeff();
@@ -129,10 +129,10 @@ TEST(Front, PointsEndOnTheBoundThatHoldsThem) {
   const auto models =
       exact_models(problem, {[&](const Eigen::VectorXd& x) { return (x - a - shift).squaredNorm(); },
                              [&](const Eigen::VectorXd& x) { return (x - b - shift).squaredNorm(); }});
-  const ModelFront found = front_of(models, problem, 1);
+  const pareto::PolishedFront found = front_of(models, problem, 1);
   EXPECT_GT(found.polishing.certified(), found.front.X.rows() / 2);
   for (Eigen::Index i = 0; i < found.front.X.rows(); ++i) {
-    if (found.polishing.residual[i] > certified_residual) continue;
+    if (found.polishing.residual[i] > pareto::certified_residual) continue;
     EXPECT_EQ(found.front.X(i, 2), 0.0);
   }
 }
@@ -146,7 +146,7 @@ TEST(Front, LimitsHold) {
   const auto models = exact_models(problem, {[](const Eigen::VectorXd& x) { return 1.0 - near_a(x); }, near_b,
                                              [](const Eigen::VectorXd& x) { return x[0]; }});
   const pareto::Front before = searched(models, problem);
-  const ModelFront after = finished(before, models, problem);
+  const pareto::PolishedFront after = pareto::polished_front(kriging::Surrogates(models), problem, before);
   EXPECT_GE(after.front.responses.col(1).minCoeff(), 0.6);
   EXPECT_EQ(after.front.Y.col(0), after.front.responses.col(0));
   EXPECT_EQ(after.front.Y.col(1), after.front.responses.col(2));
@@ -159,23 +159,24 @@ TEST(Front, WholeNumbersStayAsSearched) {
   problem.variables[1] = doe::integer_variable("teeth", "1", 0, 1);
   const auto models = exact_models(support::unit_problem(3, 2), {near_a, near_b});
   const pareto::Front before = searched(models, problem);
-  const ModelFront after = finished(before, models, problem);
+  const pareto::PolishedFront after = pareto::polished_front(kriging::Surrogates(models), problem, before);
   EXPECT_EQ(after.front.X, before.X);
   EXPECT_EQ(after.polishing.residual.size(), 0);
   EXPECT_EQ(after.polishing.skipped, "variable \"teeth\" is integer, and polishing follows gradients");
 }
 
 TEST(Front, ManyObjectivesStayAsSearched) {
-  const doe::Problem problem = support::unit_problem(3, most_polished_objectives + 1);
+  const doe::Problem problem = support::unit_problem(3, pareto::most_polished_objectives + 1);
   const auto models = exact_models(
       problem, std::vector<Formula>(problem.responses.size(), [](const auto& x) { return x[0]; }));
-  EXPECT_EQ(finished(searched(models, problem), models, problem).polishing.skipped,
+  EXPECT_EQ(pareto::polished_front(kriging::Surrogates(models), problem, searched(models, problem))
+                .polishing.skipped,
             "6 objectives, and the hypervolume of more than 5 takes too long");
 }
 
 TEST(Front, OneObjectiveEndsAtItsMinimum) {
   const doe::Problem problem = support::unit_problem(3, 1);
-  const ModelFront best = front_of(exact_models(problem, {near_a}), problem, 1);
+  const pareto::PolishedFront best = front_of(exact_models(problem, {near_a}), problem, 1);
   ASSERT_EQ(best.front.X.rows(), 1);
   EXPECT_EQ(best.polishing.residual.size(), 0);
   EXPECT_TRUE(std::isnan(best.polishing.gain));
@@ -186,7 +187,7 @@ TEST(Front, OneObjectiveEndsAtItsMinimum) {
 TEST(Front, WithoutAFeasiblePointThereIsNothingToPolish) {
   doe::Problem problem = support::unit_problem(3, 2);
   problem.responses[1] = {"far", "1", Goal::at_least, 10.0};
-  const ModelFront none = front_of(exact_models(problem, {near_a, near_b}), problem, 1);
+  const pareto::PolishedFront none = front_of(exact_models(problem, {near_a, near_b}), problem, 1);
   EXPECT_EQ(none.front.X.rows(), 0);
   EXPECT_EQ(none.polishing.skipped, "");
   EXPECT_EQ(none.polishing.residual.size(), 0);

@@ -4,8 +4,8 @@
 
 #include "support.hpp"
 
+#include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/engine/loading/loading_log.hpp>
-#include <drawpoint/studies/loading_headlines.hpp>
 
 #include <cmath>
 #include <map>

@@ -4,8 +4,8 @@
 
 #include "support.hpp"
 
-#include <drawpoint/studies/progress.hpp>
-#include <drawpoint/studies/summary.hpp>
+#include <drawpoint/studies/progress.h>
+#include <drawpoint/studies/summary.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -5,8 +5,8 @@
 
 #include "support.hpp"
 
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/settings.hpp>
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/settings.h>
 
 #include <set>
 

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <drawpoint/studies/report/panels.hpp>
-#include <drawpoint/studies/report/summary.hpp>
-#include <drawpoint/studies/report/surface.hpp>
-#include <drawpoint/studies/report/text.hpp>
+#include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/summary.h>
+#include <drawpoint/studies/report/surface.h>
+#include <drawpoint/studies/report/text.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 
 using namespace drawpoint;
@@ -109,15 +109,16 @@ TEST(ReportSurface, ATrendOfTheUsersOwnIsNot) {
 TEST(ReportInfluence, LinearFunction) {
   ReportInput in = input(2, 1, 20, 0);
   const Eigen::MatrixXd X = in.training.X();
-  const Eigen::VectorXd total = detail::influence(kriging::fit(X, X.col(0) + 2.0 * X.col(1)), in.problem);
+  const Eigen::VectorXd total =
+      detail::influence({kriging::fit(X, X.col(0) + 2.0 * X.col(1))}, in.problem).front();
   EXPECT_NEAR(total[0], 0.2, 0.24 * 0.2);
   EXPECT_NEAR(total[1], 0.8, 0.24 * 0.8);
 }
 
 TEST(ReportInfluence, ConstantFunctionHasNone) {
   const ReportInput in = input(2, 1, 20, 0);
-  EXPECT_EQ(detail::influence(kriging::fit(in.training.X(), Eigen::VectorXd::Constant(20, 3.0)), in.problem),
-            Eigen::VectorXd::Zero(2));
+  const kriging::Model constant = kriging::fit(in.training.X(), Eigen::VectorXd::Constant(20, 3.0));
+  EXPECT_EQ(detail::influence({constant}, in.problem).front(), Eigen::VectorXd::Zero(2));
 }
 
 // Ideal point (best of each) is (10, 0) with the goals maximize, minimize. Scaled distances: (0, 1) -> 1;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/studies/report/report.h>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/uniform.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
-#include <drawpoint/studies/report/report.hpp>
 
 #include <fstream>
 #include <iterator>

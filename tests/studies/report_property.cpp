@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <drawpoint/studies/report/page.hpp>
+#include <drawpoint/studies/report/page.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 #include <regex>
 

@@ -5,9 +5,11 @@
 
 #include "support.hpp"
 
+#include <drawpoint/studies/option_values.h>
+#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/session.h>
 #include <sys/wait.h>
-#include <drawpoint/studies/plan.hpp>
-#include <drawpoint/studies/session.hpp>
+#include <drawpoint/doe/problem_json.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -145,7 +147,8 @@ TEST(Problems, SurviveTheStoreAsText) {
     if (discrete)
       problem.variables = {doe::integer_variable("teeth", "1", 2, 6),
                            doe::categorical_variable("tool", {"a", "b"})};
-    EXPECT_EQ(difference(problem_from_json(nlohmann::json::parse(to_json(problem).dump())), problem), "");
+    EXPECT_EQ(difference(doe::problem_from_json(nlohmann::json::parse(to_json(problem).dump())), problem),
+              "");
   }
   doe::Problem other = problem;
   other.variables[1].levels[1] = "c";

@@ -5,8 +5,8 @@
 #include "support.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/columns.hpp>
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/columns.h>
+#include <drawpoint/studies/store.h>
 
 #include <cmath>
 

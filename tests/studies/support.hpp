@@ -3,9 +3,9 @@
 #pragma once
 /// What the tests of studies share: a folder that goes away, a small problem, file contents.
 
+#include <drawpoint/studies/identity.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <drawpoint/studies/identity.hpp>
 
 #include <cstdlib>
 #include <filesystem>

@@ -36,7 +36,7 @@ export function facts(data) {
     variables.map((v) => [labelled(v), v.lower, v.upper]), {sortable: false});
   const goals = {minimize: 'as small as possible', maximize: 'as large as possible', at_most: 'at most', at_least: 'at least', record: 'recorded only'};
   const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}],
-    responses.map((r) => [labelled(r), goals[r.goal] + (r.limit === null ? '' : ' ' + number(r.limit))]), {sortable: false});
+    responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit))]), {sortable: false});
   const rows = [...data.facts];
   if (data.command) rows.unshift(['Command', el('code', {}, data.command)]);
   return section('making', 'How it was made', null, el('div', {class: 'columns'}, inputs.node, outputs.node),

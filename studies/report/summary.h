@@ -8,17 +8,13 @@
 /// (fewer than 3 in 4 validation points within two standard deviations), and a predicted best beyond
 /// everything simulated.
 
-#include <drawpoint/studies/report/report.hpp>
+#include <drawpoint/studies/report/report.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace drawpoint::studies::detail {
-
-/// Standard deviation of a new run at each validation point: the model's uncertainty and the run-to-run
-/// noise.
-Eigen::VectorXd deviation_of_runs(const kriging::Model& model, const kriging::Validation& validation);
 
 /// Row of the front nearest to the ideal point, each objective scaled to its range on the front; -1 without a
 /// front.

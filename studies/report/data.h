@@ -3,7 +3,7 @@
 #pragma once
 /// All that the page shows, as one JSON object; report/web/main.js and the files it imports read it.
 
-#include <drawpoint/studies/report/report.hpp>
+#include <drawpoint/studies/report/report.h>
 
 #include <nlohmann/json.hpp>
 

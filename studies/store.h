@@ -8,7 +8,7 @@
 ///                        started, finished, then one REAL column for each variable and each response, named
 ///                        as in the problem
 ///
-/// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.hpp
+/// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.h
 /// names the columns.
 ///
 /// status is planned, running, done or failed; a row stays "running" when the study is killed, until the
@@ -18,7 +18,7 @@
 /// schema is refused and left as it is. All failures throw std::runtime_error that names the file and says
 /// what to do.
 
-#include <drawpoint/studies/identity.hpp>
+#include <drawpoint/studies/identity.h>
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+
 /// How sure the points of a front are, and what finishing it with gradients has brought.
 ///
 /// The residual of a point is that of the first-order conditions of a Pareto optimum
-/// (pareto/stationarity.hpp), 0 to 1, without unit. It is about the surrogates, not about the simulation, and
-/// local.
+/// (pareto/stationarity.hpp), 0 to 1, without unit. It is about the function that was
+/// searched: of surrogates, not of the simulation behind them; and local.
 
 #include <Eigen/Core>
 #include <limits>
 #include <string>
 
-namespace drawpoint::studies {
+namespace drawpoint::pareto {
 
 /// A point is certified when its residual is at most this: the gradients of the objectives, weighted, cancel
 /// to a millionth of the largest. Polishing ends near 1e-9, what a search leaves is near 0.1.
@@ -29,4 +30,4 @@ struct Polishing {
   int certified() const { return static_cast<int>((residual.array() <= certified_residual).count()); }
 };
 
-}  // namespace drawpoint::studies
+}  // namespace drawpoint::pareto

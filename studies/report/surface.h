@@ -8,9 +8,7 @@
 /// trend and the correlation c of the model (kriging/correlation.hpp). All of it is the model's own, so the
 /// browser sees its mean to rounding.
 ///
-/// Influence is the total Sobol index by Jansen's estimator (Jansen 1999, Comput. Phys. Commun. 117, eq. 9;
-/// Saltelli et al. 2010, table 2): Tₖ = ½ E[(f(a) - f(aᵦₖ))²] / Var f, over the box with uniform weight, 512
-/// (d + 2) means.
+/// Influence is the total Sobol' index of doe/sensitivity.hpp, from 512 (d + 2) means.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
@@ -34,7 +32,9 @@ struct Surface {
 /// Nothing for a trend of the user's own functions, which no browser knows.
 std::optional<Surface> surface(const kriging::Model& model);
 
-/// d total indices; all zero when the mean is constant. Deterministic.
-Eigen::VectorXd influence(const kriging::Model& model, const doe::Problem& problem);
+/// d total indices per model; all zero where the mean is constant. One model per response of the problem, or
+/// none. Deterministic.
+std::vector<Eigen::VectorXd> influence(const std::vector<kriging::Model>& models,
+                                       const doe::Problem& problem);
 
 }  // namespace drawpoint::studies::detail

@@ -3,13 +3,13 @@
 #pragma once
 /// From stored runs to the report: one Kriging model per response, its correlation and trend chosen by
 /// leave-one-out among four, validated on the validation runs, searched for the trade-offs between all
-/// objectives within all constraints (front.hpp). Failed runs are left out of the models and counted. Equal
+/// objectives within all constraints (front.h). Failed runs are left out of the models and counted. Equal
 /// stores give equal models and fronts: the search is seeded by the study seed.
 
-#include <drawpoint/studies/folder.hpp>
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/summary.h>
 #include <drawpoint/studies/study.hpp>
-#include <drawpoint/studies/summary.hpp>
 
 #include <string>
 

@@ -3,18 +3,18 @@
 #pragma once
 /// Which runs a study makes.
 ///
-/// Training points are a Latin hypercube, with the 2^d corners of the box in front when there are at least
-/// 2^d points. Validation points are independent and uniform. Each has random numbers of its own, derived
-/// from the study seed.
+/// Training points are a Latin hypercube chosen for the distance between its points
+/// (doe/optimized_latin_hypercube.hpp), with the 2^d corners of the box in front when there are at least 2^d
+/// points. Validation points are independent and uniform. Each has random numbers of its own, derived from
+/// the study seed.
 ///
-/// A study grows without losing a run. New validation points are more of the same. New training points keep
-/// the Latin hypercube as far as the old ones allow (Stein 1987; R's lhs::augmentLHS): with n points in all,
-/// each axis is cut in n equal strata; of those without an old point, as many as there are new points are
-/// drawn, and each gets one. So no new point shares a stratum with another point on any axis. Corners stay
-/// out of the count, and are never added later. A grown design is not the one that the larger number would
-/// have given from the start.
+/// A study grows without losing a run: the store keeps the points, so that a study begun by another version
+/// grows from what it has. New validation points are more of the same. New training points are those of
+/// doe/augmented_latin_hypercube.hpp: with n points in all, each axis is cut in n equal strata, and no new
+/// point shares a stratum with another point. Corners stay out of the count, and are never added later. A
+/// grown design is not the one that the larger number would have given from the start.
 
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/store.h>
 
 #include <Eigen/Core>
 #include <vector>

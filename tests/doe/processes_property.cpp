@@ -2,25 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 /// However a child ends, the pool says how, keeps its reply and its output, and leaves nothing running.
 
-#include "support.hpp"
-
+#include <gtest/gtest.h>
 #include <signal.h>
-#include <drawpoint/studies/execution.hpp>
-#include <drawpoint/studies/process_pool.hpp>
+#include <unistd.h>
 
 #include <chrono>
+#include <drawpoint/doe/processes.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <string>
 #include <thread>
+#include <vector>
 
-namespace drawpoint::studies {
+namespace drawpoint::doe {
 namespace {
 
 using std::chrono::milliseconds;
-using test::TestFolder;
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 class PoolTest : public testing::Test {
  protected:
-  Job shell(std::int64_t id, const std::string& script, double time_limit = 0.0) {
+  Process shell(std::int64_t id, const std::string& script, double time_limit = 0.0) {
     return {.id = id,
             .executable = "/bin/sh",
             .arguments = {"-c", script},
@@ -28,9 +36,9 @@ class PoolTest : public testing::Test {
             .time_limit = time_limit};
   }
 
-  std::map<std::int64_t, JobEnd> run_all(const std::vector<Job>& jobs, int at_once) {
+  std::map<std::int64_t, ProcessEnd> run_all(const std::vector<Process>& jobs, int at_once) {
     ProcessPool pool(at_once);
-    std::map<std::int64_t, JobEnd> ends;
+    std::map<std::int64_t, ProcessEnd> ends;
     std::size_t next = 0;
     while (next < jobs.size() || pool.running() > 0) {
       while (next < jobs.size() && !pool.full()) pool.start(jobs[next++]);
@@ -40,11 +48,15 @@ class PoolTest : public testing::Test {
     return ends;
   }
 
-  TestFolder folder_;
+  PoolTest() { std::filesystem::create_directories(folder_); }
+  ~PoolTest() override { std::filesystem::remove_all(folder_); }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("processes_" + std::to_string(::getpid()));
 };
 
 TEST_F(PoolTest, RepliesReachTheRightRun) {
-  std::vector<Job> jobs;
+  std::vector<Process> jobs;
   for (int id = 1; id <= 20; ++id) jobs.push_back(shell(id, "printf reply-" + std::to_string(id) + " >&3"));
   const auto ends = run_all(jobs, 3);
   ASSERT_EQ(ends.size(), 20u);
@@ -73,28 +85,6 @@ TEST_F(PoolTest, SaysHowAChildEnded) {
   EXPECT_EQ(describe(ends.at(5)), "could not be started");
 }
 
-TEST_F(PoolTest, ACrashIsAFailureThatNamesTheOutput) {
-  const auto ends =
-      run_all({shell(1, "echo before the end; echo more >&2; kill -SEGV $$"), shell(2, "kill -SEGV $$")}, 1);
-  EXPECT_EQ(test::contents(folder_ / "out_1"), "before the end\nmore\n");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out_2"));
-  EXPECT_EQ(outcome_of(ends.at(1), folder_ / "out_1").reason(),
-            "the run's process ended by signal SIGSEGV (Segmentation fault); it printed logs/out_1");
-  EXPECT_EQ(outcome_of(ends.at(2), folder_ / "out_2").reason(),
-            "the run's process ended by signal SIGSEGV (Segmentation fault)");
-}
-
-TEST_F(PoolTest, OutcomesSurviveTheChannelBitForBit) {
-  const Eigen::Vector3d y(0.1 + 0.2, -5e-324, 1.7976931348623157e308);
-  JobEnd end;
-  end.reply = reply_text(doe::Outcome(y));
-  EXPECT_EQ(outcome_of(end, "").values(), y);
-  end.reply = reply_text(doe::Failure{"bucket \"stuck\"\nat 3 m, byte \xff"});
-  EXPECT_EQ(outcome_of(end, "").reason(), "bucket \"stuck\"\nat 3 m, byte \xef\xbf\xbd");
-  end.reply = R"({"values":[1.0, 2)";  // cut short by a crash
-  EXPECT_EQ(outcome_of(end, "").reason(), "the run's process ended with exit code 0");
-}
-
 TEST_F(PoolTest, ChildrenHaveOneThreadAndNoTerminal) {
   const auto ends = run_all({shell(1, "printf $OMP_NUM_THREADS >&3; cat >&3")}, 1);
   EXPECT_EQ(ends.at(1).reply, "1");
@@ -108,16 +98,16 @@ TEST_F(PoolTest, TerminateLeavesNothingRunning) {
     pool.start(shell(1, "sleep 60 & echo $! > " + (folder_ / "grandchild").string() + "; wait"));
     pool.start(shell(2, "trap '' TERM; echo ready > " + (folder_ / "stubborn").string() +
                             "; while true; do sleep 0.05; done"));
-    while (test::contents(folder_ / "grandchild").empty() || test::contents(folder_ / "stubborn").empty()) {
+    while (contents(folder_ / "grandchild").empty() || contents(folder_ / "stubborn").empty()) {
       std::this_thread::sleep_for(milliseconds(5));
     }
     pool.terminate(milliseconds(100));
     EXPECT_EQ(pool.running(), 0);
   }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
-  const pid_t grandchild = std::stoi(test::contents(folder_ / "grandchild"));
+  const pid_t grandchild = std::stoi(contents(folder_ / "grandchild"));
   const auto gone = [&] {
-    const std::string state = test::contents("/proc/" + std::to_string(grandchild) + "/stat");
+    const std::string state = contents("/proc/" + std::to_string(grandchild) + "/stat");
     return kill(grandchild, 0) != 0 || state.find(") Z ") != std::string::npos;
   };
   for (int i = 0; i < 400 && !gone(); ++i)
@@ -125,5 +115,11 @@ TEST_F(PoolTest, TerminateLeavesNothingRunning) {
   EXPECT_TRUE(gone());
 }
 
+TEST_F(PoolTest, WhatAChildPrintsIsKeptUnlessItIsNothing) {
+  run_all({shell(1, "echo before the end; echo more >&2; kill -SEGV $$"), shell(2, "kill -SEGV $$")}, 1);
+  EXPECT_EQ(contents(folder_ / "out_1"), "before the end\nmore\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out_2"));
+}
+
 }  // namespace
-}  // namespace drawpoint::studies
+}  // namespace drawpoint::doe

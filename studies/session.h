@@ -3,9 +3,9 @@
 #pragma once
 /// Opening the store that belongs to a study and to the options given, and refusing any other.
 
-#include <drawpoint/studies/folder.hpp>
-#include <drawpoint/studies/settings.hpp>
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/settings.h>
+#include <drawpoint/studies/store.h>
 #include <drawpoint/studies/study.hpp>
 
 namespace drawpoint::studies {

@@ -8,7 +8,6 @@
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/studies/options.hpp>
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace drawpoint::studies {
@@ -21,10 +20,6 @@ struct Identity {
   bool corners = false;       ///< the first 2^d training points are the corners of the box
   OptionValues options = {};  ///< a value of every option of the study
 };
-
-nlohmann::json to_json(const doe::Problem& problem);
-/// Throws nlohmann::json::exception if the text is not what to_json wrote.
-doe::Problem problem_from_json(const nlohmann::json& json);
 
 /// The first difference in words ('variable "alpha": upper bound 2 there, 3 here'), or "" if there is none.
 std::string difference(const doe::Problem& there, const doe::Problem& here);

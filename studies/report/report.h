@@ -8,22 +8,15 @@
 /// Contents: a summary in words with cautions, figures of one simulation, trade-offs, response surfaces (the
 /// surrogates are evaluated in the browser), validation, the runs. Each part copes with what is missing: no
 /// validation runs, one response, no objective, no successful run.
-///
-/// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
-///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
-///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
-///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one per body]}], camera: {eye, target},
-///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside
-///   lines  series: [{name, x: [], y: []}]; x_label, y_label
-///   table  columns: [], rows: [[]..]
+/// studies::Study lists the kinds of figures ("panels") of a simulation.
 
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/validate.hpp>
+#include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/pareto/search.hpp>
 #include <drawpoint/studies/headline.hpp>
-#include <drawpoint/studies/polishing.hpp>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -41,7 +34,7 @@ struct ReportInput {
   std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
-  Polishing polishing;                           ///< of the front
+  pareto::Polishing polishing;                   ///< of the front
   nlohmann::json illustrations =
       nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions

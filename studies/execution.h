@@ -8,11 +8,11 @@
 /// run that fails while the disk is full does not count: it is planned again and the study stops, because the
 /// next ones would fail too.
 
+#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/settings.h>
+#include <drawpoint/studies/store.h>
 #include <drawpoint/doe/outcome.hpp>
-#include <drawpoint/studies/folder.hpp>
-#include <drawpoint/studies/process_pool.hpp>
-#include <drawpoint/studies/settings.hpp>
-#include <drawpoint/studies/store.hpp>
+#include <drawpoint/doe/processes.hpp>
 #include <drawpoint/studies/study.hpp>
 
 #include <string>
@@ -32,6 +32,6 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
 /// What a child says through its reply channel.
 std::string reply_text(const doe::Outcome& outcome);
 /// The outcome of a child that has ended; `printed` is named in the reason of a crash if the file exists.
-doe::Outcome outcome_of(const JobEnd& end, const std::filesystem::path& printed);
+doe::Outcome outcome_of(const doe::ProcessEnd& end, const std::filesystem::path& printed);
 
 }  // namespace drawpoint::studies

@@ -3,8 +3,8 @@
 #pragma once
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
+#include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/studies/headline.hpp>
-#include <drawpoint/studies/polishing.hpp>
 
 #include <filesystem>
 #include <string>
@@ -20,7 +20,7 @@ struct Summary {
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
-  Polishing polishing = {};                                ///< of the front
+  pareto::Polishing polishing = {};                        ///< of the front
   std::filesystem::path report = {};                       ///< empty if there is none
   std::string error = {};                                  ///< why there is none
 };

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Child processes, several at a time, each with a private channel for its reply.
+///
+/// A child is started by fork and exec in a process group of its own (a Ctrl-C in the terminal reaches the
+/// parent only, which then decides), with one thread (OMP_NUM_THREADS and its like are 1), with nothing on
+/// standard input, with standard output and error in a file, and with file descriptor 3 as the reply channel.
+/// It is killed by the kernel if the thread that started it dies. Linux only. One thread at a time may use a
+/// pool. process_pool.hpp makes a black box of it.
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::doe {
+
+/// One child process to start.
+struct Process {
+  std::int64_t id = 0;
+  std::string executable = {};                 ///< a path, or a name to look for in the PATH
+  std::vector<std::string> arguments = {};     ///< without the program name
+  std::filesystem::path output = "/dev/null";  ///< file for what the child prints; removed if it stays empty
+  double time_limit = 0.0;                     ///< [s] before it is killed; 0 means none
+};
+
+/// How a child ended.
+struct ProcessEnd {
+  std::int64_t id = 0;
+  std::string reply = {};  ///< all that it wrote to descriptor 3
+  int wait_status = 0;     ///< as from waitpid
+  bool timed_out = false;  ///< killed because of its time limit
+  double time_limit = 0.0;
+  double seconds = 0.0;  ///< wall time
+};
+
+namespace detail {
+
+inline constexpr int reply_channel = 3;
+
+inline std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> result;
+  for (auto& word : words) result.push_back(word.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+inline std::vector<std::string> single_threaded_environment() {
+  const std::vector<std::string> threads = {"OMP_NUM_THREADS=", "OPENBLAS_NUM_THREADS=", "MKL_NUM_THREADS="};
+  std::vector<std::string> result;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const auto begins = [&](const std::string& name) { return text.compare(0, name.size(), name) == 0; };
+    if (std::none_of(threads.begin(), threads.end(), begins)) result.push_back(text);
+  }
+  for (const auto& name : threads) result.push_back(name + "1");
+  return result;
+}
+
+/// Between fork and exec: only calls that are safe after fork. 127 is the shell's code for "could not start".
+[[noreturn]] inline void become(char** arguments, char** environment, const char* output, int reply,
+                                pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);  // the parent died before the line above took effect
+  setpgid(0, 0);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  const int file = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (nothing < 0 || file < 0) _exit(127);
+  if (dup2(nothing, STDIN_FILENO) < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0)
+    _exit(127);
+  if (reply == reply_channel) {
+    fcntl(reply, F_SETFD, 0);
+  } else if (dup2(reply, reply_channel) < 0) {
+    _exit(127);
+  }
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
+  execvpe(arguments[0], arguments, environment);
+  _exit(127);
+}
+
+inline void remove_if_empty(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return;  // /dev/null
+  if (std::filesystem::file_size(file, ignored) == 0 && !ignored) std::filesystem::remove(file, ignored);
+}
+
+inline std::runtime_error cannot_start(const std::string& what, int error) {
+  return std::runtime_error("doe::ProcessPool: " + what + ": " + std::strerror(error) +
+                            "; run fewer processes at a time");
+}
+
+}  // namespace detail
+
+/// "ended by signal SIGSEGV (Segmentation fault)", "ended with exit code 3", ...
+inline std::string describe(const ProcessEnd& end) {
+  if (end.timed_out) {
+    char text[64];
+    std::snprintf(text, sizeof text, "stopped after %.3g s, its time limit", end.time_limit);
+    return text;
+  }
+  if (WIFSIGNALED(end.wait_status)) {
+    const int signal = WTERMSIG(end.wait_status);
+    const char* name = sigabbrev_np(signal);
+    const char* words = sigdescr_np(signal);
+    std::string text = "ended by signal " + (name ? "SIG" + std::string(name) : std::to_string(signal));
+    if (words) text += " (" + std::string(words) + ")";
+    if (signal == SIGKILL) text += ", often because memory ran out";
+    return text;
+  }
+  if (WEXITSTATUS(end.wait_status) == 127) return "could not be started";
+  return "ended with exit code " + std::to_string(WEXITSTATUS(end.wait_status));
+}
+
+class ProcessPool {
+ public:
+  explicit ProcessPool(int jobs) : jobs_(jobs) { assert(jobs >= 1); }
+  ~ProcessPool() { terminate(std::chrono::milliseconds(0)); }  ///< kills what still runs
+  ProcessPool(const ProcessPool&) = delete;
+  ProcessPool& operator=(const ProcessPool&) = delete;
+
+  bool full() const { return running() >= jobs_; }
+  int running() const { return static_cast<int>(children_.size()); }
+
+  /// Starts a child. Requires !full(). Throws std::runtime_error if the system gives no process or pipe.
+  void start(const Process& process) {
+    assert(!full());
+    std::vector<std::string> words = {process.executable};
+    words.insert(words.end(), process.arguments.begin(), process.arguments.end());
+    std::vector<std::string> settings = detail::single_threaded_environment();
+    auto arguments = detail::pointers(words);
+    auto environment = detail::pointers(settings);
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw detail::cannot_start("no pipe for a process", errno);
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid == 0)
+      detail::become(arguments.data(), environment.data(), process.output.c_str(), ends[1], parent);
+    const int fork_error = errno;
+    close(ends[1]);
+    if (pid < 0) {
+      close(ends[0]);
+      throw detail::cannot_start("cannot start a process", fork_error);
+    }
+    setpgid(pid, pid);  // also here: whichever of the two comes first
+    fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    children_.push_back({process.id, pid, ends[0], {}, process.output, Clock::now(), process.time_limit});
+  }
+
+  /// Children that have ended since the last call, in order of id; waits at most `patience` for the first
+  /// one. Returns early, maybe with nothing, when a signal arrives.
+  std::vector<ProcessEnd> wait(std::chrono::milliseconds patience) {
+    std::vector<ProcessEnd> ends;
+    collect(ends);
+    if (ends.empty() && !children_.empty()) {
+      read_replies(patience);
+      enforce_time_limits();
+      collect(ends);
+    }
+    std::sort(ends.begin(), ends.end(), [](const ProcessEnd& a, const ProcessEnd& b) { return a.id < b.id; });
+    return ends;
+  }
+
+  /// Asks all children to end (SIGTERM), kills those that still run after `grace`. Their results are dropped.
+  void terminate(std::chrono::milliseconds grace) {
+    for (const Child& child : children_) kill(-child.pid, SIGTERM);
+    const auto deadline = Clock::now() + grace;
+    std::vector<ProcessEnd> dropped;
+    while (!children_.empty() && Clock::now() < deadline) {
+      collect(dropped);
+      if (!children_.empty()) poll(nullptr, 0, 5);
+    }
+    for (const Child& child : children_) kill(-child.pid, SIGKILL);
+    while (!children_.empty()) {
+      collect(dropped);
+      if (!children_.empty()) poll(nullptr, 0, 1);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Child {
+    std::int64_t id;
+    pid_t pid;
+    int reply_descriptor;
+    std::string reply;
+    std::filesystem::path output;
+    Clock::time_point started;
+    double time_limit;
+    bool timed_out = false;
+    bool reply_closed = false;
+
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - started).count(); }
+
+    void read_reply() {
+      char buffer[4096];
+      ssize_t count = 0;
+      while ((count = read(reply_descriptor, buffer, sizeof buffer)) > 0)
+        reply.append(buffer, static_cast<std::size_t>(count));
+      reply_closed = count == 0;
+    }
+  };
+
+  void read_replies(std::chrono::milliseconds patience) {
+    std::vector<pollfd> open_replies;
+    std::vector<Child*> owners;
+    bool one_is_ending = false;
+    for (Child& child : children_) {
+      one_is_ending = one_is_ending || child.reply_closed;
+      if (child.reply_closed) continue;
+      open_replies.push_back({child.reply_descriptor, POLLIN, 0});
+      owners.push_back(&child);
+    }
+    // A closed reply means that the child is about to end: look again soon.
+    const auto wait = one_is_ending ? std::min(patience, std::chrono::milliseconds(2)) : patience;
+    if (poll(open_replies.data(), open_replies.size(), static_cast<int>(wait.count())) <= 0) return;
+    for (std::size_t i = 0; i < owners.size(); ++i)
+      if (open_replies[i].revents != 0) owners[i]->read_reply();
+  }
+
+  void enforce_time_limits() {
+    for (Child& child : children_) {
+      if (child.time_limit <= 0.0 || child.timed_out || child.seconds() < child.time_limit) continue;
+      child.timed_out = true;
+      kill(-child.pid, SIGKILL);
+    }
+  }
+
+  void collect(std::vector<ProcessEnd>& ends) {
+    const auto ended = [&](Child& child) {
+      int status = 0;
+      if (waitpid(child.pid, &status, WNOHANG) != child.pid) return false;
+      child.read_reply();
+      close(child.reply_descriptor);
+      kill(-child.pid, SIGKILL);  // whatever the child itself has left behind
+      detail::remove_if_empty(child.output);
+      ends.push_back(
+          {child.id, std::move(child.reply), status, child.timed_out, child.time_limit, child.seconds()});
+      return true;
+    };
+    children_.erase(std::remove_if(children_.begin(), children_.end(), ended), children_.end());
+  }
+
+  int jobs_;
+  std::vector<Child> children_;
+};
+
+}  // namespace drawpoint::doe

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The trade-offs that a study's models predict: NSGA-II searches the means of the models, and
+/// pareto/polished_front.hpp finishes what it finds with their exact gradients.
+
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/pareto/polished_front.hpp>
+
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// models: one per response, in order, of the problem's variables. Deterministic: the seed is that of the
+/// search.
+pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
+                               doe::Seed seed);
+
+}  // namespace drawpoint::studies
