@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <Eigen/Dense>
 #include <cmath>
-#include <drawpoint/engine/solver/contact_law.hpp>
 
 /// The unknowns of a point or of a pair in the sequential iterations, with the step that an iteration takes
 /// on its tangents.
@@ -37,7 +37,7 @@ struct PointBlock : ContactBlock {
   Eigen::Vector3d arm_a, arm_b;
   double friction, gap, target;
   double initial_impulse;  ///< the normal impulse that the substep began with
-  SpookTerms law;
+  SpookTerms terms;
 };
 
 /// The moment between a pair, in the frame of its normal.
@@ -47,14 +47,12 @@ struct PairBlock : ContactBlock {
 };
 
 inline void ContactBlock::invert(double sigma) {
-  constexpr double singular = 1e-12;  // determinant, relative to ρ²
-  const auto inverse_or_zero = [](double x) { return x > 0 ? 1.0 / x : 0.0; };
-  inverse_nn = inverse_or_zero(W(0, 0) + sigma);
+  inverse_nn = law::inverse_or_zero(W(0, 0) + sigma);
   const double a = W(1, 1), b = W(1, 2), d = W(2, 2);
   const double rho = 0.5 * (a + d) + std::hypot(0.5 * (a - d), b);
-  inverse_rho = inverse_or_zero(rho);
+  inverse_rho = law::inverse_or_zero(rho);
   const double det = a * d - b * b;
-  const bool regular = det > singular * rho * rho;
+  const bool regular = det > constants::singular_double * rho * rho;
   inverse_tt[0] = regular ? d / det : inverse_rho;
   inverse_tt[1] = regular ? -b / det : 0;
   inverse_tt[2] = regular ? a / det : inverse_rho;

@@ -59,7 +59,7 @@ void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint&
   p.arm_a = point.arm_a;
   p.arm_b = point.arm_b;
   p.frame = contact_frame(point.normal);
-  p.law = spook(point.stiffness, std::max(point.damping_time, 2 * problem_.step), h_);
+  p.terms = law::spook_terms(point, problem_.step, substeps_);
   p.gap = point.gap;
   p.friction = point.friction;
   p.W.setZero();
@@ -68,7 +68,7 @@ void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint&
   if (p.a >= 0) p.W += response(p.a, p.arm_a, p.frame);
   if (p.b >= 0) p.W += response(p.b, p.arm_b, p.frame);
   add_part_response(p);
-  p.invert(p.law.sigma);
+  p.invert(p.terms.sigma);
   p.impulse = start_impulse(point, p.frame, substeps_);
   p.initial_impulse = p.impulse[0];
   points_.push_back(p);
@@ -129,14 +129,14 @@ void SequentialIteration::apply(const PairBlock& r, const Vector3d& delta) {
     machine_.push(r.rows_b, delta);
 }
 
-// Load that has built up carries over to the next substep; an impact does not (contact_law.hpp).
+// Load that has built up carries over to the next substep; an impact does not (law::kept_load).
 void SequentialIteration::carry_over() {
   for (PairBlock& r : pairs_) {
     double force = 0, kept = 0;
     for (int k = r.first; k < r.first + r.count; ++k) {
       PointBlock& p = points_[k];
-      const double share = warm_start_fraction(p.impulse[0], p.initial_impulse, p.inverse_nn);
-      p.correction = (share - 1) * p.impulse;
+      const double load = law::kept_load(p.impulse[0], p.initial_impulse, p.inverse_nn);
+      p.correction = (law::warm_start_fraction(p.impulse[0], load) - 1) * p.impulse;
       force += p.impulse[0];
       p.impulse += p.correction;
       p.initial_impulse = p.impulse[0];
@@ -152,7 +152,7 @@ void SequentialIteration::refresh() {
   for (PointBlock& p : points_) {
     const double approach = velocity(p)[0];
     if (!fresh_) p.gap += h_ * approach;
-    p.target = spook_target(p.gap, approach, p.law.upsilon, h_);
+    p.target = spook_target(p.gap, approach, p.terms.upsilon, h_);
   }
   fresh_ = false;
   machine_.set_bias_velocities();
@@ -188,7 +188,7 @@ double SequentialIteration::iteration(bool forward) {
 void SequentialIteration::solve_point(PointBlock& p) {
   const Vector3d u = velocity(p);
   const Vector3d before = p.impulse;
-  p.impulse[0] = std::max(0.0, before[0] - p.inverse_nn * (u[0] + p.law.sigma * before[0] - p.target));
+  p.impulse[0] = law::normal_step(before[0], u[0], p.terms.sigma, p.target, p.inverse_nn);
   const double dn = p.impulse[0] - before[0];
   p.project_tangents(u[1] + p.W(1, 0) * dn, u[2] + p.W(2, 0) * dn, p.friction * p.impulse[0]);
   const Vector3d delta = p.impulse - before;
@@ -204,8 +204,7 @@ void SequentialIteration::solve_pair(PairBlock& r) {
   if (r.rolling_arm == 0 && r.spinning_arm == 0) return;
   const Vector3d u = spin(r);
   const Vector3d before = r.impulse;
-  const double limit = r.spinning_arm * load;
-  r.impulse[0] = std::clamp(before[0] - r.inverse_nn * u[0], -limit, limit);
+  r.impulse[0] = law::spin_step(before[0], u[0], r.inverse_nn, r.spinning_arm * load);
   const double dn = r.impulse[0] - before[0];
   r.project_tangents(u[1] + r.W(1, 0) * dn, u[2] + r.W(2, 0) * dn, r.rolling_arm * load);
   apply(r, r.impulse - before);
@@ -227,8 +226,8 @@ ResidualSums SequentialIteration::residual_sums() const {
   ResidualSums sum;
   for (const PointBlock& p : points_) {
     const Vector3d u = velocity(p);
-    const double normal = p.impulse[0], rest = u[0] + p.law.sigma * normal - p.target;
-    const double next = std::max(0.0, normal - p.inverse_nn * rest);
+    const double normal = p.impulse[0];
+    const double next = law::normal_step(normal, u[0], p.terms.sigma, p.target, p.inverse_nn);
     sum.normal += std::abs(normal - next);
     sum.load += std::max(normal, next);
     Eigen::Vector2d stepped = p.impulse.tail<2>() - p.inverse_rho * u.tail<2>();
@@ -252,7 +251,7 @@ SuperBodySolution SequentialIteration::store() {
     problem_.points[k].impulse = impulse;
     problem_.points[k].start = substeps_ * (p.frame.transpose() * p.impulse);
     problem_.points[k].warm_start_fraction =
-        warm_start_fraction(p.impulse[0], p.initial_impulse, p.inverse_nn);
+        law::warm_start_fraction(p.impulse[0], law::kept_load(p.impulse[0], p.initial_impulse, p.inverse_nn));
     if (p.a < 0) add(part_of(p.a), -1, p.arm_a, impulse, Vector3d::Zero());
     if (p.b < 0) add(part_of(p.b), +1, p.arm_b, impulse, Vector3d::Zero());
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <drawpoint/engine/solver/super_body_motion.h>
 #include <algorithm>
 
@@ -14,8 +15,7 @@ SuperBodyMotion::SuperBodyMotion(const SuperBody* machine, double step, int subs
   travel_ = Eigen::VectorXd::Zero(w_.size());
   for (const SuperBodyRow& row : machine->rows) {
     const double square = row.jacobian.squaredNorm();
-    rows_.push_back(
-        {square > 0 ? 1.0 / square : 0.0, std::clamp(row.start, row.lower, row.upper) / substeps});
+    rows_.push_back({law::inverse_or_zero(square), std::clamp(row.start, row.lower, row.upper) / substeps});
   }
 }
 
@@ -34,14 +34,11 @@ int SuperBodyMotion::add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows) {
   return static_cast<int>(index);
 }
 
-double SuperBodyMotion::target(const SuperBodyRow& row) const {
-  if (row.kind == SuperBodyRow::Kind::motor) return row.target;
-  const double gap = row.gap + row.jacobian.dot(travel_);
-  return gap >= 0 ? -gap / h_ : -gap / row.recovery;
-}
-
 void SuperBodyMotion::set_bias_velocities() {
-  for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].target = target(machine_->rows[k]);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const SuperBodyRow& row = machine_->rows[k];
+    rows_[k].target = law::bias_velocity(row, row.gap + row.jacobian.dot(travel_), h_);
+  }
 }
 
 void SuperBodyMotion::start() {

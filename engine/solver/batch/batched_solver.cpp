@@ -22,7 +22,7 @@ void fly(SolverBody& body, double h, int substeps) {
 SolverReport BatchedSolver::solve(ContactProblem& problem) {
   const ThreadPool::Region region(*pool_);
   problem_ = &problem;
-  batches_.fill(problem, iteration_order(problem, batch_lanes, pairs_per_subdomain, *pool_),
+  batches_.fill(problem, iteration_order(problem, batch_lanes, constants::pairs_per_subdomain, *pool_),
                 options_.substeps, *pool_);
   machine_.emplace(problem, batches_.row_of, options_.substeps);
   threads_ = std::min(pool_->threads(), most_parts());

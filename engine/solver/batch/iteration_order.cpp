@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <drawpoint/engine/base/constants.hpp>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -14,7 +15,7 @@ namespace drawpoint::engine::detail {
 
 namespace {
 
-constexpr int slabs = 256;  // among whose borders those of the subdomains are chosen
+using constants::slabs;
 
 bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
 

@@ -3,8 +3,8 @@
 #include <drawpoint/engine/base/prefetch.h>
 #include <drawpoint/engine/solver/batch/pair_batches.h>
 #include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <algorithm>
-#include <drawpoint/engine/solver/contact_law.hpp>
 #include <utility>
 
 namespace drawpoint::engine::detail {
@@ -145,12 +145,11 @@ void PairBatches::fill_lane(const ContactProblem& problem, PairBatch& batch, int
   for (int k = 0; k < pair.count; ++k) {
     const ContactPoint& point = problem.points[pair.first + k];
     PointBatch& p = points_[batch.first + k];
-    const SpookTerms law =
-        spook(point.stiffness, std::max(point.damping_time, 2 * problem.step), problem.step / substeps);
+    const SpookTerms terms = law::spook_terms(point, problem.step, substeps);
     put(point.arm_a, p.arm, lane);
     p.gap[lane] = static_cast<float>(point.gap);
-    p.upsilon[lane] = static_cast<float>(law.upsilon);
-    p.sigma[lane] = static_cast<float>(law.sigma);
+    p.upsilon[lane] = static_cast<float>(terms.upsilon);
+    p.sigma[lane] = static_cast<float>(terms.sigma);
     put(start_impulse(point, frame, substeps), p.impulse, lane);
   }
 }
@@ -200,7 +199,8 @@ void PairBatches::store_lane(ContactProblem& problem, const PairBatch& batch, in
     ContactPoint& point = problem.points[pair.first + i];
     const Vector3d impulse = get(p.impulse, lane);
     point.start = substeps * (to_world * impulse);
-    point.warm_start_fraction = warm_start_fraction(impulse[0], p.initial_impulse[lane], p.inverse_nn[lane]);
+    const double load = law::kept_load<double>(impulse[0], p.initial_impulse[lane], p.inverse_nn[lane]);
+    point.warm_start_fraction = law::warm_start_fraction(impulse[0], load);
     point.impulse = to_world * (get(p.total, lane) + impulse);
   }
 }
