@@ -18,15 +18,7 @@ using Entries = std::vector<Eigen::Triplet<double>>;
 namespace law = engine::detail::law;
 
 void into_disc(Eigen::Ref<VectorXd> tangents, double radius) {
-  const double length = tangents.norm();
-  if (length > radius) tangents *= radius / length;
-}
-
-Matrix3d frame_of(const Vector3d& n) {
-  const Vector3d t1 = n.unitOrthogonal();
-  Matrix3d frame;
-  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
-  return frame;
+  tangents *= law::disc_factor(tangents.squaredNorm(), radius);
 }
 
 void add_block(Entries& entries, Index row, Index column, const Eigen::MatrixXd& block) {
@@ -106,8 +98,9 @@ MatrixForm::MatrixForm(const ContactProblem& problem) {
   pairs_begin = point_row(points);
   machine_begin = pair_row(pairs);
   rows = machine_begin + static_cast<Index>(machine_rows);
-  for (const ContactPoint& p : problem.points) frames.push_back(frame_of(p.normal));
-  for (const ContactPair& pair : problem.pairs) frames.push_back(frame_of(problem.points[pair.first].normal));
+  for (const ContactPoint& p : problem.points) frames.push_back(contact_frame(p.normal));
+  for (const ContactPair& pair : problem.pairs)
+    frames.push_back(contact_frame(problem.points[pair.first].normal));
 
   x_free = velocities(problem, true);
   J.resize(rows, x_free.size());
@@ -122,7 +115,7 @@ MatrixForm::MatrixForm(const ContactProblem& problem) {
     const ContactPoint& p = problem.points[k];
     const SpookTerms terms = law::spook_terms(p, problem.step, 1);
     sigma[point_row(k)] = terms.sigma;
-    b[point_row(k)] = spook_target(p.gap, approach[point_row(k)], terms.upsilon, problem.step);
+    b[point_row(k)] = law::bias_velocity(p.gap, approach[point_row(k)], terms.upsilon, -1 / problem.step);
     start.segment<3>(point_row(k)) = frames[k] * p.start;
   }
   for (std::size_t q = 0; q < pairs; ++q)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/solver/contact_problem.hpp>
@@ -29,8 +30,7 @@ inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
 inline Eigen::Vector3d start_impulse(const ContactPoint& point, const Eigen::Matrix3d& frame, int substeps) {
   Eigen::Vector3d impulse = frame * point.start / substeps;
   impulse[0] = std::max(0.0, impulse[0]);
-  const double slip = impulse.tail<2>().norm(), limit = point.friction * impulse[0];
-  if (slip > limit) impulse.tail<2>() *= limit / slip;
+  impulse.tail<2>() *= detail::law::disc_factor(impulse.tail<2>().squaredNorm(), point.friction * impulse[0]);
   return impulse;
 }
 

@@ -14,8 +14,9 @@
 /// This is text without includes, and without a guard: lanes must be compiled once per instruction set,
 /// inside the namespace of each, because code outside it cannot inline their operators. Whoever includes it
 /// has declared in namespace law: number<T>(x), T of the double x; singular_determinant, below which W_tt is
-/// singular, of T's precision; and in reach of it for T: + − * / < >, select(condition, yes, no), min, max,
-/// abs, sqrt. Both values of a select are computed, so none may trap.
+/// singular, of T's precision; none(condition), true where T knows at once that no value is selected; and in
+/// reach of it for T: + − * / < >, select(condition, yes, no), min, max, abs, sqrt. Both values of a select
+/// are computed, so none may trap.
 namespace law {
 
 /// 1/x of what answers, else 0.
@@ -62,7 +63,9 @@ template <class T>
 /// What brings a vector, |x|² = `square`, on the disc of the radius when multiplied with it.
 template <class T>
 [[gnu::always_inline]] inline T disc_factor(const T& square, const T& radius) {
-  return select(square > radius * radius, radius / sqrt(square), number<T>(1));
+  const auto outside = square > radius * radius;
+  if (none(outside)) return number<T>(1);
+  return select(outside, radius / sqrt(square), number<T>(1));
 }
 
 /// λ_t = (l1, l2) after its step against u_t = (u1, u2), within the disc of radius `limit`.
@@ -72,6 +75,11 @@ template <class T>
   const T s1 = l1 - (inverse.xx * u1 + inverse.xy * u2);
   const T s2 = l2 - (inverse.xy * u1 + inverse.yy * u2);
   const auto slides = s1 * s1 + s2 * s2 > limit * limit;
+  if (none(slides)) {
+    l1 = s1;
+    l2 = s2;
+    return;
+  }
   const T p1 = l1 - inverse.rho * u1, p2 = l2 - inverse.rho * u2;
   const T factor = disc_factor(p1 * p1 + p2 * p2, limit);
   l1 = select(slides, p1 * factor, s1);

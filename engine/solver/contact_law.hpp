@@ -31,13 +31,6 @@ inline SpookTerms spook(double k, double tau, double h) {
   return {upsilon, 4.0 * upsilon / (h * h * k)};
 }
 
-/// b [m/s]; gap [m] (negative: overlap), approach = G v⁻ [m/s] (negative: closing).
-inline double spook_target(double gap, double approach, double upsilon, double h) {
-  if (gap > 0) return -gap / h;
-  const double damping = approach < -constants::impact_speed ? 0.0 : approach;
-  return upsilon * (damping - 4.0 * gap / h);
-}
-
 /// The secant stiffness k_n √δ of Hertz's law f = k_n δ^(3/2) at the overlap δ, k_n = (4/3) E* √R*. Overlaps
 /// below `least_hertz_overlap` count as that, so that a first touch meets resistance.
 inline double hertz_stiffness(double modulus, double radius, double overlap) {

@@ -17,6 +17,7 @@ T number(double x) {
 }
 constexpr double singular_determinant = constants::singular_double;
 
+inline bool none(bool condition) { return !condition; }
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 using std::abs, std::max, std::min, std::sqrt;
 

@@ -28,11 +28,8 @@ struct Side {
   bool part = false;
 };
 
-// Projection of x on the disc of the radius, or on the interval.
-Vector3d in_disc(const Vector3d& x, double radius) {
-  const double length = x.norm();
-  return length > radius ? Vector3d(x * (radius / length)) : x;
-}
+// Projection of x on the disc of the radius.
+Vector3d in_disc(const Vector3d& x, double radius) { return law::disc_factor(x.squaredNorm(), radius) * x; }
 
 // What a symmetric 3 x 3 response answers along n, and the most across it, without choosing tangents: with t
 // the trace of the block across n and D the rest of it without its mean, λ_max = t/2 + |D| / √2.
@@ -125,7 +122,7 @@ double LastSubstep::evaluate(const ContactPair& pair, const ContactPoint& p) {
   const SpookTerms terms = law::spook_terms(p, problem_.step, substeps_);
   const double gap = p.gap + n.dot(b.shift.at(p.arm_b) - a.shift.at(p.arm_a));
   const double approach = n.dot(b.before.at(p.arm_b) - a.before.at(p.arm_a));
-  const double target = spook_target(gap, approach, terms.upsilon, h_);
+  const double target = law::bias_velocity(gap, approach, terms.upsilon, -1 / h_);
 
   const double normal = n.dot(impulse);
   const double next =

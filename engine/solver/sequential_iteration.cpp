@@ -132,27 +132,30 @@ void SequentialIteration::apply(const PairBlock& r, const Vector3d& delta) {
 // Load that has built up carries over to the next substep; an impact does not (law::kept_load).
 void SequentialIteration::carry_over() {
   for (PairBlock& r : pairs_) {
-    double force = 0, kept = 0;
+    double force = 0, impacts = 0;
     for (int k = r.first; k < r.first + r.count; ++k) {
       PointBlock& p = points_[k];
-      const double load = law::kept_load(p.impulse[0], p.initial_impulse, p.inverse_nn);
-      p.correction = (law::warm_start_fraction(p.impulse[0], load) - 1) * p.impulse;
-      force += p.impulse[0];
-      p.impulse += p.correction;
-      p.initial_impulse = p.impulse[0];
-      kept += p.impulse[0];
+      const Vector3d end = p.impulse;
+      const double kept = law::kept_load(end[0], p.initial_impulse, p.inverse_nn);
+      const double share = law::warm_start_fraction(end[0], kept);
+      p.impulse = {kept, share * end[1], share * end[2]};
+      p.correction = p.impulse - end;
+      p.initial_impulse = kept;
+      force += end[0];
+      impacts += end[0] - kept;
     }
-    r.correction = force > kept ? Vector3d((kept / force - 1) * r.impulse) : Vector3d::Zero().eval();
+    r.correction = law::moment_change(impacts, force) * r.impulse;
     r.impulse += r.correction;
   }
 }
 
 void SequentialIteration::refresh() {
   if (!fresh_) carry_over();
+  const double closing_rate = -1 / h_;
   for (PointBlock& p : points_) {
     const double approach = velocity(p)[0];
     if (!fresh_) p.gap += h_ * approach;
-    p.target = spook_target(p.gap, approach, p.terms.upsilon, h_);
+    p.target = law::bias_velocity(p.gap, approach, p.terms.upsilon, closing_rate);
   }
   fresh_ = false;
   machine_.set_bias_velocities();
@@ -189,8 +192,7 @@ void SequentialIteration::solve_point(PointBlock& p) {
   const Vector3d u = velocity(p);
   const Vector3d before = p.impulse;
   p.impulse[0] = law::normal_step(before[0], u[0], p.terms.sigma, p.target, p.inverse_nn);
-  const double dn = p.impulse[0] - before[0];
-  p.project_tangents(u[1] + p.W(1, 0) * dn, u[2] + p.W(2, 0) * dn, p.friction * p.impulse[0]);
+  p.step_tangents(u, before[0], p.friction * p.impulse[0]);
   const Vector3d delta = p.impulse - before;
   const double moved = delta.lpNorm<1>();
   if (moved == 0) return;
@@ -205,8 +207,7 @@ void SequentialIteration::solve_pair(PairBlock& r) {
   const Vector3d u = spin(r);
   const Vector3d before = r.impulse;
   r.impulse[0] = law::spin_step(before[0], u[0], r.inverse_nn, r.spinning_arm * load);
-  const double dn = r.impulse[0] - before[0];
-  r.project_tangents(u[1] + r.W(1, 0) * dn, u[2] + r.W(2, 0) * dn, r.rolling_arm * load);
+  r.step_tangents(u, before[0], r.rolling_arm * load);
   apply(r, r.impulse - before);
 }
 
@@ -230,10 +231,8 @@ ResidualSums SequentialIteration::residual_sums() const {
     const double next = law::normal_step(normal, u[0], p.terms.sigma, p.target, p.inverse_nn);
     sum.normal += std::abs(normal - next);
     sum.load += std::max(normal, next);
-    Eigen::Vector2d stepped = p.impulse.tail<2>() - p.inverse_rho * u.tail<2>();
-    const double length = stepped.norm(), limit = p.friction * normal;
-    if (length > limit) stepped *= limit / length;
-    sum.tangent += (p.impulse.tail<2>() - stepped).norm();
+    sum.tangent +=
+        law::tangent_residual(p.impulse[1], p.impulse[2], u[1], u[2], p.inverse_tt.rho, p.friction * normal);
   }
   return sum;
 }

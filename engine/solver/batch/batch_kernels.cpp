@@ -167,8 +167,6 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
   store(force, sums.normal_load, at);
 }
 
-HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
-
 // The natural map of the points' law at the velocities reached: how far each impulse is from its step.
 HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
@@ -182,10 +180,7 @@ HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
     const V next = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at));
     normal = normal + abs(l.x - next);
     force = force + max(l.x, next);
-    const V rho = load(p.inverse_rho, at), limit = friction * l.x;
-    const V p1 = l.y - rho * u.y, p2 = l.z - rho * u.z, reach = length(p1, p2);
-    const V scale = select(reach > limit, limit / reach, all(1.0f));
-    tangent = tangent + length(l.y - p1 * scale, l.z - p2 * scale);
+    tangent = tangent + law::tangent_residual(l.y, l.z, u.y, u.z, load(p.inverse_rho, at), friction * l.x);
   }
   store(normal, pair.normal_miss, at);
   store(tangent, pair.tangent_miss, at);

@@ -109,6 +109,8 @@ HWY_INLINE T number(double x) {
   return all(static_cast<float>(x));
 }
 constexpr double singular_determinant = constants::singular_single;
+// Lanes do not branch.
+HWY_INLINE bool none(const Mask&) { return false; }
 }  // namespace law
 #include <drawpoint/engine/solver/contact_law-inl.h>
 
