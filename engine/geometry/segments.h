@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <drawpoint/engine/base/constants.hpp>
 #include <utility>
 
@@ -20,6 +21,7 @@ inline std::pair<Eigen::Vector3d, Eigen::Vector3d> nearest_points(const Segment&
   const Eigen::Vector3d d1 = first.end - first.start, d2 = second.end - second.start,
                         r = first.start - second.start;
   const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r), b = d1.dot(d2);
+  assert(a > 0 && e > 0 && "segments of positive length");
   const double determinant = a * e - b * b;  // vanishes for parallel segments
   double s = determinant > constants::parallel_edges * a * e
                  ? std::clamp((b * f - c * e) / determinant, 0.0, 1.0)

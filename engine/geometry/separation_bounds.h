@@ -4,6 +4,7 @@
 
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <drawpoint/engine/base/constants.hpp>
 #include <vector>
@@ -57,6 +58,7 @@ inline void SeparationBounds::measure(const CollisionHull& hull, const Eigen::Ve
 }
 
 inline void SeparationBounds::see(int face, double separation, const Eigen::Vector3d& lowest) {
+  assert(face >= 0 && face < static_cast<int>(seen_at_.size()) && "a face of the hull that was measured");
   seen_at_[face] = static_cast<int>(seen_.size());
   seen_.push_back({separation, lowest});
 }

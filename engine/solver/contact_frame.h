@@ -4,6 +4,7 @@
 
 #include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 
@@ -12,6 +13,7 @@ namespace drawpoint::engine {
 
 /// Rows n, t1, t2: right-handed, orthonormal.
 inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n) {
+  assert(std::abs(n.squaredNorm() - 1) < 1e-6 && "the normal has length 1");
   const Eigen::Vector3d helper = std::abs(n.z()) < 0.7 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d t1 = helper.cross(n).normalized();
   Eigen::Matrix3d frame;

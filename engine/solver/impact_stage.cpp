@@ -3,6 +3,7 @@
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <atomic>
+#include <cassert>
 #include <drawpoint/engine/base/constants.hpp>
 
 namespace drawpoint::engine::detail {
@@ -103,6 +104,7 @@ void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
 
 void ImpactStage::finish(ContactProblem& problem, SuperBodySolution& solution) const {
   if (!ran_) return;
+  assert(members_.size() == stage_.points.size() && "one point of the problem for each of the stage");
   problem.machine = machine_;
   for (std::size_t k = 0; k < members_.size(); ++k)
     problem.points[members_[k]].impulse += stage_.points[k].impulse;

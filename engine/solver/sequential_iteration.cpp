@@ -3,6 +3,7 @@
 #include <drawpoint/engine/solver/contact_frame.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace drawpoint::engine::detail {
@@ -32,6 +33,7 @@ void SequentialIteration::add_part_response(ContactBlock& block) const {
 }
 
 void SequentialIteration::add_pair(const ContactPair& pair) {
+  assert(pair.first == static_cast<int>(points_.size()) && "blocks have the order of the problem's points");
   for (int k = pair.first; k < pair.first + pair.count; ++k) add_point(pair, problem_.points[k]);
   PairBlock r;
   r.a = pair.a;
@@ -167,6 +169,7 @@ void SequentialIteration::correct() {
 }
 
 void SequentialIteration::set_bias_velocities(const std::vector<double>& targets) {
+  assert(targets.size() == points_.size() && "one bias velocity per point");
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k].target = targets[k];
 }
 
@@ -238,6 +241,8 @@ ResidualSums SequentialIteration::residual_sums() const {
 }
 
 SuperBodySolution SequentialIteration::store() {
+  assert(points_.size() == problem_.points.size() && pairs_.size() == problem_.pairs.size() &&
+         "a block for each point and pair of the problem");
   SuperBodySolution solution = machine_.store();
   const auto add = [&](int part, double sign, const Vector3d& arm, const Vector3d& impulse,
                        const Vector3d& moment) {

@@ -4,6 +4,7 @@
 #include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <drawpoint/engine/solver/super_body_motion.h>
 #include <algorithm>
+#include <cassert>
 
 namespace drawpoint::engine::detail {
 
@@ -20,6 +21,8 @@ SuperBodyMotion::SuperBodyMotion(const SuperBody* machine, double step, int subs
 }
 
 int SuperBodyMotion::add_rows(int part, const Eigen::Vector3d& arm, const Eigen::Matrix3d& axes) {
+  assert(machine_ && part >= 0 && part < static_cast<int>(machine_->part_maps.size()) &&
+         "a part of the machine");
   const SpatialMap& map = machine_->part_maps[part];
   return add(axes * (map.bottomRows<3>() - cross_matrix(arm) * map.topRows<3>()));
 }
@@ -53,6 +56,7 @@ void SuperBodyMotion::extrapolate() {
 }
 
 void SuperBodyMotion::iteration() {
+  assert((!machine_ || rows_.size() == machine_->rows.size()) && "a step per row of the machine");
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const SuperBodyRow& row = machine_->rows[k];
     Row& r = rows_[k];

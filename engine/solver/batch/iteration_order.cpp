@@ -3,6 +3,7 @@
 #include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <drawpoint/engine/base/constants.hpp>
@@ -181,6 +182,7 @@ class BatchAssigner {
 
   int put(int batch) {
     ++sizes[batch];
+    assert(sizes[batch] <= most_ && "a batch holds no more pairs than lanes");
     return batch;
   }
 
@@ -289,6 +291,12 @@ IterationOrder iteration_order(const ContactProblem& problem, int most, int leas
       order.stages.push_back(static_cast<int>(order.tasks.size()) - 1);
     ++task;
   }
+  assert(last == last_of_stages.end() && "every stage has ended");
+  assert(order.pairs.size() == queue.size() && "each pair is in one batch");
+  assert(order.batches.back() == static_cast<int>(order.pairs.size()) &&
+         order.tasks.back() == static_cast<int>(order.batches.size()) - 1 &&
+         order.stages.back() == static_cast<int>(order.tasks.size()) - 1 &&
+         "batches, tasks and stages end where their contents do");
   return order;
 }
 
