@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <algorithm>
 #include <drawpoint/benchmarks/micro/matrix_form.hpp>
-#include <drawpoint/engine/solver/contact_law.hpp>
 
 namespace drawpoint::benchmarks {
 namespace {
@@ -14,24 +15,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-double inverse_or_zero(double x) { return x > 0 ? 1 / x : 0; }
+namespace law = engine::detail::law;
 
 void into_disc(Eigen::Ref<VectorXd> tangents, double radius) {
-  const double length = tangents.norm();
-  if (length > radius) tangents *= radius / length;
-}
-
-Matrix3d frame_of(const Vector3d& n) {
-  const Vector3d t1 = n.unitOrthogonal();
-  Matrix3d frame;
-  frame << n.transpose(), t1.transpose(), n.cross(t1).transpose();
-  return frame;
-}
-
-Matrix3d cross_matrix(const Vector3d& r) {
-  Matrix3d X;
-  X << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return X;
+  tangents *= law::disc_factor(tangents.squaredNorm(), radius);
 }
 
 void add_block(Entries& entries, Index row, Index column, const Eigen::MatrixXd& block) {
@@ -111,8 +98,9 @@ MatrixForm::MatrixForm(const ContactProblem& problem) {
   pairs_begin = point_row(points);
   machine_begin = pair_row(pairs);
   rows = machine_begin + static_cast<Index>(machine_rows);
-  for (const ContactPoint& p : problem.points) frames.push_back(frame_of(p.normal));
-  for (const ContactPair& pair : problem.pairs) frames.push_back(frame_of(problem.points[pair.first].normal));
+  for (const ContactPoint& p : problem.points) frames.push_back(contact_frame(p.normal));
+  for (const ContactPair& pair : problem.pairs)
+    frames.push_back(contact_frame(problem.points[pair.first].normal));
 
   x_free = velocities(problem, true);
   J.resize(rows, x_free.size());
@@ -125,9 +113,9 @@ MatrixForm::MatrixForm(const ContactProblem& problem) {
   sigma = b = start = lower = upper = VectorXd::Zero(rows);
   for (std::size_t k = 0; k < points; ++k) {
     const ContactPoint& p = problem.points[k];
-    const SpookTerms law = spook(p.stiffness, std::max(p.damping_time, 2 * problem.step), problem.step);
-    sigma[point_row(k)] = law.sigma;
-    b[point_row(k)] = spook_target(p.gap, approach[point_row(k)], law.upsilon, problem.step);
+    const SpookTerms terms = law::spook_terms(p, problem.step, 1);
+    sigma[point_row(k)] = terms.sigma;
+    b[point_row(k)] = law::bias_velocity(p.gap, approach[point_row(k)], terms.upsilon, -1 / problem.step);
     start.segment<3>(point_row(k)) = frames[k] * p.start;
   }
   for (std::size_t q = 0; q < pairs; ++q)
@@ -135,17 +123,16 @@ MatrixForm::MatrixForm(const ContactProblem& problem) {
   for (std::size_t k = 0; k < machine_rows; ++k) {
     const SuperBodyRow& row = problem.machine->rows[k];
     const Index at = machine_begin + static_cast<Index>(k);
-    const bool stop = row.kind == SuperBodyRow::Kind::stop;
-    b[at] = !stop ? row.target : -row.gap / (row.gap >= 0 ? problem.step : row.recovery);
+    b[at] = law::bias_velocity(row, row.gap, problem.step);
     lower[at] = row.lower;
     upper[at] = row.upper;
     start[at] = row.start;
   }
   const Eigen::SparseMatrix<double, Eigen::RowMajor> K = J * inverse_mass;
   const VectorXd response = K.cwiseProduct(J) * VectorXd::Ones(x_free.size()) + sigma;
-  step_size = response.unaryExpr(&inverse_or_zero);
+  step_size = response.unaryExpr(&law::inverse_or_zero<double>);
   for (Index row = 0; row < machine_begin; row += 3)
-    step_size.segment<2>(row + 1).setConstant(inverse_or_zero(response[row + 1] + response[row + 2]));
+    step_size.segment<2>(row + 1).setConstant(law::inverse_or_zero(response[row + 1] + response[row + 2]));
 }
 
 void MatrixForm::project(const ContactProblem& problem, VectorXd& impulses) const {

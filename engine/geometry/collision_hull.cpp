@@ -3,6 +3,7 @@
 #include <drawpoint/engine/geometry/collision_hull.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -52,6 +53,7 @@ CollisionHull::CollisionHull(const ConvexPolyhedron& shape)
   for (const Vector3d& p : vertices) radius = std::max(radius, (p - centre).norm());
   index(shape.faces());
   lay_out();
+  assert(vertex_count() + face_count() == static_cast<int>(edges.size()) + 2 && "a closed hull (Euler)");
 }
 
 void CollisionHull::index(const std::vector<std::vector<int>>& faces) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cassert>
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 #include <span>
 #include <vector>
@@ -34,13 +35,16 @@ struct CollisionHull {
   int face_count() const { return static_cast<int>(normals.size()); }
   /// Counter-clockwise seen from outside.
   std::span<const HullCorner> corners(int face) const {
+    assert(face >= 0 && face < face_count() && "a face of the hull");
     return std::span(corners_).subspan(face_begin_[face], face_begin_[face + 1] - face_begin_[face]);
   }
   std::span<const int> faces_around(int vertex) const {
+    assert(vertex >= 0 && vertex < vertex_count() && "a vertex of the hull");
     return std::span(around_).subspan(around_begin_[vertex],
                                       around_begin_[vertex + 1] - around_begin_[vertex]);
   }
   std::span<const int> edges_of(int face) const {
+    assert(face >= 0 && face < face_count() && "a face of the hull");
     return std::span(face_edges_).subspan(face_begin_[face], face_begin_[face + 1] - face_begin_[face]);
   }
 

@@ -6,6 +6,7 @@
 #include <drawpoint/engine/geometry/segments.h>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <limits>
 
 namespace drawpoint::engine::detail {
@@ -13,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double coincident = 1e-9;  // [m] nearer points than this give no direction
 constexpr std::uint32_t edge_group = 0x7f, nearest_group = 0xff;
 
 // Of the faces around a vertex, the one that faces the direction n most (its normal along -n).
@@ -77,7 +77,7 @@ void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, d
   const Vector3d n = on_a ? Vector3d(pair.X_AB.linear().transpose() * axis.normal) : Vector3d(-axis.normal);
   const int other = facing(incident, axis.vertex, n);
   clip_against(pair, axis, other, margin, contact);
-  if (axis.separation > 0 || least_gap(pair, contact) <= axis.separation + coincident) return;
+  if (axis.separation > 0 || least_gap(pair, contact) <= axis.separation + constants::coincident) return;
   // An edge or a face parallel to the reference face is lowest, and the lowest vertex lies beside the
   // reference face: the polygon that goes down deepest is that of another face around the vertex.
   for (int f : incident.faces_around(axis.vertex)) {
@@ -93,7 +93,7 @@ void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, C
   const auto [p, q] = nearest_points({pair.a.vertices[a.start], pair.a.vertices[a.end]},
                                      {pair.vertex_b(b.start), pair.vertex_b(b.end)});
   // Nearest points at an end of an edge: another direction separates the shapes more.
-  if ((q - p).norm() > std::abs(axis.separation) + coincident) return;
+  if ((q - p).norm() > std::abs(axis.separation) + constants::coincident) return;
   add_anchors(p, pair.in_b(q),
               feature_number(edge_group, axis.feature.a, static_cast<std::uint32_t>(axis.feature.b)),
               contact);
@@ -106,7 +106,7 @@ void ConvexContactSearch::nearest_contact(const HullPair& pair, const Axis& axis
     contact.separation = std::max(contact.separation, margin);
     return;
   }
-  if (nearest.distance > coincident) {
+  if (nearest.distance > constants::coincident) {
     contact.normal = (nearest.on_b - nearest.on_a) / nearest.distance;
     contact.normal_of_b = false;
     contact.separation = nearest.distance;
@@ -143,7 +143,7 @@ void ConvexContactSearch::find(const HullPair& pair, const AxisQuery& query, Con
     contact.count = 0;  // edges beside the facing polygons may be nearer
     nearest_contact(pair, axis, query.margin, contact);
   } else if (contact.count == 0 && axis.separation <= query.margin) {
-    if (axis.separation > -coincident)  // apart, or in one plane side by side
+    if (axis.separation > -constants::coincident)  // apart, or in one plane side by side
       nearest_contact(pair, axis, query.margin, contact);
     else
       support_contact(pair, axis, contact);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -16,11 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double thickness = 1e-9;  // of the extent: what counts as the same point or the same plane
-// Triples lower than this, of the extent, are no plane: 1e-6 keeps the tilt of a plane by round-off
-// (1e-16/1e-6) below `thickness`.
-constexpr double smallest_height = 1e-6;
-
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("engine::ConvexPolyhedron: " + what +
                               "; give at least four finite points that span a volume");
@@ -29,7 +25,8 @@ constexpr double smallest_height = 1e-6;
 std::string too_flat(double extent) {
   std::ostringstream text;
   text << "the points are too flat or too nearly in one plane: widths and heights of faces must be at least "
-       << smallest_height << " of the extent, here " << smallest_height * extent << " m";
+       << constants::least_triple_height << " of the extent, here " << constants::least_triple_height * extent
+       << " m";
   return text.str();
 }
 
@@ -113,7 +110,7 @@ bool is_closed(const std::vector<std::vector<int>>& faces, std::size_t vertex_co
 class Search {
  public:
   Search(std::vector<Vector3d> points, double extent)
-      : points_(std::move(points)), extent_(extent), tolerance_(thickness * extent) {}
+      : points_(std::move(points)), extent_(extent), tolerance_(constants::hull_thickness * extent) {}
 
   Hull run() {
     const int n = static_cast<int>(points_.size());
@@ -127,7 +124,7 @@ class Search {
   void try_plane(const std::array<int, 3>& t) {
     const Vector3d u = points_[t[1]] - points_[t[0]], v = points_[t[2]] - points_[t[0]], area = u.cross(v);
     const double longest = std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()}));
-    if (area.norm() < smallest_height * extent_ * longest || known(t)) return;
+    if (area.norm() < constants::least_triple_height * extent_ * longest || known(t)) return;
     Plane plane{area.normalized(), 0};
     plane.offset = plane.normal.dot(points_[t[0]]);
     const int outward = side(points_, plane, tolerance_);
@@ -176,7 +173,7 @@ class Search {
 
 Hull hull(std::span<const Vector3d> points) {
   const double extent = extent_of(points);
-  auto kept = distinct(points, thickness * extent);
+  auto kept = distinct(points, constants::hull_thickness * extent);
   if (kept.size() < 4) refuse("fewer than four of the points are distinct");
   return Search(std::move(kept), extent).run();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -39,6 +40,7 @@ MassProperties mass_properties(const ConvexPolyhedron& shape, double density) {
     for (std::size_t k = 1; k + 1 < face.size(); ++k)
       moments.add_tetrahedron(shape.vertices()[face[0]] - apex, shape.vertices()[face[k]] - apex,
                               shape.vertices()[face[k + 1]] - apex);
+  assert(moments.volume > 0 && "faces are counter-clockwise seen from outside");
   const Vector3d centre = moments.first / moments.volume;
   const Matrix3d central = moments.second - moments.volume * centre * centre.transpose();
   const Matrix3d inertia = density * (central.trace() * Matrix3d::Identity() - central);

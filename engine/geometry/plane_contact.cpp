@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/plane_contact.h>
+#include <drawpoint/engine/base/constants.hpp>
 
 namespace drawpoint::engine::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-// Sine of the tilt below which a cylinder stands on its face and its lowest line has no direction.
-constexpr double upright = 1e-9;
 
 void keep(const Plane& plane, const Vector3d& p, std::uint32_t feature, double margin,
           std::vector<ClipPoint>& points) {
@@ -40,7 +38,7 @@ void plane_contact(const Plane& plane, const Cylinder& cylinder, const Eigen::Is
   points.clear();
   const Vector3d axis = X_WC.linear().col(1);
   Vector3d down = -(plane.normal - plane.normal.dot(axis) * axis);
-  down = down.norm() > upright ? Vector3d(down.normalized()) : Vector3d(X_WC.linear().col(2));
+  down = down.norm() > constants::upright ? Vector3d(down.normalized()) : Vector3d(X_WC.linear().col(2));
   const Vector3d aside = axis.cross(down);
   const double lower = plane.normal.dot(axis) > 0 ? -1 : 1;  // the face at the lower end of the axis
   const Vector3d low_face = X_WC.translation() + lower * cylinder.half_width * axis;

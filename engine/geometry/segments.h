@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
+#include <drawpoint/engine/base/constants.hpp>
 #include <utility>
 
 /// Nearest points of two line segments of positive length (Ericson 2005, Real-Time Collision
@@ -19,8 +21,11 @@ inline std::pair<Eigen::Vector3d, Eigen::Vector3d> nearest_points(const Segment&
   const Eigen::Vector3d d1 = first.end - first.start, d2 = second.end - second.start,
                         r = first.start - second.start;
   const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), c = d1.dot(r), b = d1.dot(d2);
+  assert(a > 0 && e > 0 && "segments of positive length");
   const double determinant = a * e - b * b;  // vanishes for parallel segments
-  double s = determinant > 1e-14 * a * e ? std::clamp((b * f - c * e) / determinant, 0.0, 1.0) : 0.0;
+  double s = determinant > constants::parallel_edges * a * e
+                 ? std::clamp((b * f - c * e) / determinant, 0.0, 1.0)
+                 : 0.0;
   double t = (b * s + f) / e;
   if (t < 0 || t > 1) {
     t = std::clamp(t, 0.0, 1.0);

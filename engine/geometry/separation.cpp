@@ -6,6 +6,7 @@
 #include <drawpoint/engine/geometry/segments.h>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <limits>
 
 namespace drawpoint::engine::detail {
@@ -14,13 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Faces beat edge pairs that are better by less: where they tie, a face gives the richer manifold. Below the
-// 1e-6 m to which depths are promised.
-constexpr double face_preference = 1e-7;
-// Squared sine below which two edges are parallel and some face normal stands in for their axis.
-constexpr double parallel = 1e-14;
-// Nearer centres than this give no direction [m].
-constexpr double concentric = 1e-9;
 
 // The point of a face's polygon that lies next to a point of its plane, on the line to the face's middle.
 Vector3d within(const CollisionHull& hull, int face, const Vector3d& p) {
@@ -78,7 +72,7 @@ bool AxisSearch::edge_axis(const HullPair& pair, const EdgeOfA& first, const Edg
   if (adc * bdc >= 0 || cba * bdc >= 0) return false;
   Vector3d n = ea.along.cross(second.along);
   const double square = n.squaredNorm();
-  if (square < parallel * ea.along.squaredNorm() * second.along.squaredNorm()) return false;
+  if (square < constants::parallel_edges * ea.along.squaredNorm() * second.along.squaredNorm()) return false;
   n /= std::sqrt(square);
   if (n.dot(pair.a.normals[ea.left] + pair.a.normals[ea.right]) < 0) n = -n;
   axis.feature = {FeatureKind::edges, first.edge, second.edge};
@@ -130,12 +124,12 @@ Axis AxisSearch::guess(const HullPair& pair, Witness& witness) {
   }
   const Vector3d line = pair.X_AB * pair.b.centre - pair.a.centre;
   const double length = line.norm();
-  axis.normal = length > concentric ? Vector3d(line / length) : Vector3d::UnitZ();
+  axis.normal = length > constants::coincident ? Vector3d(line / length) : Vector3d::UnitZ();
   const Support high = lowest(pair.a, -axis.normal),
                 low = lowest(pair.b, pair.X_AB.linear().transpose() * axis.normal);
   axis.support = -high.height;
   axis.separation = low.height + axis.normal.dot(pair.X_AB.translation()) - axis.support;
-  floor_ = std::min(axis.separation, 0.0) - face_preference;
+  floor_ = std::min(axis.separation, 0.0) - constants::face_preference;
   witness = {pair.a.vertices[high.vertex], pair.vertex_b(low.vertex)};
   return axis;
 }
@@ -165,9 +159,9 @@ bool AxisSearch::search_faces(const HullPair& pair, const Witness& witness) {
   bounds_a_.measure(pair.a, witness.on_b);
   bounds_b_.measure(pair.b, pair.in_b(witness.on_a));
   for (int f = 0; f < pair.a.face_count(); ++f)
-    if (bounds_a_.over(f) > floor_ - height_round_off && !see_a(f)) return false;
+    if (bounds_a_.over(f) > floor_ - constants::height_round_off && !see_a(f)) return false;
   for (int f = 0; f < pair.b.face_count(); ++f)
-    if (bounds_b_.over(f) > floor_ - height_round_off && !see_b(f)) return false;
+    if (bounds_b_.over(f) > floor_ - constants::height_round_off && !see_b(f)) return false;
   return true;
 }
 
@@ -203,11 +197,11 @@ Axis AxisSearch::find(const HullPair& pair, const AxisQuery& query) {
              by_edges = first.feature.kind == FeatureKind::edges;
   best_ = hinted && !by_edges ? first : Axis{};
   if (hinted == by_edges) best_.separation = -infinity;  // no face yet
-  if (by_edges) floor_ -= face_preference;               // a face may win that is worse by less
+  if (by_edges) floor_ -= constants::face_preference;    // a face may win that is worse by less
   if (!search_faces(pair, witness)) return best_;
-  const bool edges_lead = by_edges && first.separation > best_.separation + face_preference;
+  const bool edges_lead = by_edges && first.separation > best_.separation + constants::face_preference;
   Axis best_edges = edges_lead ? first : Axis{};
-  if (!edges_lead) best_edges.separation = best_.separation + face_preference;
+  if (!edges_lead) best_edges.separation = best_.separation + constants::face_preference;
   search_edges(pair, best_edges);
   if (best_edges.feature.kind == FeatureKind::edges) best_ = best_edges;
   if (best_.separation > query.margin) return best_;
@@ -219,10 +213,11 @@ bool AxisSearch::nearest_edges(const HullPair& pair, const Axis& axis, double ma
   const Vector3d n_b = pair.X_AB.linear().transpose() * axis.normal;
   const double over = axis.normal.dot(pair.X_AB.translation());
   const auto high = [&](int v) {
-    return axis.normal.dot(pair.a.vertices[v]) >= axis.support + axis.separation - margin - height_round_off;
+    return axis.normal.dot(pair.a.vertices[v]) >=
+           axis.support + axis.separation - margin - constants::height_round_off;
   };
   const auto low = [&](int v) {
-    return n_b.dot(pair.b.vertices[v]) + over <= axis.support + margin + height_round_off;
+    return n_b.dot(pair.b.vertices[v]) + over <= axis.support + margin + constants::height_round_off;
   };
   edges_b_.clear();
   for (std::size_t e = 0; e < pair.b.edges.size(); ++e) {

@@ -4,7 +4,9 @@
 
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <vector>
 
 /// By how much the faces and edges of one hull can separate it from another shape, at most, from a few points
@@ -17,10 +19,6 @@
 /// frame, metres. Cost: one pass over the planes, then a few operations per edge of the faces that q lies
 /// over.
 namespace drawpoint::engine::detail {
-
-/// Round-off of a height over a plane, for coordinates up to some 100 m [m]. Bounds are eased by it, so that
-/// it costs at most a candidate too many.
-constexpr double height_round_off = 1e-12;
 
 class SeparationBounds {
  public:
@@ -60,6 +58,7 @@ inline void SeparationBounds::measure(const CollisionHull& hull, const Eigen::Ve
 }
 
 inline void SeparationBounds::see(int face, double separation, const Eigen::Vector3d& lowest) {
+  assert(face >= 0 && face < static_cast<int>(seen_at_.size()) && "a face of the hull that was measured");
   seen_at_[face] = static_cast<int>(seen_.size());
   seen_.push_back({separation, lowest});
 }
@@ -72,7 +71,8 @@ inline double SeparationBounds::most_over(const HullEdge& edge, const Eigen::Vec
   const double end = std::max(left, right);
   if (end <= 0) return end;
   const Eigen::Vector3d from = p - start;
-  if (edge.beyond_left.dot(from) <= -height_round_off || edge.beyond_right.dot(from) <= -height_round_off)
+  if (edge.beyond_left.dot(from) <= -constants::height_round_off ||
+      edge.beyond_right.dot(from) <= -constants::height_round_off)
     return end;
   const double along = edge.along.dot(from);
   return std::sqrt(std::max(0.0, from.squaredNorm() - along * along / edge.along.squaredNorm()));

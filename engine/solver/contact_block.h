@@ -2,34 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <Eigen/Dense>
-#include <cmath>
-#include <drawpoint/engine/solver/contact_law.hpp>
 
-/// The unknowns of a point or of a pair in the sequential iterations, with the step that an iteration takes
-/// on its tangents.
+/// The unknowns of a point or of a pair in the sequential iterations.
 ///
 /// A block holds the impulse λ of a point (the moment of a pair) in the frame (n, t1, t2) and its response
-/// W = J M⁻¹ Jᵀ, so that λ changes the velocity there by W Δλ. With the velocity u the normal's step is
-/// λ_n − (u_n + Σ λ_n − b) / (W_nn + Σ), cut off at its limits. The tangents stick, λ_t − W_tt⁻¹ u_t, where
-/// the cone |λ_t| ≤ limit allows it; else they take the scalar step λ_t − u_t / ρ, ρ = λ_max(W_tt), and are
-/// projected on the cone. The scalar step also serves where W_tt is singular: a machine part with few
-/// freedoms does not answer in every direction.
+/// W = J M⁻¹ Jᵀ, so that λ changes the velocity there by W Δλ. Its steps are those of contact_law-inl.h: the
+/// normal first, then the tangents with the velocity that the normal's change leaves.
 namespace drawpoint::engine::detail {
 
 struct ContactBlock {
   Eigen::Matrix3d frame, W;
-  double inverse_nn = 0;      ///< 1 / (W_nn + Σ)
-  double inverse_tt[3] = {};  ///< of the tangents' 2 x 2 block: xx, xy, yy
-  double inverse_rho = 0;     ///< 1 / λ_max of that block
+  double inverse_nn = 0;  ///< 1 / (W_nn + Σ)
+  law::TangentInverse<double> inverse_tt{};
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), total = Eigen::Vector3d::Zero();  ///< in the frame
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();  ///< of the start impulse, for an impact
   int rows_a = -1, rows_b = -1;  ///< index of a side's rows (super_body_motion.hpp), if it is a machine part
 
   /// Fills the inverses from W and Σ.
   void invert(double sigma);
-  /// The tangents' step against their velocity (u1, u2) within the cone of radius `limit`.
-  void project_tangents(double u1, double u2, double limit);
+  /// The tangents' step against the velocity u, within the cone of radius `limit`; `before`: λ_n before its own.
+  void step_tangents(const Eigen::Vector3d& u, double before, double limit);
 };
 
 struct PointBlock : ContactBlock {
@@ -37,7 +31,7 @@ struct PointBlock : ContactBlock {
   Eigen::Vector3d arm_a, arm_b;
   double friction, gap, target;
   double initial_impulse;  ///< the normal impulse that the substep began with
-  SpookTerms law;
+  SpookTerms terms;
 };
 
 /// The moment between a pair, in the frame of its normal.
@@ -47,33 +41,13 @@ struct PairBlock : ContactBlock {
 };
 
 inline void ContactBlock::invert(double sigma) {
-  constexpr double singular = 1e-12;  // determinant, relative to ρ²
-  const auto inverse_or_zero = [](double x) { return x > 0 ? 1.0 / x : 0.0; };
-  inverse_nn = inverse_or_zero(W(0, 0) + sigma);
-  const double a = W(1, 1), b = W(1, 2), d = W(2, 2);
-  const double rho = 0.5 * (a + d) + std::hypot(0.5 * (a - d), b);
-  inverse_rho = inverse_or_zero(rho);
-  const double det = a * d - b * b;
-  const bool regular = det > singular * rho * rho;
-  inverse_tt[0] = regular ? d / det : inverse_rho;
-  inverse_tt[1] = regular ? -b / det : 0;
-  inverse_tt[2] = regular ? a / det : inverse_rho;
+  inverse_nn = law::inverse_or_zero(W(0, 0) + sigma);
+  inverse_tt = law::invert_tangents(W(1, 1), W(1, 2), W(2, 2));
 }
 
-inline void ContactBlock::project_tangents(double u1, double u2, double limit) {
-  double t1 = impulse[1] - (inverse_tt[0] * u1 + inverse_tt[1] * u2);
-  double t2 = impulse[2] - (inverse_tt[1] * u1 + inverse_tt[2] * u2);
-  if (t1 * t1 + t2 * t2 > limit * limit) {
-    t1 = impulse[1] - inverse_rho * u1;
-    t2 = impulse[2] - inverse_rho * u2;
-    const double length = std::sqrt(t1 * t1 + t2 * t2);
-    if (length > limit) {
-      t1 *= limit / length;
-      t2 *= limit / length;
-    }
-  }
-  impulse[1] = t1;
-  impulse[2] = t2;
+inline void ContactBlock::step_tangents(const Eigen::Vector3d& u, double before, double limit) {
+  const double dn = impulse[0] - before;
+  law::tangent_step(impulse[1], impulse[2], u[1] + W(1, 0) * dn, u[2] + W(2, 0) * dn, inverse_tt, limit);
 }
 
 }  // namespace drawpoint::engine::detail

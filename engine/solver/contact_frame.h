@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 
@@ -11,6 +13,7 @@ namespace drawpoint::engine {
 
 /// Rows n, t1, t2: right-handed, orthonormal.
 inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n) {
+  assert(std::abs(n.squaredNorm() - 1) < 1e-6 && "the normal has length 1");
   const Eigen::Vector3d helper = std::abs(n.z()) < 0.7 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d t1 = helper.cross(n).normalized();
   Eigen::Matrix3d frame;
@@ -29,8 +32,7 @@ inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
 inline Eigen::Vector3d start_impulse(const ContactPoint& point, const Eigen::Matrix3d& frame, int substeps) {
   Eigen::Vector3d impulse = frame * point.start / substeps;
   impulse[0] = std::max(0.0, impulse[0]);
-  const double slip = impulse.tail<2>().norm(), limit = point.friction * impulse[0];
-  if (slip > limit) impulse.tail<2>() *= limit / slip;
+  impulse.tail<2>() *= detail::law::disc_factor(impulse.tail<2>().squaredNorm(), point.friction * impulse[0]);
   return impulse;
 }
 

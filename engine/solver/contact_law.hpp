@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 
 /// The SPOOK discretisation of one compliant, damped unilateral contact (C. Lacoursière, "Ghosts and
 /// Machines", 2007).
 ///
 /// ε λ_f + g + τ ġ = 0 with ε = 1/k, averaged over three steps, becomes for the impulse λ = h λ_f
-///     0 ≤ λ ⊥ G v⁺ + Σ λ − b ≥ 0,   Σ = 4 / (h² k (1 + 4τ/h)),   b = Υ (G v⁻ − 4 g / h),   Υ = 1 / (1 +
-///     4τ/h).
+///     0 ≤ λ ⊥ G v⁺ + Σ λ − b ≥ 0,   Σ = 4 Υ / (h² k),   b = Υ (G v⁻ − 4 g / h),   Υ = 1 / (1 + 4τ/h).
 /// Two departures: an approach faster than `impact_speed` is an impact, which takes the whole approach speed
 /// (b without the G v⁻ term, so that nothing bounces by the discretisation as long as h is not far below
 /// √(m/k); restitution has its own stage); and an open gap g > 0 only limits the approach to what closes it
@@ -18,9 +18,6 @@
 /// law is the same with the secant stiffness at the overlap of the step's start, exact at rest and first
 /// order in h.
 namespace drawpoint::engine {
-
-constexpr double impact_speed =
-    0.05;  ///< [m/s]; slower approaches are resting contact and keep their damping
 
 /// What a contact's law needs of its material and the substep.
 struct SpookTerms {
@@ -34,27 +31,10 @@ inline SpookTerms spook(double k, double tau, double h) {
   return {upsilon, 4.0 * upsilon / (h * h * k)};
 }
 
-/// b [m/s]; gap [m] (negative: overlap), approach = G v⁻ [m/s] (negative: closing).
-inline double spook_target(double gap, double approach, double upsilon, double h) {
-  if (gap > 0) return -gap / h;
-  const double damping = approach < -impact_speed ? 0.0 : approach;
-  return upsilon * (damping - 4.0 * gap / h);
-}
-
-/// What a substep's normal impulse λ leaves for the next one to start from, as a share of it. Load that is
-/// there to stay at most doubles in a substep, or grows by what stops an approach of `impact_speed`; more
-/// than that is an impact, which is over. To start from it would strike again, and the iterations that take
-/// it back shake the pile. `initial_impulse` is what the substep itself started from, `inverse_nn` = 1/(W_nn
-/// + Σ).
-inline double warm_start_fraction(double impulse, double initial_impulse, double inverse_nn) {
-  const double most = 2 * initial_impulse + impact_speed * inverse_nn;
-  return impulse > most ? most / impulse : 1.0;
-}
-
 /// The secant stiffness k_n √δ of Hertz's law f = k_n δ^(3/2) at the overlap δ, k_n = (4/3) E* √R*. Overlaps
-/// below 1e-5 m count as that, so that a first touch meets resistance.
+/// below `least_hertz_overlap` count as that, so that a first touch meets resistance.
 inline double hertz_stiffness(double modulus, double radius, double overlap) {
-  return 4.0 / 3.0 * modulus * std::sqrt(radius * std::max(overlap, 1e-5));
+  return 4.0 / 3.0 * modulus * std::sqrt(radius * std::max(overlap, constants::least_hertz_overlap));
 }
 
 }  // namespace drawpoint::engine

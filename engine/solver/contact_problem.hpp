@@ -51,14 +51,14 @@ struct ContactPoint {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< out: on B, world axes, over the step [N s]
   double warm_start_fraction =
-      1;  ///< out: share of `start` that the next step may start from (warm_start_fraction)
+      1;  ///< out: share of `start` that the next step may start from (contact_law-inl.h)
 };
 
 /// Two bodies that touch, with their points [first, first + count) and the moment between them.
 struct ContactPair {
   int a = 0, b = 0;
-  int collider_a = 0, collider_b = 0;  ///< label of the pair, for starting the next step
-  int first = 0, count = 0;
+  int collider_a = 0, collider_b = 0;                 ///< label of the pair, for starting the next step
+  int first = 0, count = 0;                           ///< points lie pair after pair, without gaps
   double rolling_arm = 0, spinning_arm = 0;           ///< μ_r R*, μ_s R* [m]
   Eigen::Vector3d start = Eigen::Vector3d::Zero();    ///< moment impulse on B, as ContactPoint::start [N m s]
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< out: over the step [N m s]

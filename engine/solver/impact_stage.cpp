@@ -3,16 +3,14 @@
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <atomic>
-#include <drawpoint/engine/solver/contact_law.hpp>
+#include <cassert>
+#include <drawpoint/engine/base/constants.hpp>
 
 namespace drawpoint::engine::detail {
 namespace {
 
 constexpr int pairs_per_block = 256;  // that a thread takes at a time
-constexpr int most_iterations = 10000;
-constexpr double small_change = 1e-12;  // of an iteration, relative to the load
-constexpr double rigid = 1e300;         // [N/m]
-constexpr double touching = 1e-6;       // [m] a gap of round-off must not keep a contact out of the impact
+constexpr double rigid = 1e300;       // [N/m]
 
 }  // namespace
 
@@ -32,7 +30,7 @@ bool ImpactStage::rebounds(const ContactProblem& problem, const ContactPair& pai
     const ContactPoint& point = problem.points[k];
     if (point.restitution <= 0) continue;
     const double speed = normal_speed(problem, pair, point);
-    if (speed < -impact_speed && point.gap + problem.step * speed <= 0) return true;
+    if (speed < -constants::impact_speed && point.gap + problem.step * speed <= 0) return true;
   }
   return false;
 }
@@ -56,12 +54,12 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
     const int first = static_cast<int>(stage_.points.size());
     for (int k = pair.first; k < pair.first + pair.count; ++k) {
       const double speed = normal_speed(problem, pair, problem.points[k]);
-      if (problem.points[k].gap + problem.step * std::min(speed, 0.0) > touching) continue;
+      if (problem.points[k].gap + problem.step * std::min(speed, 0.0) > constants::touching_gap) continue;
       ContactPoint point = problem.points[k];
       point.stiffness = rigid;
       point.start.setZero();
       members_.push_back(k);
-      targets_.push_back(speed < -impact_speed ? -point.restitution * speed : 0.0);
+      targets_.push_back(speed < -constants::impact_speed ? -point.restitution * speed : 0.0);
       stage_.points.push_back(point);
     }
     pair.first = first;
@@ -88,8 +86,10 @@ void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
   SequentialIteration iteration(stage_, 1);
   iteration.set_bias_velocities(targets_);
   double change = 1;
-  for (int k = 0; k < most_iterations && change > small_change * iteration.normal_load(); ++k)
+  for (int k = 0; k < constants::impact_iterations; ++k) {
+    if (change <= constants::impact_tolerance * iteration.normal_load()) break;
     change = iteration.iteration(k % 2 == 0);
+  }
   iteration.finish();
   solution_ = iteration.store();
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
@@ -104,6 +104,7 @@ void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
 
 void ImpactStage::finish(ContactProblem& problem, SuperBodySolution& solution) const {
   if (!ran_) return;
+  assert(members_.size() == stage_.points.size() && "one point of the problem for each of the stage");
   problem.machine = machine_;
   for (std::size_t k = 0; k < members_.size(); ++k)
     problem.points[members_[k]].impulse += stage_.points[k].impulse;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/problem_sizes.h>
 #include <drawpoint/engine/solver/received_impulses.h>
+#include <cassert>
 
 namespace drawpoint::engine::detail {
 
@@ -8,6 +10,7 @@ using Eigen::Vector3d;
 
 ReceivedImpulses received_impulses(const ContactProblem& problem, const SuperBodySolution& machine,
                                    const ImpulseChoice& choice) {
+  assert(sides_exist(problem) && "each side of a pair is a body or a part of the machine");
   ReceivedImpulses sum;
   sum.linear.assign(problem.bodies.size(), Vector3d::Zero());
   sum.angular.assign(problem.bodies.size(), Vector3d::Zero());
@@ -35,6 +38,7 @@ ReceivedImpulses received_impulses(const ContactProblem& problem, const SuperBod
   }
   if (!problem.machine) return sum;
   const SuperBody& super = *problem.machine;
+  assert((machine.*choice.rows).size() == super.rows.size() && "one impulse per row of the machine");
   sum.machine = Eigen::VectorXd::Zero(super.velocity.size());
   for (std::size_t p = 0; p < parts.size(); ++p) sum.machine += super.part_maps[p].transpose() * parts[p];
   for (std::size_t k = 0; k < super.rows.size(); ++k)

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <drawpoint/engine/solver/received_impulses.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/solver/contact_law.hpp>
 #include <drawpoint/engine/solver/residual.hpp>
 #include <stdexcept>
 #include <string>
@@ -14,8 +14,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-double inverse_or_zero(double x) { return x > 0 ? 1.0 / x : 0.0; }
+namespace law = detail::law;
 
 // A rigid motion or its rate: of a body about its centre of mass, of a part about its origin.
 struct Twist {
@@ -29,11 +28,8 @@ struct Side {
   bool part = false;
 };
 
-// Projection of x on the disc of the radius, or on the interval.
-Vector3d in_disc(const Vector3d& x, double radius) {
-  const double length = x.norm();
-  return length > radius ? Vector3d(x * (radius / length)) : x;
-}
+// Projection of x on the disc of the radius.
+Vector3d in_disc(const Vector3d& x, double radius) { return law::disc_factor(x.squaredNorm(), radius) * x; }
 
 // What a symmetric 3 x 3 response answers along n, and the most across it, without choosing tangents: with t
 // the trace of the block across n and D the rest of it without its mean, λ_max = t/2 + |D| / √2.
@@ -123,18 +119,19 @@ double LastSubstep::evaluate(const ContactPair& pair, const ContactPoint& p) {
   const Vector3d& n = p.normal;
   const Vector3d impulse = p.start / substeps_, u = b.after.at(p.arm_b) - a.after.at(p.arm_a);
   const Answers W = answers(response(pair.a, p.arm_a) + response(pair.b, p.arm_b), n);
-  const SpookTerms law = spook(p.stiffness, std::max(p.damping_time, 2 * problem_.step), h_);
+  const SpookTerms terms = law::spook_terms(p, problem_.step, substeps_);
   const double gap = p.gap + n.dot(b.shift.at(p.arm_b) - a.shift.at(p.arm_a));
   const double approach = n.dot(b.before.at(p.arm_b) - a.before.at(p.arm_a));
-  const double target = spook_target(gap, approach, law.upsilon, h_);
+  const double target = law::bias_velocity(gap, approach, terms.upsilon, -1 / h_);
 
-  const double normal = n.dot(impulse), rest = n.dot(u) + law.sigma * normal - target;
-  const double next = std::max(0.0, normal - rest * inverse_or_zero(W.along + law.sigma));
+  const double normal = n.dot(impulse);
+  const double next =
+      law::normal_step(normal, n.dot(u), terms.sigma, target, law::inverse_or_zero(W.along + terms.sigma));
   normal_ += std::abs(normal - next);
   load_ += std::max(normal, next);
 
   const Vector3d tangent = impulse - normal * n, slip = u - n.dot(u) * n;
-  const Vector3d stepped = tangent - inverse_or_zero(W.most_across) * slip;
+  const Vector3d stepped = tangent - law::inverse_or_zero(W.most_across) * slip;
   friction_ += (tangent - in_disc(stepped, p.friction * std::max(0.0, normal))).norm();
   return normal;
 }
@@ -145,12 +142,13 @@ void LastSubstep::evaluate_moment(const ContactPair& pair, double load) {
   const Answers W = answers(angular_response(pair.a) + angular_response(pair.b), n);
   if (pair.rolling_arm > 0) {
     const Vector3d tangent = moment - n.dot(moment) * n;
-    const Vector3d stepped = tangent - inverse_or_zero(W.most_across) * (u - n.dot(u) * n);
+    const Vector3d stepped = tangent - law::inverse_or_zero(W.most_across) * (u - n.dot(u) * n);
     moment_ += (tangent - in_disc(stepped, pair.rolling_arm * load)).norm() / pair.rolling_arm;
   }
   if (pair.spinning_arm > 0) {
-    const double normal = n.dot(moment), limit = pair.spinning_arm * load;
-    const double next = std::clamp(normal - inverse_or_zero(W.along) * n.dot(u), -limit, limit);
+    const double normal = n.dot(moment);
+    const double next =
+        law::spin_step(normal, n.dot(u), law::inverse_or_zero(W.along), pair.spinning_arm * load);
     moment_ += std::abs(normal - next) / pair.spinning_arm;
   }
 }
@@ -163,14 +161,10 @@ double LastSubstep::evaluate_rows() const {
   for (std::size_t k = 0; k < problem_.machine->rows.size(); ++k) {
     const SuperBodyRow& row = problem_.machine->rows[k];
     const double impulse = machine_.row_starts[k] / substeps_, response = row.jacobian.squaredNorm();
-    double target = row.target;
-    if (row.kind == SuperBodyRow::Kind::stop) {
-      const double gap = row.gap + row.jacobian.dot(shift);
-      target = gap >= 0 ? -gap / h_ : -gap / row.recovery;
-    }
+    const double target = law::bias_velocity(row, row.gap + row.jacobian.dot(shift), h_);
     const double rest = row.jacobian.dot(w) - target;
-    const double next =
-        std::clamp(impulse - rest * inverse_or_zero(response), row.lower / substeps_, row.upper / substeps_);
+    const double next = std::clamp(impulse - rest * law::inverse_or_zero(response), row.lower / substeps_,
+                                   row.upper / substeps_);
     off += response * (impulse - next) * (impulse - next);
     all += response * std::max(impulse * impulse, next * next);
   }

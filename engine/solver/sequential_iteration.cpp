@@ -3,6 +3,7 @@
 #include <drawpoint/engine/solver/contact_frame.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace drawpoint::engine::detail {
@@ -32,6 +33,7 @@ void SequentialIteration::add_part_response(ContactBlock& block) const {
 }
 
 void SequentialIteration::add_pair(const ContactPair& pair) {
+  assert(pair.first == static_cast<int>(points_.size()) && "blocks have the order of the problem's points");
   for (int k = pair.first; k < pair.first + pair.count; ++k) add_point(pair, problem_.points[k]);
   PairBlock r;
   r.a = pair.a;
@@ -59,7 +61,7 @@ void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint&
   p.arm_a = point.arm_a;
   p.arm_b = point.arm_b;
   p.frame = contact_frame(point.normal);
-  p.law = spook(point.stiffness, std::max(point.damping_time, 2 * problem_.step), h_);
+  p.terms = law::spook_terms(point, problem_.step, substeps_);
   p.gap = point.gap;
   p.friction = point.friction;
   p.W.setZero();
@@ -68,7 +70,7 @@ void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint&
   if (p.a >= 0) p.W += response(p.a, p.arm_a, p.frame);
   if (p.b >= 0) p.W += response(p.b, p.arm_b, p.frame);
   add_part_response(p);
-  p.invert(p.law.sigma);
+  p.invert(p.terms.sigma);
   p.impulse = start_impulse(point, p.frame, substeps_);
   p.initial_impulse = p.impulse[0];
   points_.push_back(p);
@@ -129,30 +131,33 @@ void SequentialIteration::apply(const PairBlock& r, const Vector3d& delta) {
     machine_.push(r.rows_b, delta);
 }
 
-// Load that has built up carries over to the next substep; an impact does not (contact_law.hpp).
+// Load that has built up carries over to the next substep; an impact does not (law::kept_load).
 void SequentialIteration::carry_over() {
   for (PairBlock& r : pairs_) {
-    double force = 0, kept = 0;
+    double force = 0, impacts = 0;
     for (int k = r.first; k < r.first + r.count; ++k) {
       PointBlock& p = points_[k];
-      const double share = warm_start_fraction(p.impulse[0], p.initial_impulse, p.inverse_nn);
-      p.correction = (share - 1) * p.impulse;
-      force += p.impulse[0];
-      p.impulse += p.correction;
-      p.initial_impulse = p.impulse[0];
-      kept += p.impulse[0];
+      const Vector3d end = p.impulse;
+      const double kept = law::kept_load(end[0], p.initial_impulse, p.inverse_nn);
+      const double share = law::warm_start_fraction(end[0], kept);
+      p.impulse = {kept, share * end[1], share * end[2]};
+      p.correction = p.impulse - end;
+      p.initial_impulse = kept;
+      force += end[0];
+      impacts += end[0] - kept;
     }
-    r.correction = force > kept ? Vector3d((kept / force - 1) * r.impulse) : Vector3d::Zero().eval();
+    r.correction = law::moment_change(impacts, force) * r.impulse;
     r.impulse += r.correction;
   }
 }
 
 void SequentialIteration::refresh() {
   if (!fresh_) carry_over();
+  const double closing_rate = -1 / h_;
   for (PointBlock& p : points_) {
     const double approach = velocity(p)[0];
     if (!fresh_) p.gap += h_ * approach;
-    p.target = spook_target(p.gap, approach, p.law.upsilon, h_);
+    p.target = law::bias_velocity(p.gap, approach, p.terms.upsilon, closing_rate);
   }
   fresh_ = false;
   machine_.set_bias_velocities();
@@ -164,6 +169,7 @@ void SequentialIteration::correct() {
 }
 
 void SequentialIteration::set_bias_velocities(const std::vector<double>& targets) {
+  assert(targets.size() == points_.size() && "one bias velocity per point");
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k].target = targets[k];
 }
 
@@ -188,9 +194,8 @@ double SequentialIteration::iteration(bool forward) {
 void SequentialIteration::solve_point(PointBlock& p) {
   const Vector3d u = velocity(p);
   const Vector3d before = p.impulse;
-  p.impulse[0] = std::max(0.0, before[0] - p.inverse_nn * (u[0] + p.law.sigma * before[0] - p.target));
-  const double dn = p.impulse[0] - before[0];
-  p.project_tangents(u[1] + p.W(1, 0) * dn, u[2] + p.W(2, 0) * dn, p.friction * p.impulse[0]);
+  p.impulse[0] = law::normal_step(before[0], u[0], p.terms.sigma, p.target, p.inverse_nn);
+  p.step_tangents(u, before[0], p.friction * p.impulse[0]);
   const Vector3d delta = p.impulse - before;
   const double moved = delta.lpNorm<1>();
   if (moved == 0) return;
@@ -204,10 +209,8 @@ void SequentialIteration::solve_pair(PairBlock& r) {
   if (r.rolling_arm == 0 && r.spinning_arm == 0) return;
   const Vector3d u = spin(r);
   const Vector3d before = r.impulse;
-  const double limit = r.spinning_arm * load;
-  r.impulse[0] = std::clamp(before[0] - r.inverse_nn * u[0], -limit, limit);
-  const double dn = r.impulse[0] - before[0];
-  r.project_tangents(u[1] + r.W(1, 0) * dn, u[2] + r.W(2, 0) * dn, r.rolling_arm * load);
+  r.impulse[0] = law::spin_step(before[0], u[0], r.inverse_nn, r.spinning_arm * load);
+  r.step_tangents(u, before[0], r.rolling_arm * load);
   apply(r, r.impulse - before);
 }
 
@@ -227,19 +230,19 @@ ResidualSums SequentialIteration::residual_sums() const {
   ResidualSums sum;
   for (const PointBlock& p : points_) {
     const Vector3d u = velocity(p);
-    const double normal = p.impulse[0], rest = u[0] + p.law.sigma * normal - p.target;
-    const double next = std::max(0.0, normal - p.inverse_nn * rest);
+    const double normal = p.impulse[0];
+    const double next = law::normal_step(normal, u[0], p.terms.sigma, p.target, p.inverse_nn);
     sum.normal += std::abs(normal - next);
     sum.load += std::max(normal, next);
-    Eigen::Vector2d stepped = p.impulse.tail<2>() - p.inverse_rho * u.tail<2>();
-    const double length = stepped.norm(), limit = p.friction * normal;
-    if (length > limit) stepped *= limit / length;
-    sum.tangent += (p.impulse.tail<2>() - stepped).norm();
+    sum.tangent +=
+        law::tangent_residual(p.impulse[1], p.impulse[2], u[1], u[2], p.inverse_tt.rho, p.friction * normal);
   }
   return sum;
 }
 
 SuperBodySolution SequentialIteration::store() {
+  assert(points_.size() == problem_.points.size() && pairs_.size() == problem_.pairs.size() &&
+         "a block for each point and pair of the problem");
   SuperBodySolution solution = machine_.store();
   const auto add = [&](int part, double sign, const Vector3d& arm, const Vector3d& impulse,
                        const Vector3d& moment) {
@@ -252,7 +255,7 @@ SuperBodySolution SequentialIteration::store() {
     problem_.points[k].impulse = impulse;
     problem_.points[k].start = substeps_ * (p.frame.transpose() * p.impulse);
     problem_.points[k].warm_start_fraction =
-        warm_start_fraction(p.impulse[0], p.initial_impulse, p.inverse_nn);
+        law::warm_start_fraction(p.impulse[0], law::kept_load(p.impulse[0], p.initial_impulse, p.inverse_nn));
     if (p.a < 0) add(part_of(p.a), -1, p.arm_a, impulse, Vector3d::Zero());
     if (p.b < 0) add(part_of(p.b), +1, p.arm_b, impulse, Vector3d::Zero());
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/received_impulses.h>
+#include <cassert>
 #include <cmath>
 #include <drawpoint/engine/solver/solution_distance.hpp>
 
@@ -33,6 +34,8 @@ double relative(double off, double all) { return std::sqrt(all > 0 ? off / all :
 
 Distance distance(const ContactProblem& from, const SuperBodySolution& from_machine, const ContactProblem& to,
                   const SuperBodySolution& to_machine) {
+  assert(from.points.size() == to.points.size() && from.bodies.size() == to.bodies.size() &&
+         "two solutions of one problem");
   double off = 0, all = 0;
   for (std::size_t k = 0; k < to.points.size(); ++k) {
     off += (from.points[k].impulse - to.points[k].impulse).squaredNorm();

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/batched_solver.h>
 #include <drawpoint/engine/solver/impact_stage.h>
+#include <drawpoint/engine/solver/problem_sizes.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
+#include <cassert>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
 #include <sstream>
@@ -49,6 +51,10 @@ ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 
 SolverReport ContactSolver::solve(ContactProblem& problem) {
+  assert(detail::points_in_order(problem) && "the pairs' points lie pair after pair, without gaps");
+  assert(detail::sides_exist(problem) && "each side of a pair is a body or a part of the machine");
+  assert((!problem.machine || detail::machine_sizes_agree(*problem.machine)) &&
+         "the machine's maps, origins and rows have its number of coordinates");
   impacts_->run(problem, *pool_);
   SolverReport report =
       options_.method == Method::batched ? batched_->solve(problem) : solve_sequentially(problem, options_);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <drawpoint/engine/solver/super_body_motion.h>
 #include <algorithm>
+#include <cassert>
 
 namespace drawpoint::engine::detail {
 
@@ -14,12 +16,13 @@ SuperBodyMotion::SuperBodyMotion(const SuperBody* machine, double step, int subs
   travel_ = Eigen::VectorXd::Zero(w_.size());
   for (const SuperBodyRow& row : machine->rows) {
     const double square = row.jacobian.squaredNorm();
-    rows_.push_back(
-        {square > 0 ? 1.0 / square : 0.0, std::clamp(row.start, row.lower, row.upper) / substeps});
+    rows_.push_back({law::inverse_or_zero(square), std::clamp(row.start, row.lower, row.upper) / substeps});
   }
 }
 
 int SuperBodyMotion::add_rows(int part, const Eigen::Vector3d& arm, const Eigen::Matrix3d& axes) {
+  assert(machine_ && part >= 0 && part < static_cast<int>(machine_->part_maps.size()) &&
+         "a part of the machine");
   const SpatialMap& map = machine_->part_maps[part];
   return add(axes * (map.bottomRows<3>() - cross_matrix(arm) * map.topRows<3>()));
 }
@@ -34,14 +37,11 @@ int SuperBodyMotion::add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows) {
   return static_cast<int>(index);
 }
 
-double SuperBodyMotion::target(const SuperBodyRow& row) const {
-  if (row.kind == SuperBodyRow::Kind::motor) return row.target;
-  const double gap = row.gap + row.jacobian.dot(travel_);
-  return gap >= 0 ? -gap / h_ : -gap / row.recovery;
-}
-
 void SuperBodyMotion::set_bias_velocities() {
-  for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].target = target(machine_->rows[k]);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const SuperBodyRow& row = machine_->rows[k];
+    rows_[k].target = law::bias_velocity(row, row.gap + row.jacobian.dot(travel_), h_);
+  }
 }
 
 void SuperBodyMotion::start() {
@@ -56,6 +56,7 @@ void SuperBodyMotion::extrapolate() {
 }
 
 void SuperBodyMotion::iteration() {
+  assert((!machine_ || rows_.size() == machine_->rows.size()) && "a step per row of the machine");
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const SuperBodyRow& row = machine_->rows[k];
     Row& r = rows_[k];

@@ -51,7 +51,6 @@ class SuperBodyMotion {
     double inverse, impulse;  // 1/|J|²; of the substep
     double total = 0, target = 0;
   };
-  double target(const SuperBodyRow& row) const;
   int add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows);
 
   const SuperBody* machine_;

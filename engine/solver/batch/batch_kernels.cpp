@@ -6,7 +6,6 @@
 #include <hwy/highway.h>
 
 #include <drawpoint/engine/solver/batch/pair_lanes-inl.h>
-#include <drawpoint/engine/solver/contact_law.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace drawpoint::engine::detail::HWY_NAMESPACE {
@@ -28,8 +27,8 @@ HWY_NOINLINE void prepare_lanes(const BatchArrays& arrays, int batch, int at) {
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const Symmetric W = pairs.response(load(p.arm, at), true);
-    const TangentInverse inverse = invert_tangents(W);
-    store(inverse_or_zero(W.m[0] + load(p.sigma, at)), p.inverse_nn, at);
+    const law::TangentInverse<V> inverse = invert_tangents(W);
+    store(law::inverse_or_zero(W.m[0] + load(p.sigma, at)), p.inverse_nn, at);
     store(W.m[1], p.w10, at);
     store(W.m[2], p.w20, at);
     store(inverse.xx, p.inverse_tt[0], at);
@@ -38,8 +37,8 @@ HWY_NOINLINE void prepare_lanes(const BatchArrays& arrays, int batch, int at) {
     store(inverse.rho, p.inverse_rho, at);
   }
   const Symmetric W = pairs.response(load(pair.offset, at), false);
-  const TangentInverse inverse = invert_tangents(W);
-  store(inverse_or_zero(W.m[0]), pair.moment_inverse_nn, at);
+  const law::TangentInverse<V> inverse = invert_tangents(W);
+  store(law::inverse_or_zero(W.m[0]), pair.moment_inverse_nn, at);
   store(W.m[1], pair.moment_w10, at);
   store(W.m[2], pair.moment_w20, at);
   store(inverse.xx, pair.moment_inverse_tt[0], at);
@@ -56,9 +55,7 @@ HWY_INLINE V add_to_totals(const BatchArrays& arrays, PairBatch& pair, int at) {
     PointBatch& p = arrays.points[k];
     const V3 end = load(p.impulse, at);
     store(load(p.total, at) + end, p.total, at);
-    const V most = all(2.0f) * load(p.initial_impulse, at) +
-                   all(static_cast<float>(impact_speed)) * load(p.inverse_nn, at);
-    const V kept = min(end.x, most);
+    const V kept = law::kept_load(end.x, load(p.initial_impulse, at), load(p.inverse_nn, at));
     store(kept, p.initial_impulse, at);
     impacts = impacts + (end.x - kept);
   }
@@ -66,7 +63,7 @@ HWY_INLINE V add_to_totals(const BatchArrays& arrays, PairBatch& pair, int at) {
   return impacts;
 }
 
-// Load that has built up carries over to the next substep; an impact does not (contact_law.hpp).
+// Load that has built up carries over to the next substep; an impact does not (law::kept_load).
 HWY_NOINLINE void end_substep_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   const V impacts = add_to_totals(arrays, pair, at);
@@ -77,7 +74,7 @@ HWY_NOINLINE void end_substep_lanes(const BatchArrays& arrays, int batch, int at
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 end = load(p.impulse, at);
-    const V kept = load(p.initial_impulse, at), share = select(end.x > kept, kept / end.x, all(1.0f));
+    const V kept = load(p.initial_impulse, at), share = law::warm_start_fraction(end.x, kept);
     const V3 carried = {kept, share * end.y, share * end.z};
     store(carried, p.impulse, at);
     corrections.push(load(p.arm, at), carried - end);
@@ -85,7 +82,7 @@ HWY_NOINLINE void end_substep_lanes(const BatchArrays& arrays, int batch, int at
   }
   if (pair.resists) {
     const V3 moment = load(pair.moment, at);
-    const V3 correction = select_or_zero(impacts > all(0), -impacts / force) * moment;
+    const V3 correction = law::moment_change(impacts, force) * moment;
     store(moment + correction, pair.moment, at);
     corrections.twist(correction);
   }
@@ -97,8 +94,7 @@ HWY_NOINLINE void bias_lanes(const BatchArrays& arrays, int batch, int at, const
   const PairBatch& pair = arrays.pairs[batch];
   const V3 n = load(pair.normal, at), offset = load(pair.offset, at);
   const Motion a = gather_motion(arrays.begin, pair.a + at), b = gather_motion(arrays.begin, pair.b + at);
-  const V h = all(iteration.h), rate = all(-1.0f / iteration.h), four = all(4.0f);
-  const V impact = all(static_cast<float>(-impact_speed)), zero = all(0);
+  const V h = all(iteration.h), closing_rate = all(-1.0f / iteration.h);
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 arm = load(p.arm, at);
@@ -110,10 +106,7 @@ HWY_NOINLINE void bias_lanes(const BatchArrays& arrays, int batch, int at, const
       gap = gap + h * approach;
       store(gap, p.gap, at);
     }
-    const V open = gap * rate;
-    const V damping = select(approach < impact, zero, approach);
-    const V closed = load(p.upsilon, at) * (damping + four * open);
-    store(select(gap > zero, open, closed), p.target, at);
+    store(law::bias_velocity(gap, approach, load(p.upsilon, at), closing_rate), p.target, at);
   }
 }
 
@@ -127,21 +120,8 @@ HWY_NOINLINE void start_lanes(const BatchArrays& arrays, int batch, int at) {
   pairs.scatter(arrays.bodies);
 }
 
-struct TangentStep {
-  V xx, xy, yy, rho;
-};
-
-// The tangential impulse (l1, l2) after its step against (u1, u2) within the cone of radius `limit`.
-HWY_INLINE void project_tangents(V& l1, V& l2, V u1, V u2, const TangentStep& inverse, V limit) {
-  const V s1 = l1 - (inverse.xx * u1 + inverse.xy * u2);
-  const V s2 = l2 - (inverse.xy * u1 + inverse.yy * u2);
-  const V limit2 = limit * limit;
-  const Mask slides = (s1 * s1 + s2 * s2) > limit2;
-  const V p1 = l1 - inverse.rho * u1, p2 = l2 - inverse.rho * u2;
-  const V length2 = p1 * p1 + p2 * p2;
-  const V scale = select(length2 > limit2, limit / sqrt(length2), all(1.0f));
-  l1 = select(slides, p1 * scale, s1);
-  l2 = select(slides, p2 * scale, s2);
+HWY_INLINE law::TangentInverse<V> load_tangents(const Lanes (&inverse)[3], const Lanes& rho, int at) {
+  return {load(inverse[0], at), load(inverse[1], at), load(inverse[2], at), load(rho, at)};
 }
 
 HWY_INLINE V magnitude(const V3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
@@ -161,13 +141,10 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
     PointBatch& p = arrays.points[k];
     const V3 arm = load(p.arm, at), u = pairs.velocity(arm), before = load(p.impulse, at);
     V3 l = before;
-    const V rest = (u.x + load(p.sigma, at) * l.x) - load(p.target, at);
-    l.x = max(zero, l.x - load(p.inverse_nn, at) * rest);
+    l.x = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at));
     const V dn = l.x - before.x;
-    const TangentStep inverse{load(p.inverse_tt[0], at), load(p.inverse_tt[1], at), load(p.inverse_tt[2], at),
-                              load(p.inverse_rho, at)};
-    project_tangents(l.y, l.z, u.y + load(p.w10, at) * dn, u.z + load(p.w20, at) * dn, inverse,
-                     friction * l.x);
+    law::tangent_step(l.y, l.z, u.y + load(p.w10, at) * dn, u.z + load(p.w20, at) * dn,
+                      load_tangents(p.inverse_tt, p.inverse_rho, at), friction * l.x);
     store(l, p.impulse, at);
     const V3 delta = l - before;
     pairs.push(arm, delta);
@@ -177,14 +154,11 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
   if (pair.resists) {
     const V3 u = pairs.spin(), before = load(pair.moment, at);
     V3 m = before;
-    const V limit = load(pair.spinning_arm, at) * force;
-    m.x = m.x - load(pair.moment_inverse_nn, at) * u.x;
-    m.x = min(limit, max(-limit, m.x));
+    m.x = law::spin_step(m.x, u.x, load(pair.moment_inverse_nn, at), load(pair.spinning_arm, at) * force);
     const V dn = m.x - before.x;
-    const TangentStep inverse{load(pair.moment_inverse_tt[0], at), load(pair.moment_inverse_tt[1], at),
-                              load(pair.moment_inverse_tt[2], at), load(pair.moment_inverse_rho, at)};
-    project_tangents(m.y, m.z, u.y + load(pair.moment_w10, at) * dn, (u.z + load(pair.moment_w20, at) * dn),
-                     inverse, load(pair.rolling_arm, at) * force);
+    law::tangent_step(m.y, m.z, u.y + load(pair.moment_w10, at) * dn, u.z + load(pair.moment_w20, at) * dn,
+                      load_tangents(pair.moment_inverse_tt, pair.moment_inverse_rho, at),
+                      load(pair.rolling_arm, at) * force);
     store(m, pair.moment, at);
     pairs.twist(m - before);
   }
@@ -192,8 +166,6 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
   store(change, sums.change, at);
   store(force, sums.normal_load, at);
 }
-
-HWY_INLINE V length(V x, V y) { return sqrt(x * x + y * y); }
 
 // The natural map of the points' law at the velocities reached: how far each impulse is from its step.
 HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
@@ -205,14 +177,10 @@ HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     const PointBatch& p = arrays.points[k];
     const V3 u = pairs.velocity(load(p.arm, at)), l = load(p.impulse, at);
-    const V rest = (u.x + load(p.sigma, at) * l.x) - load(p.target, at);
-    const V next = max(zero, l.x - load(p.inverse_nn, at) * rest);
+    const V next = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at));
     normal = normal + abs(l.x - next);
     force = force + max(l.x, next);
-    const V rho = load(p.inverse_rho, at), limit = friction * l.x;
-    const V p1 = l.y - rho * u.y, p2 = l.z - rho * u.z, reach = length(p1, p2);
-    const V scale = select(reach > limit, limit / reach, all(1.0f));
-    tangent = tangent + length(l.y - p1 * scale, l.z - p2 * scale);
+    tangent = tangent + law::tangent_residual(l.y, l.z, u.y, u.z, load(p.inverse_rho, at), friction * l.x);
   }
   store(normal, pair.normal_miss, at);
   store(tangent, pair.tangent_miss, at);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/batched_solver.h>
 #include <algorithm>
+#include <cassert>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -22,13 +23,14 @@ void fly(SolverBody& body, double h, int substeps) {
 SolverReport BatchedSolver::solve(ContactProblem& problem) {
   const ThreadPool::Region region(*pool_);
   problem_ = &problem;
-  batches_.fill(problem, iteration_order(problem, batch_lanes, pairs_per_subdomain, *pool_),
+  batches_.fill(problem, iteration_order(problem, batch_lanes, constants::pairs_per_subdomain, *pool_),
                 options_.substeps, *pool_);
   machine_.emplace(problem, batches_.row_of, options_.substeps);
   threads_ = std::min(pool_->threads(), most_parts());
   travel_.assign(problem.bodies.size(), BodyRow());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   for (int s = 0; s < options_.substeps; ++s) run_substep(s);
+  assert(batches_.row_of.size() == problem.bodies.size() && "each body has a row");
   each_row([this](int row) { displacement(row); });
   SolverReport solved = report();
   store_bodies();
@@ -166,6 +168,7 @@ void BatchedSolver::store_body(int index) {
   SolverBody& body = problem_->bodies[index];
   if (!touched_[index]) return fly(body, problem_->step, options_.substeps);
   const int row = batches_.row_of[index];
+  assert(batches_.order().bodies[row] == index && "a body's row holds the body");
   body.velocity = vector(batches_.bodies[row].velocity);
   body.angular_velocity = vector(batches_.bodies[row].angular_velocity);
   body.displacement = vector(travel_[row].velocity);

@@ -3,8 +3,10 @@
 #include <drawpoint/engine/solver/batch/iteration_order.h>
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <drawpoint/engine/base/constants.hpp>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -14,7 +16,7 @@ namespace drawpoint::engine::detail {
 
 namespace {
 
-constexpr int slabs = 256;  // among whose borders those of the subdomains are chosen
+using constants::slabs;
 
 bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
 
@@ -180,6 +182,7 @@ class BatchAssigner {
 
   int put(int batch) {
     ++sizes[batch];
+    assert(sizes[batch] <= most_ && "a batch holds no more pairs than lanes");
     return batch;
   }
 
@@ -288,6 +291,12 @@ IterationOrder iteration_order(const ContactProblem& problem, int most, int leas
       order.stages.push_back(static_cast<int>(order.tasks.size()) - 1);
     ++task;
   }
+  assert(last == last_of_stages.end() && "every stage has ended");
+  assert(order.pairs.size() == queue.size() && "each pair is in one batch");
+  assert(order.batches.back() == static_cast<int>(order.pairs.size()) &&
+         order.tasks.back() == static_cast<int>(order.batches.size()) - 1 &&
+         order.stages.back() == static_cast<int>(order.tasks.size()) - 1 &&
+         "batches, tasks and stages end where their contents do");
   return order;
 }
 

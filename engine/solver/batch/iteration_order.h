@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/base/constants.hpp>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <vector>
@@ -34,12 +35,9 @@ struct IterationOrder {
   std::vector<int> stages;   ///< where each begins in `tasks`, and the end
 };
 
-/// The least number of pairs for each subdomain.
-constexpr int pairs_per_subdomain = 900;
-
 /// `most` ≥ 1: pairs a batch. The threads change nothing but the time.
 IterationOrder iteration_order(const ContactProblem& problem, int most,
-                               int least_per_subdomain = pairs_per_subdomain,
+                               int least_per_subdomain = constants::pairs_per_subdomain,
                                const ThreadPool& pool = ThreadPool(1));
 
 }  // namespace drawpoint::engine::detail

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/machine_pairs.h>
+#include <cassert>
 
 namespace drawpoint::engine::detail {
 
@@ -15,6 +16,7 @@ ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, cons
   std::vector<int> place(problem.bodies.size(), -1);
   const auto placed = [&](int index) {
     if (index < 0) return index;
+    assert(index < static_cast<int>(row_of.size()) && "each body has a row in the batch solve");
     if (place[index] < 0) {
       place[index] = static_cast<int>(rows.size());
       rows.push_back(row_of[index]);

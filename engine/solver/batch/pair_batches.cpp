@@ -3,8 +3,10 @@
 #include <drawpoint/engine/base/prefetch.h>
 #include <drawpoint/engine/solver/batch/pair_batches.h>
 #include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <algorithm>
-#include <drawpoint/engine/solver/contact_law.hpp>
+#include <array>
+#include <cassert>
 #include <utility>
 
 namespace drawpoint::engine::detail {
@@ -19,6 +21,19 @@ void put(const Vector3d& v, Lanes (&lanes)[3], int lane) {
   for (int k = 0; k < 3; ++k) lanes[k][lane] = static_cast<float>(v[k]);
 }
 Vector3d get(const Lanes (&lanes)[3], int lane) { return {lanes[0][lane], lanes[1][lane], lanes[2][lane]}; }
+
+// Sorts pairs, given by their index, by falling number of points.
+struct FallingPoints {
+  const ContactProblem& problem;
+  bool operator()(int k, int j) const { return problem.pairs[k].count > problem.pairs[j].count; }
+};
+
+[[maybe_unused]] bool no_row_twice(const PairBatch& batch) {
+  std::array<std::int32_t, 2 * batch_lanes> rows;
+  std::copy_n(batch.b, batch_lanes, std::copy_n(batch.a, batch_lanes, rows.begin()));
+  std::sort(rows.begin(), rows.end());
+  return std::adjacent_find(rows.begin(), rows.end()) == rows.end();
+}
 
 template <class T>
 void grow(std::vector<T>& buffer, std::size_t size) {
@@ -55,7 +70,9 @@ void PairBatches::plan(const ContactProblem& problem) {
   for (std::size_t k = 0; k + 1 < order_.batches.size(); ++k) {
     const int* members = order_.pairs.data() + order_.batches[k];
     const int pairs = order_.batches[k + 1] - order_.batches[k];
-    const int points = problem.pairs[members[0]].count;  // the most: sorted so
+    assert(pairs <= batch_lanes && "a lane for each pair of a batch");
+    assert(std::is_sorted(members, members + pairs, FallingPoints{problem}) && "most points first");
+    const int points = problem.pairs[members[0]].count;
     plans_.push_back({members, pairs, points, point_batches_, rows_});
     point_batches_ += points;
     rows_ += own_rows(problem, members, pairs);
@@ -128,6 +145,8 @@ void PairBatches::fill_batch(const ContactProblem& problem, int index, int subst
     batch.a[lane] = own_row++;
     batch.b[lane] = own_row++;
   }
+  assert(own_row == plan.first_row + own_rows(problem, plan.members, plan.pairs) && "own rows as planned");
+  assert(no_row_twice(batch) && "lanes that run side by side never write the same row");
 }
 
 void PairBatches::fill_lane(const ContactProblem& problem, PairBatch& batch, int lane,
@@ -145,17 +164,17 @@ void PairBatches::fill_lane(const ContactProblem& problem, PairBatch& batch, int
   for (int k = 0; k < pair.count; ++k) {
     const ContactPoint& point = problem.points[pair.first + k];
     PointBatch& p = points_[batch.first + k];
-    const SpookTerms law =
-        spook(point.stiffness, std::max(point.damping_time, 2 * problem.step), problem.step / substeps);
+    const SpookTerms terms = law::spook_terms(point, problem.step, substeps);
     put(point.arm_a, p.arm, lane);
     p.gap[lane] = static_cast<float>(point.gap);
-    p.upsilon[lane] = static_cast<float>(law.upsilon);
-    p.sigma[lane] = static_cast<float>(law.sigma);
+    p.upsilon[lane] = static_cast<float>(terms.upsilon);
+    p.sigma[lane] = static_cast<float>(terms.sigma);
     put(start_impulse(point, frame, substeps), p.impulse, lane);
   }
 }
 
 double PairBatches::change() const {
+  assert(sums_.size() == plans_.size() && "sums for each batch of this solve");
   double sum = 0;
   for (const BatchSums& batch : sums_) sum += batch.change;
   return sum;
@@ -191,6 +210,7 @@ void PairBatches::store(ContactProblem& problem, int substeps, const ThreadPool&
 
 void PairBatches::store_lane(ContactProblem& problem, const PairBatch& batch, int lane, ContactPair& pair,
                              int substeps) const {
+  assert(pair.count <= batch.points && "a point batch for each point of the pair");
   const Matrix3d to_world = contact_frame(problem.points[pair.first].normal).transpose();
   const Vector3d moment = get(batch.moment, lane);
   pair.start = substeps * (to_world * moment);
@@ -200,7 +220,8 @@ void PairBatches::store_lane(ContactProblem& problem, const PairBatch& batch, in
     ContactPoint& point = problem.points[pair.first + i];
     const Vector3d impulse = get(p.impulse, lane);
     point.start = substeps * (to_world * impulse);
-    point.warm_start_fraction = warm_start_fraction(impulse[0], p.initial_impulse[lane], p.inverse_nn[lane]);
+    const double load = law::kept_load<double>(impulse[0], p.initial_impulse[lane], p.inverse_nn[lane]);
+    point.warm_start_fraction = law::warm_start_fraction(impulse[0], load);
     point.impulse = to_world * (get(p.total, lane) + impulse);
   }
 }

@@ -5,7 +5,8 @@
 /// (batch_kernels.cpp) do with them, compiled once an instruction set.
 ///
 /// Impulses and velocities of a point are in the pair's frame (n, t1, t2), t2 = n × t1. A body answers an
-/// impulse P at the arm r with Δv = P/m, Δω = I⁻¹ (r × P). Included once a target, hence the toggle.
+/// impulse P at the arm r with Δv = P/m, Δω = I⁻¹ (r × P). The contact law on V is in namespace law
+/// (contact_law-inl.h). Included once a target, hence the toggle.
 #if defined(DRAWPOINT_PAIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef DRAWPOINT_PAIR_LANES_INL
 #undef DRAWPOINT_PAIR_LANES_INL
@@ -14,6 +15,7 @@
 #endif
 
 #include <drawpoint/engine/solver/batch/lanes-inl.h>
+#include <drawpoint/engine/base/constants.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace drawpoint::engine::detail::HWY_NAMESPACE {
@@ -101,26 +103,19 @@ class Pairs {
   Motion a_, b_;
 };
 
-HWY_INLINE V inverse_or_zero(V x) {
-  const V zero = all(0);
-  return select(x > zero, all(1.0f) / x, zero);
+namespace law {
+template <class T>
+HWY_INLINE T number(double x) {
+  return all(static_cast<float>(x));
 }
+constexpr double singular_determinant = constants::singular_single;
+// Lanes do not branch.
+HWY_INLINE bool none(const Mask&) { return false; }
+}  // namespace law
+#include <drawpoint/engine/solver/contact_law-inl.h>
 
-struct TangentInverse {
-  V xx, xy, yy, rho;
-};
-
-// As the sequential iteration's, with the bound of single precision on what is singular.
-HWY_INLINE TangentInverse invert_tangents(const Symmetric& W) {
-  const V a = W.m[3], b = W.m[4], c = W.m[5], half = all(0.5f);
-  const V difference = half * (a - c);
-  const V rho = half * (a + c) + sqrt(difference * difference + b * b);
-  const V inverse_rho = inverse_or_zero(rho);
-  const V determinant = a * c - b * b;
-  const Mask regular = determinant > (all(1e-5f) * rho * rho);
-  const V inverse = inverse_or_zero(determinant);
-  return {select(regular, c * inverse, inverse_rho), select_or_zero(regular, -b * inverse),
-          select(regular, a * inverse, inverse_rho), inverse_rho};
+HWY_INLINE law::TangentInverse<V> invert_tangents(const Symmetric& W) {
+  return law::invert_tangents(W.m[3], W.m[4], W.m[5]);
 }
 
 }  // namespace drawpoint::engine::detail::HWY_NAMESPACE

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The constants of the contact engine: what is physics or a choice of accuracy, and is no option.
+///
+/// Each has its unit, its source and what it costs: what would be gained and lost by another value. Sources
+/// are a reference, a derivation, or "chosen here" for rocks of 0.3 to 2 m in steps of about 0.01 s. Most
+/// change the bits of a run; none depends on the machine. Numbers that only say how much work a thread takes
+/// at a time, how memory is laid out or what a file begins with change no result and stay where they are
+/// used. What a user may choose is an option: WorldOptions, ContactFinderOptions, FreezingOptions,
+/// SolverOptions.
+namespace drawpoint::engine::constants {
+
+// Contact law (solver).
+
+/// [m/s] An approach that is faster is an impact: restitution answers it, damping does not, and its impulse
+/// does not carry over to the next substep. Chosen here: half of what gravity gives in a step. Higher: slow
+/// impacts act as damped contacts, and start impulses overshoot. Lower: a creeping pile is struck instead of
+/// damped.
+constexpr double impact_speed = 0.05;
+
+/// [1] Load that is there to stay grows by at most this factor in a substep; more is an impact. Chosen here.
+/// Higher: an impact is struck again, and the pile shakes. Lower: load builds up more slowly than it may.
+constexpr double load_growth = 2;
+
+/// [steps] The least damping time τ of a contact. SPOOK (C. Lacoursière, "Ghosts and Machines", 2007) asks
+/// for about two steps for stability. Costs overlap that is taken back more slowly; less rings.
+constexpr double least_damping_steps = 2;
+
+/// [m] Overlap below which Hertz's law keeps its stiffness, which would be zero at the first touch. Chosen
+/// here. Costs a stiffness too high by up to √(1e-5 m / δ) below it.
+constexpr double least_hertz_overlap = 1e-5;
+
+/// [1] Determinant of the tangents' 2 x 2 response, relative to the square of its largest eigenvalue, below
+/// which it counts as singular and is answered by the scalar step: a machine part with few freedoms. Chosen
+/// here, some 1e4 and 80 times the round-off. Higher: sticking takes more iterations. Lower: the inverse is
+/// round-off.
+constexpr double singular_double = 1e-12, singular_single = 1e-5;
+
+// Impulse stage of restitution (solver).
+
+/// [m] A gap of round-off must not keep a contact out of an impact. Chosen here. Higher: rocks are struck
+/// that do not touch yet.
+constexpr double touching_gap = 1e-6;
+
+/// [1] Change of an iteration, relative to the load, at which the stage has converged; and [iterations] the
+/// most that it takes. Chosen here: momentum of a row of balls to round-off. Costs iterations, only in steps
+/// with a rebound.
+constexpr double impact_tolerance = 1e-12;
+constexpr int impact_iterations = 10000;
+
+// Order of the fast method (solver/batch).
+
+/// [pairs] The least of a subdomain, that is of what a thread solves between two barriers. Chosen here: some
+/// 20 µs an iteration (docs/measurements/threads.md). Higher: fewer threads have work. Lower: barriers cost
+/// more, and more pairs lie across borders.
+constexpr int pairs_per_subdomain = 900;
+
+/// [slabs] Of the scene's longest side, among whose borders those of the subdomains are chosen. Chosen here.
+/// Higher: subdomains are more equal, for a longer table. Lower: threads wait for the largest.
+constexpr int slabs = 256;
+
+// Geometry.
+
+/// [1] Of a hull's extent: points nearer than this are one, and so are planes. Chosen here, 1e6 times the
+/// round-off. Higher: small faces are lost. Lower: slivers remain, whose normals are round-off.
+constexpr double hull_thickness = 1e-9;
+
+/// [1] Of a hull's extent: triples of points lower than this are no plane. The tilt of a plane by round-off,
+/// 1e-16 / 1e-6, stays below `hull_thickness`. Lower: planes tilt. Higher: flat rocks are refused.
+constexpr double least_triple_height = 1e-6;
+
+/// [m] A face is taken as the axis before a pair of edges that separates by up to so much more: where they
+/// tie, a face gives the richer manifold. Chosen here, below the 1e-6 m to which depths are promised; costs
+/// that much depth. Lower: the manifold of a rock on its face may fall to one point by round-off.
+constexpr double face_preference = 1e-7;
+
+/// [1] Squared sine below which two edges are parallel and have no axis; some face normal stands in for it,
+/// off by 1e-7 rad at most. Derived: the axis keeps nine of sixteen digits there.
+constexpr double parallel_edges = 1e-14;
+
+/// [m] Points or centres nearer than this give no direction. Derived: at 100 m from the origin 1e-14 m of
+/// round-off turn it by 1e-5 rad. Higher: another axis is taken, off by no more than this in depth.
+constexpr double coincident = 1e-9;
+
+/// [1] Sine of the tilt below which a cylinder stands on its face and its lowest line has no direction.
+/// Chosen here; costs a radius times this, in height.
+constexpr double upright = 1e-9;
+
+/// [m] Round-off of a height over a plane, for coordinates up to some 100 m. Bounds of separations are eased
+/// by it: costs at most a candidate too many. Lower: the axis of least overlap may be missed by round-off.
+constexpr double height_round_off = 1e-12;
+
+}  // namespace drawpoint::engine::constants
