@@ -15,7 +15,7 @@ namespace drawpoint::engine::constants {
 // Contact law (solver).
 
 /// [m/s] An approach that is faster is an impact: restitution answers it, damping does not, and its impulse
-/// does not carry over to the next substep. Chosen here: half of what gravity gives in a step. Higher: slow
+/// does not carry over to the next substep. Chosen here: what gravity gives in half a step. Higher: slow
 /// impacts act as damped contacts, and start impulses overshoot. Lower: a creeping pile is struck instead of
 /// damped.
 constexpr double impact_speed = 0.05;
@@ -24,8 +24,8 @@ constexpr double impact_speed = 0.05;
 /// Higher: an impact is struck again, and the pile shakes. Lower: load builds up more slowly than it may.
 constexpr double load_growth = 2;
 
-/// [steps] The least damping time τ of a contact. SPOOK (C. Lacoursière, "Ghosts and Machines", 2007) asks
-/// for about two steps for stability. Costs overlap that is taken back more slowly; less rings.
+/// [steps] The least damping time τ of a contact, the stepper's own damping (docs/decisions/0008). Higher:
+/// overlap is taken back more slowly. Lower: contacts ring.
 constexpr double least_damping_steps = 2;
 
 /// [m] Overlap below which Hertz's law keeps its stiffness, which would be zero at the first touch. Chosen

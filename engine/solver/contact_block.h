@@ -22,7 +22,7 @@ struct ContactBlock {
 
   /// Fills the inverses from W and Σ.
   void invert(double sigma);
-  /// The tangents' step against the velocity u, within the cone of radius `limit`; `before`: λ_n before its own.
+  /// The tangents' step against u within the cone of radius `limit`; `before`: λ_n before the normal's step.
   void step_tangents(const Eigen::Vector3d& u, double before, double limit);
 };
 
