@@ -92,4 +92,37 @@ constexpr double upright = 1e-9;
 /// by it: costs at most a candidate too many. Lower: the axis of least overlap may be missed by round-off.
 constexpr double height_round_off = 1e-12;
 
+// Finding contacts (collision, world).
+
+/// [1] Sides of the prism that stands in for a cylinder against polyhedra: it lies within R (1 − cos(π/48)) = 0.0021 R of
+/// it, its normals step by 7.5°. Chosen here. More: truer wheels, edges that cost time in every pair.
+constexpr int cylinder_sides = 48;
+
+/// [m] Steps of the speculative margin, so that a speed that wavers does not make contacts be searched anew. Chosen here.
+/// Higher: more candidates that do not touch. Lower: more searches.
+constexpr double speculative_step = 5e-3;
+
+/// [m] A point this far apart joins the solve even when it does not close in; with the motion of two steps added it covers
+/// whatever the solve itself may set moving. Chosen here. Higher: more points to solve. Lower: a contact may be missed
+/// for a step.
+constexpr double resting_margin = 1e-3;
+
+/// [m] A point without its feature of the last step starts from the nearest one left within this. Chosen here, a tenth of
+/// the smallest rock. Higher: impulses start at the wrong place. Lower: a rolling rock starts from nothing.
+constexpr double match_distance = 0.03;
+
+// Motion (world).
+
+/// [rad] A smaller turn, times √(largest over least moment), is made in one. Derived (free_rotation.h): an energy error
+/// of 1e-10 per step. Higher: needles gain energy. Lower: more flows per step.
+constexpr double gyroscopic_angle = 1e-5;
+
+/// [√kg] Of the effective mass 1e12 kg of a kinematic body along its motion: 1 MN s per step changes its speed by
+/// 1e-6 m/s. Chosen here. Higher: single precision loses the change. Lower: a blade gives way.
+constexpr double kinematic_root_mass = 1e6;
+
+/// [m/s], [rad/s] What a rock may be given, and beyond which (rad/s: ten times) the solution of a step has broken down.
+/// Chosen here, far beyond any mine; squares of it do not overflow single precision.
+constexpr double fastest_input = 1e3, fastest_spin = 1e4, fastest_solution = 1e4;
+
 }  // namespace drawpoint::engine::constants

@@ -15,9 +15,11 @@
 /// (docs/decisions/0020-alignment-of-eigen-types.md).
 namespace drawpoint::engine {
 
-static_assert(EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 1,
-              "drawpoint: this file lays out or allocates Eigen types otherwise than the engine's library. Link "
-              "Drawpoint::contact or Drawpoint::engine, use pkg-config drawpoint-engine, or define "
-              "EIGEN_MAX_ALIGN_BYTES=16 and EIGEN_MALLOC_ALREADY_ALIGNED=1 before Eigen is included for the first time");
+static_assert(
+    EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 1,
+    "drawpoint: this file lays out or allocates Eigen types otherwise than the engine's library. Link "
+    "Drawpoint::contact or Drawpoint::engine, use pkg-config drawpoint-engine, or define "
+    "EIGEN_MAX_ALIGN_BYTES=16 and EIGEN_MALLOC_ALREADY_ALIGNED=1 before Eigen is included for the first "
+    "time");
 
 }  // namespace drawpoint::engine

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/collision/finder_items.h>
 
+#include <drawpoint/engine/base/constants.hpp>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,8 +13,6 @@
 
 namespace drawpoint::engine::detail {
 namespace {
-
-constexpr int cylinder_sides = 48;  // a prism within R(1 − cos(π/48)) = 0.0021 R of the cylinder
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("engine::ContactFinder: " + what);
@@ -106,7 +106,8 @@ std::shared_ptr<const CollisionHull> HullLibrary::hull_of(const Shape& shape) {
   auto hull = known.lock();
   if (hull) return hull;
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-    hull = std::make_shared<CollisionHull>(prism(cylinder->radius, cylinder->half_width, cylinder_sides));
+    hull = std::make_shared<CollisionHull>(
+        prism(cylinder->radius, cylinder->half_width, constants::cylinder_sides));
   else
     hull = std::make_shared<CollisionHull>(std::get<ConvexPolyhedron>(shape));
   known = hull;

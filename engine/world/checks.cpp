@@ -121,9 +121,10 @@ void check_pose(const char* place, const Eigen::Isometry3d& pose) {
 }
 
 void check_velocity(const char* place, const Vector3d& velocity, const Vector3d& angular_velocity) {
-  require(std::string(place) + ": speed of " + text(velocity), velocity.norm(), {0, fastest_input, "m/s"});
+  require(std::string(place) + ": speed of " + text(velocity), velocity.norm(),
+          {0, constants::fastest_input, "m/s"});
   require(std::string(place) + ": angular speed of " + text(angular_velocity), angular_velocity.norm(),
-          {0, fastest_spin, "rad/s"});
+          {0, constants::fastest_spin, "rad/s"});
 }
 
 double radius_about_origin(const Shape& shape) {

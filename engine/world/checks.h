@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/base/constants.hpp>
 #include <drawpoint/engine/world/world.hpp>
 
 /// What a World takes and what it refuses: every number that goes in is looked at before anything changes.
@@ -10,10 +11,6 @@
 /// are wide: they keep out what is certainly a mistake (not finite, negative, twelve orders of magnitude off)
 /// and what would overflow inside a step.
 namespace drawpoint::engine::detail {
-
-constexpr double fastest_input = 1e3;     ///< [m/s] that a rock may be given
-constexpr double fastest_spin = 1e4;      ///< [rad/s] that a rock may be given
-constexpr double fastest_solution = 1e4;  ///< [m/s] and, times ten, [rad/s]: beyond, a step has broken down
 
 void check(const WorldOptions& options);
 void check(const MaterialTable& materials);

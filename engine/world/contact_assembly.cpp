@@ -6,6 +6,7 @@
 #include <drawpoint/engine/base/prefetch.h>
 #include <algorithm>
 #include <bit>
+#include <drawpoint/engine/base/constants.hpp>
 #include <drawpoint/engine/solver/contact_law.hpp>
 #include <utility>
 
@@ -15,9 +16,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A point this far apart [m] joins the solve even when it does not close in; with the motion of two steps
-// added it covers whatever the solve itself may set moving.
-constexpr double resting_margin = 1e-3;
 constexpr int world_body = 0;            // problem().bodies[0] never moves
 constexpr int bodies_per_block = 128;    // that a thread takes at a time
 constexpr int manifolds_per_block = 64;  // that a thread takes at a time
@@ -99,13 +97,13 @@ void ContactAssembly::fill_contacts() {
 unsigned ContactAssembly::joining(const Manifold& m) const {
   unsigned joins = 0;
   for (int k = 0; k < m.count; ++k)
-    if (m.points[k].gap <= resting_margin) joins |= 1u << k;
+    if (m.points[k].gap <= constants::resting_margin) joins |= 1u << k;
   if (joins + 1 == 1u << m.count) return joins;  // most: no need to look at the sides
   const Side a = scene_.side_of(scene_.surface(m.collider_a)),
              b = scene_.side_of(scene_.surface(m.collider_b));
   for (int k = 0; k < m.count; ++k) {
     const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
-    if (m.points[k].gap <= resting_margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
+    if (m.points[k].gap <= constants::resting_margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
   }
   return joins;
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 
 /// The turn of a rigid body over a step, its angular momentum L = R I Rᵀ ω in the world kept.
 ///
@@ -18,9 +19,6 @@
 /// That costs O(hΔω) in energy, times up to I_p/I_s for slender bodies: where energy would rise by more than
 /// a tenth, L turns along, which keeps energy and changes the direction of L by the extra turn.
 namespace drawpoint::engine {
-
-/// [rad] A smaller turn, times √(largest over least moment), is made in one: an energy error of 1e-10 per step.
-constexpr double gyroscopic_angle = 1e-5;
 
 inline Eigen::Quaterniond rotation_of(const Eigen::Vector3d& turn) {
   const double angle = turn.norm();
@@ -56,7 +54,8 @@ inline void rotate_freely(Eigen::Quaterniond& q, const Eigen::Vector3d& inertia,
   Eigen::Vector3d momentum = q * inertia.cwiseProduct(q.conjugate() * w);
   const double energy = w.dot(momentum);
   const auto rate = [&] { return Eigen::Vector3d(q * (q.conjugate() * momentum).cwiseQuotient(inertia)); };
-  if (turn.squaredNorm() * inertia.maxCoeff() < gyroscopic_angle * gyroscopic_angle * inertia.minCoeff()) {
+  if (turn.squaredNorm() * inertia.maxCoeff() <
+      constants::gyroscopic_angle * constants::gyroscopic_angle * inertia.minCoeff()) {
     q = (rotation_of(turn) * q).normalized();
     w = rate();
     return;

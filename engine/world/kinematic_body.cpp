@@ -5,14 +5,10 @@
 
 #include <drawpoint/engine/world/checks.h>
 #include <algorithm>
+#include <drawpoint/engine/base/constants.hpp>
 #include <stdexcept>
 
 namespace drawpoint::engine {
-namespace {
-
-constexpr double root_mass = 1e6;  // [√kg], of the effective mass of 1e12 kg
-
-}  // namespace
 
 void KinematicBody::set_velocity(const Eigen::Vector3d& velocity, const Eigen::Vector3d& angular_velocity) {
   detail::check_velocity("KinematicBody::set_velocity", velocity, angular_velocity);
@@ -26,8 +22,9 @@ const SuperBody& KinematicBody::linearise(double h, const Eigen::Vector3d&) {
   twist << angular_velocity_, velocity_;
   const double size = twist.norm();
   if (size > 0) direction_ = twist / size;
-  super_.velocity_before = super_.velocity = Eigen::VectorXd::Constant(1, root_mass * size);
-  super_.part_maps.assign(1, direction_ / root_mass);
+  super_.velocity_before = super_.velocity =
+      Eigen::VectorXd::Constant(1, constants::kinematic_root_mass * size);
+  super_.part_maps.assign(1, direction_ / constants::kinematic_root_mass);
   super_.origins.assign(1, pose_.translation());
   return super_;
 }

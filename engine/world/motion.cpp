@@ -17,7 +17,9 @@ constexpr int bodies_per_block = 128;  // that a thread takes at a time
 void check(int rock, const SolverBody& body, const std::string& when) {
   const double speed = body.velocity.norm(), spin = body.angular_velocity.norm();
   const double motion = body.displacement.norm() + body.rotation_vector.norm();
-  if (speed <= fastest_solution && spin <= 10 * fastest_solution && std::isfinite(motion)) return;
+  if (speed <= constants::fastest_solution && spin <= 10 * constants::fastest_solution &&
+      std::isfinite(motion))
+    return;
   std::ostringstream what;
   what << "rock " << rock << " comes out with " << speed << " m/s and " << spin << " rad/s";
   fail_solution(when, what.str());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <drawpoint/engine/base/byte_stream.hpp>
+#include <drawpoint/engine/base/constants.hpp>
 #include <utility>
 
 namespace drawpoint::engine::detail {
@@ -13,7 +14,7 @@ using Eigen::Vector3d;
 Vector3d PairMemory::Start::point(std::uint32_t feature, const Vector3d& position) {
   if (!pair_) return Vector3d::Zero();
   int best = -1;
-  double best_distance = match_distance * match_distance;
+  double best_distance = constants::match_distance * constants::match_distance;
   for (int k = 0; k < pair_->count; ++k) {
     if (used_ >> k & 1u) continue;
     const PairMemoryPoint& old = pair_->points[static_cast<std::size_t>(k)];

@@ -20,7 +20,7 @@
 ///   held      both sides stand still: its impulses stay as they are, with their sums, until one side thaws (freezing.h)
 ///   outdated  neither: the slot is free for the next pair that the finder puts there
 /// A point of the next step takes the impulse of the point with its feature, else of the nearest one left within
-/// `match_distance`.
+/// constants::match_distance.
 namespace drawpoint::engine::detail {
 
 struct PairMemoryPoint {
@@ -47,8 +47,6 @@ struct HeldLoad {
 
 class PairMemory {
  public:
-  static constexpr double match_distance = 0.03;  ///< [m], a tenth of the smallest rock
-
   /// What a pair starts from, point by point; of a pair that the last step did not solve, nothing.
   class Start {
    public:

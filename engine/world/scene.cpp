@@ -5,6 +5,7 @@
 
 #include <drawpoint/engine/world/checks.h>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <stdexcept>
@@ -179,10 +180,10 @@ Side Scene::side_of(const Surface& surface) const {
 }
 
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its
-// speculative margins and the margin, so no contact is missed at any speed. In steps of `resolution`, so that
-// a speed that wavers does not make contacts be searched anew.
+// speculative margins and the margin, so no contact is missed at any speed. In whole steps of
+// constants::speculative_step.
 double Scene::speculative_margin_of(const Surface& surface, double h) const {
-  constexpr double resolution = 5e-3;  // [m]
+  constexpr double resolution = constants::speculative_step;
   const double fall = h * options_.gravity.norm();
   double speed = 0;
   if (surface.owner == Owner::rock) {

@@ -76,8 +76,8 @@ void check_motion(const Rock& rock, const ByteReader& in) {
   constexpr double farthest = 1e9;  // [m]
   if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
     in.fail("holds a rock more than 1e9 m from the origin");
-  if (rock.velocity.cwiseAbs().maxCoeff() > detail::fastest_solution ||
-      rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * detail::fastest_solution)
+  if (rock.velocity.cwiseAbs().maxCoeff() > constants::fastest_solution ||
+      rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * constants::fastest_solution)
     in.fail("holds a rock faster than 1e4 m/s or 1e5 rad/s");
 }
 
