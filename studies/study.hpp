@@ -38,10 +38,11 @@
 namespace drawpoint::studies {
 
 // The library and its users hand Eigen's vectors to each other, and free them.
-static_assert(EIGEN_MAX_ALIGN_BYTES == 16,
-              "drawpoint: this file is compiled with another alignment of Eigen types than the library of "
-              "studies. Link Drawpoint::studies, or define EIGEN_MAX_ALIGN_BYTES=16 before Eigen is included "
-              "for the first time");
+static_assert(
+    EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 1,
+    "drawpoint: this file lays out or allocates Eigen types otherwise than the library of studies. Link "
+    "Drawpoint::studies, or define EIGEN_MAX_ALIGN_BYTES=16 and EIGEN_MALLOC_ALREADY_ALIGNED=1 before "
+    "Eigen is included for the first time");
 
 /// Where one run may write and read, and what holds for all runs of its study.
 struct RunContext {
