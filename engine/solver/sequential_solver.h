@@ -8,7 +8,7 @@
 
 /// The reference method: pairs one after another in their order, forth and back, double precision.
 ///
-/// Cost: about 70 ns a point an iteration between rocks, O(r) more on a machine part. No threads.
+/// Cost: about 70 ns per point and iteration between rocks, O(r) more on a machine part. No threads.
 namespace drawpoint::engine {
 
 SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options);

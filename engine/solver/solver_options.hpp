@@ -20,17 +20,17 @@ Method method_named(std::string_view name);
 struct SolverOptions {
   Method method = Method::batched;
   int substeps = 16;   ///< S ≥ 1
-  int iterations = 1;  ///< a substep, at least, ≥ 1
+  int iterations = 1;  ///< per substep, at least, ≥ 1
   /// Beyond that a substep adds iterations until one changes less than `tolerance` of the normal load, as
   /// long as iterations times points stay below `iteration_budget`: a pile at rest needs none, rocks in
   /// motion some, and small problems, which are cheap, as many as it takes. 0: never. A machine that digs
-  /// needs some five iterations a substep: with one, its bucket loads half as much again
+  /// needs some five iterations per substep: with one, its bucket loads half as much again
   /// (docs/decisions/0018).
   int iteration_budget = 20000;
   double tolerance = 1e-5;
 };
 
-/// Iterations a substep at most, for so many points.
+/// Iterations per substep at most, for so many points.
 inline int most_iterations(const SolverOptions& options, std::size_t points) {
   return std::max(options.iterations, options.iteration_budget / std::max(1, static_cast<int>(points)));
 }

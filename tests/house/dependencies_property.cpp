@@ -114,8 +114,9 @@ TEST(Dependencies, WhatTheTableGrantsPasses) {
 
 // A public header that took Eigen by itself would not notice a user's alignment (decision 0020).
 TEST(Dependencies, PublicHeadersOfTheEngineTakeEigenFromBase) {
-  for (const Source& source : sources(root, {"engine"}))
-    if (source.path.ends_with(".hpp") && source.path != "engine/base/eigen.hpp")
-      EXPECT_EQ(source.text.find("#include <Eigen/"), std::string::npos)
-          << source.path << ": include <drawpoint/engine/base/eigen.hpp> instead";
+  for (const Source& source : sources(root, {"engine"})) {
+    if (!source.path.ends_with(".hpp") || source.path == "engine/base/eigen.hpp") continue;
+    EXPECT_EQ(source.text.find("#include <Eigen/"), std::string::npos)
+        << source.path << ": include <drawpoint/engine/base/eigen.hpp> instead";
+  }
 }

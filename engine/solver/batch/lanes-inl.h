@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-/// Arithmetic on the lanes of a batch, for the kernels (batch_kernels.cpp), compiled once an instruction set.
+/// Arithmetic on the lanes of a batch, for the kernels (batch_kernels.cpp), compiled once per instruction set.
 ///
 /// A `V` holds `width` pairs: one vector of sixteen where there is one, else two parts side by side, so that
 /// two chains of dependent operations run at a time. Products and sums are separate operations on every
@@ -163,7 +163,7 @@ HWY_INLINE void scatter_part(Part x, Part y, Part z, const Row& row, const std::
 
 #else
 
-// Rows k, k + 4, k + 8 ... below `N`, one a block of four lanes.
+// Rows k, k + 4, k + 8 ... below `N`, one per block of four lanes.
 template <int N, class Row>
 HWY_INLINE auto rows(const Row& row, const std::int32_t* index, int k) {
   if constexpr (N == 4)

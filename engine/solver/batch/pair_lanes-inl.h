@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// As many pairs of a batch as a V holds, with the motion of their bodies: what the kernels
-/// (batch_kernels.cpp) do with them, compiled once an instruction set.
+/// (batch_kernels.cpp) do with them, compiled once per instruction set.
 ///
 /// Impulses and velocities of a point are in the pair's frame (n, t1, t2), t2 = n × t1. A body answers an
 /// impulse P at the arm r with Δv = P/m, Δω = I⁻¹ (r × P). The contact law on V is in namespace law
