@@ -45,7 +45,7 @@ double poured_angle(std::uint64_t seed) {
 World bed() {
   MaterialTable table(2);  // rocks and floor; the smooth surfaces
   table.set(0, 0, rough);
-  table.set(0, 1, {.friction = 0});
+  for (int kind : {0, 1}) table.set(kind, 1, {.friction = 0});
   World world({}, table);
   const auto still = Eigen::Isometry3d::Identity();
   support::add_floor(world);

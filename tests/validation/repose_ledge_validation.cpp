@@ -32,7 +32,7 @@ constexpr double size = 0.3, length = 2.4, width = 0.9;
 World bin(double friction) {
   MaterialTable table(2);  // rocks and ledge; the smooth surfaces
   table.set(0, 0, {.friction = friction, .rolling = 0.5});
-  table.set(0, 1, {.friction = 0});
+  for (int kind : {0, 1}) table.set(kind, 1, {.friction = 0});
   World world({}, table);
   world.add_static(support::shared(box({length / 2, width, 0.5})), support::at(-length / 2, 0, -0.5), 0);
   const auto add_wall = [&](const Eigen::Vector3d& inward, double distance) {
