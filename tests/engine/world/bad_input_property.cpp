@@ -6,12 +6,14 @@
 
 #include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
+#include <drawpoint/tests/support/told.hpp>
 #include <functional>
 #include <limits>
 
 using namespace drawpoint::engine;
 using drawpoint::support::at;
 using drawpoint::support::box_body;
+using drawpoint::support::expect_told;
 using drawpoint::support::one_material;
 using drawpoint::support::shared;
 using Eigen::Vector3d;
@@ -20,22 +22,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
-
-/// What a call says that it refuses, or "taken".
-std::string told(const std::function<void()>& call) {
-  try {
-    call();
-    return "taken";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-}
-
-void expect_told(const std::function<void()>& call, const std::vector<std::string>& words) {
-  const std::string what = told(call);
-  for (const std::string& word : words)
-    EXPECT_NE(what.find(word), std::string::npos) << what << "\nlacks " << word;
-}
 
 /// A body as the world knows machines, with one part at the origin; its speed comes out as it is told.
 class OnePart final : public ArticulatedBody {

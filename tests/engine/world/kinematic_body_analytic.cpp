@@ -6,12 +6,14 @@
 #include <drawpoint/engine/world/kinematic_body.hpp>
 #include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
+#include <drawpoint/tests/support/told.hpp>
 
 using namespace drawpoint::engine;
 using drawpoint::support::at;
 using drawpoint::support::box_body;
 using drawpoint::support::one_material;
 using drawpoint::support::shared;
+using drawpoint::support::told;
 using Eigen::Vector3d;
 
 namespace {
@@ -31,16 +33,6 @@ struct Carried {
   KinematicBody plate{at(0, 0, -0.25)};
   World world;
 };
-
-std::string told(const std::function<void()>& call) {
-  try {
-    call();
-    return "nothing";
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-}
-
 }  // namespace
 
 // A steady twist for n steps: p = v n h and a turn of ω n h, but for n roundings of 1e-16 of numbers of size 1.

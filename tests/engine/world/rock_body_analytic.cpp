@@ -4,32 +4,19 @@
 
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
+#include <drawpoint/tests/support/told.hpp>
 #include <functional>
 #include <string>
 
 using namespace drawpoint::engine;
 using drawpoint::support::add_floor;
 using drawpoint::support::at;
+using drawpoint::support::expect_told;
 using drawpoint::support::one_material;
 using drawpoint::support::shared;
 using Eigen::Vector3d;
 
 namespace {
-
-std::string told(const std::function<void()>& call) {
-  try {
-    call();
-    return "nothing";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-}
-
-void expect_told(const std::function<void()>& call, const std::vector<std::string>& words) {
-  const std::string what = told(call);
-  for (const std::string& word : words)
-    EXPECT_NE(what.find(word), std::string::npos) << what << "\nlacks " << word;
-}
 
 std::vector<Vector3d> moved(const ConvexPolyhedron& hull, const Eigen::Isometry3d& pose) {
   std::vector<Vector3d> points;
