@@ -82,7 +82,7 @@ void put_on_bounds(Front& front, const F& means, const doe::Problem& problem) {
     const Eigen::VectorXd x = front.X.row(i).transpose(), there = on_bounds(x, problem);
     if (there == x) continue;
     const Eigen::VectorXd y = means(there).values;
-    if (!meets_limits(problem, y)) continue;
+    if (!pareto::meets_limits(problem, y)) continue;
     front.X.row(i) = there.transpose();
     front.responses.row(i) = y.transpose();
   }
