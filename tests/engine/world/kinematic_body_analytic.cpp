@@ -99,7 +99,7 @@ TEST(KinematicBody, RefusesWhatCannotBe) {
               body.set_velocity({0, std::nan(""), 0});
             }).find("KinematicBody::set_velocity"),
             std::string::npos);
-  EXPECT_NE(told([&] {
+  EXPECT_NE(told<std::runtime_error>([&] {
               body.set_state({1, 2, 3});
             }).find("3 numbers that are not the state"),
             std::string::npos);
