@@ -21,7 +21,7 @@ function(drawpoint_install component)
   endif()
   foreach(folder IN LISTS folders)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION include/drawpoint/${folder}
-            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" PATTERN report EXCLUDE) # of studies, all inside
+            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" REGEX "/studies/[a-z]+$" EXCLUDE) # rooms, all inside
   endforeach()
 endfunction()
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>

@@ -82,7 +82,11 @@ TEST(Dependencies, AnInternalHeaderStaysInside) {
   EXPECT_EQ(first_breach("studies/a.cpp", include), "studies/a.cpp" + why);
   EXPECT_EQ(first_breach("engine/machine/b.cpp", include), "");
   EXPECT_EQ(first_breach("engine/machine/b.h", include), "");
-  EXPECT_EQ(first_breach("studies/a.cpp", "#include <drawpoint/studies/report/a.h>"), "");
+  EXPECT_EQ(first_breach("studies/a.cpp", "#include <drawpoint/studies/a.h>"), "");
+  EXPECT_NE(first_breach("studies/a.cpp", "#include <drawpoint/studies/store/a.h>"), "");
+  EXPECT_EQ(first_breach("studies/runs/a.cpp", "#include <drawpoint/studies/store/a.h>"), "");
+  EXPECT_EQ(first_breach("studies/store/a.cpp", "#include <drawpoint/studies/runs/a.h>"),
+            "studies/store/a.cpp:1: <drawpoint/studies/runs/a.h>: studies/store/ may not include it");
   EXPECT_NE(first_breach("studies/a.hpp", "#include <drawpoint/studies/b.h>"), "");
   const std::string shared = "#include <drawpoint/engine/geometry/a.h>";
   EXPECT_EQ(first_breach("engine/collision/b.h", shared), "");

@@ -33,6 +33,15 @@ inline std::vector<std::string> rooms(const std::vector<std::string>& names) {
   return paths;
 }
 
+/// The modules, what a study file says, and rooms of the studies.
+inline std::vector<std::string> study_rooms(std::vector<std::string> modules,
+                                            const std::vector<std::string>& names) {
+  for (const char* face : {"study.hpp", "options.hpp", "headline.hpp"})
+    modules.push_back(std::string("studies/") + face);
+  for (const std::string& name : names) modules.push_back("studies/" + name + "/");
+  return modules;
+}
+
 inline const std::vector<Row>& dependency_table() {
   static const std::vector<Row> table{
       {"doe/", {"doe/"}, {"Eigen"}, {}},
@@ -66,10 +75,21 @@ inline const std::vector<Row>& dependency_table() {
        {"engine/base/", "engine/geometry/", "engine/loading/strategy/"},
        {"Eigen"},
        {}},
-      {"studies/",
-       {"doe/", "kriging/", "pareto/", "engine/", "studies/"},
-       {"Eigen", "nlohmann-json", "CLI11", "SQLiteCpp", "HDF5"},
-       {}}};
+      {"studies/", {"doe/", "kriging/", "pareto/", "engine/", "studies/"}, {"Eigen", "nlohmann-json"}, {}},
+      {"studies/store/", study_rooms({"doe/"}, {"store"}), {"Eigen", "nlohmann-json"}, {"SQLiteCpp"}},
+      {"studies/runs/", study_rooms({"doe/"}, {"store", "runs"}), {"Eigen", "nlohmann-json"}, {}},
+      {"studies/report/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"report"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
+      {"studies/analysis/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
+      {"studies/commands/",
+       study_rooms({"doe/"}, {"store", "runs", "analysis", "commands"}),
+       {"nlohmann-json"},
+       {"CLI11"}}};
   return table;
 }
 
@@ -111,18 +131,20 @@ inline const Row* row_of(const std::string& path) {
 /// Whether no user of the row's module ever sees the file.
 inline bool internal(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".h"); }
 
-/// Whether the file may see the internal header: one of its own room (the studies with their report are one),
-/// or both are in the rooms that make up contact solving, which share theirs in the direction of the table.
+/// Whether the file may see the internal header: one of its own room, or both are in the rooms that make up
+/// contact solving or in those of the studies, which share theirs in the direction of the table.
 inline bool same_inside(const std::string& path, const std::string& header) {
-  const auto room = [](const std::string& file) {
-    return file.starts_with("studies/") ? "studies/" : file.substr(0, file.rfind('/') + 1);
-  };
+  const auto room = [](const std::string& file) { return file.substr(0, file.rfind('/') + 1); };
   const auto contact = [](const std::string& file) {
     for (const char* name : {"base", "geometry", "collision", "solver", "world"})
       if (file.starts_with("engine/" + std::string(name) + "/")) return true;
     return false;
   };
-  return room(path) == room(header) || (contact(path) && contact(header));
+  const auto study_room = [](const std::string& file) {
+    return file.starts_with("studies/") && file.find('/', 8) != std::string::npos;
+  };
+  return room(path) == room(header) || (contact(path) && contact(header)) ||
+         (study_room(path) && study_room(header));
 }
 
 /// Why `header` may not be included by the file `path` of `row`; empty when it may.

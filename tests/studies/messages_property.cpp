@@ -4,8 +4,8 @@
 
 #include "support.hpp"
 
-#include <drawpoint/studies/progress.h>
-#include <drawpoint/studies/summary.h>
+#include <drawpoint/studies/analysis/summary.h>
+#include <drawpoint/studies/runs/progress.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

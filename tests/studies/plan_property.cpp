@@ -5,8 +5,8 @@
 
 #include "support.hpp"
 
-#include <drawpoint/studies/plan.h>
-#include <drawpoint/studies/settings.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/settings.h>
 
 #include <set>
 

@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-#include <drawpoint/studies/execution.h>
+#include <drawpoint/studies/runs/execution.h>
 
 #include <chrono>
 #include <map>

@@ -5,9 +5,9 @@
 
 #include "support.hpp"
 
-#include <drawpoint/studies/option_values.h>
-#include <drawpoint/studies/plan.h>
-#include <drawpoint/studies/session.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/option_values.h>
 #include <sys/wait.h>
 #include <drawpoint/doe/problem_json.hpp>
 

@@ -5,8 +5,8 @@
 #include "support.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/columns.h>
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/store/columns.h>
+#include <drawpoint/studies/store/store.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/summary.h>
+#include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/doe/problem.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/plan.h>
-#include <drawpoint/studies/settings.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/doe/augmented_latin_hypercube.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>

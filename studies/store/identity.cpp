@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/identity.h>
+#include <drawpoint/studies/store/identity.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

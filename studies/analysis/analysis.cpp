@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis.h>
-#include <drawpoint/studies/facts.h>
-#include <drawpoint/studies/front.h>
-#include <drawpoint/studies/plan.h>
+#include <drawpoint/studies/analysis/analysis.h>
+#include <drawpoint/studies/analysis/facts.h>
+#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/report/report.h>
+#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>

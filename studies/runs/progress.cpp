@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/progress.h>
+#include <drawpoint/studies/runs/progress.h>
 
 #include <unistd.h>
 

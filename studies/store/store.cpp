@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/store/store.h>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/columns.h>
-#include <drawpoint/studies/store_errors.h>
+#include <drawpoint/studies/store/columns.h>
+#include <drawpoint/studies/store/store_errors.h>
 #include <drawpoint/doe/problem_json.hpp>
 
 #include <ctime>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/facts.h>
-#include <drawpoint/studies/plan.h>
-#include <drawpoint/studies/progress.h>
+#include <drawpoint/studies/analysis/facts.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/progress.h>
 #include <sys/utsname.h>
 
 #include <ctime>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/commands.h>
-#include <drawpoint/studies/folder.h>
-#include <drawpoint/studies/progress.h>
-#include <drawpoint/studies/session.h>
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/runs/progress.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
 
 #include <array>
 #include <cstdio>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis.h>
-#include <drawpoint/studies/commands.h>
-#include <drawpoint/studies/execution.h>
-#include <drawpoint/studies/folder.h>
-#include <drawpoint/studies/interrupt.h>
-#include <drawpoint/studies/session.h>
-#include <drawpoint/studies/summary.h>
+#include <drawpoint/studies/analysis/analysis.h>
+#include <drawpoint/studies/analysis/summary.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/folder.h>
 #include <unistd.h>
 #include <drawpoint/doe/problem.hpp>
 

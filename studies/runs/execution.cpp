@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/execution.h>
-#include <drawpoint/studies/interrupt.h>
-#include <drawpoint/studies/progress.h>
+#include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/progress.h>
 
 #include <chrono>
 #include <cstdio>

@@ -6,9 +6,9 @@
 /// objectives within all constraints (front.h). Failed runs are left out of the models and counted. Equal
 /// stores give equal models and fronts: the search is seeded by the study seed.
 
-#include <drawpoint/studies/folder.h>
-#include <drawpoint/studies/store.h>
-#include <drawpoint/studies/summary.h>
+#include <drawpoint/studies/analysis/summary.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
 #include <string>

@@ -14,7 +14,7 @@
 /// point shares a stratum with another point. Corners stay out of the count, and are never added later. A
 /// grown design is not the one that the larger number would have given from the start.
 
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/store/store.h>
 
 #include <Eigen/Core>
 #include <vector>

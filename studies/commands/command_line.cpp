@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/commands.h>
-#include <drawpoint/studies/option_values.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/store/option_values.h>
 #include <CLI/CLI.hpp>
 #include <drawpoint/doe/problem.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/folder.h>
+#include <drawpoint/studies/store/folder.h>
 
 #include <fcntl.h>
 #include <sys/file.h>

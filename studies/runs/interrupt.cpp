@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/interrupt.h>
+#include <drawpoint/studies/runs/interrupt.h>
 
 #include <unistd.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/commands.h>
-#include <drawpoint/studies/execution.h>
-#include <drawpoint/studies/option_values.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/store/option_values.h>
 #include <fcntl.h>
 #include <unistd.h>
 #include <drawpoint/doe/black_box.hpp>

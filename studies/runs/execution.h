@@ -8,9 +8,9 @@
 /// run that fails while the disk is full does not count: it is planned again and the study stops, because the
 /// next ones would fail too.
 
-#include <drawpoint/studies/folder.h>
-#include <drawpoint/studies/settings.h>
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/processes.hpp>
 #include <drawpoint/studies/study.hpp>

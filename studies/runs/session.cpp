@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/option_values.h>
-#include <drawpoint/studies/plan.h>
-#include <drawpoint/studies/session.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/option_values.h>
 
 #include <stdexcept>
 #include <string>

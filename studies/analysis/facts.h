@@ -3,7 +3,7 @@
 #pragma once
 /// What the report says about how its numbers came about: machine, versions, time, design.
 
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/store/store.h>
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/option_values.h>
+#include <drawpoint/studies/store/option_values.h>
 
 #include <algorithm>
 #include <array>

@@ -18,7 +18,7 @@
 /// schema is refused and left as it is. All failures throw std::runtime_error that names the file and says
 /// what to do.
 
-#include <drawpoint/studies/identity.h>
+#include <drawpoint/studies/store/identity.h>
 
 #include <Eigen/Core>
 #include <cstdint>

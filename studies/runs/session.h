@@ -3,9 +3,9 @@
 #pragma once
 /// Opening the store that belongs to a study and to the options given, and refusing any other.
 
-#include <drawpoint/studies/folder.h>
-#include <drawpoint/studies/settings.h>
-#include <drawpoint/studies/store.h>
+#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
 namespace drawpoint::studies {
