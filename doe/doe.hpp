@@ -6,6 +6,7 @@
 #include <drawpoint/doe/aliasing.hpp>
 #include <drawpoint/doe/augmented_latin_hypercube.hpp>
 #include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/constrained.hpp>
 #include <drawpoint/doe/constrained_latin_hypercube.hpp>
 #include <drawpoint/doe/criterion.hpp>
@@ -40,6 +41,7 @@
 ///
 /// The problem and its runs:
 ///   problem.hpp                      named variables in a box, named responses with a goal each
+///   bounds.hpp                       the box as two vectors
 ///   black_box.hpp                    what may be called: f(x), f(x, seed), f(x, seed, stop), f(X, seeds)
 ///   outcome.hpp                      what a run gives: values, or a failure with its reason
 ///   value_and_jacobian.hpp           what a function with derivatives gives

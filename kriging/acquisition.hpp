@@ -39,13 +39,13 @@ namespace drawpoint::kriging {
 
 namespace detail {
 
-/// +1 to minimise, −1 to maximise.
+/// Of an objective: +1 to minimise, −1 to maximise.
 inline double sign_of(const char* place, doe::Goal goal) {
   if (!doe::is_objective(goal))
     throw std::invalid_argument(
         std::string(place) + ": goal is " + std::string(doe::to_string(goal)) +
         "; allowed are minimize and maximize; use probability_of_feasibility for limits");
-  return goal == doe::Goal::minimize ? 1.0 : -1.0;
+  return doe::sign_of(goal);
 }
 
 inline void check_finite(const char* place, const char* name, double value) {

@@ -48,7 +48,7 @@ doe::Criterion probability_of_feasibility(S model, const doe::Response& response
         std::string(doe::to_string(response.goal)) +
         "; allowed are at_most and at_least; use expected_improvement for objectives");
   detail::check_finite("kriging::probability_of_feasibility", "limit", response.limit);
-  const double sign = response.goal == doe::Goal::at_most ? 1.0 : -1.0;
+  const double sign = doe::sign_of(response.goal);
   return
       [model = std::move(model), sign, limit = response.limit](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
         const Prediction p = model.predict(X);
@@ -100,7 +100,7 @@ inline std::vector<Eigen::Index> feasible_runs(const char* place, const doe::Pro
                                   "; fit all responses to the same runs");
     const doe::Response& r = problem.responses[j];
     if (!doe::is_constraint(r.goal)) continue;
-    const double sign = r.goal == doe::Goal::at_most ? 1.0 : -1.0;
+    const double sign = doe::sign_of(r.goal);
     const Eigen::VectorXd values = fitted_values(models[j]);
     for (Index i = 0; i < n; ++i)
       if (!(sign * (values[i] - r.limit) <= 0.0)) kept[static_cast<std::size_t>(i)] = false;

@@ -172,8 +172,7 @@ inline Objectives objectives_of(const doe::Problem& problem) {
     if (doe::is_objective(problem.responses[j].goal)) o.index.push_back(j);
   o.sign.resize(static_cast<Eigen::Index>(o.index.size()));
   for (std::size_t k = 0; k < o.index.size(); ++k)
-    o.sign[static_cast<Eigen::Index>(k)] =
-        problem.responses[o.index[k]].goal == doe::Goal::minimize ? 1.0 : -1.0;
+    o.sign[static_cast<Eigen::Index>(k)] = doe::sign_of(problem.responses[o.index[k]].goal);
   return o;
 }
 

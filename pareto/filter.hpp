@@ -71,7 +71,7 @@ inline Eigen::MatrixXd misses(const doe::Problem& problem, const Front& front,
   Eigen::MatrixXd missed(front.Y.rows(), static_cast<Eigen::Index>(conditions.size()));
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     const int column = doe::response_index(problem, conditions[c].response);
-    const double sign = sign_of(conditions[c].goal);
+    const double sign = doe::sign_of(conditions[c].goal);
     missed.col(static_cast<Eigen::Index>(c)) =
         (sign * (front.responses.col(column).array() - conditions[c].limit)).max(0.0);
   }
@@ -91,7 +91,7 @@ inline double direction(const std::string& place, const doe::Response& r) {
     throw std::invalid_argument(place + "response \"" + r.name +
                                 "\" is only recorded, so no value of it is better than another; give it a "
                                 "goal or ask with a condition");
-  return sign_of(r.goal);
+  return doe::sign_of(r.goal);
 }
 
 /// "joint_damage is 7.5 s at best" for each condition that no row meets alone, or that they exclude each

@@ -104,7 +104,7 @@ class ScaledProblem {
     for (Eigen::Index c = 0; c < k; ++c) {
       const int row = role_.constraints[c];
       const doe::Response& response = problem_.responses[row];
-      const double scale = sign_of(response.goal) / range_[row];
+      const double scale = doe::sign_of(response.goal) / range_[row];
       p.limits[c] = scale * (y.values[row] - response.limit);
       p.limit_gradients.row(c) = scale * y.jacobian.row(row).cwiseProduct(width_.transpose());
     }

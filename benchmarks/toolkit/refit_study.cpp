@@ -19,6 +19,7 @@
 
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
@@ -56,16 +57,6 @@ Table table_of(const studies::Store& store, studies::Kind kind) {
 struct Box {
   Eigen::VectorXd lower, upper;
 };
-
-Box box_of(const doe::Problem& problem) {
-  const auto d = static_cast<Eigen::Index>(problem.variables.size());
-  Box box{Eigen::VectorXd(d), Eigen::VectorXd(d)};
-  for (Eigen::Index k = 0; k < d; ++k) {
-    box.lower[k] = problem.variables[static_cast<std::size_t>(k)].lower;
-    box.upper[k] = problem.variables[static_cast<std::size_t>(k)].upper;
-  }
-  return box;
-}
 
 void add_kriging(const Box& box, std::vector<Way>& ways) {
   const std::map<kriging::Trend, std::string> trends = {{kriging::Trend::constant, "constant"},
@@ -150,8 +141,9 @@ void refit(const studies::Store& store) {
               validation = table_of(store, studies::Kind::validation);
   const auto& problem = store.identity().problem;
   std::vector<Way> ways;
-  add_kriging(box_of(problem), ways);
-  add_others(box_of(problem), ways);
+  const Box box{doe::lower_bounds(problem), doe::upper_bounds(problem)};
+  add_kriging(box, ways);
+  add_others(box, ways);
   for (Eigen::Index j = 0; j < training.Y.cols(); ++j) {
     std::printf("\n%s, %ld training and %ld validation runs\n",
                 problem.responses[static_cast<std::size_t>(j)].name.c_str(),

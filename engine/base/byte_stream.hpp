@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/base/eigen.hpp>
 #include <span>
 #include <stdexcept>
@@ -98,8 +99,7 @@ class ByteReader {
   Eigen::Matrix3d get_rotation(const char* what) {
     Eigen::Matrix3d R;
     get(R, what);
-    if (!((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < 1e-6 && R.determinant() > 0))
-      fail("holds " + std::string(what) + " is no rotation matrix");
+    if (!detail::is_rotation(R)) fail("holds " + std::string(what) + " is no rotation matrix");
     return R;
   }
   /// An int from `lower` to `upper`.

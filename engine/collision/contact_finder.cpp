@@ -7,8 +7,8 @@
 #include <drawpoint/engine/collision/narrow_phase.h>
 #include <chrono>
 #include <cmath>
+#include <drawpoint/engine/base/checks.hpp>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -40,15 +40,12 @@ void check(const ContactFinderOptions& options) {
 
 void check(int collider, const Isometry3d& pose) {
   const Vector3d p = pose.translation();
-  const double skew = (pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity()).squaredNorm();
-  if (p.allFinite() && skew < 1e-12) return;
-  std::ostringstream text;
-  text << "the pose of collider " << collider << " has ";
-  if (!p.allFinite())
-    text << "translation (" << p.x() << ", " << p.y() << ", " << p.z() << ") m, which is not finite; ";
-  else
-    text << "axes that are off orthonormal by " << std::sqrt(skew) << "; allowed: 1e-6; ";
-  refuse(text.str() + "give a rigid motion");
+  const double off = detail::off_orthonormal(pose.linear());
+  if (p.allFinite() && off < detail::orthonormal.value) return;
+  const std::string fault = p.allFinite() ? "axes that are off orthonormal by " + detail::text(off) +
+                                                "; allowed: " + detail::orthonormal.text
+                                          : "translation " + detail::text(p) + " m, which is not finite";
+  refuse("the pose of collider " + std::to_string(collider) + " has " + fault + "; give a rigid motion");
 }
 
 void check_speculative_margin(int collider, double distance) {

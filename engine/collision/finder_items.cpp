@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/collision/finder_items.h>
 
+#include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/base/constants.hpp>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -18,12 +18,6 @@ namespace {
   throw std::invalid_argument("engine::ContactFinder: " + what);
 }
 
-std::string text(double x) {
-  std::ostringstream out;
-  out << x;
-  return out.str();
-}
-
 void check(const Cylinder& cylinder) {
   if (!(cylinder.radius > 0) || !(cylinder.half_width > 0) ||
       !std::isfinite(cylinder.radius + cylinder.half_width))
@@ -32,10 +26,10 @@ void check(const Cylinder& cylinder) {
 }
 
 void check(const HalfSpace& plane) {
-  if (!(std::abs(plane.normal.norm() - 1) < 1e-9) || !std::isfinite(plane.offset))
+  if (!is_unit(plane.normal) || !std::isfinite(plane.offset))
     refuse("a half-space has a normal whose length is off 1 by " + text(plane.normal.norm() - 1) +
-           " and offset " + text(plane.offset) +
-           " m; allowed: off by less than 1e-9 and finite; give a unit normal, normal.normalized()");
+           " and offset " + text(plane.offset) + " m; allowed: off by less than " + unit_length.text +
+           " and finite; give a unit normal, normal.normalized()");
 }
 
 }  // namespace

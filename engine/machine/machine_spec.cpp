@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <stdexcept>
 
@@ -21,7 +22,7 @@ void check_body(const BodySpec& body, int index) {
     refuse(name +
            "no rigid body has this inertia; the principal moments must be positive and obey the triangle "
            "inequality");
-  if (body.joint != JointKind::free && std::abs(body.joint_axis.norm() - 1) > 1e-9)
+  if (body.joint != JointKind::free && !detail::is_unit(body.joint_axis))
     refuse(name + "the joint axis has length " + std::to_string(body.joint_axis.norm()) +
            "; give a unit vector");
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/record/contact_problem_check.h>
 #include <cmath>
-#include <cstdio>
+#include <drawpoint/engine/base/checks.hpp>
 
 namespace drawpoint::engine::record::detail {
 namespace {
@@ -13,15 +13,7 @@ using engine::ContactProblem;
 using engine::SolverBody;
 using engine::SuperBody;
 using engine::SuperBodyRow;
-
-// Unit to the round-off of a normalised vector and a few operations.
-constexpr double unit_length = 1e-9;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+using engine::detail::text;
 
 // Keeps the first fault of a row of a group.
 class Finding {
@@ -36,12 +28,12 @@ class Finding {
   void finite(const Matrix& m, const char* field) {
     require(m.allFinite(), field, "not finite", "finite numbers");
   }
-  void finite(double x, const char* field) { require(std::isfinite(x), field, number(x), "finite numbers"); }
+  void finite(double x, const char* field) { require(std::isfinite(x), field, text(x), "finite numbers"); }
   void not_negative(double x, const char* field) {
-    require(x >= 0 && std::isfinite(x), field, number(x), "0 or more, finite");
+    require(x >= 0 && std::isfinite(x), field, text(x), "0 or more, finite");
   }
   void positive(double x, const char* field) {
-    require(x > 0 && std::isfinite(x), field, number(x), "above 0, finite");
+    require(x > 0 && std::isfinite(x), field, text(x), "above 0, finite");
   }
   const std::string& fault() const { return fault_; }
 
@@ -83,13 +75,13 @@ void check_point(const ContactPoint& point, Finding& find) {
   find.finite(point.position, "position");
   find.finite(point.arm_a, "arm_a");
   find.finite(point.arm_b, "arm_b");
-  find.require(std::abs(point.normal.norm() - 1) < unit_length, "normal",
-               "of length " + number(point.normal.norm()), "length 1");
+  find.require(engine::detail::is_unit(point.normal), "normal", "of length " + text(point.normal.norm()),
+               "length 1");
   find.finite(point.gap, "gap");
   find.positive(point.stiffness, "stiffness");
   find.not_negative(point.damping_time, "damping_time");
   find.not_negative(point.friction, "friction");
-  find.require(point.restitution >= 0 && point.restitution <= 1, "restitution", number(point.restitution),
+  find.require(point.restitution >= 0 && point.restitution <= 1, "restitution", text(point.restitution),
                "0 to 1");
   find.finite(point.start, "start");
 }
@@ -100,7 +92,7 @@ void check_row(const SuperBodyRow& row, Eigen::Index freedoms, Finding& find) {
   find.finite(row.target, "target");
   find.finite(row.gap, "gap");
   if (row.kind == SuperBodyRow::Kind::stop) find.positive(row.recovery, "recovery");
-  find.require(row.lower <= row.upper, "lower", number(row.lower), "at most upper");
+  find.require(row.lower <= row.upper, "lower", text(row.lower), "at most upper");
   find.finite(row.start, "start");
 }
 

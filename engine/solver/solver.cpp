@@ -5,9 +5,9 @@
 #include <drawpoint/engine/solver/problem_sizes.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
 #include <cassert>
+#include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,19 +15,14 @@
 namespace drawpoint::engine {
 namespace {
 
-void require(const char* name, double value, double lower, double upper, const char* unit) {
-  if (value >= lower && value <= upper) return;  // false for what is not a number
-  std::ostringstream text;
-  text << "engine::ContactSolver: " << name << " is " << value << " " << unit << "; allowed: " << lower
-       << " to " << upper << " " << unit;
-  throw std::invalid_argument(text.str());
-}
-
 void check(const SolverOptions& options) {
-  require("substeps", options.substeps, 1, 1e4, "per step");
-  require("iterations", options.iterations, 1, 1e6, "per substep");
-  require("iteration_budget", options.iteration_budget, 0, 1e9, "iterations times points");
-  require("tolerance", options.tolerance, 0, 1, "of the load");
+  const auto require = [](const std::string& name, double value, const detail::Range& allowed) {
+    detail::require("engine::ContactSolver: " + name, value, allowed);
+  };
+  require("substeps", options.substeps, {1, 1e4, "per step"});
+  require("iterations", options.iterations, {1, 1e6, "per substep"});
+  require("iteration_budget", options.iteration_budget, {0, 1e9, "iterations times points"});
+  require("tolerance", options.tolerance, {0, 1, "of the load"});
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/world/checks.h>
 #include <cmath>
+#include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <limits>
-#include <sstream>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -12,42 +12,23 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-struct Range {
-  double lower, upper;
-  const char* unit;
-};
-
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("engine::" + what); }
 
-std::string text(double x) {
-  std::ostringstream out;
-  out << x;
-  return out.str();
-}
-
-std::string text(const Vector3d& v) {
-  std::ostringstream out;
-  out << "(" << v.x() << ", " << v.y() << ", " << v.z() << ")";
-  return out.str();
-}
-
 // `name` is "place: quantity".
-void require(const std::string& name, double value, const Range& allowed) {
-  if (value >= allowed.lower && value <= allowed.upper) return;  // false for what is not a number
-  refuse(name + " is " + text(value) + " " + allowed.unit + "; allowed: " + text(allowed.lower) + " to " +
-         text(allowed.upper) + " " + allowed.unit);
+void check_range(const std::string& name, double value, const Range& allowed) {
+  require("engine::" + name, value, allowed);
 }
 
 void check(const Material& m, const std::string& name) {
   if (std::isnan(m.friction))
     refuse(name +
            "the friction is not given; set Material::friction (0 for none, 0.5 to 0.9 for rock on rock)");
-  require(name + "friction", m.friction, {0, 100, "[1]"});
-  require(name + "rolling resistance", m.rolling, {0, 100, "[1]"});
-  require(name + "spinning resistance", m.spinning, {0, 100, "[1]"});
-  require(name + "stiffness", m.stiffness, {1e-3, 1e18, "N/m (or Pa)"});
-  require(name + "damping time", m.damping_time, {0, 1e6, "s"});
-  require(name + "restitution", m.restitution, {0, 1, "[1]"});
+  check_range(name + "friction", m.friction, {0, 100, "[1]"});
+  check_range(name + "rolling resistance", m.rolling, {0, 100, "[1]"});
+  check_range(name + "spinning resistance", m.spinning, {0, 100, "[1]"});
+  check_range(name + "stiffness", m.stiffness, {1e-3, 1e18, "N/m (or Pa)"});
+  check_range(name + "damping time", m.damping_time, {0, 1e6, "s"});
+  check_range(name + "restitution", m.restitution, {0, 1, "[1]"});
 }
 
 // Of a homogeneous solid of this shape; a cylinder is centred by its definition.
@@ -66,14 +47,14 @@ void check_centred(const Shape& shape) {
 
 void check(const WorldOptions& o) {
   check_step("World", o.step);
-  require("World: size of gravity", o.gravity.norm(), {0, 1e3, "m/s^2"});
-  require("World: warm_start", o.warm_start, {0, 1, "[1]"});
-  require("World: threads", o.threads, {1, 256, "[1]"});
-  require("World: margin of contacts", o.contacts.margin, {0, 10, "m"});
-  require("World: slack of contacts", o.contacts.slack, {0, 10, "m"});
-  require("World: reuse_distance of contacts", o.contacts.reuse_distance, {0, 10, "m"});
-  require("World: reuse_angle of contacts", o.contacts.reuse_angle, {0, 10, "rad"});
-  require("World: hysteresis of contacts", o.contacts.hysteresis, {0, 10, "m"});
+  check_range("World: size of gravity", o.gravity.norm(), {0, 1e3, "m/s^2"});
+  check_range("World: warm_start", o.warm_start, {0, 1, "[1]"});
+  check_range("World: threads", o.threads, {1, 256, "[1]"});
+  check_range("World: margin of contacts", o.contacts.margin, {0, 10, "m"});
+  check_range("World: slack of contacts", o.contacts.slack, {0, 10, "m"});
+  check_range("World: reuse_distance of contacts", o.contacts.reuse_distance, {0, 10, "m"});
+  check_range("World: reuse_angle of contacts", o.contacts.reuse_angle, {0, 10, "rad"});
+  check_range("World: hysteresis of contacts", o.contacts.hysteresis, {0, 10, "m"});
 }
 
 void check_step(const char* place, double h) {
@@ -94,9 +75,9 @@ void check(const RockBody& body, int materials) {
   if (!body.shape) refuse("World::add_rock: the body has no shape; set RockBody::shape");
   if (std::holds_alternative<HalfSpace>(*body.shape))
     refuse("World::add_rock: a half-space has no end and cannot be a rock; give it to add_static()");
-  require("World::add_rock: mass", body.mass, {1e-9, 1e15, "kg"});
+  check_range("World::add_rock: mass", body.mass, {1e-9, 1e15, "kg"});
   for (double moment : body.inertia)
-    require("World::add_rock: a moment of inertia", moment, {1e-20, 1e25, "kg m^2"});
+    check_range("World::add_rock: a moment of inertia", moment, {1e-20, 1e25, "kg m^2"});
   const double largest = body.inertia.maxCoeff();
   if (largest > (body.inertia.sum() - largest) * (1 + 1e-6))
     refuse("World::add_rock: no rigid body has the principal moments " + text(body.inertia) +
@@ -113,18 +94,18 @@ void check_material(const char* place, int material, int materials) {
 
 void check_pose(const char* place, const Eigen::Isometry3d& pose) {
   const Vector3d p = pose.translation();
-  for (double x : p) require(std::string(place) + ": a coordinate of the position", x, {-1e5, 1e5, "m"});
+  for (double x : p) check_range(std::string(place) + ": a coordinate of the position", x, {-1e5, 1e5, "m"});
   const Matrix3d R = pose.linear();
-  if (!((R.transpose() * R - Matrix3d::Identity()).norm() < 1e-6) || !(R.determinant() > 0))
+  if (!is_rotation(R))
     refuse(std::string(place) + ": the orientation is no rotation matrix (RᵀR − 1 has norm " +
-           text((R.transpose() * R - Matrix3d::Identity()).norm()) + ", allowed: below 1e-6); normalise it");
+           text(off_orthonormal(R)) + ", allowed: below " + orthonormal.text + "); normalise it");
 }
 
 void check_velocity(const char* place, const Vector3d& velocity, const Vector3d& angular_velocity) {
-  require(std::string(place) + ": speed of " + text(velocity), velocity.norm(),
-          {0, constants::fastest_input, "m/s"});
-  require(std::string(place) + ": angular speed of " + text(angular_velocity), angular_velocity.norm(),
-          {0, constants::fastest_spin, "rad/s"});
+  check_range(std::string(place) + ": speed of " + text(velocity), velocity.norm(),
+              {0, constants::fastest_input, "m/s"});
+  check_range(std::string(place) + ": angular speed of " + text(angular_velocity), angular_velocity.norm(),
+              {0, constants::fastest_spin, "rad/s"});
 }
 
 double radius_about_origin(const Shape& shape) {

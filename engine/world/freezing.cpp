@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int no_rock = -1;
-
 void require(bool fine, const char* name, double value, const char* allowed) {
   if (!fine)
     throw std::invalid_argument(std::string("engine::Freezing: ") + name + " is " + std::to_string(value) +
@@ -97,13 +95,7 @@ Freezing::Load& Freezing::load_of(int rock) {
 }
 
 void Freezing::add_pair(const ContactProblem& problem, const ContactPair& pair) {
-  Vector3d impulse = Vector3d::Zero(), moment_a = -pair.impulse, moment_b = pair.impulse;
-  for (int k = pair.first; k < pair.first + pair.count; ++k) {
-    const ContactPoint& p = problem.points[static_cast<std::size_t>(k)];
-    impulse += p.impulse;
-    moment_a -= p.arm_a.cross(p.impulse);
-    moment_b += p.arm_b.cross(p.impulse);
-  }
+  const detail::HeldLoad through = load_through(problem, pair);
   const auto add = [&](int rock, const Vector3d& f, const Vector3d& m) {
     if (rock == no_rock) return;
     Load& load = load_of(rock);
@@ -111,8 +103,8 @@ void Freezing::add_pair(const ContactProblem& problem, const ContactPair& pair) 
     load.moment += m;
     load.carried += 0.5 * f.norm();
   };
-  add(rock_of(pair.collider_a), -impulse, moment_a);
-  add(rock_of(pair.collider_b), impulse, moment_b);
+  add(rock_of(pair.collider_a), -through.impulse, through.moment_a);
+  add(rock_of(pair.collider_b), through.impulse, through.moment_b);
 }
 
 void Freezing::weigh(const ContactProblem& problem) {

@@ -109,9 +109,12 @@ class Freezing {
     Load held;
   };
 
+  static constexpr int no_rock = -1;
+
   int rock_of(int collider) const;
   bool stands(int collider) const;
   Load& load_of(int rock);
+  static detail::HeldLoad load_through(const ContactProblem& problem, const ContactPair& pair);
   void add_pair(const ContactProblem& problem, const ContactPair& pair);
   void hold(const ContactProblem& problem, detail::PairMemory& memory);
   void join(int a, int b, int slot, const detail::HeldLoad& load);

@@ -15,8 +15,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int no_rock = -1;
-
 void insert_sorted(std::vector<int>& list, int value) {
   const auto place = std::lower_bound(list.begin(), list.end(), value);
   if (place == list.end() || *place != value) list.insert(place, value);
@@ -29,7 +27,9 @@ auto place_of(Partners& partners, int collider) {
                           [](const auto& partner, int c) { return partner.collider < c; });
 }
 
-HeldLoad load_through(const ContactProblem& problem, const ContactPair& pair) {
+}  // namespace
+
+HeldLoad Freezing::load_through(const ContactProblem& problem, const ContactPair& pair) {
   HeldLoad load{Vector3d::Zero(), -pair.impulse, pair.impulse};
   for (int k = pair.first; k < pair.first + pair.count; ++k) {
     const ContactPoint& p = problem.points[static_cast<std::size_t>(k)];
@@ -39,8 +39,6 @@ HeldLoad load_through(const ContactProblem& problem, const ContactPair& pair) {
   }
   return load;
 }
-
-}  // namespace
 
 std::vector<int> Freezing::remove(int rock, PairMemory& memory) {
   std::vector<int> neighbours;

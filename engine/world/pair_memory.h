@@ -38,7 +38,7 @@ struct RememberedPair {
   std::array<PairMemoryPoint, 4> points;
 };
 
-/// Of a held pair, over the step that solved it last.
+/// What goes through a pair over a step; of a held pair, the step that solved it last.
 struct HeldLoad {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< on B [N s]
   Eigen::Vector3d moment_a = Eigen::Vector3d::Zero(),

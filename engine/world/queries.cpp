@@ -4,8 +4,8 @@
 // What can be asked about a world between steps: forces in its contacts, surfaces on a ray.
 
 #include <drawpoint/engine/world/world_impl.h>
+#include <drawpoint/engine/base/checks.hpp>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -109,11 +109,11 @@ Wrench World::part_wrench(int part) const {
 }
 
 std::optional<RayHit> World::cast_ray(const Ray& ray, double most) const {
-  if (!ray.origin.allFinite() || !(std::abs(ray.direction.norm() - 1) < 1e-9) || !(most >= 0))
+  if (!ray.origin.allFinite() || !detail::is_unit(ray.direction) || !(most >= 0))
     throw std::invalid_argument(
-        "engine::World::cast_ray: the ray needs a finite origin, a direction of length 1 within 1e-9 and a "
-        "distance of 0 m "
-        "or more; use direction.normalized()");
+        std::string(
+            "engine::World::cast_ray: the ray needs a finite origin, a direction of length 1 within ") +
+        detail::unit_length.text + " and a distance of 0 m or more; use direction.normalized()");
   return impl_->scene.cast_ray(ray, most);
 }
 

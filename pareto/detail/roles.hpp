@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Which responses are objectives and which are limits, and the signs of their goals: the one place that
-/// knows them.
+/// Which responses are objectives and which are limits, with the signs of their goals.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -12,11 +11,6 @@
 #include <drawpoint/doe/problem.hpp>
 
 namespace drawpoint::pareto::detail {
-
-/// 1 where less is better, -1 where more is.
-inline double sign_of(doe::Goal goal) {
-  return goal == doe::Goal::maximize || goal == doe::Goal::at_least ? -1.0 : 1.0;
-}
 
 /// Places in Problem::responses; sign times objective is minimised.
 struct Roles {
@@ -31,7 +25,7 @@ inline Roles roles(const doe::Problem& problem) {
     if (doe::is_constraint(goal)) result.constraints.push_back(static_cast<int>(j));
     if (!doe::is_objective(goal)) continue;
     result.objectives.push_back(static_cast<int>(j));
-    result.signs.push_back(sign_of(goal));
+    result.signs.push_back(doe::sign_of(goal));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>
@@ -38,26 +39,16 @@ doe::Evaluations table_of(const std::vector<Run>& runs, const doe::Problem& prob
   return table;
 }
 
-kriging::FitOptions bounds_of(const doe::Problem& problem) {
-  const auto dimension = static_cast<Eigen::Index>(problem.variables.size());
-  kriging::FitOptions options;
-  options.threads = 0;
-  options.lower.resize(dimension);
-  options.upper.resize(dimension);
-  for (Eigen::Index k = 0; k < dimension; ++k) {
-    options.lower[k] = problem.variables[static_cast<std::size_t>(k)].lower;
-    options.upper[k] = problem.variables[static_cast<std::size_t>(k)].upper;
-  }
-  return options;
-}
-
 /// The ways to fit that are compared: smooth and less smooth responses, without and with a slope. The first
 /// is the default.
 std::vector<kriging::NamedFitter<kriging::Model>> ways_to_fit(const doe::Problem& problem) {
   std::vector<kriging::NamedFitter<kriging::Model>> ways;
   for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
     for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
-      kriging::FitOptions options = bounds_of(problem);
+      kriging::FitOptions options;
+      options.threads = 0;
+      options.lower = doe::lower_bounds(problem);
+      options.upper = doe::upper_bounds(problem);
       options.correlation = correlation;
       options.trend = trend;
       const std::string slope = trend == kriging::Trend::linear ? ", linear trend" : "";
@@ -145,11 +136,11 @@ const Run* run_to_show(const std::vector<Run>& runs, const doe::Problem& problem
                    [](const doe::Response& response) { return doe::is_objective(response.goal); });
   const bool none = objective == problem.responses.end();
   const Eigen::Index column = none ? 0 : objective - problem.responses.begin();
-  const double sign = !none && objective->goal == doe::Goal::minimize ? -1.0 : 1.0;
+  const double sign = none ? -1.0 : doe::sign_of(objective->goal);
   const Run* best = nullptr;
   for (const auto& run : runs) {
     if (run.status != Status::done || !std::filesystem::exists(folder.log(run.id))) continue;
-    if (best == nullptr || sign * run.y[column] > sign * best->y[column]) best = &run;
+    if (best == nullptr || sign * run.y[column] < sign * best->y[column]) best = &run;
   }
   return best;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <functional>
@@ -99,6 +100,18 @@ TEST(Problem, LimitsBelongToConstraints) {
             "doe::Problem: response \"production\": goal maximize does not use limit 2 kg/s; remove the "
             "limit or choose "
             "at_most or at_least");
+}
+
+TEST(Problem, SignsOfGoalsTurnToLessIsBetter) {
+  for (const Goal goal : {Goal::minimize, Goal::at_most}) EXPECT_EQ(sign_of(goal), 1.0);
+  for (const Goal goal : {Goal::maximize, Goal::at_least}) EXPECT_EQ(sign_of(goal), -1.0);
+}
+
+TEST(Problem, BoundsAsVectors) {
+  const Problem problem{.variables = {{"alpha", "1", 0.2, 2.0}, {"lip", "m", -1.0, 3.0}},
+                        .responses = {{"fill", "1"}}};
+  EXPECT_EQ(lower_bounds(problem), Eigen::Vector2d(0.2, -1.0));
+  EXPECT_EQ(upper_bounds(problem), Eigen::Vector2d(2.0, 3.0));
 }
 
 TEST(Problem, AnUnknownResponseIsNamedWithTheKnownOnes) {

@@ -7,11 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <drawpoint/doe/processes.hpp>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
+#include <drawpoint/tests/support/shell_processes.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,31 +17,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using support::contents;
+using support::run_all;
 
 class PoolTest : public testing::Test {
  protected:
   Process shell(std::int64_t id, const std::string& script, double time_limit = 0.0) {
-    return {.id = id,
-            .executable = "/bin/sh",
-            .arguments = {"-c", script},
-            .output = folder_ / ("out_" + std::to_string(id)),
-            .time_limit = time_limit};
-  }
-
-  std::map<std::int64_t, ProcessEnd> run_all(const std::vector<Process>& jobs, int at_once) {
-    ProcessPool pool(at_once);
-    std::map<std::int64_t, ProcessEnd> ends;
-    std::size_t next = 0;
-    while (next < jobs.size() || pool.running() > 0) {
-      while (next < jobs.size() && !pool.full()) pool.start(jobs[next++]);
-      EXPECT_LE(pool.running(), at_once);
-      for (const auto& end : pool.wait(milliseconds(100))) ends[end.id] = end;
-    }
-    return ends;
+    return support::shell(folder_, id, script, time_limit);
   }
 
   PoolTest() { std::filesystem::create_directories(folder_); }

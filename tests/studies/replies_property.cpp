@@ -6,52 +6,28 @@
 
 #include <drawpoint/studies/runs/execution.h>
 
-#include <chrono>
-#include <map>
+#include <drawpoint/tests/support/shell_processes.hpp>
 
 namespace drawpoint::studies {
 namespace {
 
-using std::chrono::milliseconds;
 using test::TestFolder;
 
-class ReplyTest : public testing::Test {
- protected:
-  doe::Process shell(std::int64_t id, const std::string& script, double time_limit = 0.0) {
-    return {.id = id,
-            .executable = "/bin/sh",
-            .arguments = {"-c", script},
-            .output = folder_ / ("out_" + std::to_string(id)),
-            .time_limit = time_limit};
-  }
-
-  std::map<std::int64_t, doe::ProcessEnd> run_all(const std::vector<doe::Process>& jobs, int at_once) {
-    doe::ProcessPool pool(at_once);
-    std::map<std::int64_t, doe::ProcessEnd> ends;
-    std::size_t next = 0;
-    while (next < jobs.size() || pool.running() > 0) {
-      while (next < jobs.size() && !pool.full()) pool.start(jobs[next++]);
-      EXPECT_LE(pool.running(), at_once);
-      for (const auto& end : pool.wait(milliseconds(100))) ends[end.id] = end;
-    }
-    return ends;
-  }
-
-  TestFolder folder_;
-};
-
-TEST_F(ReplyTest, ACrashIsAFailureThatNamesTheOutput) {
+TEST(Reply, ACrashIsAFailureThatNamesTheOutput) {
+  const TestFolder folder;
   const auto ends =
-      run_all({shell(1, "echo before the end; echo more >&2; kill -SEGV $$"), shell(2, "kill -SEGV $$")}, 1);
-  EXPECT_EQ(test::contents(folder_ / "out_1"), "before the end\nmore\n");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out_2"));
-  EXPECT_EQ(outcome_of(ends.at(1), folder_ / "out_1").reason(),
+      support::run_all({support::shell(folder.path(), 1, "echo before the end; echo more >&2; kill -SEGV $$"),
+                        support::shell(folder.path(), 2, "kill -SEGV $$")},
+                       1);
+  EXPECT_EQ(test::contents(folder / "out_1"), "before the end\nmore\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out_2"));
+  EXPECT_EQ(outcome_of(ends.at(1), folder / "out_1").reason(),
             "the run's process ended by signal SIGSEGV (Segmentation fault); it printed logs/out_1");
-  EXPECT_EQ(outcome_of(ends.at(2), folder_ / "out_2").reason(),
+  EXPECT_EQ(outcome_of(ends.at(2), folder / "out_2").reason(),
             "the run's process ended by signal SIGSEGV (Segmentation fault)");
 }
 
-TEST_F(ReplyTest, OutcomesSurviveTheChannelBitForBit) {
+TEST(Reply, OutcomesSurviveTheChannelBitForBit) {
   const Eigen::Vector3d y(0.1 + 0.2, -5e-324, 1.7976931348623157e308);
   doe::ProcessEnd end;
   end.reply = reply_text(doe::Outcome(y));

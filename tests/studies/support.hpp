@@ -6,11 +6,11 @@
 #include <drawpoint/studies/store/identity.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <drawpoint/tests/support/files.hpp>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -37,10 +37,7 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-inline std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using support::contents;
 
 inline void write_file(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;

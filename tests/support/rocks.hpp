@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/granular/rock_shapes.hpp>
+#include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 
 /// The six rocks as bodies, for scenes.
@@ -10,9 +10,7 @@ namespace drawpoint::support {
 
 /// One of the six rocks at a longest dimension [m].
 inline engine::RockBody rock_body(int shape, double size, double density = 4500) {
-  const auto scaled = engine::granular::rock_shapes()[shape].scaled(size);
-  const auto properties = engine::mass_properties(scaled, density);
-  return {shared(scaled), properties.mass, properties.inertia.diagonal(), 0};
+  return engine::granular::RockLibrary(density).body({shape, size});
 }
 
 }  // namespace drawpoint::support

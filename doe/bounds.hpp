@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The box of a problem as two vectors, for whatever takes bounds in the order of its columns: kriging::FitOptions, a
+/// search of another library.
+
+#include <Eigen/Core>
+
+#include <drawpoint/doe/problem.hpp>
+
+namespace drawpoint::doe {
+
+/// Length d, natural units.
+inline Eigen::VectorXd lower_bounds(const Problem& problem) {
+  Eigen::VectorXd bounds(static_cast<Eigen::Index>(problem.variables.size()));
+  for (Eigen::Index k = 0; k < bounds.size(); ++k)
+    bounds[k] = problem.variables[static_cast<std::size_t>(k)].lower;
+  return bounds;
+}
+
+/// As lower_bounds().
+inline Eigen::VectorXd upper_bounds(const Problem& problem) {
+  Eigen::VectorXd bounds(static_cast<Eigen::Index>(problem.variables.size()));
+  for (Eigen::Index k = 0; k < bounds.size(); ++k)
+    bounds[k] = problem.variables[static_cast<std::size_t>(k)].upper;
+  return bounds;
+}
+
+}  // namespace drawpoint::doe
