@@ -86,6 +86,9 @@ class Freezing {
   std::vector<int> freeze(const std::vector<Rock>& rocks, const ContactProblem& problem,
                           detail::PairMemory& memory);
 
+  /// Slots of the rock's held contacts, in the order of their colliders.
+  std::vector<int> held_contacts(int rock) const;
+
   const FreezingOptions& options() const { return options_; }
   const FreezingState& state() const { return state_; }
   /// Takes a state over. Throws std::runtime_error when it is of another number of rocks or the memory holds contacts of

@@ -79,6 +79,13 @@ std::vector<int> Freezing::spread_from(std::vector<int> rocks, int contacts_away
   return rocks;
 }
 
+std::vector<int> Freezing::held_contacts(int rock) const {
+  std::vector<int> slots;
+  for (const Partner& partner : bodies_[static_cast<std::size_t>(rock)].partners)
+    slots.push_back(partner.slot);
+  return slots;
+}
+
 void Freezing::sum_held(int rock, const PairMemory& memory) {
   Body& body = bodies_[static_cast<std::size_t>(rock)];
   body.held = {};

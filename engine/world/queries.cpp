@@ -69,23 +69,32 @@ PairImpulse held_pair(const detail::RememberedPair& pair, const detail::HeldLoad
 
 }  // namespace
 
-std::vector<PairForce> World::Impl::pair_forces() const {
+// The solved pairs of colliders that `of` wants, then the held ones of these slots.
+template <class Wanted>
+std::vector<PairForce> World::Impl::forces_of(const Wanted& of, const std::vector<int>& held) const {
   std::vector<PairForce> forces;
   if (last_step == 0) return forces;
   const auto add = [&](const PairImpulse& pair) {
     forces.push_back({scene.owner(pair.collider_a), scene.owner(pair.collider_b), pair.position,
                       pair.impulse / last_step, pair.moment / last_step});
   };
-  for (const ContactPair& pair : contacts.problem().pairs) add(solved_pair(contacts.problem(), pair));
+  for (const ContactPair& pair : contacts.problem().pairs)
+    if (of(pair.collider_a) || of(pair.collider_b)) add(solved_pair(contacts.problem(), pair));
   const detail::PairMemory& memory = contacts.memory();
-  for (const int slot : memory.held())
+  for (const int slot : held)
     add(held_pair(memory.pair(slot), memory.load(slot), scene.origin_of(scene.surface(memory.pair(slot).b))));
   return forces;
 }
 
+std::vector<PairForce> World::Impl::pair_forces() const {
+  return forces_of([](int) { return true; }, contacts.memory().held());
+}
+
 Wrench World::Impl::wrench_on(const SurfaceOwner& body, const Vector3d& about) const {
+  const std::vector<int> held =
+      body.owner == Owner::rock ? freezing.held_contacts(body.index) : std::vector<int>{};
   Wrench sum;
-  for (const PairForce& pair : pair_forces()) {
+  for (const PairForce& pair : forces_of([&](int collider) { return scene.owner(collider) == body; }, held)) {
     const double sign = (pair.b == body ? 1 : 0) - (pair.a == body ? 1 : 0);
     sum.force += sign * pair.force;
     sum.moment += sign * (pair.moment + (pair.position - about).cross(pair.force));

@@ -23,6 +23,8 @@ struct World::Impl {
   void check_solution(const SuperBodySolution& solved) const;
 
   std::vector<PairForce> pair_forces() const;
+  template <class Wanted>
+  std::vector<PairForce> forces_of(const Wanted& of, const std::vector<int>& held) const;
   Wrench wrench_on(const SurfaceOwner& body, const Eigen::Vector3d& about) const;
 
   void thaw(const std::vector<int>& rocks);

@@ -31,6 +31,19 @@ void run(World& world, double time) {
   while (world.time() < time) world.step();
 }
 
+// As rock_wrench() sums them.
+Wrench sum_of_pairs(const World& world, int rock) {
+  const SurfaceOwner owner{Owner::rock, rock};
+  Wrench sum;
+  for (const PairForce& pair : world.pair_forces()) {
+    const double sign = (pair.b == owner ? 1 : 0) - (pair.a == owner ? 1 : 0);
+    const Vector3d arm = pair.position - world.rock(rock).pose.translation();
+    sum.force += sign * pair.force;
+    sum.moment += sign * (pair.moment + arm.cross(pair.force));
+  }
+  return sum;
+}
+
 void expect_tower_at_rest(const World& world) {
   const double weight = g * world.rock(0).body.mass;
   const std::vector<PairForce> pairs = world.pair_forces();
@@ -49,6 +62,9 @@ void expect_tower_at_rest(const World& world) {
   }
   for (int rock : {0, 1}) {
     const Wrench wrench = world.rock_wrench(rock);
+    const Wrench sum = sum_of_pairs(world, rock);
+    EXPECT_EQ(wrench.force, sum.force);
+    EXPECT_EQ(wrench.moment, sum.moment);
     EXPECT_LT((wrench.force - weight * Vector3d::UnitZ()).norm(), 2 * budget * weight);
     EXPECT_LT(wrench.moment.norm(), 2 * budget * weight * 0.4);
   }
