@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The box of a problem as two vectors, for whatever takes bounds in the order of its columns: kriging::FitOptions, a
-/// search of another library.
+/// The box of a problem as two vectors, for whatever takes bounds in the order of its columns:
+/// kriging::FitOptions, a search of another library.
 
 #include <Eigen/Core>
 

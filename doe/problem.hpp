@@ -63,8 +63,8 @@ struct Problem {
 inline bool is_objective(Goal goal) { return goal == Goal::minimize || goal == Goal::maximize; }
 inline bool is_constraint(Goal goal) { return goal == Goal::at_most || goal == Goal::at_least; }
 
-/// 1 where less is better, -1 where more is: times this, an objective is minimised and the excess over a limit is a
-/// violation.
+/// 1 where less is better, -1 where more is: times this, an objective is minimised and the excess over a
+/// limit is a violation.
 inline double sign_of(Goal goal) { return goal == Goal::maximize || goal == Goal::at_least ? -1.0 : 1.0; }
 
 inline std::string_view to_string(VariableKind kind) {

@@ -98,6 +98,17 @@ constexpr double height_round_off = 1e-12;
 /// it, its normals step by 7.5°. Chosen here. More: truer wheels, edges that cost time in every pair.
 constexpr int cylinder_sides = 48;
 
+/// [m] FCL takes boxes that differ by round-off for equal and keeps the older one: it gets boxes larger by
+/// this, and what it finds is checked against the true ones. Chosen here, some 1e5 times the round-off at 1e5
+/// m from the origin. Higher: more candidates to check. Lower: FCL may miss a pair of boxes. Changes no
+/// result.
+constexpr double box_growth = 1e-6;
+
+/// [m], of normals [1] How far the points, centres and normals of a restored finder may be off what its poses
+/// make them. Chosen here; costs nothing. Lower: states of other compilers are refused. Higher: a damaged
+/// state may pass.
+constexpr double restored_round_off = 1e-6;
+
 /// [m] Steps of the speculative margin, so that a speed that wavers does not make contacts be searched anew. Chosen here.
 /// Higher: more candidates that do not touch. Lower: more searches.
 constexpr double speculative_step = 5e-3;
@@ -117,6 +128,11 @@ constexpr double match_distance = 0.03;
 /// of 1e-10 per step. Higher: needles gain energy. Lower: more flows per step.
 constexpr double gyroscopic_angle = 1e-5;
 
+/// [1] The energy after a free rotation over that before, beyond which the angular momentum turns along with
+/// what contacts turned the rock (free_rotation.h). Chosen here. Higher: slender rocks gain energy. Lower:
+/// the momentum of more rocks changes its direction by the extra turn.
+constexpr double energy_rise = 1.1;
+
 /// [√kg] Of the effective mass 1e12 kg of a kinematic body along its motion: 1 MN s per step changes its speed by
 /// 1e-6 m/s. Chosen here. Higher: single precision loses the change. Lower: a blade gives way.
 constexpr double kinematic_root_mass = 1e6;
@@ -124,5 +140,21 @@ constexpr double kinematic_root_mass = 1e6;
 /// [m/s], [rad/s] What a rock may be given, and beyond which (rad/s: ten times) the solution of a step has broken down.
 /// Chosen here, far beyond any mine; squares of it do not overflow single precision.
 constexpr double fastest_input = 1e3, fastest_spin = 1e4, fastest_solution = 1e4;
+
+/// [m] Coordinates of a restored rock. Chosen here: a day's flight at `fastest_solution`; squares of it do
+/// not overflow. Lower: a world whose rocks left it long ago cannot be restored.
+constexpr double farthest_restored = 1e9;
+
+// Freezing (world).
+
+/// [1] Of FreezingOptions::tolerance: a rock freezes at so much unbalance at most, and thaws beyond all of
+/// it. Chosen here. Higher: rocks freeze and thaw in turn, each time with work for their neighbours. Lower:
+/// fewer freeze.
+constexpr double freezing_balance = 0.5;
+
+/// [1] Of FreezingOptions::hold: what a rock touches must have stayed for so long before it freezes. Chosen
+/// here. Higher: the layer of calm rocks around what moves is thicker, and solved. Lower: rocks freeze
+/// against ones that are about to move, and thaw again.
+constexpr double neighbour_hold = 0.5;
 
 }  // namespace drawpoint::engine::constants

@@ -6,6 +6,7 @@
 #include <drawpoint/engine/collision/broad_phase.h>
 #include <drawpoint/engine/collision/pair_sorter.h>
 #include <algorithm>
+#include <drawpoint/engine/base/constants.hpp>
 #include <functional>
 
 namespace drawpoint::engine::detail {
@@ -14,9 +15,6 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-// FCL takes boxes that differ by round-off for equal and keeps the older one. Its boxes are larger by this
-// [m], and what it finds is checked against the true ones.
-constexpr double round_off = 1e-6;
 // Where one box in so many has changed, colliding the trees is cheaper than single look-ups.
 constexpr int full_share = 3;
 constexpr int most_trees = 8;           // a look-up asks each of them
@@ -29,7 +27,7 @@ class BoxObject : public fcl::CollisionObjectd {
   BoxObject(const std::shared_ptr<fcl::CollisionGeometryd>& geometry, int id)
       : fcl::CollisionObjectd(geometry), id_(id) {}
   void set_box(const AlignedBox3d& box) {
-    const Vector3d growth = Vector3d::Constant(round_off);
+    const Vector3d growth = Vector3d::Constant(constants::box_growth);
     aabb = fcl::AABBd(box.min() - growth, box.max() + growth);
   }
   int id() const { return id_; }

@@ -63,7 +63,7 @@ inline void rotate_freely(Eigen::Quaterniond& q, const Eigen::Vector3d& inertia,
   const Eigen::Quaterniond extra = rotation_of(turn - h * w);
   q = (extra * freely_rotated(q, inertia, momentum, h)).normalized();
   w = rate();
-  if (w.dot(momentum) <= 1.1 * energy) return;
+  if (w.dot(momentum) <= constants::energy_rise * energy) return;
   momentum = extra * momentum;
   w = rate();
 }

@@ -3,6 +3,7 @@
 #include <drawpoint/engine/world/freezing.h>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -188,7 +189,7 @@ std::vector<int> Freezing::freeze(const std::vector<Rock>& rocks, const ContactP
       continue;
     const Load& load = loads_[static_cast<std::size_t>(rock)];
     if (load.carried > 0 && !std::binary_search(near_.begin(), near_.end(), rock) &&
-        unbalance(rock) <= 0.5 * options_.tolerance)
+        unbalance(rock) <= constants::freezing_balance * options_.tolerance)
       frozen_now.push_back(rock);
   }
   veto(frozen_now, problem);
@@ -207,7 +208,7 @@ void Freezing::veto(std::vector<int>& candidates, const ContactProblem& problem)
   const auto unsteady = [&](int rock) {
     if (rock == no_rock) return false;
     if (frozen(rock)) return unbalance(rock) > options_.tolerance;
-    return 2 * state_.rocks[static_cast<std::size_t>(rock)].calm < hold_steps_;
+    return state_.rocks[static_cast<std::size_t>(rock)].calm < constants::neighbour_hold * hold_steps_;
   };
   for (const ContactPair& pair : problem.pairs) {
     const int a = rock_of(pair.collider_a), b = rock_of(pair.collider_b);

@@ -73,8 +73,7 @@ FreezingState restored_freezing(ByteReader& in, std::size_t rocks) {
 
 // No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
 void check_motion(const Rock& rock, const ByteReader& in) {
-  constexpr double farthest = 1e9;  // [m]
-  if (rock.pose.translation().cwiseAbs().maxCoeff() > farthest)
+  if (rock.pose.translation().cwiseAbs().maxCoeff() > constants::farthest_restored)
     in.fail("holds a rock more than 1e9 m from the origin");
   if (rock.velocity.cwiseAbs().maxCoeff() > constants::fastest_solution ||
       rock.angular_velocity.cwiseAbs().maxCoeff() > 10 * constants::fastest_solution)
