@@ -26,7 +26,7 @@ class LoadingRun {
         scene_(site_, scenario.drift) {
     site_.world().before_solve(hooks.before_solve);
     describe();
-    log_.texts["pile_recipe"] = pile.provenance.empty() ? "given by the caller" : pile.provenance;
+    log_.texts["pile_provenance"] = pile.provenance.empty() ? "given by the caller" : pile.provenance;
   }
 
   LoadingLog run() {

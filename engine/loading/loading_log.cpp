@@ -252,7 +252,8 @@ LoadingLog read_log(const std::filesystem::path& path) {
   log.completed = file.integer("/", "completed") != 0;
   log.message = file.text("/", "message");
   for (const std::string& name : file.attributes("numbers")) log.numbers[name] = file.number("numbers", name);
-  for (const std::string& name : file.attributes("texts")) log.texts[name] = file.text("texts", name);
+  for (const std::string& name : file.attributes("texts"))
+    log.texts[name == "pile_recipe" ? "pile_provenance" : name] = file.text("texts", name);  // its old name
   log.signals = file.table("signals");
   const std::size_t cycles = file.children("cycles").size();
   for (std::size_t k = 0; k < cycles; ++k) log.cycles.push_back(read_cycle(file, numbered("cycles", k)));

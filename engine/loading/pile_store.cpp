@@ -10,7 +10,7 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-const record::FileKind pile_kind{"drawpoint settled pile", 1};
+const record::FileKind pile_kind{"drawpoint settled pile", 2, 1};
 
 void add_number(std::string& provenance, const std::string& name, double value) {
   char text[32];
@@ -128,7 +128,7 @@ void write_pile(const std::filesystem::path& path, const SettledPile& pile, cons
       for (int column = 0; column < 4; ++column) poses.push_back(rock.pose.matrix()(row, column));
   }
   record::Writer file(path, pile_kind);
-  file.text("/", "recipe", pile_provenance(scenario));
+  file.text("/", "provenance", pile_provenance(scenario));
   file.number("/", "poured_s", pile.poured_s);
   file.integer("/", "timed_out", pile.timed_out);
   file.array("/shape", std::span<const std::int32_t>(shapes));
@@ -139,7 +139,8 @@ void write_pile(const std::filesystem::path& path, const SettledPile& pile, cons
 
 SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenario) {
   const record::Reader file(path, pile_kind);
-  if (file.text("/", "recipe") != pile_provenance(scenario))
+  const std::string provenance = file.text("/", file.version() == 1 ? "recipe" : "provenance");
+  if (provenance != pile_provenance(scenario))
     throw std::runtime_error("loading::read_pile: " + path.string() +
                              " was made for another drift, pile, rock material or solver; remove it to pour "
                              "a new one, or name another file");
@@ -148,8 +149,7 @@ SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenari
   if (sizes.size() != shapes.size() || poses.size() != 12 * shapes.size())
     throw std::runtime_error("loading::read_pile: " + path.string() +
                              " contradicts itself; remove it to pour a new pile");
-  SettledPile pile{
-      {}, file.number("/", "poured_s"), file.integer("/", "timed_out") != 0, file.text("/", "recipe")};
+  SettledPile pile{{}, file.number("/", "poured_s"), file.integer("/", "timed_out") != 0, provenance};
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     granular::PlacedRock rock{{shapes[k], sizes[k]}, Eigen::Isometry3d::Identity()};
     for (int row = 0; row < 3; ++row)

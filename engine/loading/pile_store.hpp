@@ -14,9 +14,9 @@
 /// Rocks are let go low over the growing heap (granular::Emitter), as ore comes down a choked raise, so that
 /// the pile lies at the ore's angle of repose (pile_shape.hpp).
 ///
-/// The file carries what the pile was made from (drift, rocks, materials, step, solver) as one line of text;
-/// reading it for anything else is refused, so that a study can never start from another study's pile
-/// unnoticed.
+/// The file carries what the pile was made from (drift, rocks, materials, step, solver) as one line of text,
+/// its provenance key, which version 1 of the format calls "recipe"; reading it for anything else is refused,
+/// so that a study can never start from another study's pile unnoticed.
 namespace drawpoint::engine::loading {
 
 struct SettledPile {

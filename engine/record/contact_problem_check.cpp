@@ -45,7 +45,7 @@ class Finding {
 void check_body(const SolverBody& body, Finding& find) {
   find.finite(body.velocity, "velocity");
   find.finite(body.angular_velocity, "angular_velocity");
-  find.finite(body.external_velocity_change, "push");
+  find.finite(body.external_velocity_change, "external_velocity_change");
   find.not_negative(body.inverse_mass, "inverse_mass");
   find.finite(body.inverse_inertia, "inverse_inertia");
 }

@@ -20,7 +20,7 @@ using engine::SpatialMap;
 using engine::SuperBody;
 using engine::SuperBodyRow;
 
-const FileKind problem_kind{"drawpoint contact problem", 1};
+const FileKind problem_kind{"drawpoint contact problem", 2, 1};
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& fault) {
   throw std::runtime_error("record::read_contact_problem: " + path.string() + ": " + fault +
@@ -69,7 +69,7 @@ class FieldReader {
 
   template <class Item, class Get>
   void vectors(const std::string& path, std::vector<Item>& items, std::size_t width, Get get) {
-    const Array<double> stored = file_.doubles(path);
+    const Array<double> stored = file_.doubles(stored_path(path));
     if (stored.shape != std::vector<std::size_t>{items.size(), width})
       refuse(path_,
              "/" + path + " is not of " + std::to_string(items.size()) + " rows of " + std::to_string(width));
@@ -89,6 +89,12 @@ class FieldReader {
   }
 
  private:
+  // What version 1 names otherwise.
+  std::string stored_path(const std::string& path) const {
+    const bool renamed = file_.version() == 1 && path == "bodies/external_velocity_change";
+    return renamed ? "bodies/push" : path;
+  }
+
   template <class T>
   std::vector<T> counted(std::vector<T> values, std::size_t count, const std::string& path) const {
     if (values.size() != count)
@@ -104,13 +110,15 @@ class FieldReader {
 template <class Fields>
 void bodies(Fields& f, std::vector<SolverBody>& items) {
   f.units("bodies",
-          "velocity m/s; angular_velocity rad/s; push m/s; inverse_mass 1/kg; inverse_inertia 1/(kg m2)");
+          "velocity m/s; angular_velocity rad/s; external_velocity_change m/s; inverse_mass 1/kg; "
+          "inverse_inertia 1/(kg m2)");
   f.vectors(
       "bodies/velocity", items, 3, [](auto& b) -> auto& { return b.velocity; });
   f.vectors(
       "bodies/angular_velocity", items, 3, [](auto& b) -> auto& { return b.angular_velocity; });
   f.vectors(
-      "bodies/push", items, 3, [](auto& b) -> auto& { return b.external_velocity_change; });
+      "bodies/external_velocity_change", items, 3,
+      [](auto& b) -> auto& { return b.external_velocity_change; });
   f.numbers(
       "bodies/inverse_mass", items, [](auto& b) -> auto& { return b.inverse_mass; });
   f.vectors(

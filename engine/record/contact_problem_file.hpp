@@ -9,11 +9,11 @@
 
 /// A contact problem in a file: everything that a method needs to solve it again, bit for bit.
 ///
-/// Format "drawpoint contact problem", version 1, in the form of record/file.hpp (HDF5, checksummed, written
+/// Format "drawpoint contact problem", version 2, in the form of record/file.hpp (HDF5, checksummed, written
 /// whole or not at all). The root has the step [s] and a note; /bodies, /pairs, /points and, with a machine,
 /// /machine hold one array per field of contact_problem.hpp, one row per body, pair or point, each with its
 /// units in the group's attribute "units". What solving puts out is not in the file. docs/contact-solving.md
-/// lists the fields.
+/// lists the fields. Version 1, which is read still, calls bodies/external_velocity_change bodies/push.
 ///
 /// A problem is checked when written and when read: counts agree, indices are in range, numbers are finite,
 /// the step is positive, normals are unit, limits are ordered. Size: about 150 bytes per point.

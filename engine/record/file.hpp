@@ -25,8 +25,9 @@
 namespace drawpoint::engine::record {
 
 struct FileKind {
-  std::string format;  ///< e.g. "drawpoint loading log"
-  int version = 1;     ///< a reader takes exactly this one
+  std::string format;    ///< e.g. "drawpoint loading log"
+  int version = 1;       ///< what a writer writes
+  int oldest = version;  ///< a reader takes the versions from this one on
 };
 
 /// An array as it was stored; empty shape: no values.
@@ -74,6 +75,8 @@ class Reader {
   ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
+
+  int version() const;  ///< of its format
 
   std::string text(const std::string& group, const std::string& name) const;
   double number(const std::string& group, const std::string& name) const;

@@ -97,6 +97,7 @@ std::string text_of(std::span<const std::byte> bytes) {
 struct Reader::State {
   std::filesystem::path path;
   Handle file;
+  int version = 0;
 
   ~State() {
     const Library library;
@@ -145,16 +146,19 @@ struct Reader::State {
     return {*element, H5Tget_size(stored.get()), shape_of(space.get()), {}};
   }
 
-  void verify(const FileKind& kind) const {
+  // Returns the version.
+  int verify(const FileKind& kind) const {
     const Handle root = object("");
     if (H5Aexists(root.get(), detail::format_name) <= 0 || H5Aexists(root.get(), detail::version_name) <= 0)
       fail("is no " + kind.format + ": it names no format; give a file that Drawpoint wrote");
     const std::string format = text_of(attribute(root.get(), "", detail::format_name).bytes);
     if (format != kind.format) fail("is a " + format + ", not a " + kind.format + "; give the right file");
     const auto version = values_of<std::int64_t>(attribute(root.get(), "", detail::version_name));
-    if (version.size() != 1 || version[0] != kind.version)
+    const std::string oldest = kind.oldest < kind.version ? std::to_string(kind.oldest) + " to " : "";
+    if (version.size() != 1 || version[0] < kind.oldest || version[0] > kind.version)
       fail("has version " + (version.empty() ? "?" : std::to_string(version[0])) + " of its format, not " +
-           std::to_string(kind.version) + "; let it be written anew by this program");
+           oldest + std::to_string(kind.version) + "; let it be written anew by this program");
+    return static_cast<int>(version[0]);
   }
 
   Raw array(const std::string& data_path, Element wanted) const {
@@ -184,10 +188,12 @@ Reader::Reader(std::filesystem::path path, const FileKind& kind) : state_(std::m
   const Library library;
   state_->path = std::move(path);
   state_->open();
-  state_->verify(kind);
+  state_->version = state_->verify(kind);
 }
 
 Reader::~Reader() = default;
+
+int Reader::version() const { return state_->version; }
 
 std::string Reader::text(const std::string& group, const std::string& name) const {
   const Library library;

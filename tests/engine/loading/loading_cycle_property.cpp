@@ -110,7 +110,7 @@ TEST(LoadingCycle, SpillIsWhatTheRunLeft) {
   EXPECT_GE(cycle.front_mass, cycle.spilled_mass + mass - 1e-9);
   EXPECT_GE(cycle.spilled_mass, 0);
   EXPECT_DOUBLE_EQ(rock_spill(log), cycle.spilled_mass / 10e3);
-  EXPECT_EQ(log.texts.at("pile_recipe"), pile.provenance);
+  EXPECT_EQ(log.texts.at("pile_provenance"), pile.provenance);
 }
 
 TEST(LoadingCycle, RefusesABadScenarioByName) {

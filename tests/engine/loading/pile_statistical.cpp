@@ -6,6 +6,7 @@
 #include <cmath>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/record/file.hpp>
 #include <filesystem>
 #include <map>
 
@@ -116,6 +117,35 @@ TEST(SettledPile, IsTheSameBitForBitWhenPouredAgain) {
   ASSERT_EQ(a.rocks.size(), b.rocks.size());
   for (std::size_t k = 0; k < a.rocks.size(); ++k)
     EXPECT_TRUE(a.rocks[k].pose.matrix() == b.rocks[k].pose.matrix());
+}
+
+// Version 1 calls the provenance key "recipe".
+TEST(SettledPile, AFileOfVersionOneIsRead) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "drawpoint_pile_1.h5";
+  const Scenario scenario = small_pile(20e3);
+  const auto write_old = [&](const std::string& provenance) {
+    record::Writer file(path, {"drawpoint settled pile", 1});
+    file.text("/", "recipe", provenance);
+    file.number("/", "poured_s", 1.5);
+    file.integer("/", "timed_out", 0);
+    const std::vector<std::int32_t> shape{2};
+    const std::vector<double> size{0.6}, pose{1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6};
+    file.array("/shape", std::span<const std::int32_t>(shape));
+    file.array("/size", std::span<const double>(size));
+    file.array("/pose", std::span<const double>(pose), {1, 3, 4});
+    file.commit();
+  };
+  write_old(pile_provenance(scenario));
+  const SettledPile read = read_pile(path, scenario);
+  ASSERT_EQ(read.rocks.size(), 1u);
+  EXPECT_EQ(read.rocks[0].spec.size, 0.6);
+  EXPECT_EQ(read.provenance, pile_provenance(scenario));
+  write_pile(path, read, scenario);
+  const record::Reader written(path, {"drawpoint settled pile", 2});
+  EXPECT_EQ(written.text("/", "provenance"), pile_provenance(scenario));
+  write_old("of another drift");
+  EXPECT_THROW(read_pile(path, scenario), std::runtime_error);
+  std::filesystem::remove(path);
 }
 
 TEST(SettledPile, IsReadBackExactlyAndOnlyForItsOwnProvenance) {

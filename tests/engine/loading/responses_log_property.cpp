@@ -122,6 +122,16 @@ void expect_same(const CycleRecord& a, const CycleRecord& b) {
   }
 }
 
+TEST(LoadingLog, AnOldNameOfThePilesProvenanceIsRead) {
+  const Folder folder;
+  LoadingLog log = example_log();
+  log.texts["pile_recipe"] = "length 30";
+  write_log(folder.path / "run.h5", log);
+  const LoadingLog back = read_log(folder.path / "run.h5");
+  EXPECT_EQ(back.texts.at("pile_provenance"), "length 30");
+  EXPECT_FALSE(back.texts.count("pile_recipe"));
+}
+
 TEST(LoadingLog, SurvivesTheDisk) {
   const Folder folder;
   const LoadingLog log = example_log();

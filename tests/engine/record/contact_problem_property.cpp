@@ -100,7 +100,53 @@ std::string complaint(const fs::path& path) {
   }
 }
 
+// One body, without contacts, as the version writes it.
+void write_one_body(const fs::path& path, int version, const std::string& external, double step) {
+  engine::record::Writer writer(path, {"drawpoint contact problem", version});
+  writer.text("/", "note", "one body");
+  writer.number("/", "step", step);
+  const auto doubles = [&](const std::string& at, const std::vector<double>& values, std::size_t width) {
+    writer.array(at, std::span<const double>(values), {values.size() / width, width});
+  };
+  const auto no_numbers = [&](const std::string& group, const std::vector<std::string>& names) {
+    for (const std::string& name : names) writer.array(group + name, std::span<const double>());
+  };
+  const auto no_integers = [&](const std::string& group, const std::vector<std::string>& names) {
+    for (const std::string& name : names) writer.array(group + name, std::span<const std::int32_t>());
+  };
+  doubles("bodies/velocity", {1, 0, 0}, 3);
+  doubles("bodies/angular_velocity", {0, 2, 0}, 3);
+  doubles("bodies/" + external, {0, 0, -0.0981}, 3);
+  doubles("bodies/inverse_inertia", std::vector<double>(9, 0), 9);
+  const std::vector<double> inverse_mass{0.5};
+  writer.array("bodies/inverse_mass", std::span<const double>(inverse_mass));
+  no_integers("pairs/", {"a", "b", "collider_a", "collider_b", "first", "count"});
+  no_numbers("pairs/", {"rolling_arm", "spinning_arm"});
+  doubles("pairs/start", {}, 3);
+  no_integers("points/", {"feature"});
+  no_numbers("points/", {"gap", "stiffness", "damping_time", "friction", "restitution"});
+  for (const char* name : {"position", "arm_a", "arm_b", "normal", "start"})
+    doubles(std::string("points/") + name, {}, 3);
+  writer.commit();
+}
+
 }  // namespace
+
+// Version 1 says push for the external velocity change.
+TEST_F(ContactProblemFile, OldAndNewNamesAreRead) {
+  write_one_body(file("old.h5"), 1, "push", 0.01);
+  write_one_body(file("new.h5"), 2, "external_velocity_change", 0.01);
+  for (const char* name : {"old.h5", "new.h5"}) {
+    const RecordedProblem read = read_contact_problem(file(name));
+    ASSERT_EQ(read.problem.bodies.size(), 1u) << name;
+    EXPECT_EQ(read.problem.bodies[0].external_velocity_change, Eigen::Vector3d(0, 0, -0.0981)) << name;
+    write_contact_problem(file("again.h5"), read.problem);
+    const engine::record::Reader again(file("again.h5"), {"drawpoint contact problem", 2});
+    EXPECT_TRUE(again.has("bodies/external_velocity_change") && !again.has("bodies/push")) << name;
+  }
+  write_one_body(file("newer.h5"), 3, "external_velocity_change", 0.01);
+  EXPECT_NE(complaint(file("newer.h5")).find("has version 3 of its format, not 1 to 2"), std::string::npos);
+}
 
 TEST_F(ContactProblemFile, IsSolvedToTheSameBits) {
   Scene scene;
@@ -194,13 +240,6 @@ TEST_F(ContactProblemFile, UnsoundProblemsAreRefused) {
 
 // A sound file of the right kind with an unsound problem: the reader checks what it read.
 TEST_F(ContactProblemFile, UnsoundFilesAreRefused) {
-  engine::record::Writer writer(file(), {"drawpoint contact problem", 1});
-  writer.text("/", "note", "");
-  writer.number("/", "step", 0);
-  const std::vector<double> none;
-  for (const char* name : {"velocity", "angular_velocity", "push"})
-    writer.array(std::string("bodies/") + name, std::span<const double>(none), {0, 3});
-  writer.array("bodies/inverse_mass", std::span<const double>(none));
-  writer.commit();
+  write_one_body(file(), 2, "external_velocity_change", 0);
   EXPECT_NE(complaint(file()).find("problem.h5"), std::string::npos) << complaint(file());
 }
