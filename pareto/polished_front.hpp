@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <drawpoint/pareto/detail/population.hpp>
@@ -34,9 +36,29 @@ namespace drawpoint::pareto {
 
 inline constexpr int most_polished_objectives = 5;
 
+enum class PolishedFrontStatus {
+  completed,
+  not_polished,  ///< gradients do not help on this front: it is as it was searched
+  empty_front    ///< there was nothing to polish
+};
+
+inline std::string_view to_string(PolishedFrontStatus status) {
+  switch (status) {
+    case PolishedFrontStatus::completed:
+      return "completed";
+    case PolishedFrontStatus::not_polished:
+      return "not_polished";
+    case PolishedFrontStatus::empty_front:
+      return "empty_front";
+  }
+  return "unknown";
+}
+
 struct PolishedFront {
-  Front front;          ///< rows in rising order of the minimised objectives
-  Polishing polishing;  ///< residual of each point, gain, or why it was skipped
+  Front front = {};          ///< rows in rising order of the minimised objectives
+  Polishing polishing = {};  ///< residual of each point, gain
+  PolishedFrontStatus status = PolishedFrontStatus::completed;
+  std::string message = {};  ///< empty when completed
 };
 
 namespace detail {
@@ -170,9 +192,11 @@ inline double gain_of(const Front& before, const Front& after, const doe::Proble
 /// Deterministic. Throws std::invalid_argument as polish does.
 template <class F>
 PolishedFront polished_front(const F& f, const doe::Problem& problem, const Front& searched) {
-  if (searched.X.rows() == 0) return {.front = searched, .polishing = {}};
-  if (const std::string reason = detail::why_not(problem, searched); !reason.empty())
-    return {.front = searched, .polishing = {.skipped = reason}};
+  if (searched.X.rows() == 0)
+    return {
+        .front = searched, .status = PolishedFrontStatus::empty_front, .message = "the front has no points"};
+  if (std::string reason = detail::why_not(problem, searched); !reason.empty())
+    return {.front = searched, .status = PolishedFrontStatus::not_polished, .message = std::move(reason)};
   const Polished first = polish(f, problem, searched);
   PolishedFront result = detail::best_of(detail::polished_points(first, searched, f, problem), problem);
   if (searched.Y.cols() == 1)

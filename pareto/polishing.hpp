@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <string>
 
 namespace drawpoint::pareto {
 
@@ -25,7 +24,6 @@ struct Polishing {
   /// What polishing added to the hypervolume [%], 0 or more to 1e-5; NaN when not polished, for one
   /// objective, and when the front spans none.
   double gain = std::numeric_limits<double>::quiet_NaN();
-  std::string skipped = {};  ///< why the front was not polished; empty when it was, or there is no front
 
   int certified() const { return static_cast<int>((residual.array() <= certified_residual).count()); }
 };

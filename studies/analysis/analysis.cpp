@@ -214,9 +214,12 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
     pareto::PolishedFront found = front_of(input.models, study.problem, store.identity().seed);
     input.front = std::move(found.front);
     input.polishing = std::move(found.polishing);
+    if (found.status == pareto::PolishedFrontStatus::not_polished)
+      input.not_polished = std::move(found.message);
   }
   summary.front = static_cast<int>(input.front.X.rows());
   summary.polishing = input.polishing;
+  summary.not_polished = input.not_polished;
   input.facts = facts(store.identity(), runs);
   for (std::size_t j = 0; j < chosen.size(); ++j)
     input.facts.emplace_back("Model of " + study.problem.responses[j].name, chosen[j]);

@@ -30,7 +30,7 @@ std::string headline_text(const Headline& headline) {
 std::string front_text(const Summary& summary) {
   const pareto::Polishing& polishing = summary.polishing;
   std::string line = "Pareto front: " + std::to_string(summary.front) + " points";
-  if (!polishing.skipped.empty()) return line + ", not polished: " + polishing.skipped;
+  if (!summary.not_polished.empty()) return line + ", not polished: " + summary.not_polished;
   if (polishing.residual.size() == 0) return line;
   line += ", " + std::to_string(polishing.certified()) + " certified (KKT residual at most " +
           doe::detail::number_text(pareto::certified_residual) + ")";
@@ -58,7 +58,7 @@ std::string json_line(const Summary& summary) {
   line["certified"] = polishing.residual.size() > 0 ? nlohmann::ordered_json(polishing.certified())
                                                     : nlohmann::ordered_json();
   line["polishing_gain_percent"] = number_or_null(polishing.gain);
-  if (!polishing.skipped.empty()) line["not_polished"] = polishing.skipped;
+  if (!summary.not_polished.empty()) line["not_polished"] = summary.not_polished;
   line["report"] =
       summary.report.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.report.string());
   if (!summary.error.empty()) line["error"] = summary.error;

@@ -20,7 +20,8 @@ struct Summary {
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
-  pareto::Polishing polishing = {};                        ///< of the front
+  pareto::Polishing polishing = pareto::Polishing();       ///< of the front; GCC 12 warns where this is {}
+  std::string not_polished = {};                           ///< why it was not; empty when it was
   std::filesystem::path report = {};                       ///< empty if there is none
   std::string error = {};                                  ///< why there is none
 };

@@ -77,12 +77,12 @@ json to_json(const kriging::Validation& v) {
 }
 
 /// A residual is null where it is unknown.
-json to_json(const pareto::Polishing& polishing) {
+json to_json(const pareto::Polishing& polishing, const std::string& not_polished) {
   return {{"residual", to_json(polishing.residual)},
           {"certified", polishing.certified()},
           {"tolerance", pareto::certified_residual},
           {"gain", polishing.gain},
-          {"skipped", polishing.skipped}};
+          {"skipped", not_polished}};
 }
 
 json to_json(const doe::Problem& problem, const pareto::Front& front) {
@@ -181,7 +181,7 @@ json report_data(const ReportInput& input) {
           {"models", std::move(models)},
           {"validations", std::move(validations)},
           {"front", to_json(input.problem, input.front)},
-          {"polishing", to_json(input.polishing)},
+          {"polishing", to_json(input.polishing, input.not_polished)},
           {"influence", std::move(shares)},
           {"main_pair", main_pair(input.problem.variables.size(), effects)},
           {"illustrations", std::move(panels)},

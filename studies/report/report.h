@@ -35,6 +35,7 @@ struct ReportInput {
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
   pareto::Polishing polishing;                   ///< of the front
+  std::string not_polished;                      ///< why it was not; empty when it was
   nlohmann::json illustrations =
       nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions

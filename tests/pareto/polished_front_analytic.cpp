@@ -43,7 +43,8 @@ TEST(PolishedFront, LiesOnTheKnownSet) {
   ASSERT_GE(found.front.X.rows(), 30);
   EXPECT_EQ(found.polishing.certified(), found.front.X.rows());
   EXPECT_GT(found.polishing.gain, 0.0);
-  EXPECT_EQ(found.polishing.skipped, "");
+  EXPECT_EQ(found.status, PolishedFrontStatus::completed);
+  EXPECT_EQ(found.message, "");
   for (Eigen::Index i = 0; i < found.front.X.rows(); ++i)
     EXPECT_LE(distance_to_segment(found.front.X.row(i).transpose()), 2.0 * certified_residual);
   EXPECT_TRUE(std::is_sorted(found.front.Y.col(0).begin(), found.front.Y.col(0).end()));
@@ -53,9 +54,13 @@ TEST(PolishedFront, WhatCannotBePolishedStaysAsItIsAndSaysWhy) {
   doe::Problem problem = support::unit_problem(3, 2);
   problem.variables[1] = doe::integer_variable("teeth", "1", 0, 4);
   const PolishedFront found = finished(problem);
-  EXPECT_EQ(found.polishing.skipped, "variable \"teeth\" is integer, and polishing follows gradients");
+  EXPECT_EQ(found.status, PolishedFrontStatus::not_polished);
+  EXPECT_EQ(found.message, "variable \"teeth\" is integer, and polishing follows gradients");
   EXPECT_EQ(found.polishing.residual.size(), 0);
-  EXPECT_EQ(polished_front(smooth_distances, problem, Front{}).front.X.rows(), 0);
+  const PolishedFront none = polished_front(smooth_distances, problem, Front{});
+  EXPECT_EQ(none.front.X.rows(), 0);
+  EXPECT_EQ(to_string(none.status), "empty_front");
+  EXPECT_EQ(none.message, "the front has no points");
 }
 
 }  // namespace
