@@ -12,13 +12,17 @@
 ///   const Front front = search.front();
 ///
 /// `finish(search, f)` is that loop for a black box f; `nsga2(f, problem, options)` is no more than it. A
-/// search keeps copies of its problem and options. `save` writes everything that decides how it goes on;
-/// a search of the same problem and options that `restore`s the file goes on to the same bits, whenever it
-/// was saved and on however many threads (the random numbers are counter-based: a step number is enough).
-/// What may differ: `threads`, `stop` and `progress`. Size of a checkpoint: about 20 bytes per number of the
-/// population and the archive.
+/// search keeps copies of its problem and options. `save` writes everything that decides how it goes on; a
+/// search of the same problem and options that `restore`s the file goes on to the same bits, whenever it was
+/// saved and on however many threads (the random numbers are counter-based: a step number is enough). What
+/// may differ: `threads`, `stop`, `progress`, and the stopping rules, which decide how far a search goes and
+/// not where. With rules that would have let it come as far, a restored search goes on to the same bits as
+/// one that had them from the first, also when it had ended. With rules that would have ended it earlier, it
+/// ends with the generation under way. The hypervolumes of the stall rule are kept while the rule is there.
+/// Size of a checkpoint: about 20 bytes per number of the population and the archive.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -50,7 +54,7 @@ class Search {
 
   /// n x d, natural units, whole numbers where the variable takes no others: the points to be evaluated next.
   /// The same until they are told; no rows once the search has ended.
-  Eigen::MatrixXd ask() const { return breeder_.space().natural(asked_); }
+  Eigen::MatrixXd ask() const { return breeder_.space().natural(asked_.topRows(asked())); }
 
   /// One per row of ask(), for black boxes that take one; no two points of a search share a seed.
   std::vector<doe::Seed> seeds() const;
@@ -66,19 +70,21 @@ class Search {
 
   /// Whole or not at all: a fault leaves the old file. Throws std::runtime_error when it cannot be written.
   void save(const std::filesystem::path& path) const {
-    detail::CheckpointWriter out(detail::identity(problem_, setting_));
+    detail::CheckpointWriter out(detail::head_of(problem_, setting_));
     fields(*this, out);
     write(out);
     doe::write_file(path, out.text());
   }
 
-  /// Into a search of the same kind, problem and options; what it did before is forgotten. Throws
-  /// std::runtime_error, and leaves the search as it was, when the file cannot be read, is cut off or
-  /// altered, or is of another search, problem or other options.
+  /// Into a search of the same kind, problem and options, but for what may differ; what it did before is
+  /// forgotten. Throws std::runtime_error, and leaves the search as it was, when the file cannot be read, is
+  /// cut off or altered, or is of another search, problem or other options.
   void restore(const std::filesystem::path& path) {
-    detail::CheckpointReader in(path, detail::identity(problem_, setting_));
+    detail::CheckpointReader in(path, detail::head_of(problem_, setting_));
     fields(*this, in);
     read(in);
+    course_.forget_unused();
+    if (ended_ && in.rules_differ()) ended_ = course_.end(generation_, evaluations_ + per_generation());
   }
 
  protected:
@@ -95,7 +101,6 @@ class Search {
 
   const detail::Setting& setting() const { return setting_; }
   const detail::Breeder& breeder() const { return breeder_; }
-  bool ended() const { return ended_.has_value(); }
 
   /// By constraint, over all evaluations so far.
   const Eigen::RowVectorXd& largest_violations() const { return largest_; }
@@ -104,18 +109,21 @@ class Search {
     return doe::run_seed(setting_.search.seed, static_cast<std::uint64_t>(step), purpose);
   }
 
+  /// Steps, each of `children` evaluations, that make a generation.
+  int steps() const { return std::max(1, setting_.population / setting_.children); }
+
   /// To be called once per generation, when its evaluations are in. best, worst: as in detail::Course.
   template <class Worst>
-  void close_generation(int generation, const Eigen::MatrixXd& best, const Worst& worst,
-                        int next_evaluations) {
+  void close_generation(int generation, const Eigen::MatrixXd& best, const Worst& worst) {
     generation_ = generation;
     news_ = SearchProgress{generation, evaluations_, failed_, static_cast<int>(best.rows()),
                            course_.measured(best, worst)};
-    ended_ = course_.end(*news_, next_evaluations);
+    ended_ = course_.end(generation_, evaluations_ + per_generation());
   }
 
  private:
-  /// Takes in the evaluated points and gives the next ones, in the unit box; none once the search has ended.
+  /// Takes in the evaluated points and gives the next ones, in the unit box; also at the end, since a longer
+  /// search may go on from there.
   virtual Eigen::MatrixXd next(detail::Population told) = 0;
   virtual detail::Population best() const = 0;
   virtual void write(detail::CheckpointWriter& out) const = 0;
@@ -135,11 +143,14 @@ class Search {
 
   void explain(Front& front) const;
 
+  int per_generation() const { return steps() * setting_.children; }  // evaluations
+  Eigen::Index asked() const { return ended_ ? 0 : asked_.rows(); }
+
   doe::Problem problem_;
   detail::Setting setting_;
   detail::Breeder breeder_;
   detail::Course course_;
-  Eigen::MatrixXd asked_;
+  Eigen::MatrixXd asked_;  // at the end: what would be next
   int generation_ = 0, evaluations_ = 0, failed_ = 0;
   std::string first_reason_;  // of the first failure
   Eigen::RowVectorXd largest_;
@@ -149,7 +160,7 @@ class Search {
 
 inline std::vector<doe::Seed> Search::seeds() const {
   std::vector<doe::Seed> seeds;
-  for (Eigen::Index i = 0; i < asked_.rows(); ++i)
+  for (Eigen::Index i = 0; i < asked(); ++i)
     seeds.push_back(doe::run_seed(setting_.search.seed, static_cast<std::uint64_t>(evaluations_ + i), 0));
   return seeds;
 }

@@ -112,7 +112,6 @@ class Moead : public Search {
       for (const int k : order) replace(told, k);
     }
     close();
-    if (ended()) return {};
     return bred(generation_++);
   }
 
@@ -209,7 +208,7 @@ class Moead : public Search {
       scale();
       return ideal_ + range_;
     };
-    close_generation(generation_, best().Y, worst, static_cast<int>(directions_.rows()));
+    close_generation(generation_, best().Y, worst);
   }
 
   void write(detail::CheckpointWriter& out) const override { fields(*this, out); }

@@ -5,10 +5,10 @@
 /// A search on disk: a text of one item per line.
 ///
 /// First the format and its version, the search, the problem and the options that decide the result, one line
-/// each, so that a file of another search is refused by the line that differs. After the line "state" the
-/// items of the search, a name and its numbers; numbers are the shortest text that reads back as the same
-/// double. The last line is the checksum of all before it (64-bit FNV-1a: against accidents, not against
-/// intent).
+/// each, so that a file of another search is refused by the line that differs; the stopping rules are among
+/// them, but may differ. After the line "state" the items of the search, a name and its numbers; numbers are
+/// the shortest text that reads back as the same double. The last line is the checksum of all before it
+/// (64-bit FNV-1a: against accidents, not against intent).
 
 #include <Eigen/Core>
 #include <charconv>
@@ -56,38 +56,54 @@ inline std::string text_of(const Eigen::MatrixXd& values) {
          doe::detail::checksum(text);
 }
 
-/// Options that all searches share and that decide the result: name and value.
-inline Setting::Named shared_options(const Setting& s) {
-  using doe::detail::number_text;
-  const Stopping& stopping = s.search.stopping;
+/// Options that all searches share and that decide where it starts: name and value.
+inline Setting::Named sizes_and_seed(const Setting& s) {
   return {{"population", std::to_string(s.population)},
           {"children", std::to_string(s.children)},
-          {"seed", std::to_string(s.search.seed)},
-          {"generations", std::to_string(stopping.generations)},
-          {"evaluations", text_of(stopping.evaluations)},
-          {"stall_generations", text_of(stopping.stall_generations)},
-          {"stall_gain", number_text(stopping.stall_gain)},
-          {"crossover_probability", number_text(s.rates.crossover_probability)},
-          {"crossover_index", number_text(s.rates.crossover_index)},
-          {"mutation_probability", number_text(s.rates.mutation_probability)},
-          {"mutation_index", number_text(s.rates.mutation_index)}};
+          {"seed", std::to_string(s.search.seed)}};
 }
 
-/// What a checkpoint must share with the search that goes on from it, one line each.
-inline std::vector<std::string> identity(const doe::Problem& problem, const Setting& s) {
-  std::vector<std::string> lines{std::string(checkpoint_format),
-                                 "search " + s.place.substr(0, s.place.find(": "))};
-  for (const doe::Variable& v : problem.variables) lines.push_back(line_of(v));
-  for (const doe::Response& r : problem.responses) lines.push_back(line_of(r));
-  for (const Setting::Named& options : {shared_options(s), s.own})
-    for (const auto& [name, value] : options) lines.push_back("option " + name + " " + value);
+inline Setting::Named stopping_rules(const Stopping& stopping) {
+  return {{"generations", std::to_string(stopping.generations)},
+          {"evaluations", text_of(stopping.evaluations)},
+          {"stall_generations", text_of(stopping.stall_generations)},
+          {"stall_gain", doe::detail::number_text(stopping.stall_gain)}};
+}
+
+inline Setting::Named rates_of(const Rates& rates) {
+  using doe::detail::number_text;
+  return {{"crossover_probability", number_text(rates.crossover_probability)},
+          {"crossover_index", number_text(rates.crossover_index)},
+          {"mutation_probability", number_text(rates.mutation_probability)},
+          {"mutation_index", number_text(rates.mutation_index)}};
+}
+
+/// Before the state of a checkpoint; the search that goes on from it must have the same.
+struct HeadLine {
+  std::string text;
+  bool stopping_rule = false;  ///< its value may differ
+};
+
+inline std::vector<HeadLine> head_of(const doe::Problem& problem, const Setting& s) {
+  std::vector<HeadLine> lines{{std::string(checkpoint_format)},
+                              {"search " + s.place.substr(0, s.place.find(": "))}};
+  for (const doe::Variable& v : problem.variables) lines.push_back({line_of(v)});
+  for (const doe::Response& r : problem.responses) lines.push_back({line_of(r)});
+  const auto add = [&](const Setting::Named& options, bool stopping_rule = false) {
+    for (const auto& [name, value] : options)
+      lines.push_back({"option " + name + " " + value, stopping_rule});
+  };
+  add(sizes_and_seed(s));
+  add(stopping_rules(s.search.stopping), true);
+  add(rates_of(s.rates));
+  add(s.own);
   return lines;
 }
 
 class CheckpointWriter {
  public:
-  explicit CheckpointWriter(const std::vector<std::string>& identity) {
-    for (const std::string& line : identity) text_ += line + "\n";
+  explicit CheckpointWriter(const std::vector<HeadLine>& head) {
+    for (const HeadLine& line : head) text_ += line.text + "\n";
     text_ += "state\n";
   }
 
@@ -135,7 +151,7 @@ class CheckpointWriter {
 /// Reads what the writer wrote, in the same order. All members throw std::runtime_error.
 class CheckpointReader {
  public:
-  CheckpointReader(const std::filesystem::path& path, const std::vector<std::string>& identity)
+  CheckpointReader(const std::filesystem::path& path, const std::vector<HeadLine>& head)
       : path_(path.string()) {
     std::ifstream file(path, std::ios::binary);
     if (!file) fail("cannot be read; check the name and the permissions");
@@ -144,9 +160,16 @@ class CheckpointReader {
       fail("is no checkpoint that this version reads: its first line is not \"" +
            std::string(checkpoint_format) + "\"");
     cut_checksum();
-    for (const std::string& expected : identity) compare(expected);
+    for (const HeadLine& expected : head) compare(expected);
     if (const std::string found = next(); found != "state") refuse(found, "state");
+    if (rules_differ_ && text_.find("\nasked 0 ", at_ - 1) != std::string::npos)
+      fail(
+          "is of a search that an earlier version ended, which kept no points to go on with; restore it with "
+          "the stopping rules that ended it, or begin the search anew");
   }
+
+  /// Whether a stopping rule of the file differs from that of the search.
+  bool rules_differ() const { return rules_differ_; }
 
   void item(const char* name, int& value) {
     const std::string rest = after(name);
@@ -224,8 +247,12 @@ class CheckpointReader {
       fail("is damaged: its checksum does not fit; take an older copy or begin the search anew");
   }
 
-  void compare(const std::string& expected) {
-    if (const std::string found = next(); found != expected) refuse(found, expected);
+  void compare(const HeadLine& expected) {
+    const std::string found = next();
+    if (found == expected.text) return;
+    const auto name = [](const std::string& line) { return line.substr(0, line.rfind(' ')); };
+    if (!expected.stopping_rule || name(found) != name(expected.text)) refuse(found, expected.text);
+    rules_differ_ = true;
   }
 
   std::string next() {
@@ -252,6 +279,7 @@ class CheckpointReader {
 
   std::string path_, text_;
   std::size_t at_ = 0;
+  bool rules_differ_ = false;
 };
 
 }  // namespace drawpoint::pareto::detail

@@ -40,13 +40,19 @@ class Course {
     return volumes_.back();
   }
 
-  /// next_evaluations: of the next generation.
-  std::optional<StopReason> end(const SearchProgress& now, int next_evaluations) const {
+  /// After a generation; evaluations: with those of the next one.
+  std::optional<StopReason> end(int generation, int evaluations) const {
     if (stalled()) return StopReason::stall;
-    if (now.generation >= stopping_.generations) return StopReason::generations;
-    if (stopping_.evaluations && now.evaluations + next_evaluations > *stopping_.evaluations)
-      return StopReason::evaluations;
+    if (generation >= stopping_.generations) return StopReason::generations;
+    if (stopping_.evaluations && evaluations > *stopping_.evaluations) return StopReason::evaluations;
     return std::nullopt;
+  }
+
+  /// Hypervolumes without a rule that asks for them would have a gap when it comes back.
+  void forget_unused() {
+    if (stopping_.stall_generations) return;
+    reference_.resize(0);
+    volumes_.clear();
   }
 
   template <class Self, class Stream>

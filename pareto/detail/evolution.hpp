@@ -29,10 +29,7 @@ template <Survival S>
 class Evolution : public Search {
  protected:
   Evolution(const doe::Problem& problem, const Setting& setting, S survive)
-      : Search(problem, setting),
-        survive_(std::move(survive)),
-        archive_(setting.archive),
-        steps_(std::max(1, setting.population / setting.children)) {}
+      : Search(problem, setting), survive_(std::move(survive)), archive_(setting.archive) {}
 
  private:
   Eigen::MatrixXd next(Population told) override {
@@ -41,14 +38,11 @@ class Evolution : public Search {
     const Population pool = step == 0 ? std::move(told) : joined(parents_, told);
     const Ranking ranking = rank(pool, largest_violations());
     if (archived()) archive_.add(selected(pool, first_front(ranking, first_new)));
-    if (step % steps_ == 0) close(step, pool, ranking);
-    if (ended() && archived()) return {};
+    if (step % steps() == 0) close(step, pool, ranking);
     doe::RandomStream random(stream(step, survival_stream));
     Parents parents = survive_(pool, ranking, random);
-    Eigen::MatrixXd children;
-    if (!ended())
-      children =
-          breeder().children(parents, setting().children, doe::RandomStream(stream(step, generation_stream)));
+    Eigen::MatrixXd children =
+        breeder().children(parents, setting().children, doe::RandomStream(stream(step, generation_stream)));
     parents_ = std::move(parents.points);
     return children;
   }
@@ -70,8 +64,7 @@ class Evolution : public Search {
   void close(int step, const Population& pool, const Ranking& ranking) {
     const Eigen::MatrixXd front =
         archived() ? archive_.members().Y : Eigen::MatrixXd(pool.Y(first_front(ranking, 0), Eigen::all));
-    close_generation(
-        step / steps_, front, [&] { return worst_feasible(pool, ranking); }, steps_ * setting().children);
+    close_generation(step / steps(), front, [&] { return worst_feasible(pool, ranking); });
   }
 
   /// By objective.
@@ -96,7 +89,6 @@ class Evolution : public Search {
   S survive_;
   Archive archive_;
   Population parents_;
-  int steps_;     // that make a generation
   int step_ = 0;  // the next one's number
 };
 
