@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/clipping.h>
 
+#include <drawpoint/engine/base/constants.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -31,19 +32,24 @@ int reduce_to_four(std::vector<ClipPoint>& points, const Vector3d& along) {
   if (count <= 4) return count;
   const auto deeper = [](const ClipPoint& p, const ClipPoint& q) { return p.gap < q.gap; };
   std::swap(points[0], *std::min_element(points.begin(), points.end(), deeper));
+  const double deepest = points[0].gap;
+  const auto weight = [&](const ClipPoint& p) {
+    const double near = constants::resting_margin / (constants::resting_margin + (p.gap - deepest));
+    return near * near;
+  };
   const auto position = [&](std::size_t k) -> const Vector3d& { return points[k].position; };
-  if (!promote(points, 1, [&](const ClipPoint& p) { return (p.position - position(0)).squaredNorm(); }))
+  if (!promote(points, 1, [&](const ClipPoint& p) { return weight(p) * (p.position - position(0)).squaredNorm(); }))
     return 1;
   const auto area = [&](const Vector3d& from, const Vector3d& to, const Vector3d& p) {
     return along.dot((to - from).cross(p - from));
   };
   if (!promote(points, 2,
-               [&](const ClipPoint& p) { return std::abs(area(position(0), position(1), p.position)); }))
+               [&](const ClipPoint& p) { return weight(p) * std::abs(area(position(0), position(1), p.position)); }))
     return 2;
   // The fourth adds the most area outside the triangle of the first three.
   if (area(position(0), position(1), position(2)) < 0) std::swap(points[1], points[2]);
   const bool wider = promote(points, 3, [&](const ClipPoint& p) {
-    return -std::min({area(position(0), position(1), p.position), area(position(1), position(2), p.position),
+    return -weight(p) * std::min({area(position(0), position(1), p.position), area(position(1), position(2), p.position),
                       area(position(2), position(0), p.position)});
   });
   return wider ? 4 : 3;

@@ -25,6 +25,11 @@ int facing(const CollisionHull& hull, int vertex, const Vector3d& n) {
   return best;
 }
 
+// Of the two faces at an edge, the one that faces the direction n more.
+int facing(const CollisionHull& hull, const HullEdge& edge, const Vector3d& n) {
+  return hull.normals[edge.left].dot(n) < hull.normals[edge.right].dot(n) ? edge.left : edge.right;
+}
+
 void add_anchors(const Vector3d& on_a, const Vector3d& on_b, std::uint32_t feature, ConvexContact& contact) {
   contact.points[static_cast<std::size_t>(contact.count++)] = {on_a, on_b, feature};
 }
@@ -88,7 +93,8 @@ void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, d
   }
 }
 
-void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) const {
+void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, double margin,
+                                       ConvexContact& contact) {
   const HullEdge &a = pair.a.edges[axis.feature.a], &b = pair.b.edges[axis.feature.b];
   const auto [p, q] = nearest_points({pair.a.vertices[a.start], pair.a.vertices[a.end]},
                                      {pair.vertex_b(b.start), pair.vertex_b(b.end)});
@@ -97,6 +103,33 @@ void ConvexContactSearch::edge_contact(const HullPair& pair, const Axis& axis, C
   add_anchors(p, pair.in_b(q),
               feature_number(edge_group, axis.feature.a, static_cast<std::uint32_t>(axis.feature.b)),
               contact);
+  add_flat_points(pair, axis, margin, contact);
+}
+
+// Beside the crossing of two edges, where a face lies nearly across the axis: the shapes touch along a line or an
+// area there, of which the crossing is only the deepest point. Without the others the contact would jump between the
+// ends of what carries a rock at rest, and rock it.
+void ConvexContactSearch::add_flat_points(const HullPair& pair, const Axis& axis, double margin,
+                                          ConvexContact& contact) {
+  const Vector3d n_b = pair.X_AB.linear().transpose() * axis.normal;
+  const int face_a = facing(pair.a, pair.a.edges[axis.feature.a], -axis.normal),
+            face_b = facing(pair.b, pair.b.edges[axis.feature.b], n_b);
+  const double along_a = pair.a.normals[face_a].dot(axis.normal), along_b = -pair.b.normals[face_b].dot(n_b);
+  if (std::max(along_a, along_b) < constants::flat_cosine) return;
+  const bool on_a = along_a >= along_b;
+  Axis flat;
+  flat.feature = on_a ? Feature{FeatureKind::face_a, face_a, -1} : Feature{FeatureKind::face_b, -1, face_b};
+  flat.normal = on_a ? pair.a.normals[face_a] : Vector3d(-(pair.X_AB.linear() * pair.b.normals[face_b]));
+  clip_against(pair, flat, on_a ? face_b : face_a, margin, spare_);
+  const auto middle = [&](const Anchors& p) -> Vector3d { return 0.5 * (p.on_a + pair.X_AB * p.on_b); };
+  const Vector3d crossing = middle(contact.points[0]);
+  for (int k = 0; k < spare_.count; ++k) {
+    const Anchors& point = spare_.points[static_cast<std::size_t>(k)];
+    if ((middle(point) - crossing).norm() < constants::match_distance)
+      contact.points[0].feature = point.feature;  // the same point, told from the face
+    else if (contact.count < 4)
+      contact.points[static_cast<std::size_t>(contact.count++)] = point;
+  }
 }
 
 void ConvexContactSearch::nearest_contact(const HullPair& pair, const Axis& axis, double margin,
@@ -126,7 +159,7 @@ void ConvexContactSearch::touch(const HullPair& pair, const Axis& axis, double m
   contact.feature = axis.feature;
   if (axis.separation > margin) return;
   if (axis.feature.kind == FeatureKind::edges)
-    edge_contact(pair, axis, contact);
+    edge_contact(pair, axis, margin, contact);
   else
     face_contact(pair, axis, margin, contact);
 }

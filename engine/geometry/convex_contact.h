@@ -41,7 +41,8 @@ class ConvexContactSearch {
   void touch(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void clip_against(const HullPair& pair, const Axis& axis, int other, double margin, ConvexContact& contact);
   void face_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
-  void edge_contact(const HullPair& pair, const Axis& axis, ConvexContact& contact) const;
+  void edge_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
+  void add_flat_points(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void nearest_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
 
   AxisSearch axes_;
