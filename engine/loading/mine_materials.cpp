@@ -8,7 +8,7 @@ namespace drawpoint::engine::loading {
 namespace {
 
 // Young's moduli of the source's tables times 0.1 m, but not softer than 1e8 N/m.
-constexpr double rock_stiffness = 1e8, soft_stiffness = 1e8;  // rock on rock; on floor, steel and tyre [N/m]
+constexpr double rock_stiffness = 1e9, soft_stiffness = 1e8;  // rock on rock; on floor, steel and tyre [N/m]
 
 // A tyre's damping ratio is about 0.1: τ = 2 ζ √(m/k) with a quarter of the machine on each.
 engine::Material tyre_on_floor() {
@@ -30,6 +30,7 @@ MineMaterials lindmark2016_materials() {
 
 MineMaterials calibrated_materials() {
   MineMaterials m = with_resistance(lindmark2016_materials(), 0.1, 0);
+  m.rock_rock.stiffness = soft_stiffness;
   m.rock_steel.friction = 0.5;
   return m;
 }

@@ -11,8 +11,10 @@
 ///
 /// Normal law, selectable: *linear*, f = k δ, with k the stiffness of the pair of bodies shared by the points
 /// of its manifold; *Hertz*, f = k_n δ^(3/2) with k_n = (4/3) E* √R*, shared likewise, R* from the radii of
-/// the spheres of the bodies' volumes. Lindmark's (2016) Young's modulus E is read as linear with k = E ℓ,
-/// ℓ = 0.1 m for rock on rock (1e9 N/m); see docs/decisions. Friction: Coulomb with a circular cone. Rolling
+/// the spheres of the bodies' volumes. A stiffness is a choice of accuracy: rocks of 20 to 500 kg in substeps of 0.6 ms
+/// hold still from 1e8 N/m down, where 100 kN on a contact are 1 mm of overlap; with 1e9 N/m a contact answers faster
+/// than a substep, the iterations do not keep up and a pile without rolling resistance creeps
+/// (docs/decisions/0022). Lindmark's (2016) Young's modulus E reads as k = E ℓ, ℓ = 0.1 m: 1e9 N/m. Friction: Coulomb with a circular cone. Rolling
 /// and spinning resistance: moments of at most μ_r R* and μ_s R* times the normal force, once per pair.
 /// Restitution: Newton's law by an impulse stage before the step, for approaches faster than `impact_speed`.
 namespace drawpoint::engine {
@@ -24,7 +26,7 @@ struct Material {
       quiet_NaN();  ///< Coulomb coefficient μ, ≥ 0; no default: it would let rocks slide like ice, or
   ///< hold them
   double rolling = 0;       ///< rolling-resistance coefficient μ_r, ≥ 0
-  double stiffness = 1e9;   ///< linear: k of the pair of bodies [N/m], > 0; Hertz: E* [Pa]
+  double stiffness = 1e8;   ///< linear: k of the pair of bodies [N/m], > 0; Hertz: E* [Pa]
   double damping_time = 0;  ///< SPOOK relaxation time τ [s]; at least two steps are used
   double spinning = 0;      ///< spinning-resistance coefficient μ_s, ≥ 0
   double restitution = 0;   ///< e, 0 to 1

@@ -107,6 +107,47 @@ TEST(Manifold, CrossedEdgesTouchInOnePoint) {
   }
 }
 
+// An octagonal plate of circumradius R stands on one side of its lower face, tilted by t: the two ends of that side touch,
+// the other corners hang up to 2 R cos(π/8) sin t = 7.4 mm over the plane, within the margin. What touches must be
+// among the four points.
+TEST(Manifold, OfManyPointsThoseThatTouchAreKept) {
+  const double R = 0.2, half = 0.05, t = 0.02, apothem = R * std::cos(std::numbers::pi / 8);
+  const Eigen::Quaterniond lying = turn(std::numbers::pi / 2, {1, 0, 0}), tilted = turn(-t, {1, 0, 0});
+  const double height = half * std::cos(t) + apothem * std::sin(t);
+  for (double gap : {-0.001, 0.0, 0.002}) {
+    const auto found = contact_of(
+        {ground}, {share(engine::prism(R, half, 8)), pose_at({0, 0, height + gap}, tilted * lying)});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].count, 4);
+    int lowest = 0;
+    for (int k = 0; k < found[0].count; ++k) lowest += std::abs(found[0].points[k].gap - gap) < round_off;
+    EXPECT_EQ(lowest, 2);
+  }
+}
+
+// A bar on edge lies along x across a block of half width 0.2, tilted by ±t. Its edge meets the block's upper edges at
+// x = ±0.2, at heights h ∓ 0.2 tan t over the block; along the axis, which the bar's edge and the lower of the two span,
+// both are shorter by cos t. Both ends are points, however little the bar tilts, and to whichever side.
+TEST(Manifold, EdgeAcrossANearlyFlatFaceTouchesAtBothEnds) {
+  const auto block = share(box({0.2, 1, 0.1})), bar = share(box({1, 0.1, 0.1}));
+  const double h = -0.0005, radius = 0.1 * std::sqrt(2.0);
+  for (double t : {-0.005, -1e-4, 1e-4, 0.005}) {
+    const Eigen::Quaterniond placed = turn(t, {0, 1, 0}) * turn(std::numbers::pi / 4, {1, 0, 0});
+    const double centre = 0.1 + h + radius / std::cos(t);  // puts the lower edge at height h over x = 0
+    const auto found = contact_of({block}, {bar, pose_at({0, 0, centre}, placed)});
+    ASSERT_EQ(found.size(), 1u);
+    ASSERT_EQ(found[0].count, 2) << "t = " << t;
+    for (double x : {-0.2, 0.2}) {
+      const bool second = std::abs(found[0].points[1].position.x() - x) < 1e-4;
+      const auto& p = found[0].points[second ? 1 : 0];
+      // Half a gap beside the edge, along the normal.
+      EXPECT_NEAR(p.position.x(), x, 0.5 * std::abs(p.gap) * std::abs(std::sin(t)) + round_off);
+      EXPECT_NEAR(p.position.y(), 0, round_off);
+      EXPECT_NEAR(p.gap, (h - x * std::tan(t)) * std::cos(t), round_off);
+    }
+  }
+}
+
 TEST(Manifold, CornerOnAFaceTouchesInOnePoint) {
   // A cube balanced on a corner: its lowest corner is √3/2 below the centre.
   const Eigen::Quaterniond on_corner =
