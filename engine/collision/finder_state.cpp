@@ -17,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::uint64_t mark = 0x3330444e46435044;  // "DPCFND03"
-constexpr double round_off = 1e-6;                  // [m] of recomputed points
+constexpr double point_round_off = 1e-6;            // [m] of recomputed points
 
 std::array<double, 5> numbers_of(const ContactFinderOptions& o) {
   return {o.margin, o.slack, o.reuse_distance, o.reuse_angle, o.hysteresis};
@@ -51,10 +51,10 @@ ColliderState read_collider(const FinderParts& parts, int id, ByteReader& in) {
   state.speculative_margin = in.get<double>("the reach of a collider");
   if (state.speculative_margin < 0) in.fail("holds the reach of a collider that is negative");
   if (!hull) return state;
-  if (!((state.R * hull->centre + state.p - state.centre).norm() <= round_off))
+  if (!((state.R * hull->centre + state.p - state.centre).norm() <= point_round_off))
     in.fail("holds a collider's centre that is not where its pose puts it");
   state.box.min() = in.get_vector("a box"), state.box.max() = in.get_vector("a box");
-  const Vector3d slack = Vector3d::Constant(round_off);
+  const Vector3d slack = Vector3d::Constant(point_round_off);
   const Eigen::AlignedBox3d roomy(state.box.min() - slack, state.box.max() + slack);
   if (state.dirty) return state;
   for (const Vector3d& v : hull->vertices)
@@ -120,7 +120,7 @@ PairEntry read_pair(const Items& items, ByteReader& in, PairState& state) {
     point.feature = in.get<std::uint32_t>();
   }
   if (entry.count > 0) {
-    if (!(std::abs(c.normal.norm() - 1) <= round_off))
+    if (!(std::abs(c.normal.norm() - 1) <= point_round_off))
       in.fail("holds the normal of a pair that has no unit length");
     state.centre = in.get_vector("the stand of a pair"),
     state.orientation = in.get_rotation("the stand of a pair");

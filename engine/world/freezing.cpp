@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int no_rock = -1;
-
 void require(bool fine, const char* name, double value, const char* allowed) {
   if (!fine)
     throw std::invalid_argument(std::string("engine::Freezing: ") + name + " is " + std::to_string(value) +

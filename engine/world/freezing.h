@@ -124,6 +124,8 @@ class Freezing {
   void veto(std::vector<int>& candidates, const ContactProblem& problem) const;
   void list_awake();
 
+  static constexpr int no_rock = -1;  // for a collider that is no rock's
+
   FreezingOptions options_;
   int hold_steps_;
   Eigen::Vector3d weight_;  // h g

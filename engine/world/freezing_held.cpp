@@ -15,8 +15,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int no_rock = -1;
-
 void insert_sorted(std::vector<int>& list, int value) {
   const auto place = std::lower_bound(list.begin(), list.end(), value);
   if (place == list.end() || *place != value) list.insert(place, value);

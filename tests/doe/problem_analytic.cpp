@@ -8,7 +8,9 @@
 #include <functional>
 #include <limits>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 std::string fault_after(const std::function<void(Problem&)>& change) {
@@ -109,4 +111,3 @@ TEST(Problem, AnUnknownResponseIsNamedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

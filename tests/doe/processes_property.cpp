@@ -16,7 +16,9 @@
 #include <thread>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 using std::chrono::milliseconds;
@@ -122,4 +124,3 @@ TEST_F(PoolTest, WhatAChildPrintsIsKeptUnlessItIsNothing) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

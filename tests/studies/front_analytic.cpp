@@ -21,7 +21,9 @@
 #include <functional>
 #include <vector>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using doe::Goal;
@@ -194,4 +196,3 @@ TEST(Front, WithoutAFeasiblePointThereIsNothingToPolish) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

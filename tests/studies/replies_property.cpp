@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// However the process of a run ends, its outcome is known.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/execution.h>
 
 #include <chrono>
 #include <map>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using std::chrono::milliseconds;
@@ -63,4 +65,3 @@ TEST_F(ReplyTest, OutcomesSurviveTheChannelBitForBit) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies
