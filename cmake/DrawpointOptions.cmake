@@ -7,6 +7,7 @@ option(DRAWPOINT_BUILD_STUDIES "Build the study runner and the studies (needs th
 option(DRAWPOINT_BUILD_TESTS "Build the tests (needs GoogleTest, RapidCheck)" ${PROJECT_IS_TOP_LEVEL})
 option(DRAWPOINT_BUILD_FUZZERS "Build the fuzz targets of tests/fuzz (needs Clang)" OFF)
 option(DRAWPOINT_BUILD_BENCHMARKS "Build the benchmarks (needs Google Benchmark, CLI11, nlohmann-json)" ${PROJECT_IS_TOP_LEVEL})
+option(DRAWPOINT_JOIN_SOURCES "Compile several sources at a time (off: each by itself, as clang-tidy wants them)" ON)
 option(DRAWPOINT_INSTALL "Create the install rules" ${PROJECT_IS_TOP_LEVEL})
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

@@ -20,12 +20,25 @@ function(drawpoint_precompile target)
   target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
-# drawpoint_tests(MODULE STEMS stem... [LIBRARIES library...] [OPTIONS option...]): one program test_MODULE of all the files,
+# GCC takes the types of a .cpp that it meets through #include for types of a header.
+set(drawpoint_joined_flags $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+
+# drawpoint_join(TARGET GROUP FILE...): compiles the files as one, so that the templates that they share are instantiated once.
+# What is in their anonymous namespaces needs names that are unique among them.
+function(drawpoint_join target group)
+  if(DRAWPOINT_JOIN_SOURCES)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    target_compile_options(${target} PRIVATE ${drawpoint_joined_flags})
+  endif()
+endfunction()
+
+# drawpoint_tests(MODULE STEMS stem... [LIBRARIES library...]): one program test_MODULE of all the files,
 # and one ctest entry MODULE.stem per file, which runs the tests that the file defines. Its label is the stem's suffix, so that
-# `ctest -L analytic` runs every *_analytic.cpp. The target tests_of_MODULE builds all programs of a module. Tests of
-# headers alone are optimised little: they compile faster than they would run.
+# `ctest -L analytic` runs every *_analytic.cpp. The target tests_of_MODULE builds all programs of a module. Tests are optimised
+# little: what is saved in compiling them is more than what they then take longer to run.
 function(drawpoint_tests module)
-  cmake_parse_arguments(arg "" "PROGRAM" "STEMS;LIBRARIES;OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "" "PROGRAM" "STEMS;LIBRARIES" ${ARGN})
   set(target test_${module})
   if(arg_PROGRAM)
     set(target test_${arg_PROGRAM})
@@ -34,13 +47,10 @@ function(drawpoint_tests module)
   add_executable(${target} ${files})
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} drawpoint_build_flags GTest::gtest_main)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${target} PRIVATE ${arg_OPTIONS})
+    target_compile_options(${target} PRIVATE -O1)
   endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  list(LENGTH files count)
-  if(count GREATER 4)
-    drawpoint_precompile(${target} Eigen/Dense gtest/gtest.h algorithm cmath string vector)
-  endif()
+  drawpoint_join_tests(${target} ${files})
   if(NOT TARGET tests_of_${module})
     add_custom_target(tests_of_${module})
   endif()
@@ -55,6 +65,30 @@ function(drawpoint_tests module)
   # What no file's filter names would never run.
   add_test(NAME ${module}.${target}_all_tests_are_listed COMMAND ${target} "--gtest_filter=-${all}")
   set_tests_properties(${module}.${target}_all_tests_are_listed PROPERTIES LABELS ${module} PASS_REGULAR_EXPRESSION "Running 0 tests")
+endfunction()
+
+# drawpoint_join_tests(TARGET FILE...): compiles up to 13 files of tests at a time, so that the templates that they all use are
+# instantiated once. Each file stands in a namespace of its own, after all headers of all files: names need to be unique
+# in their file only. So such a file names its own headers in <>, and opens no namespace of the tree.
+function(drawpoint_join_tests target)
+  list(LENGTH ARGN count)
+  if(NOT DRAWPOINT_JOIN_SOURCES OR count LESS 2)
+    return()
+  endif()
+  set(headers)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${file} lines REGEX "^#include <")
+    list(APPEND headers ${lines})
+  endforeach()
+  list(REMOVE_DUPLICATES headers)
+  list(JOIN headers "\n" headers)
+  set(all_headers ${CMAKE_CURRENT_BINARY_DIR}/${target}_headers.hpp)
+  file(CONFIGURE OUTPUT ${all_headers} CONTENT "#pragma once\n${headers}\n" @ONLY)
+  math(EXPR batches "(${count} + 12) / 13")
+  math(EXPR size "(${count} + ${batches} - 1) / ${batches}")
+  target_compile_options(${target} PRIVATE ${drawpoint_joined_flags})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size} UNITY_BUILD_UNIQUE_ID this_file
+    UNITY_BUILD_CODE_BEFORE_INCLUDE "#include \"${all_headers}\"\nnamespace this_file {" UNITY_BUILD_CODE_AFTER_INCLUDE "}")
 endfunction()
 
 # drawpoint_test_filter(FILE OUTPUT): the GoogleTest filter for the tests that the file defines.

@@ -13,12 +13,12 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-constexpr double window = 0.01;  // [s]
+constexpr double cycle_window = 0.01;  // [s]
 
 double mean_bucket_force(const engine::loading::LoadingLog& log, double step) {
   const auto component = [&](const char* name) {
     return block_means(log.signals.column(name),
-                       static_cast<std::size_t>(std::max(1, steps_in(window, step))));
+                       static_cast<std::size_t>(std::max(1, steps_in(cycle_window, step))));
   };
   const auto x = component("hinge_G_force_x"), y = component("hinge_G_force_y"),
              z = component("hinge_G_force_z");

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::vector<HullEdge> edges_of(const std::vector<std::vector<int>>& faces, const CollisionHull& hull) {
   std::map<std::pair<int, int>, int> left;
@@ -45,7 +45,7 @@ CollisionHull::CollisionHull(const ConvexPolyhedron& shape)
       equivalent_radius(std::cbrt(3 * shape.volume() / (4 * std::numbers::pi))) {
   for (const Vector3d& normal : normals) {
     // The outermost vertex, not the first: all vertices lie below every plane whatever the round-off.
-    double offset = -infinity;
+    double offset = -unbounded;
     for (const Vector3d& p : vertices) offset = std::max(offset, normal.dot(p));
     offsets.push_back(offset);
   }
@@ -89,7 +89,7 @@ void CollisionHull::lay_out() {
     x[k] = p.x(), y[k] = p.y(), z[k] = p.z();
   }
   for (auto* array : {&nx, &ny, &nz}) array->setZero(padded(face_count()));
-  no.setConstant(padded(face_count()), infinity);
+  no.setConstant(padded(face_count()), unbounded);
   for (int f = 0; f < face_count(); ++f)
     nx[f] = normals[f].x(), ny[f] = normals[f].y(), nz[f] = normals[f].z(), no[f] = offsets[f];
 }

@@ -30,7 +30,7 @@ std::string too_flat(double extent) {
   return text.str();
 }
 
-struct Plane {
+struct FacePlane {
   Vector3d normal;
   double offset;
 };
@@ -55,7 +55,7 @@ double extent_of(std::span<const Vector3d> points) {
 }
 
 // +1 or -1 when all points lie below the plane or its reverse, 0 when it cuts the set.
-int side(const std::vector<Vector3d>& points, const Plane& plane, double tolerance) {
+int side(const std::vector<Vector3d>& points, const FacePlane& plane, double tolerance) {
   bool above = false, below = false;
   for (const Vector3d& p : points) {
     const double distance = plane.normal.dot(p) - plane.offset;
@@ -125,7 +125,7 @@ class Search {
     const Vector3d u = points_[t[1]] - points_[t[0]], v = points_[t[2]] - points_[t[0]], area = u.cross(v);
     const double longest = std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()}));
     if (area.norm() < constants::least_triple_height * extent_ * longest || known(t)) return;
-    Plane plane{area.normalized(), 0};
+    FacePlane plane{area.normalized(), 0};
     plane.offset = plane.normal.dot(points_[t[0]]);
     const int outward = side(points_, plane, tolerance_);
     if (outward == 0) return;

@@ -22,7 +22,7 @@ constexpr double slab = 0.5;  // thickness of the roof [m]
 // The ring covers the corners of the roof's square opening, at 1.41 of its radius.
 constexpr double ring_share = 0.45;
 
-void require(bool fine, const char* name, double value, const char* allowed) {
+void require_dimension(bool fine, const char* name, double value, const char* allowed) {
   if (!fine)
     throw std::invalid_argument("loading::Drift: " + std::string(name) + " is " + std::to_string(value) +
                                 " m; allowed: " + allowed);
@@ -84,16 +84,19 @@ void add_back_wall(engine::World& world, const Drift& d) {
 }  // namespace
 
 void check(const Drift& d) {
-  require(d.length >= 10 && d.length <= 200, "length", d.length, "10 to 200 m");
-  require(d.width >= 3.6 && d.width <= 20, "width", d.width, "3.6 m (bucket and clearance) to 20 m");
-  require(d.height >= 3.5 && d.height <= 20, "height", d.height, "3.5 m (the machine is 3 m high) to 20 m");
-  require(d.raise_radius >= 1 && 2 * d.raise_radius < d.width, "raise radius", d.raise_radius,
-          "1 m to half the drift's width");
-  require(d.raise_widening >= 0 && d.raise_widening <= 1, "raise widening (m per m)", d.raise_widening,
-          "0 to 1");
-  require(d.wall_roughness == 0 || (d.wall_roughness >= 0.2 && d.wall_roughness <= 2), "wall roughness",
-          d.wall_roughness, "0 (smooth) or 0.2 to 2 m");
-  require(d.raise_height > d.height + 1, "raise height", d.raise_height, "more than a metre above the roof");
+  require_dimension(d.length >= 10 && d.length <= 200, "length", d.length, "10 to 200 m");
+  require_dimension(d.width >= 3.6 && d.width <= 20, "width", d.width,
+                    "3.6 m (bucket and clearance) to 20 m");
+  require_dimension(d.height >= 3.5 && d.height <= 20, "height", d.height,
+                    "3.5 m (the machine is 3 m high) to 20 m");
+  require_dimension(d.raise_radius >= 1 && 2 * d.raise_radius < d.width, "raise radius", d.raise_radius,
+                    "1 m to half the drift's width");
+  require_dimension(d.raise_widening >= 0 && d.raise_widening <= 1, "raise widening (m per m)",
+                    d.raise_widening, "0 to 1");
+  require_dimension(d.wall_roughness == 0 || (d.wall_roughness >= 0.2 && d.wall_roughness <= 2),
+                    "wall roughness", d.wall_roughness, "0 (smooth) or 0.2 to 2 m");
+  require_dimension(d.raise_height > d.height + 1, "raise height", d.raise_height,
+                    "more than a metre above the roof");
 }
 
 void add_drift(engine::World& world, const Drift& drift) {

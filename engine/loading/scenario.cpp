@@ -7,7 +7,7 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-void require(bool fine, const std::string& name, double value, const std::string& allowed) {
+void require_setting(bool fine, const std::string& name, double value, const std::string& allowed) {
   if (!fine)
     throw std::invalid_argument("loading::Scenario: " + name + " is " + std::to_string(value) +
                                 "; allowed: " + allowed);
@@ -37,12 +37,12 @@ Scenario lh621_at_lindmark2016_scale() {
 void check(const Scenario& s) {
   check(s.strategy);
   check(s.drift);
-  require(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
-  require(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
-  require(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");
-  require(s.pile.density >= 1000 && s.pile.density <= 10000, "rock density [kg/m3]", s.pile.density,
-          "1000 to 10 000 kg/m3");
-  require(s.frame_interval > 0, "frame interval [s]", s.frame_interval, "above 0 s");
+  require_setting(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
+  require_setting(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
+  require_setting(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");
+  require_setting(s.pile.density >= 1000 && s.pile.density <= 10000, "rock density [kg/m3]", s.pile.density,
+                  "1000 to 10 000 kg/m3");
+  require_setting(s.frame_interval > 0, "frame interval [s]", s.frame_interval, "above 0 s");
 }
 
 }  // namespace drawpoint::engine::loading

@@ -17,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int world_body = 0;            // problem().bodies[0] never moves
-constexpr int bodies_per_block = 128;    // that a thread takes at a time
+constexpr int awake_per_block = 128;     // that a thread takes at a time
 constexpr int manifolds_per_block = 64;  // that a thread takes at a time
 constexpr int pairs_ahead = 4;           // whose rocks are prefetched
 
@@ -47,7 +47,7 @@ void ContactAssembly::fill_bodies(const std::vector<int>& awake) {
   problem_.bodies.resize(awake.size() + 1);
   problem_.bodies[world_body] = SolverBody();
   body_of_rock_.assign(rocks.size(), world_body);
-  pool_->blocks(static_cast<int>(awake.size()), bodies_per_block, [&](int first, int last) {
+  pool_->blocks(static_cast<int>(awake.size()), awake_per_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) {
       const Rock& rock = rocks[awake[k]];
       SolverBody& body = problem_.bodies[k + 1];

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int world_body = 0;  // fixed surroundings are one body
+constexpr int body_of_surroundings = 0;  // all of them are one body
 constexpr int no_family = 0, fixed_family = 1, machine_family = 2;
 constexpr int detached = -2;          // index of a part's surface whose machine was detached
 constexpr int rocks_per_block = 128;  // that a thread takes at a time
@@ -116,9 +116,9 @@ int Scene::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3
   check_pose("World::add_static", pose);
   check_material("World::add_static", material, materials_.kinds());
   const Shape* added = shape.get();
-  const int id =
-      add_surface("World::add_static", {{Owner::fixed, -1}, material},
-                  {std::move(shape), world_body, fixed_family, false, Eigen::Isometry3d::Identity()});
+  const int id = add_surface(
+      "World::add_static", {{Owner::fixed, -1}, material},
+      {std::move(shape), body_of_surroundings, fixed_family, false, Eigen::Isometry3d::Identity()});
   finder_.set_pose(id, pose);
   hash_surface(id, *added, pose);
   return id;

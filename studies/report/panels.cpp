@@ -17,24 +17,24 @@ namespace {
 using nlohmann::json;
 using Pose = std::array<double, 7>;
 
-[[noreturn]] void reject(const std::string& what) { throw std::invalid_argument(what); }
+[[noreturn]] void reject_panel(const std::string& what) { throw std::invalid_argument(what); }
 
 std::string quoted(const std::string& name) { return '"' + name + '"'; }
 
 const json& member(const json& object, const char* name) {
-  if (!object.is_object() || !object.contains(name)) reject(quoted(name) + " is missing");
+  if (!object.is_object() || !object.contains(name)) reject_panel(quoted(name) + " is missing");
   return object.at(name);
 }
 
 const json& list(const json& object, const char* name) {
   const json& value = member(object, name);
-  if (!value.is_array()) reject(quoted(name) + " is not a list");
+  if (!value.is_array()) reject_panel(quoted(name) + " is not a list");
   return value;
 }
 
 void check_curve(const json& curve, const char* x, const char* y) {
   if (list(curve, x).size() != list(curve, y).size())
-    reject(quoted(x) + " and " + quoted(y) + " differ in length");
+    reject_panel(quoted(x) + " and " + quoted(y) + " differ in length");
 }
 
 void check_path(const json& panel) {
@@ -56,7 +56,8 @@ void check_lines(const json& panel) {
 void check_table(const json& panel) {
   const std::size_t columns = list(panel, "columns").size();
   for (const json& row : list(panel, "rows"))
-    if (!row.is_array() || row.size() != columns) reject("a row has not as many cells as there are columns");
+    if (!row.is_array() || row.size() != columns)
+      reject_panel("a row has not as many cells as there are columns");
 }
 
 void check_shapes(const json& panel) {
@@ -65,23 +66,24 @@ void check_shapes(const json& panel) {
     for (const json& face : list(shape, "faces"))
       for (const json& corner : face)
         if (corner.get<std::size_t>() >= corners)
-          reject("a face names a vertex that its shape does not have");
+          reject_panel("a face names a vertex that its shape does not have");
   }
   const std::size_t shapes = panel.at("shapes").size();
   for (const json& body : list(panel, "bodies"))
-    if (member(body, "shape").get<std::size_t>() >= shapes) reject("a body names a shape that is not there");
+    if (member(body, "shape").get<std::size_t>() >= shapes)
+      reject_panel("a body names a shape that is not there");
 }
 
 void check_frames(const json& panel) {
   const json& frames = list(panel, "frames");
-  if (frames.empty()) reject("there are no frames");
+  if (frames.empty()) reject_panel("there are no frames");
   for (const json& frame : frames) {
-    if (!member(frame, "t").is_number()) reject("a frame's time is not a number");
+    if (!member(frame, "t").is_number()) reject_panel("a frame's time is not a number");
     if (list(frame, "poses").size() != panel.at("bodies").size())
-      reject("a frame has not one pose for every body");
+      reject_panel("a frame has not one pose for every body");
   }
   if (panel.value("poster_frame", std::size_t{0}) >= frames.size())
-    reject("the poster frame is not among the frames");
+    reject_panel("the poster frame is not among the frames");
 }
 
 /// Poses of all frames in a row, absent bodies as NaN.
@@ -169,7 +171,7 @@ json checked_scene(const json& panel) {
 json checked(const json& panel) {
   const std::string type = member(panel, "type").get<std::string>();
   for (const char* name : {"title", "caption"})
-    if (!member(panel, name).is_string()) reject(quoted(name) + " is not a text");
+    if (!member(panel, name).is_string()) reject_panel(quoted(name) + " is not a text");
   if (type == "scene") return checked_scene(panel);
   if (type == "path")
     check_path(panel);
@@ -178,7 +180,7 @@ json checked(const json& panel) {
   else if (type == "table")
     check_table(panel);
   else
-    reject("the type " + quoted(type) + " is none of path, scene, lines, table");
+    reject_panel("the type " + quoted(type) + " is none of path, scene, lines, table");
   return panel;
 }
 

@@ -10,22 +10,22 @@
 namespace drawpoint::studies {
 namespace {
 
-[[noreturn]] void refuse(const Folder& folder, const std::string& difference) {
+[[noreturn]] void refuse_folder(const Folder& folder, const std::string& difference) {
   throw UsageError("studies: " + folder.path.string() + " holds another study: " + difference +
                    "; choose another folder with --out, or move this one away");
 }
 
 void require_same_options(const Identity& stored, const Settings& settings, const Folder& folder) {
   if (settings.seed && *settings.seed != stored.seed) {
-    refuse(folder,
-           "seed " + std::to_string(stored.seed) + " there, " + std::to_string(*settings.seed) + " here");
+    refuse_folder(folder, "seed " + std::to_string(stored.seed) + " there, " +
+                              std::to_string(*settings.seed) + " here");
   }
   if (settings.replicates && *settings.replicates != stored.replicates) {
-    refuse(folder, "replicates " + std::to_string(stored.replicates) + " there, " +
-                       std::to_string(*settings.replicates) + " here");
+    refuse_folder(folder, "replicates " + std::to_string(stored.replicates) + " there, " +
+                              std::to_string(*settings.replicates) + " here");
   }
   const std::string other = difference(stored.options, settings.options, true);
-  if (!other.empty()) refuse(folder, other);
+  if (!other.empty()) refuse_folder(folder, other);
 }
 
 Store new_store(const Study& study, const Folder& folder, const Settings& settings) {
@@ -49,12 +49,12 @@ Store open_store(const Study& study, const Folder& folder) {
   Store store = Store::open(folder.store());
   const Identity& stored = store.identity();
   if (stored.study != study.name)
-    refuse(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");
+    refuse_folder(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");
   const std::string text = difference(stored.problem, study.problem);
-  if (!text.empty()) refuse(folder, text);
+  if (!text.empty()) refuse_folder(folder, text);
   // Values are the folder's own; only what options there are is the program's.
   const std::string other = difference(stored.options, with_defaults(study.options, stored.options), false);
-  if (!other.empty()) refuse(folder, other);
+  if (!other.empty()) refuse_folder(folder, other);
   return store;
 }
 

@@ -23,7 +23,7 @@ std::string changed(const std::string& subject, const std::string& there, const 
   return subject + " " + there + " there, " + here + " here";
 }
 
-std::string difference(const doe::Variable& there, const doe::Variable& here) {
+std::string between(const doe::Variable& there, const doe::Variable& here) {
   const std::string subject = "variable " + quoted(here.name) + ": ";
   if (there.unit != here.unit) return changed(subject + "unit", quoted(there.unit), quoted(here.unit));
   if (there.lower != here.lower)
@@ -37,7 +37,7 @@ std::string difference(const doe::Variable& there, const doe::Variable& here) {
   return "";
 }
 
-std::string difference(const doe::Response& there, const doe::Response& here) {
+std::string between(const doe::Response& there, const doe::Response& here) {
   const std::string subject = "response " + quoted(here.name) + ": ";
   if (there.unit != here.unit) return changed(subject + "unit", quoted(there.unit), quoted(here.unit));
   if (there.goal != here.goal) return changed(subject + "goal", name_of(there.goal), name_of(here.goal));
@@ -54,12 +54,12 @@ std::string names_of(const std::vector<Item>& items) {
 }
 
 template <class Item>
-std::string difference(const std::vector<Item>& there, const std::vector<Item>& here,
-                       const std::string& what) {
+std::string between_lists(const std::vector<Item>& there, const std::vector<Item>& here,
+                          const std::string& what) {
   if (names_of(there) != names_of(here))
     return changed("the " + what + " are", names_of(there), names_of(here));
   for (std::size_t i = 0; i < here.size(); ++i) {
-    const std::string text = difference(there[i], here[i]);
+    const std::string text = between(there[i], here[i]);
     if (!text.empty()) return text;
   }
   return "";
@@ -68,8 +68,8 @@ std::string difference(const std::vector<Item>& there, const std::vector<Item>& 
 }  // namespace
 
 std::string difference(const doe::Problem& there, const doe::Problem& here) {
-  const std::string text = difference(there.variables, here.variables, "variables");
-  return text.empty() ? difference(there.responses, here.responses, "responses") : text;
+  const std::string text = between_lists(there.variables, here.variables, "variables");
+  return text.empty() ? between_lists(there.responses, here.responses, "responses") : text;
 }
 
 }  // namespace drawpoint::studies

@@ -21,7 +21,7 @@ using detail::with_context;
 
 constexpr int application_id = 0x44727770;
 constexpr int schema_version = 2;
-constexpr int patience = 30000;  // [ms] for another program that reads the file
+constexpr int lock_patience = 30000;  // [ms] for another program that reads the file
 
 std::string now() {
   const std::time_t time = std::time(nullptr);
@@ -132,7 +132,7 @@ Store Store::create(const fs::path& file, const Identity& identity) {
   fs::remove(draft, ignored);
   fs::remove(draft.string() + "-journal", ignored);
   with_context(draft, [&] {
-    SQLite::Database database(draft.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience);
+    SQLite::Database database(draft.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, lock_patience);
     SQLite::Transaction transaction(database);
     database.exec("PRAGMA application_id = " + std::to_string(application_id));
     database.exec("PRAGMA user_version = " + std::to_string(schema_version));
@@ -147,7 +147,8 @@ Store Store::create(const fs::path& file, const Identity& identity) {
 
 Store Store::open(const fs::path& file) {
   return with_context(file, [&] {
-    Store store(file, std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE, patience));
+    Store store(file,
+                std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE, lock_patience));
     store.check_format();
     store.read_identity();
     return store;

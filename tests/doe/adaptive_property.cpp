@@ -11,7 +11,9 @@
 #include <filesystem>
 #include <numbers>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 /// A hill with a steep peak in its middle: bends for r < 1 alone, in a box that is mostly flat.
@@ -164,4 +166,3 @@ TEST(Refine, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

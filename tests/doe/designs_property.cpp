@@ -15,7 +15,9 @@
 #include <functional>
 #include <set>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 using support::inside;
@@ -221,4 +223,3 @@ TEST(FullFactorial, TheBoundsAreLevels) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -11,7 +11,9 @@
 #include <set>
 #include <thread>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 using std::chrono::milliseconds;
@@ -145,4 +147,3 @@ TEST(EvaluateControl, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -11,7 +11,9 @@
 #include <limits>
 #include <set>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 /// A noisy formula that fails in every way that a run can fail, depending on the point.
@@ -197,4 +199,3 @@ TEST(Evaluate, AnEmptyDesignGivesAnEmptyTable) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

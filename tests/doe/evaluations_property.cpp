@@ -13,7 +13,9 @@
 #include <fstream>
 #include <sstream>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +217,3 @@ TEST(EvaluationsCsv, AFailedWriteLeavesTheOldFileAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -11,7 +11,9 @@
 #include <drawpoint/tests/doe/designs.hpp>
 #include <set>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 Problem coded_problem(int d) {
@@ -183,4 +185,3 @@ TEST(ResponseSurfaceDesigns, IntegersAreRoundedAndBadInputRefused) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

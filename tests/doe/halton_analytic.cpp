@@ -9,7 +9,9 @@
 #include <drawpoint/tests/doe/designs.hpp>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 // Digits mirrored by hand: 1/2, 1/4, 3/4, 1/8, 5/8 and 1/3, 2/3, 1/9, 4/9, 7/9. Sums of at most three terms.
@@ -72,4 +74,3 @@ TEST(Halton, TooManyVariablesAreRefused) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -6,7 +6,9 @@
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 // Values of an independent NumPy implementation of splitmix64 and of the same Latin hypercube, printed with
@@ -28,4 +30,3 @@ TEST(LatinHypercube, TheTestDesignOf2000Runs) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

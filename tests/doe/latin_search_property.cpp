@@ -12,7 +12,9 @@
 #include <set>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 using support::is_latin;
@@ -216,4 +218,3 @@ TEST(LatinSearch, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

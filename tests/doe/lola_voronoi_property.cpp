@@ -10,7 +10,9 @@
 #include <drawpoint/doe/lola_voronoi.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 double bumpy(const Eigen::VectorXd& x) { return std::sin(9 * x[0]) * x[1] + x[1] * x[1]; }
@@ -198,4 +200,3 @@ TEST(LolaVoronoi, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -10,7 +10,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <numbers>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 // Sums of at most 12 norms of numbers near 1, each right to a few units of the last digit.
@@ -162,4 +164,3 @@ TEST(Nonlinearity, WithFewNeighboursIsZero) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -7,7 +7,9 @@
 #include <drawpoint/tests/doe/designs.hpp>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 // The axioms over all elements; the primes of q <= 16 and the powers 4, 8, 9, 16 among them.
@@ -123,4 +125,3 @@ TEST(OrthogonalLatinHypercube, WrongNumbersOfRunsNameTheNext) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -9,7 +9,9 @@
 #include <functional>
 #include <limits>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 std::string fault_after(const std::function<void(Problem&)>& change) {
@@ -122,4 +124,3 @@ TEST(Problem, AnUnknownResponseIsNamedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -6,7 +6,9 @@
 
 #include <drawpoint/doe/problem_json.hpp>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 TEST(ProblemJson, SaysWhatThereIs) {
@@ -43,10 +45,11 @@ TEST(ProblemJson, EveryGoalAndKindComesBack) {
   for (std::size_t j = 0; j < back.responses.size(); ++j) {
     EXPECT_EQ(back.responses[j].goal, problem.responses[j].goal);
     EXPECT_EQ(std::isnan(back.responses[j].limit), std::isnan(problem.responses[j].limit));
-    if (!std::isnan(back.responses[j].limit)) EXPECT_EQ(back.responses[j].limit, problem.responses[j].limit);
+    if (!std::isnan(back.responses[j].limit)) {
+      EXPECT_EQ(back.responses[j].limit, problem.responses[j].limit);
+    }
   }
   EXPECT_THROW(problem_from_json(nlohmann::json::parse("{}")), nlohmann::json::exception);
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

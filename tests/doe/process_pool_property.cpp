@@ -16,7 +16,9 @@
 #include <iterator>
 #include <thread>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 /// What the shell does with the point as $1, $2, ... and the seed as the last.
@@ -108,4 +110,3 @@ TEST(ProcessPool, AFaultyCommandIsRefused) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

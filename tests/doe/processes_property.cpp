@@ -12,7 +12,9 @@
 #include <thread>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 using std::chrono::milliseconds;
@@ -100,4 +102,3 @@ TEST_F(PoolTest, WhatAChildPrintsIsKeptUnlessItIsNothing) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -11,7 +11,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <set>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 Evaluations some_runs(int n = 20) {
@@ -241,4 +243,3 @@ TEST(Propose, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

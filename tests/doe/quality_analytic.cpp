@@ -11,7 +11,9 @@
 #include <functional>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 /// Nodes and weights of Simpson's rule on every piece of [0, 1] between the breaks: exact for a function that
@@ -191,4 +193,3 @@ TEST(DesignQuality, PointsOutsideAreRefused) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -10,7 +10,9 @@
 #include <drawpoint/tests/doe/designs.hpp>
 #include <functional>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 using Region = std::function<bool(const Eigen::VectorXd&)>;
@@ -155,4 +157,3 @@ TEST(ConstrainedDesigns, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

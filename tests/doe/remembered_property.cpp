@@ -12,7 +12,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <filesystem>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 /// Fails in a corner, counts its runs.
@@ -109,4 +111,3 @@ TEST_F(Remembering, WhatGoesWrongIsStoredAsEvaluateRecordsIt) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

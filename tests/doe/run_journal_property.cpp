@@ -15,7 +15,9 @@
 #include <limits>
 #include <sstream>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 /// A journal's place, empty before and after each test.
@@ -157,4 +159,3 @@ TEST_F(RunJournalTest, ChecksumsAreFnv1a) {  // published test vectors of the 64
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

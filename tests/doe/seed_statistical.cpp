@@ -9,7 +9,9 @@
 #include <drawpoint/doe/seed.hpp>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 // Published first outputs of splitmix64 for the seed 1234567.
@@ -77,4 +79,3 @@ TEST(RandomStream, BelowReachesEveryNumberAndNoOther) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -9,7 +9,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/doe/sensitivity_cases.hpp>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 constexpr SobolEstimator estimators[] = {SobolEstimator::saltelli, SobolEstimator::jansen,
@@ -189,4 +191,3 @@ TEST(MainEffects, BadInputAndFailures) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

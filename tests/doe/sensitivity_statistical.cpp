@@ -7,7 +7,9 @@
 #include <drawpoint/doe/sensitivity.hpp>
 #include <drawpoint/tests/doe/sensitivity_cases.hpp>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 constexpr int repeats = 100, pairs = 500;
@@ -90,4 +92,3 @@ TEST(SobolIndicesStatistics, QuasiRandomPairsAreBetter) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -11,7 +11,9 @@
 #include <numeric>
 #include <vector>
 
-namespace drawpoint::doe {
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
 namespace {
 
 std::uint64_t leading_bits(double u, int bits) { return static_cast<std::uint64_t>(std::ldexp(u, bits)); }
@@ -122,4 +124,3 @@ TEST(ScrambledSobol, IntegratesASmoothFunctionBetterThanRandomPoints) {
 }
 
 }  // namespace
-}  // namespace drawpoint::doe

@@ -3,9 +3,11 @@
 /// Whatever goes wrong is said in clear words, with exit code 2 for wrong usage and 1 for failure, and
 /// nothing is lost.
 
-#include "support.hpp"
+#include <drawpoint/tests/end_to_end/support.hpp>
 
-namespace drawpoint::test {
+using namespace drawpoint;
+using namespace drawpoint::test;
+
 namespace {
 
 const std::string study = TROUBLED_STUDY;
@@ -202,4 +204,3 @@ TEST_F(SmallDisk, AReadOnlyFolder) {
 }
 
 }  // namespace
-}  // namespace drawpoint::test

@@ -3,11 +3,13 @@
 /// The whole pipeline on a formula: what scripts read, what the store holds, and that the same command gives
 /// the same result.
 
-#include "support.hpp"
+#include <drawpoint/tests/end_to_end/support.hpp>
 
 #include <algorithm>
 
-namespace drawpoint::test {
+using namespace drawpoint;
+using namespace drawpoint::test;
+
 namespace {
 
 const std::string demo = FORMULA_DEMO;
@@ -99,4 +101,3 @@ TEST_F(FormulaDemo, HelpAndVersion) {
 }
 
 }  // namespace
-}  // namespace drawpoint::test

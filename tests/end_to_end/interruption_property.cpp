@@ -3,9 +3,11 @@
 /// A study that is stopped, however it is stopped, loses at most the runs in flight, and the same command
 /// finishes it.
 
-#include "support.hpp"
+#include <drawpoint/tests/end_to_end/support.hpp>
 
-namespace drawpoint::test {
+using namespace drawpoint;
+using namespace drawpoint::test;
+
 namespace {
 
 const std::string slow = "env TROUBLE=slow " TROUBLED_STUDY " --runs 12 --validation 4 --jobs 2";
@@ -70,4 +72,3 @@ TEST_F(Interruption, OnlyOneProcessWorksInAFolder) {
 }
 
 }  // namespace
-}  // namespace drawpoint::test

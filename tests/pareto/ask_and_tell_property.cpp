@@ -21,7 +21,9 @@
 #include <ostream>
 #include <string>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 using Maker = std::function<std::unique_ptr<Search>(const doe::Problem&, const SearchOptions&)>;
@@ -409,4 +411,3 @@ TEST(AskAndTell, StatusesHaveTexts) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

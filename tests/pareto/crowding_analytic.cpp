@@ -6,7 +6,9 @@
 #include <cmath>
 #include <drawpoint/pareto/crowding.hpp>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 // Points (0,8), (1,4), (3,2), (7,1), (8,0) span 8 in both objectives: the inner ones get (3-0 + 8-2)/8, (7-1
@@ -50,4 +52,3 @@ TEST(Crowding, OneOrTwoDistinctPointsAreExtremes) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -12,7 +12,9 @@
 #include <set>
 #include <stdexcept>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 using doe::Goal;
@@ -278,4 +280,3 @@ TEST(TradeOff, NearestNeighboursComeFirst) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -7,7 +7,9 @@
 #include <limits>
 #include <numeric>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 Eigen::MatrixXd arbitrary_points() {
@@ -91,4 +93,3 @@ TEST(NonDominatedSort, TakesInfinityAndRefusesNaN) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -6,7 +6,9 @@
 #include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/tests/pareto/test_functions.hpp>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 struct Case {
@@ -34,4 +36,3 @@ INSTANTIATE_TEST_SUITE_P(UniformCube, Fronts,
                                          Case{10000, 6, 10, 843}));
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -9,7 +9,9 @@
 #include <drawpoint/pareto/detail/elitism.hpp>
 #include <numeric>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 int total(const std::vector<int>& counts) { return std::accumulate(counts.begin(), counts.end(), 0); }
@@ -79,4 +81,3 @@ TEST(ParetoFraction, IsTheShareOfTheBestFront) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -7,7 +7,9 @@
 #include <drawpoint/tests/pareto/generators.hpp>
 #include <drawpoint/tests/pareto/test_functions.hpp>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 /// The volume by counting unit cells of the box 0..side in m dimensions: exact for whole numbers.
@@ -103,4 +105,3 @@ TEST(Hypervolume, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -6,7 +6,9 @@
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/tests/pareto/test_functions.hpp>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 struct Case {
@@ -33,4 +35,3 @@ INSTANTIATE_TEST_SUITE_P(Hypervolume, SpherePoints,
                                          Case{100, 6, 1.097229296181}, Case{300, 6, 1.298798404944}));
 
 }  // namespace
-}  // namespace drawpoint::pareto

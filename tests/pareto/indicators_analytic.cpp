@@ -9,7 +9,9 @@
 #include <drawpoint/pareto/indicators.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 Eigen::MatrixXd points(std::initializer_list<std::pair<double, double>> list) {
@@ -100,4 +102,3 @@ TEST(Indicators, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

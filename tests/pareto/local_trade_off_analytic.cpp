@@ -8,7 +8,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <stdexcept>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 using doe::Goal;
@@ -132,4 +134,3 @@ TEST(LocalTradeOff, FailuresAndBadInputAreNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

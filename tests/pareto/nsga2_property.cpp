@@ -10,7 +10,9 @@
 #include <drawpoint/tests/pareto/test_functions.hpp>
 #include <stop_token>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 /// Cost and yield of x in [0, 10] x [-1, 1]; trade-off along x_0, with x_1 = 0 best; yield is maximised.
@@ -241,4 +243,3 @@ TEST(Nsga2, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -8,7 +8,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <stdexcept>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 using doe::Goal;
@@ -176,4 +178,3 @@ TEST(Polish, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 /// |x - a|² and |x - b|², minimised: the Pareto set is the segment from a to b.
@@ -64,4 +66,3 @@ TEST(PolishedFront, WhatCannotBePolishedStaysAsItIsAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

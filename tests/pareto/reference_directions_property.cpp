@@ -9,7 +9,9 @@
 #include <set>
 #include <vector>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 int binomial(int n, int k) {
@@ -62,4 +64,3 @@ TEST(ReferenceDirections, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

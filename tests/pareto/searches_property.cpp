@@ -16,7 +16,9 @@
 
 /// Laws that every search keeps, stated once.
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 struct Control {
@@ -183,4 +185,3 @@ TEST(Searches, BadOptionsAreNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

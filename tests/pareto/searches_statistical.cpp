@@ -22,7 +22,9 @@
 /// four of their standard deviations: whatever the distribution, one run falls below with probability 1/17 at
 /// most (Cantelli), three of five with probability below 10·(1/17)³ = 0.2 %.
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 template <class Search>
@@ -99,4 +101,3 @@ TEST(SmsEmoa, FiftyPointsOnDtlz2) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

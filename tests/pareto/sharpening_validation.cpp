@@ -10,7 +10,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <stdexcept>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 const doe::Problem two = support::unit_problem(1, 2);
@@ -116,4 +118,3 @@ TEST(NextSimulations, ReduceTheVorobevDeviation) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

@@ -7,7 +7,9 @@
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/pareto/stationarity.hpp>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 // A least-squares solution of at most five unknowns and numbers about 1: some ten roundings of 1e-16.
@@ -69,4 +71,3 @@ TEST(Stationarity, NoWeightsDoBetter) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

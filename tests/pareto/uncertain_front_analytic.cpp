@@ -8,7 +8,9 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <stdexcept>
 
-namespace drawpoint::pareto {
+using namespace drawpoint;
+using namespace drawpoint::pareto;
+
 namespace {
 
 using doe::Goal;
@@ -226,4 +228,3 @@ TEST(UncertainFront, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::pareto

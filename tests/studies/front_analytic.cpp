@@ -21,7 +21,9 @@
 #include <functional>
 #include <vector>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using doe::Goal;
@@ -193,4 +195,3 @@ TEST(Front, WithoutAFeasiblePointThereIsNothingToPolish) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

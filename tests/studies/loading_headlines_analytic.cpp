@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the loading study says first, on logs whose cycles are known.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/engine/loading/loading_log.hpp>
@@ -10,7 +10,9 @@
 #include <cmath>
 #include <map>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using engine::loading::CycleRecord;
@@ -94,4 +96,3 @@ TEST_F(LoadingHeadlines, OneCycleTellsNoNoise) {
 TEST_F(LoadingHeadlines, NoRunsNoHeadlines) { EXPECT_TRUE(told({}).empty()); }
 
 }  // namespace
-}  // namespace drawpoint::studies

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What people and scripts read: progress, durations, the JSON line.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/studies/runs/progress.h>
@@ -10,7 +10,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 TEST(Progress, TimeLeftIsThatOfTheRestAtTheRateOfThisSession) {
@@ -104,4 +106,3 @@ TEST(JsonLine, WithoutAReportSaysWhy) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

@@ -22,7 +22,9 @@
 #include <cmath>
 #include <vector>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 const Eigen::Vector3d a(0.2, 0.3, 0.5), b(0.8, 0.6, 0.4);
@@ -132,4 +134,3 @@ TEST(MixedSurrogates, AreDrawn) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

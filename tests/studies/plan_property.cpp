@@ -3,14 +3,16 @@
 /// Laws of the planned runs: the same arguments give the same plan, a grown design stays as Latin as it can,
 /// no two runs share a seed.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/settings.h>
 
 #include <set>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using test::complaint;
@@ -113,4 +115,3 @@ TEST(Plan, DoesNotShrink) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

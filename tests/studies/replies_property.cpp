@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// However the process of a run ends, its outcome is known.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/runs/execution.h>
 
 #include <drawpoint/tests/support/shell_processes.hpp>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using test::TestFolder;
@@ -39,4 +41,3 @@ TEST(Reply, OutcomesSurviveTheChannelBitForBit) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

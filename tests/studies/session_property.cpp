@@ -3,7 +3,7 @@
 /// A folder belongs to one study: same options resume it, other options are refused with what differs, and
 /// nothing in it changes.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
@@ -13,7 +13,9 @@
 
 #include <nlohmann/json.hpp>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using test::complaint;
@@ -207,4 +209,3 @@ TEST(BlackBoxes, MayTakeSeedAndContext) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The store gives back what it took, bit for bit, and leaves alone what is not its own.
 
-#include "support.hpp"
+#include <drawpoint/tests/studies/support.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <drawpoint/studies/store/columns.h>
@@ -10,7 +10,9 @@
 
 #include <cmath>
 
-namespace drawpoint::studies {
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
 namespace {
 
 using test::complaint;
@@ -151,4 +153,3 @@ TEST(Columns, AreUniqueWithoutRegardToCase) {
 }
 
 }  // namespace
-}  // namespace drawpoint::studies

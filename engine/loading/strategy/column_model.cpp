@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void require(bool good, const char* name, double value, const char* allowed) {
+void require_column_option(bool good, const char* name, double value, const char* allowed) {
   if (!good)
     throw std::invalid_argument("loading::column_model: " + std::string(name) + " is " +
                                 std::to_string(value) + "; give " + allowed);
@@ -24,18 +24,19 @@ void require(bool good, const char* name, double value, const char* allowed) {
 
 void check(const ColumnGrid& grid, const ColumnOptions& options) {
   const auto positive = [](const char* name, double value) {
-    require(value > 0 && std::isfinite(value), name, value, "a finite value above 0");
+    require_column_option(value > 0 && std::isfinite(value), name, value, "a finite value above 0");
   };
   positive("grid.cell [m]", grid.cell);
   positive("grid.half_width [m]", grid.half_width);
   positive("grid.x_max - grid.x_min [m]", grid.x_max - grid.x_min);
   positive("options.bucket_width [m]", options.bucket_width);
   positive("options.bucket_volume [m3]", options.bucket_volume);
-  require(options.h_tol >= 0, "options.h_tol [m]", options.h_tol, "at least 0");
-  require(options.n_run >= 1, "options.n_run [1]", options.n_run, "at least 1");
-  require(options.side_clearance >= 0, "options.side_clearance [m]", options.side_clearance, "at least 0");
-  require(1.0 * grid.nx() * grid.ny() <= 1e8, "columns [1]", 1.0 * grid.nx() * grid.ny(),
-          "a coarser cell [m], for at most 1e8 columns");
+  require_column_option(options.h_tol >= 0, "options.h_tol [m]", options.h_tol, "at least 0");
+  require_column_option(options.n_run >= 1, "options.n_run [1]", options.n_run, "at least 1");
+  require_column_option(options.side_clearance >= 0, "options.side_clearance [m]", options.side_clearance,
+                        "at least 0");
+  require_column_option(1.0 * grid.nx() * grid.ny() <= 1e8, "columns [1]", 1.0 * grid.nx() * grid.ny(),
+                        "a coarser cell [m], for at most 1e8 columns");
 }
 
 // Index of the column or strip that a coordinate lies in; outside the grid when the coordinate is.

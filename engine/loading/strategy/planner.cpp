@@ -18,17 +18,17 @@ void require_share(const char* name, double value) {
   if (!(value >= 0 && value <= 1)) reject("Strategy: " + std::string(name) + " [1]", value, "0 to 1");
 }
 
-void require_positive(const char* name, double value) {
+void require_finite_positive(const char* name, double value) {
   if (!(value > 0) || !std::isfinite(value))
     reject("PlannerOptions: " + std::string(name), value, "a finite value above 0");
 }
 
 void check(const PlannerOptions& options) {
-  require_positive("bucket_volume [m3]", options.bucket_volume);
-  require_positive("bucket_width [m]", options.bucket_width);
-  require_positive("arm.FG [m]", options.arm.FG);
-  require_positive("arm.GK [m]", options.arm.GK);
-  require_positive("phi_max [rad]", options.phi_max);
+  require_finite_positive("bucket_volume [m3]", options.bucket_volume);
+  require_finite_positive("bucket_width [m]", options.bucket_width);
+  require_finite_positive("arm.FG [m]", options.arm.FG);
+  require_finite_positive("arm.GK [m]", options.arm.GK);
+  require_finite_positive("phi_max [rad]", options.phi_max);
   if (!(options.standoff >= 0) || !std::isfinite(options.standoff))
     reject("PlannerOptions: standoff [m]", options.standoff, "a finite value of at least 0");
   if (std::isnan(options.height_limit) || std::isnan(options.x_limit) || std::isnan(options.boom_max))

@@ -7,8 +7,6 @@
 namespace drawpoint::engine::detail {
 namespace {
 
-constexpr int batches_per_block = 8, bodies_per_block = 256;  // that a thread claims at a time: microseconds
-
 Eigen::Vector3d vector(const float (&v)[4]) { return {v[0], v[1], v[2]}; }
 
 // A body in free flight, exactly as the substeps would move it.

@@ -15,8 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int bodies_per_block = 256, batches_per_block = 8;
-
 void put(const Vector3d& v, Lanes (&lanes)[3], int lane) {
   for (int k = 0; k < 3; ++k) lanes[k][lane] = static_cast<float>(v[k]);
 }

@@ -10,6 +10,8 @@
 /// A ContactProblem laid out in batches, and back. Buffers are kept from solve to solve.
 namespace drawpoint::engine::detail {
 
+constexpr int batches_per_block = 8, bodies_per_block = 256;  // that a thread claims at a time: microseconds
+
 class PairBatches {
  public:
   /// Lays out the pairs of the problem that the order has.

@@ -9,7 +9,10 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace drawpoint::engine::loading {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
 namespace {
 
 using Eigen::Vector3d;
@@ -194,4 +197,3 @@ TEST(ColumnModel, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::loading

@@ -15,7 +15,10 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace drawpoint::engine::loading {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
 namespace {
 
 constexpr double h = 0.002;
@@ -376,4 +379,3 @@ TEST(Executor, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::loading

@@ -11,7 +11,10 @@
 #include <numbers>
 #include <random>
 
-namespace drawpoint::engine::loading {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -168,4 +171,3 @@ TEST(Kinematics, AVerticalBoomGivesFiniteRates) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::loading

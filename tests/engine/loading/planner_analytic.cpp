@@ -9,7 +9,10 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace drawpoint::engine::loading {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -199,4 +202,3 @@ TEST(Planner, BadStrategiesAreNamed) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::loading

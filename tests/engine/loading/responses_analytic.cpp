@@ -8,7 +8,10 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace drawpoint::engine::loading {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
 namespace {
 
 constexpr double h = 0.01;
@@ -182,4 +185,3 @@ TEST(ByCycle, AddsUpToTheRun) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::loading

@@ -13,7 +13,10 @@
 #include <random>
 #include <stdexcept>
 
-namespace drawpoint::engine::loading {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -210,4 +213,3 @@ TEST(LoadingLog, AContradictionIsNotWritten) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::loading

@@ -12,7 +12,10 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace drawpoint::engine::record {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::record;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +158,3 @@ TEST_F(RecordDamage, ATargetThatIsAFolderIsKept) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::record

@@ -13,7 +13,10 @@
 #include <stdexcept>
 #include <thread>
 
-namespace drawpoint::engine::record {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::record;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -165,4 +168,3 @@ TEST(RecordTable, ARowHasAValueAColumn) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::record

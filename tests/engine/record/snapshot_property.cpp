@@ -8,7 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-namespace drawpoint::engine::record {
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::record;
+
 namespace {
 
 std::vector<std::byte> some_state() {
@@ -19,7 +22,7 @@ std::vector<std::byte> some_state() {
 
 std::string told(std::span<const std::byte> file) {
   try {
-    const auto state = detail::unwrapped_snapshot(file, "run.snapshot");
+    const auto state = engine::record::detail::unwrapped_snapshot(file, "run.snapshot");
     const auto expected = some_state();
     return std::equal(state.begin(), state.end(), expected.begin(), expected.end()) ? "right" : "wrong";
   } catch (const std::runtime_error& error) {
@@ -39,7 +42,7 @@ TEST(SnapshotFile, GivesBackWhatWasWritten) {
 }
 
 TEST(SnapshotFile, SeesEveryCutAndEveryFlippedByte) {
-  const std::vector<std::byte> file = detail::wrapped_snapshot(some_state());
+  const std::vector<std::byte> file = engine::record::detail::wrapped_snapshot(some_state());
   ASSERT_EQ(told(file), "right");
   for (std::size_t length = 0; length < file.size(); ++length) {
     const std::string what = told(std::span(file).first(length));
@@ -57,4 +60,3 @@ TEST(SnapshotFile, SeesEveryCutAndEveryFlippedByte) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::record
