@@ -33,12 +33,12 @@ function(drawpoint_join target group)
   endif()
 endfunction()
 
-# drawpoint_tests(MODULE STEMS stem... [LIBRARIES library...]): one program test_MODULE of all the files,
+# drawpoint_tests(MODULE STEMS stem... [LIBRARIES library...] [OPTIMISED]): one program test_MODULE of all the files,
 # and one ctest entry MODULE.stem per file, which runs the tests that the file defines. Its label is the stem's suffix, so that
 # `ctest -L analytic` runs every *_analytic.cpp. The target tests_of_MODULE builds all programs of a module. Tests are optimised
-# little: what is saved in compiling them is more than what they then take longer to run.
+# little: what is saved in compiling them is more than what they then take longer to run, but for the OPTIMISED.
 function(drawpoint_tests module)
-  cmake_parse_arguments(arg "" "PROGRAM" "STEMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED" "PROGRAM" "STEMS;LIBRARIES" ${ARGN})
   set(target test_${module})
   if(arg_PROGRAM)
     set(target test_${arg_PROGRAM})
@@ -46,7 +46,7 @@ function(drawpoint_tests module)
   list(TRANSFORM arg_STEMS APPEND .cpp OUTPUT_VARIABLE files)
   add_executable(${target} ${files})
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} drawpoint_build_flags GTest::gtest_main)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT arg_OPTIMISED)
     target_compile_options(${target} PRIVATE -O1)
   endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
@@ -109,6 +109,14 @@ function(drawpoint_test_filter file output)
   endforeach()
   list(JOIN names ":" names)
   set(${output} "${names}" PARENT_SCOPE)
+endfunction()
+
+# drawpoint_long_tests(NAME SECONDS...): `ctest --parallel` starts the longest first, so that none is left over at the end.
+function(drawpoint_long_tests)
+  while(ARGN)
+    list(POP_FRONT ARGN name seconds)
+    set_tests_properties(${name} PROPERTIES COST ${seconds})
+  endwhile()
 endfunction()
 
 function(drawpoint_add_test module stem)
