@@ -6,7 +6,8 @@
 #include <cmath>
 #include <drawpoint/engine/base/checks.hpp>
 
-namespace drawpoint::engine::detail {
+using namespace drawpoint::engine::detail;
+
 namespace {
 
 TEST(Checks, NumbersAreWrittenAsStreamsDo) {
@@ -53,4 +54,3 @@ TEST(Checks, RotationsWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace drawpoint::engine::detail
