@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/geometry/clipping.h>
 
-#include <drawpoint/engine/base/constants.hpp>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -38,19 +38,22 @@ int reduce_to_four(std::vector<ClipPoint>& points, const Vector3d& along) {
     return near * near;
   };
   const auto position = [&](std::size_t k) -> const Vector3d& { return points[k].position; };
-  if (!promote(points, 1, [&](const ClipPoint& p) { return weight(p) * (p.position - position(0)).squaredNorm(); }))
+  if (!promote(points, 1,
+               [&](const ClipPoint& p) { return weight(p) * (p.position - position(0)).squaredNorm(); }))
     return 1;
   const auto area = [&](const Vector3d& from, const Vector3d& to, const Vector3d& p) {
     return along.dot((to - from).cross(p - from));
   };
-  if (!promote(points, 2,
-               [&](const ClipPoint& p) { return weight(p) * std::abs(area(position(0), position(1), p.position)); }))
+  if (!promote(points, 2, [&](const ClipPoint& p) {
+        return weight(p) * std::abs(area(position(0), position(1), p.position));
+      }))
     return 2;
   // The fourth adds the most area outside the triangle of the first three.
   if (area(position(0), position(1), position(2)) < 0) std::swap(points[1], points[2]);
   const bool wider = promote(points, 3, [&](const ClipPoint& p) {
-    return -weight(p) * std::min({area(position(0), position(1), p.position), area(position(1), position(2), p.position),
-                      area(position(2), position(0), p.position)});
+    return -weight(p) *
+           std::min({area(position(0), position(1), p.position), area(position(1), position(2), p.position),
+                     area(position(2), position(0), p.position)});
   });
   return wider ? 4 : 3;
 }

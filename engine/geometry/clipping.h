@@ -28,7 +28,8 @@ constexpr std::uint32_t feature_number(std::uint32_t group, int first, std::uint
   return group << 24 | (static_cast<std::uint32_t>(first) & 0xfff) << 12 | (second & 0xfff);
 }
 
-/// The deepest point and the three that span the largest area with it, moved to the front; returns min(count,
+/// The deepest point and three that span a large area with it, those near its gap before those that only might
+/// touch (a point counts (g₀ / (g₀ + gap − least))², g₀ = resting_margin), moved to the front; returns min(count,
 /// 4). `along` is the contact normal. Ties go to the earlier point.
 int reduce_to_four(std::vector<ClipPoint>& points, const Eigen::Vector3d& along);
 

@@ -10,7 +10,8 @@
 /// move little.
 ///
 /// Face axis: the facing polygon of the other shape is clipped to the face's prism and reduced to four
-/// points. Edge axis: the nearest points of the two edges. Separated shapes whose polygons do not face each
+/// points. Edge axis: the nearest points of the two edges, and where a face beside them lies nearly across the
+/// axis those of the polygon that faces it, off by 0.02 of their gaps. Separated shapes whose polygons do not face each
 /// other: the nearest points of their edges, if within the margin. So shapes nearer than the margin always
 /// give a point, and shapes farther apart never. When there is no point, the normal is A's and n·x = support
 /// is a plane on A that B was clear of.
