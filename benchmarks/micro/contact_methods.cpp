@@ -32,6 +32,10 @@ std::vector<ContactMethod>& table() {
 std::vector<ContactMethod> contact_methods() {
   std::vector<ContactMethod> methods = table();
   std::sort(methods.begin(), methods.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  const auto same = [](const auto& a, const auto& b) { return a.name == b.name; };
+  const auto twice = std::adjacent_find(methods.begin(), methods.end(), same);
+  if (twice != methods.end())
+    throw std::logic_error("contact methods: two have the name \"" + twice->name + "\"; give one another");
   return methods;
 }
 

@@ -29,7 +29,8 @@ std::string headline_text(const Headline& headline) {
 
 std::string front_text(const Summary& summary) {
   const pareto::Polishing& polishing = summary.polishing;
-  std::string line = "Pareto front: " + std::to_string(summary.front) + " points";
+  std::string line =
+      "Pareto front: " + std::to_string(summary.front) + (summary.front == 1 ? " point" : " points");
   if (!summary.not_polished.empty()) return line + ", not polished: " + summary.not_polished;
   if (polishing.residual.size() == 0) return line;
   line += ", " + std::to_string(polishing.certified()) + " certified (KKT residual at most " +
@@ -71,7 +72,8 @@ std::string text(const Summary& summary) {
                        std::to_string(summary.failed) + " failed\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) {
-    const std::string number = std::isfinite(value) ? formatted("%.4f", value) : "unknown";
+    const std::string number =
+        !std::isfinite(value) ? "unknown" : formatted(value < 1e-3 ? "%.1e" : "%.4f", value);
     result += "  NRMSE of " + response + ": " + number + "\n";
   }
   if (!summary.report.empty()) {
