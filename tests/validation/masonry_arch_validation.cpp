@@ -15,7 +15,7 @@ namespace {
 
 const validation::Problem masonry_arch{
     "masonry_arch", validation::Group::assembly, "Masonry arch",
-    "A semicircular arch of 24 voussoirs (mean radius 2 m, depth 0.6 m, 2500 kg/m³, μ = 0.8, 1e9 N/m a "
+    "A semicircular arch of 24 voussoirs (mean radius 2 m, depth 0.6 m, 2500 kg/m³, μ = 0.8, 1e9 N/m per "
     "joint) is "
     "let go on the floor, each joint just closed. Default steps and iterations."};
 
