@@ -54,11 +54,11 @@ void support_contact(const HullPair& pair, const Axis& axis, ConvexContact& cont
 
 }  // namespace
 
-// With the polygon of face `other` of the shape whose face is not the axis.
-void ConvexContactSearch::clip_against(const HullPair& pair, const Axis& axis, int other, double margin,
-                                       ConvexContact& contact) {
-  const bool on_a = axis.feature.kind == FeatureKind::face_a;
-  const int face = on_a ? axis.feature.a : axis.feature.b;
+// The reference face with the polygon of face `other` of the other shape.
+void ConvexContactSearch::clip_against(const HullPair& pair, const Feature& reference, int other,
+                                       double margin, ConvexContact& contact) {
+  const bool on_a = reference.kind == FeatureKind::face_a;
+  const int face = on_a ? reference.a : reference.b;
   const std::uint32_t group = (on_a ? 0u : 0x80u) | (static_cast<std::uint32_t>(face) % 0x7f);
   contact.count = 0;
   clipper_.clear();
@@ -66,7 +66,7 @@ void ConvexContactSearch::clip_against(const HullPair& pair, const Axis& axis, i
     for (const HullCorner& c : pair.b.corners(other))
       clipper_.add_incident(pair.vertex_b(c.vertex), c.vertex, group);
     for (const ClipPoint& p : clipper_.clip(pair.a, face, margin, group))
-      add_anchors(p.position - p.gap * axis.normal, pair.in_b(p.position), p.feature, contact);
+      add_anchors(p.position - p.gap * pair.a.normals[face], pair.in_b(p.position), p.feature, contact);
   } else {
     for (const HullCorner& c : pair.a.corners(other))
       clipper_.add_incident(pair.in_b(pair.a.vertices[c.vertex]), c.vertex, group);
@@ -81,14 +81,14 @@ void ConvexContactSearch::face_contact(const HullPair& pair, const Axis& axis, d
   const CollisionHull& incident = on_a ? pair.b : pair.a;
   const Vector3d n = on_a ? Vector3d(pair.X_AB.linear().transpose() * axis.normal) : Vector3d(-axis.normal);
   const int other = facing(incident, axis.vertex, n);
-  clip_against(pair, axis, other, margin, contact);
+  clip_against(pair, axis.feature, other, margin, contact);
   if (axis.separation > 0 || least_gap(pair, contact) <= axis.separation + constants::coincident) return;
   // An edge or a face parallel to the reference face is lowest, and the lowest vertex lies beside the
   // reference face: the polygon that goes down deepest is that of another face around the vertex.
   for (int f : incident.faces_around(axis.vertex)) {
     if (f == other) continue;
     spare_ = contact;
-    clip_against(pair, axis, f, margin, spare_);
+    clip_against(pair, axis.feature, f, margin, spare_);
     if (least_gap(pair, spare_) < least_gap(pair, contact)) contact = spare_;
   }
 }
@@ -116,11 +116,10 @@ void ConvexContactSearch::add_flat_points(const HullPair& pair, const Axis& axis
             face_b = facing(pair.b, pair.b.edges[axis.feature.b], n_b);
   const double along_a = pair.a.normals[face_a].dot(axis.normal), along_b = -pair.b.normals[face_b].dot(n_b);
   if (std::max(along_a, along_b) < constants::flat_cosine) return;
-  const bool on_a = along_a >= along_b;
-  Axis flat;
-  flat.feature = on_a ? Feature{FeatureKind::face_a, face_a, -1} : Feature{FeatureKind::face_b, -1, face_b};
-  flat.normal = on_a ? pair.a.normals[face_a] : Vector3d(-(pair.X_AB.linear() * pair.b.normals[face_b]));
-  clip_against(pair, flat, on_a ? face_b : face_a, margin, spare_);
+  if (along_a >= along_b)
+    clip_against(pair, {FeatureKind::face_a, face_a, -1}, face_b, margin, spare_);
+  else
+    clip_against(pair, {FeatureKind::face_b, -1, face_b}, face_a, margin, spare_);
   const auto middle = [&](const Anchors& p) -> Vector3d { return 0.5 * (p.on_a + pair.X_AB * p.on_b); };
   const Vector3d crossing = middle(contact.points[0]);
   for (int k = 0; k < spare_.count; ++k) {

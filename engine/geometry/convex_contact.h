@@ -40,7 +40,8 @@ class ConvexContactSearch {
 
  private:
   void touch(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
-  void clip_against(const HullPair& pair, const Axis& axis, int other, double margin, ConvexContact& contact);
+  void clip_against(const HullPair& pair, const Feature& reference, int other, double margin,
+                    ConvexContact& contact);
   void face_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void edge_contact(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void add_flat_points(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
