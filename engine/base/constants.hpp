@@ -38,6 +38,16 @@ constexpr double least_hertz_overlap = 1e-5;
 /// round-off.
 constexpr double singular_double = 1e-12, singular_single = 1e-5;
 
+/// [1] Momentum of the iterations: every second one of a substep starts from λ + β (λ − λ'), λ' what it was two iterations
+/// (at first one) before. Chosen here among 0.3 to 0.8, on recorded steps of a loading cycle
+/// (docs/measurements/contact-solving.md). Higher: sooner near the solution, but single contacts keep swinging about it.
+/// Lower: load travels through chains of rocks more slowly.
+constexpr double momentum = 0.6;
+
+/// [iterations] Of a substep, after which there is no more momentum. Chosen here. Higher: in single precision a body's
+/// momentum drifts by 5e-8 of its own per iteration, and what swings about the solution goes on.
+constexpr int momentum_iterations = 64;
+
 // Impulse stage of restitution (solver).
 
 /// [m] A gap of round-off must not keep a contact out of an impact. Chosen here. Higher: rocks are struck

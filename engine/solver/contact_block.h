@@ -17,9 +17,12 @@ struct ContactBlock {
   double inverse_nn = 0;  ///< 1 / (W_nn + Σ)
   law::TangentInverse<double> inverse_tt{};
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), total = Eigen::Vector3d::Zero();  ///< in the frame
+  Eigen::Vector3d previous = Eigen::Vector3d::Zero();    ///< what momentum goes on from
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();  ///< of the start impulse, for an impact
   int rows_a = -1, rows_b = -1;  ///< index of a side's rows (super_body_motion.hpp), if it is a machine part
 
+  /// λ + share (λ − previous), but for a share of 0; then λ as it was is `previous`.
+  void add_momentum(double share);
   /// Fills the inverses from W and Σ.
   void invert(double sigma);
   /// The tangents' step against u within the cone of radius `limit`; `before`: λ_n before the normal's step.
@@ -39,6 +42,12 @@ struct PairBlock : ContactBlock {
   int a, b, first, count;
   double rolling_arm, spinning_arm;
 };
+
+inline void ContactBlock::add_momentum(double share) {
+  const Eigen::Vector3d without = impulse;
+  if (share > 0) impulse += share * (impulse - previous);
+  previous = without;
+}
 
 inline void ContactBlock::invert(double sigma) {
   inverse_nn = law::inverse_or_zero(W(0, 0) + sigma);

@@ -88,7 +88,7 @@ void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
   double change = 1;
   for (int k = 0; k < constants::impact_iterations; ++k) {
     if (change <= constants::impact_tolerance * iteration.normal_load()) break;
-    change = iteration.iteration(k % 2 == 0);
+    change = iteration.iteration();
   }
   iteration.finish();
   solution_ = iteration.store();

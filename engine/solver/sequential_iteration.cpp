@@ -179,13 +179,17 @@ void SequentialIteration::start() {
   for (const PairBlock& r : pairs_) apply(r, r.impulse);
 }
 
-double SequentialIteration::iteration(bool forward) {
+void SequentialIteration::add_momentum(double share) {
+  for (PointBlock& p : points_) p.add_momentum(share);
+  for (PairBlock& r : pairs_) r.add_momentum(share);
+  machine_.add_momentum(share);
+}
+
+double SequentialIteration::iteration() {
   change_ = 0;
   machine_.iteration();
-  const int n = static_cast<int>(pairs_.size());
-  for (int k = 0; k < n; ++k) {
-    PairBlock& r = pairs_[forward ? k : n - 1 - k];
-    for (int i = 0; i < r.count; ++i) solve_point(points_[r.first + (forward ? i : r.count - 1 - i)]);
+  for (PairBlock& r : pairs_) {
+    for (int k = r.first; k < r.first + r.count; ++k) solve_point(points_[k]);
     solve_pair(r);
   }
   return change_;

@@ -43,8 +43,11 @@ class SequentialIteration {
   void extrapolate() { machine_.extrapolate(); }
   /// After extrapolating: takes back the impacts that it repeated.
   void correct();
+  /// Adds this share of what impulses and the machine's w have changed by since the last call, but for 0, when the
+  /// changes begin to count. The bodies are the caller's.
+  void add_momentum(double share);
   /// Returns Σ|Δλ| over the points.
-  double iteration(bool forward);
+  double iteration();
   /// Adds the substep's impulses and the machine's displacement to the step's.
   void finish();
 

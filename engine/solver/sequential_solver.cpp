@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/momentum.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
 
@@ -22,13 +23,26 @@ void extrapolate(std::vector<SolverBody>& bodies, const std::vector<Motion>& beg
   }
 }
 
+void add_momentum(std::vector<SolverBody>& bodies, double share, std::vector<Motion>& previous) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    SolverBody& body = bodies[k];
+    const Motion without{body.velocity, body.angular_velocity};
+    if (share > 0) {
+      body.velocity += share * (body.velocity - previous[k].velocity);
+      body.angular_velocity += share * (body.angular_velocity - previous[k].angular_velocity);
+    }
+    previous[k] = without;
+  }
+}
+
 }  // namespace
 
 SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options) {
   const double h = problem.step / options.substeps;
   for (SolverBody& body : problem.bodies) body.displacement.setZero(), body.rotation_vector.setZero();
   detail::SequentialIteration iteration(problem, options.substeps);
-  std::vector<Motion> begin(problem.bodies.size()), now(problem.bodies.size());
+  std::vector<Motion> begin(problem.bodies.size()), now(problem.bodies.size()),
+      previous(problem.bodies.size());
   double change = 0;
   for (int s = 0; s < options.substeps; ++s) {
     iteration.refresh();
@@ -45,7 +59,11 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
     begin.swap(now);
     for (int k = 0; k < most_iterations(options, problem.points.size()); ++k) {
       if (k >= options.iterations && change <= options.tolerance * iteration.normal_load()) break;
-      change = iteration.iteration(k % 2 == 0);
+      if (detail::remembers(k)) {
+        add_momentum(problem.bodies, detail::momentum_of(k), previous);
+        iteration.add_momentum(detail::momentum_of(k));
+      }
+      change = iteration.iteration();
     }
     iteration.finish();
     for (SolverBody& body : problem.bodies) {

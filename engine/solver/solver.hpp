@@ -18,7 +18,10 @@
 /// ρ = λ_max(W_tt), projected radially: its fixed points slide against the impulse even where W_tt is
 /// anisotropic, so the cone is circular.
 ///
-/// `sequential` visits pairs in their order, alternating direction, in double precision: the reference.
+/// Every second iteration of a substep starts with momentum (momentum.h): chains of rocks need a third to a quarter of
+/// the iterations.
+///
+/// `sequential` visits pairs in their order, in double precision: the reference.
 /// `batched` visits sets of pairs that share no body, sixteen pairs at a time, in single precision on
 /// velocities and impulses: the fast method. Both give the same bits for any number of threads.
 namespace drawpoint::engine {

@@ -55,6 +55,17 @@ void SuperBodyMotion::extrapolate() {
   w_ = next;
 }
 
+void SuperBodyMotion::add_momentum(double share) {
+  const Eigen::VectorXd without = w_;
+  if (share > 0) w_ += share * (w_ - previous_);
+  previous_ = without;
+  for (Row& row : rows_) {
+    const double impulse = row.impulse;
+    if (share > 0) row.impulse += share * (impulse - row.previous);
+    row.previous = impulse;
+  }
+}
+
 void SuperBodyMotion::iteration() {
   assert((!machine_ || rows_.size() == machine_->rows.size()) && "a step per row of the machine");
   for (std::size_t k = 0; k < rows_.size(); ++k) {

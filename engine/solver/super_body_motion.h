@@ -38,6 +38,8 @@ class SuperBodyMotion {
   void start();
   /// Other substeps: what changed w in the last one acts again.
   void extrapolate();
+  /// w and the impulses of motors and stops as SequentialIteration::add_momentum.
+  void add_momentum(double share);
   /// One step of every motor and stop.
   void iteration();
   /// Adds the substep's displacement and impulses to the step's.
@@ -49,6 +51,7 @@ class SuperBodyMotion {
  private:
   struct Row {
     double inverse, impulse;  // 1/|J|²; of the substep
+    double previous = 0;      // what momentum goes on from
     double total = 0, target = 0;
   };
   int add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows);
@@ -56,7 +59,7 @@ class SuperBodyMotion {
   const SuperBody* machine_;
   double step_, h_;
   int substeps_;
-  Eigen::VectorXd w_, begin_, push_, travel_;
+  Eigen::VectorXd w_, begin_, push_, travel_, previous_;
   std::vector<Row> rows_;          // in the order of SuperBody::rows
   std::vector<double> part_rows_;  // 3 x r each, column by column
 };

@@ -131,7 +131,18 @@ struct alignas(64) LaneSums {
   Lanes change, normal_load;
 };
 
-HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, LaneSums& sums) {
+// What an iteration starts a block from.
+HWY_INLINE V3 start_impulse(const Lanes (&impulse)[3], Lanes (&previous)[3], int at,
+                            const Iteration& iteration) {
+  const V3 now = load(impulse, at);
+  V3 start = now;
+  if (iteration.momentum > 0) start = now + all(iteration.momentum) * (now - load(previous, at));
+  if (iteration.remember) store(now, previous, at);
+  return start;
+}
+
+HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, const Iteration& iteration,
+                              LaneSums& sums) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
@@ -139,7 +150,8 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
   V force = zero, change = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
-    const V3 arm = load(p.arm, at), u = pairs.velocity(arm), before = load(p.impulse, at);
+    const V3 arm = load(p.arm, at), u = pairs.velocity(arm),
+             before = start_impulse(p.impulse, p.previous, at, iteration);
     V3 l = before;
     l.x = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at));
     const V dn = l.x - before.x;
@@ -152,7 +164,7 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, Lane
     change = change + magnitude(delta);
   }
   if (pair.resists) {
-    const V3 u = pairs.spin(), before = load(pair.moment, at);
+    const V3 u = pairs.spin(), before = start_impulse(pair.moment, pair.moment_previous, at, iteration);
     V3 m = before;
     m.x = law::spin_step(m.x, u.x, load(pair.moment_inverse_nn, at), load(pair.spinning_arm, at) * force);
     const V dn = m.x - before.x;
@@ -189,7 +201,7 @@ HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
 
 template <class Kernel>
 HWY_INLINE void over(BatchRange range, const Kernel& kernel) {
-  for (int k = range.begin; k < range.end; ++k) kernel(range.forward ? k : range.begin + range.end - 1 - k);
+  for (int k = range.begin; k < range.end; ++k) kernel(k);
 }
 template <class Kernel>
 HWY_INLINE void over_lanes(BatchRange range, const Kernel& kernel) {
@@ -215,7 +227,7 @@ void iteration(const BatchArrays& arrays, BatchRange range, const Iteration& thi
   over(range, [&](int batch) {
     for (int at = 0; at < batch_lanes; at += width) {
       if (this_iteration.first) bias_lanes(arrays, batch, at, this_iteration);
-      sweep_lanes(arrays, batch, at, sums);
+      sweep_lanes(arrays, batch, at, this_iteration, sums);
       if (this_iteration.last) end_substep_lanes(arrays, batch, at);
     }
     arrays.sums[batch] = {sum_of(sums.change), sum_of(sums.normal_load)};

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/batched_solver.h>
+#include <drawpoint/engine/solver/momentum.h>
 #include <algorithm>
 #include <cassert>
 
@@ -26,6 +27,7 @@ SolverReport BatchedSolver::solve(ContactProblem& problem) {
   machine_.emplace(problem, batches_.row_of, options_.substeps);
   threads_ = std::min(pool_->threads(), most_parts());
   travel_.assign(problem.bodies.size(), BodyRow());
+  previous_.resize(problem.bodies.size());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   for (int s = 0; s < options_.substeps; ++s) run_substep(s);
   assert(batches_.row_of.size() == problem.bodies.size() && "each body has a row");
@@ -60,13 +62,12 @@ void BatchedSolver::everywhere(const Kernel& kernel) {
 }
 
 template <class Kernel>
-void BatchedSolver::each_stage(bool forward, const Kernel& kernel) {
+void BatchedSolver::each_stage(const Kernel& kernel) {
   const IterationOrder& order = batches_.order();
-  const int stages = static_cast<int>(order.stages.size()) - 1;
-  for (int k = 0; k < stages; ++k) {
-    const int stage = forward ? k : stages - 1 - k, first = order.stages[stage];
+  for (std::size_t stage = 0; stage + 1 < order.stages.size(); ++stage) {
+    const int first = order.stages[stage];
     pool_->run(order.stages[stage + 1] - first, threads_, [&](int part) {
-      kernel(BatchRange{order.tasks[first + part], order.tasks[first + part + 1], forward});
+      kernel(BatchRange{order.tasks[first + part], order.tasks[first + part + 1]});
     });
   }
 }
@@ -101,11 +102,29 @@ void BatchedSolver::run_substep(int number) {
     const bool converged = k >= options_.iterations && change() <= options_.tolerance * normal_load();
     if (converged) break;
     this_iteration.last = hands_over && k + 1 == most;
-    iteration(k % 2 == 0, this_iteration);
+    if (most > 1) add_momentum(k, this_iteration);
+    iteration(this_iteration);
   }
   if (hands_over && !this_iteration.last)
-    each_stage(true, [this](BatchRange range) { end_substep_batches(batches_.arrays(), range); });
+    each_stage([this](BatchRange range) { end_substep_batches(batches_.arrays(), range); });
   machine_->finish();
+}
+
+void BatchedSolver::add_momentum(int k, Iteration& iteration) {
+  iteration.remember = remembers(k);
+  iteration.momentum = iteration.remember ? static_cast<float>(momentum_of(k)) : 0;
+  if (!iteration.remember) return;
+  each_row([&](int row) {
+    BodyRow &now = batches_.bodies[row], &previous = previous_[row];
+    const BodyRow without = now;
+    for (int i = 0; i < 4 && k > 0; ++i) {
+      now.velocity[i] += iteration.momentum * (now.velocity[i] - previous.velocity[i]);
+      now.angular_velocity[i] +=
+          iteration.momentum * (now.angular_velocity[i] - previous.angular_velocity[i]);
+    }
+    previous = without;
+  });
+  machine_->add_momentum(momentum_of(k));
 }
 
 void BatchedSolver::start() {
@@ -116,7 +135,7 @@ void BatchedSolver::start() {
           static_cast<float>(body.external_velocity_change[i] / options_.substeps);
   });
   machine_->start(batches_.bodies);
-  each_stage(true, [this](BatchRange range) { start_batches(batches_.arrays(), range); });
+  each_stage([this](BatchRange range) { start_batches(batches_.arrays(), range); });
 }
 
 // What changed a body in the last substep acts again: outer forces and contact impulses, but for impacts.
@@ -138,9 +157,9 @@ void BatchedSolver::extrapolate() {
   machine_->correct(batches_.bodies);
 }
 
-void BatchedSolver::iteration(bool forward, const Iteration& this_iteration) {
-  machine_change_ = machine_->iteration(batches_.bodies, forward);
-  each_stage(forward, [&](BatchRange range) { iterate_batches(batches_.arrays(), range, this_iteration); });
+void BatchedSolver::iteration(const Iteration& this_iteration) {
+  machine_change_ = machine_->iteration(batches_.bodies);
+  each_stage([&](BatchRange range) { iterate_batches(batches_.arrays(), range, this_iteration); });
 }
 
 // The way of the substep that has ended.

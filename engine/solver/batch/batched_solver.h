@@ -32,14 +32,15 @@ class BatchedSolver {
   template <class Kernel>
   void everywhere(const Kernel& kernel);  // for kernels that do not write bodies
   template <class Kernel>
-  void each_stage(bool forward, const Kernel& kernel);  // for kernels that do
+  void each_stage(const Kernel& kernel);  // for kernels that do
   int most_parts() const;
   template <class Work>
   void each_row(const Work& work);  // of the bodies
   void run_substep(int number);
   void start();
   void extrapolate();
-  void iteration(bool forward, const Iteration& this_iteration);
+  void add_momentum(int k, Iteration& iteration);
+  void iteration(const Iteration& this_iteration);
   void displacement(int row);
   void store_bodies();
   void store_body(int index);
@@ -51,8 +52,9 @@ class BatchedSolver {
   SolverOptions options_;
   std::shared_ptr<const ThreadPool> pool_;
   PairBatches batches_;
-  std::vector<BodyRow> travel_;  // by row: ∫ v dt, ∫ ω dt
-  std::vector<char> touched_;    // by body: in a pair
+  std::vector<BodyRow> travel_;    // by row: ∫ v dt, ∫ ω dt
+  std::vector<BodyRow> previous_;  // by row: velocities that momentum goes on from
+  std::vector<char> touched_;      // by body: in a pair
 
   // During a solve.
   ContactProblem* problem_ = nullptr;

@@ -72,9 +72,9 @@ void MachinePairs::correct(std::vector<BodyRow>& bodies) {
   put_back(bodies);
 }
 
-double MachinePairs::iteration(std::vector<BodyRow>& bodies, bool forward) {
+double MachinePairs::iteration(std::vector<BodyRow>& bodies) {
   gather_bodies(bodies);
-  const double change = iteration_.iteration(forward);
+  const double change = iteration_.iteration();
   put_back(bodies);
   return change;
 }

@@ -18,7 +18,8 @@ class MachinePairs {
   void start(std::vector<BodyRow>& bodies);
   void extrapolate() { iteration_.extrapolate(); }
   void correct(std::vector<BodyRow>& bodies);
-  double iteration(std::vector<BodyRow>& bodies, bool forward);  ///< returns Σ|Δλ|
+  void add_momentum(double share) { iteration_.add_momentum(share); }  ///< the bodies are the caller's
+  double iteration(std::vector<BodyRow>& bodies);                      ///< returns Σ|Δλ|
   void finish() { iteration_.finish(); }
   double normal_load() const { return iteration_.normal_load(); }
   ResidualSums residual_sums(const std::vector<BodyRow>& bodies);

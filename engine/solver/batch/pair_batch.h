@@ -31,6 +31,7 @@ struct alignas(64) PointBatch {
   Lanes gap, upsilon, sigma, target;
   Lanes inverse_nn, inverse_tt[3], inverse_rho, w10, w20;
   Lanes impulse[3], total[3];  // in the frame; of the substep, of the step
+  Lanes previous[3];           // what momentum goes on from
   Lanes initial_impulse;       // the normal impulse that the substep began with
 };
 
@@ -42,7 +43,7 @@ struct alignas(64) PairBatch {
   Lanes friction;
   Lanes rolling_arm, spinning_arm;
   Lanes moment_inverse_nn, moment_inverse_tt[3], moment_inverse_rho, moment_w10, moment_w20;
-  Lanes moment[3], moment_total[3];       // in the frame
+  Lanes moment[3], moment_total[3], moment_previous[3];  // in the frame
   Lanes normal_miss, tangent_miss, load;  // after evaluate: residuals, and their load (residual.hpp)
   std::int32_t first, points;             // point batches
   bool resists;                           // any rolling or spinning
@@ -67,14 +68,15 @@ struct BatchArrays {
 /// What an iteration is in its substep. The first one finds gaps and targets before a pair is solved, the
 /// last one hands its impulses over to the next substep after: a pair's data pass through the cache once.
 struct Iteration {
-  float h;             // of the substep [s]
-  bool first, last;    // iteration of the substep
-  bool first_substep;  // of the step: gaps are those of its start
+  float h;                // of the substep [s]
+  bool first, last;       // iteration of the substep
+  bool first_substep;     // of the step: gaps are those of its start
+  float momentum = 0;     // starts from impulse + momentum (impulse - previous), as the velocities do
+  bool remember = false;  // makes its impulses `previous`, as they are without momentum
 };
 
 struct BatchRange {
   int begin, end;
-  bool forward = true;  // else from the last batch to the first
 };
 
 // The kernels, run with the best instruction set of this machine; all sets give the same bits. The batches of

@@ -81,13 +81,13 @@ TEST(SuperBody, PushesARockAtAMassRatioOfAThousandInOneIteration) {
 }
 
 // A motor that may push as hard as it likes keeps the speed and pays the rock's momentum, 50 N s. Motor and
-// contact are two rows on one coordinate: an iteration reduces the error by m/(M + m) = 9e-4, so five
-// iterations leave less than 1e-15.
+// contact are two rows on one coordinate: an iteration reduces the error by m/(M + m) = 9e-4, and one with momentum
+// brings back 0.6 of the error before the last, so two iterations reduce it by 6e-4 and ten leave less than 1e-15.
 TEST(SuperBody, MotorKeepsItsSpeedAndPaysForIt) {
   SuperBody machine = sled(1);
   machine.rows = {motor(1, 1e9)};
   ContactProblem problem = push(machine);
-  const SolverReport report = solve(problem, plain(6));
+  const SolverReport report = solve(problem, plain(11));
   EXPECT_NEAR(problem.bodies[1].velocity.x(), 1, 1e-12);
   EXPECT_NEAR(report.machine.row_impulses[0], rock_mass, 1e-9);
 }
