@@ -155,13 +155,14 @@ void Scene::hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& po
 void Scene::set_moves(int rock, bool moves) { finder_.set_moves(rocks_[rock].collider, moves); }
 
 const SuperBody* Scene::linearise(double h) {
-  super_ = machine_ ? &machine_->linearise(h, options_.gravity) : nullptr;
-  return super_;
+  if (!machine_) return nullptr;
+  super_ = machine_->linearise(h, options_.gravity);
+  return &super_;
 }
 
 Vector3d Scene::origin_of(const Surface& surface) const {
   if (surface.owner == Owner::rock) return rocks_[surface.index].pose.translation();
-  return surface.owner == Owner::part ? super_->origins[surface.index] : Vector3d(Vector3d::Zero());
+  return surface.owner == Owner::part ? super_.origins[surface.index] : Vector3d(Vector3d::Zero());
 }
 
 SurfaceOwner Scene::owner(int collider) const {
@@ -171,8 +172,8 @@ SurfaceOwner Scene::owner(int collider) const {
 
 Side Scene::side_of(const Surface& surface) const {
   if (surface.owner == Owner::part) {
-    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
-    return {super_->origins[surface.index], V.tail<3>(), V.head<3>()};
+    const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
+    return {super_.origins[surface.index], V.tail<3>(), V.head<3>()};
   }
   if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   const Rock& rock = rocks_[surface.index];
@@ -190,7 +191,7 @@ double Scene::speculative_margin_of(const Surface& surface, double h) const {
     const Rock& rock = rocks_[surface.index];
     speed = rock.velocity.norm() + rock.angular_velocity.norm() * surface.radius + fall;
   } else if (surface.owner == Owner::part) {
-    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
+    const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
     speed = V.tail<3>().norm() + V.head<3>().norm() * surface.radius + fall;
   }
   return resolution * std::ceil(std::max(0.0, h * speed - 0.5 * options_.contacts.margin) / resolution);

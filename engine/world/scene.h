@@ -64,7 +64,8 @@ class Scene {
   /// Between two colliders that do not move nothing is searched.
   void set_moves(int rock, bool moves);
 
-  /// The machine's super-body for the coming step of h [s]; nullptr without a machine.
+  /// The machine's super-body for the coming step of h [s]; nullptr without a machine. Stays as it is until
+  /// the next call, whatever becomes of the machine.
   const SuperBody* linearise(double h);
 
   std::vector<Rock>& rocks() { return rocks_; }
@@ -105,7 +106,7 @@ class Scene {
   std::array<std::vector<bool>, 3> kinds_;  // of the surfaces so far, by their owner
   std::vector<Rock> rocks_;
   ArticulatedBody* machine_ = nullptr;
-  const SuperBody* super_ = nullptr;
+  SuperBody super_;                  // of the last step, a copy: the machine's own is valid until it advances
   std::vector<ColliderMove> moves_;  // of this step
   StateHash surroundings_;
 };

@@ -110,12 +110,13 @@ StepReport World::Impl::step(double h) {
     solved = solve(with_thawed_near_machine(find_contacts(report), report), report);
     check_solution(solved.machine);
   } while (thaw_struck(report.solves));
-  contacts.keep_impulses();
   if (scene.machine()) {
     const auto advance_start = std::chrono::steady_clock::now();
     scene.machine()->advance(solved.machine);
     report.machine_s += seconds_since(advance_start);
   }
+  contacts.keep_impulses();  // from here on nothing can fail
+  report.max_overlap = contacts.deepest_overlap();
   detail::move_rocks(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h);
   ++steps;
   time += h;
@@ -127,7 +128,6 @@ StepReport World::Impl::step(double h) {
   report.last_change = solved.last_change;
   report.complementarity = solved.complementarity;
   report.cone = solved.cone;
-  report.max_overlap = contacts.deepest_overlap();
   report.rest_s =
       seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
   return report;
