@@ -103,13 +103,15 @@ StepReport World::Impl::step(double h) {
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
   contacts.begin_step(h, last_step);
+  scene.extra_reach().begin_step();
   contacts.problem().machine = scene.linearise(h);
   report.machine_s = scene.machine() ? seconds_since(start) : 0;
   SolverReport solved;
   do {
     solved = solve(with_thawed_near_machine(find_contacts(report), report), report);
     check_solution(solved.machine);
-  } while (thaw_struck(report.solves));
+  } while (thaw_struck(report.solves) ||
+           scene.extra_reach().grow(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h));
   if (scene.machine()) {
     const auto advance_start = std::chrono::steady_clock::now();
     scene.machine()->advance(solved.machine);
