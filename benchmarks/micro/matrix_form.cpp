@@ -100,7 +100,7 @@ MatrixForm::MatrixForm(const ContactProblem& problem) {
   rows = machine_begin + static_cast<Index>(machine_rows);
   for (const ContactPoint& p : problem.points) frames.push_back(contact_frame(p.normal));
   for (const ContactPair& pair : problem.pairs)
-    frames.push_back(contact_frame(problem.points[pair.first].normal));
+    frames.push_back(contact_frame(pair.count > 0 ? problem.points[pair.first].normal : Vector3d::UnitX()));
 
   x_free = velocities(problem, true);
   J.resize(rows, x_free.size());
@@ -143,7 +143,7 @@ void MatrixForm::project(const ContactProblem& problem, VectorXd& impulses) cons
       double& normal = impulses[point_row(k)];
       normal = std::max(0.0, normal);
       load += normal;
-      into_disc(impulses.segment(point_row(k) + 1, 2), problem.points[k].friction * normal);
+      into_disc(impulses.segment(point_row(k) + 1, 2), problem.points[pair.first].friction * normal);
     }
     const double limit = pair.spinning_arm * load;
     double& spin = impulses[pair_row(q)];

@@ -129,8 +129,8 @@ constexpr double restored_round_off = 1e-6;
 constexpr double speculative_step = 5e-3;
 
 /// [m] A point this far apart joins the solve even when it does not close in; with the motion of two steps added it covers
-/// whatever the solve itself may set moving. Chosen here. Higher: more points to solve. Lower: a contact may be missed
-/// for a step.
+/// what the solve itself sets moving, but for hard impacts (world/extra_reach.h). Chosen here. Higher: more
+/// points to solve. Lower: a contact may be missed for a step.
 constexpr double resting_margin = 1e-3;
 
 /// [m] A point without its feature of the last step starts from the nearest one left within this. Chosen here, a tenth of

@@ -72,7 +72,9 @@ class ContactFinder {
   /// Freezes or wakes a collider; between two frozen ones nothing is searched.
   void set_moves(int collider, bool moves);
 
-  /// All manifolds with at least one point, ordered by (collider_a, collider_b). Valid until the next call.
+  /// All manifolds with at least one point, ordered by (collider_a, collider_b). They stay as they are until
+  /// the next find(), whatever is added, moved or removed before; the end of the finder, or another one moved
+  /// into its place, ends them.
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
 

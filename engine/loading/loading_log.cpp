@@ -23,6 +23,14 @@ std::string numbered(const std::string& group, std::size_t k) {
   throw std::invalid_argument("loading::write_log: " + what + "; make the log agree with itself");
 }
 
+// What another program wrote, or a damaged file that its checksum does not know of.
+void require_fit(const Reader& file, bool fits, const std::string& data, const std::string& expected) {
+  if (!fits)
+    throw std::runtime_error("loading::read_log: " + file.path().string() + ": /" + data +
+                             " does not fit the rest of the log; expected " + expected +
+                             "; let the run be written anew");
+}
+
 // One list of the plan's and the cycle's numbers serves writing and reading.
 template <class PlanOrConst, class Visit>
 void visit_numbers(PlanOrConst& plan, Visit&& visit) {
@@ -80,8 +88,10 @@ Plan read_plan(const Reader& file, const std::string& group) {
   plan.curl = static_cast<CurlMode>(file.integer(group, "curl"));
   plan.lift = static_cast<LiftGoal>(file.integer(group, "lift"));
   const auto corners = file.doubles(group + "/corners_x_z_phi").values;
+  require_fit(file, corners.size() == 3 * plan.corners.size(), group + "/corners_x_z_phi",
+              std::to_string(plan.corners.size()) + " rows of 3");
   for (std::size_t k = 0; k < plan.corners.size(); ++k)
-    plan.corners[k] = {corners.at(3 * k), corners.at(3 * k + 1), corners.at(3 * k + 2)};
+    plan.corners[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
   return plan;
 }
 
@@ -134,8 +144,9 @@ CycleRecord read_cycle(const Reader& file, const std::string& group) {
     values = file.doubles(group + "/" + name).values;
   });
   auto heights = file.doubles(group + "/column_heights_m");
-  cycle.columns_y = static_cast<int>(heights.shape.at(0));
-  cycle.columns_x = static_cast<int>(heights.shape.at(1));
+  require_fit(file, heights.shape.size() == 2, group + "/column_heights_m", "a matrix, ny x nx");
+  cycle.columns_y = static_cast<int>(heights.shape[0]);
+  cycle.columns_x = static_cast<int>(heights.shape[1]);
   cycle.column_heights = std::move(heights.values);
   cycle.stages = stages_of(file.table(group + "/stages"));
   cycle.plan = read_plan(file, group + "/plan");
@@ -198,8 +209,15 @@ void read_bodies(const Reader& file, SceneRecord& scene) {
   const auto shape = file.integers("scene/bodies/shape").values;
   const auto opacity = file.doubles("scene/bodies/opacity").values;
   const auto color = file.texts("scene/bodies/color"), name = file.texts("scene/bodies/name");
-  for (std::size_t k = 0; k < shape.size(); ++k)
-    scene.bodies.push_back({shape[k], color.at(k), opacity.at(k), name.at(k)});
+  const std::string one_each = std::to_string(shape.size()) + ", one per body";
+  require_fit(file, opacity.size() == shape.size(), "scene/bodies/opacity", one_each);
+  require_fit(file, color.size() == shape.size(), "scene/bodies/color", one_each);
+  require_fit(file, name.size() == shape.size(), "scene/bodies/name", one_each);
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    require_fit(file, shape[k] >= 0 && static_cast<std::size_t>(shape[k]) < scene.shapes.size(),
+                "scene/bodies/shape", "numbers below the " + std::to_string(scene.shapes.size()) + " shapes");
+    scene.bodies.push_back({shape[k], color[k], opacity[k], name[k]});
+  }
 }
 
 void read_frames(const Reader& file, SceneRecord& scene) {
@@ -207,10 +225,15 @@ void read_frames(const Reader& file, SceneRecord& scene) {
   const auto cycle = file.integers("scene/frames/cycle").values;
   const auto label = file.texts("scene/frames/label");
   const auto poses = file.floats("scene/frames/poses").values;
+  const std::string one_each = std::to_string(t.size()) + ", one per frame";
+  require_fit(file, cycle.size() == t.size(), "scene/frames/cycle", one_each);
+  require_fit(file, label.size() == t.size(), "scene/frames/label", one_each);
+  require_fit(file, poses.size() == 7 * scene.bodies.size() * t.size(), "scene/frames/poses",
+              "7 numbers per frame and body");
   const auto width = static_cast<std::ptrdiff_t>(7 * scene.bodies.size());
   for (std::size_t k = 0; k < t.size(); ++k) {
     const auto first = poses.begin() + static_cast<std::ptrdiff_t>(k) * width;
-    scene.frames.push_back({t[k], cycle.at(k), label.at(k), {first, first + width}});
+    scene.frames.push_back({t[k], cycle[k], label[k], {first, first + width}});
   }
 }
 
@@ -219,8 +242,9 @@ SceneRecord read_scene(const Reader& file) {
   const std::size_t shapes = file.children("scene/shapes").size();
   for (std::size_t k = 0; k < shapes; ++k) {
     const auto values = file.doubles(numbered("scene/shapes", k)).values;
+    require_fit(file, values.size() % 3 == 0, numbered("scene/shapes", k), "three numbers per vertex");
     std::vector<Eigen::Vector3d> vertices;
-    for (std::size_t v = 0; v + 2 < values.size(); v += 3)
+    for (std::size_t v = 0; v < values.size(); v += 3)
       vertices.emplace_back(values[v], values[v + 1], values[v + 2]);
     scene.shapes.push_back(engine::ConvexPolyhedron::hull_of(vertices));
   }

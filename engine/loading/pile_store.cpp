@@ -66,11 +66,18 @@ std::string pile_provenance(const Scenario& s) {
   add_number(provenance, "iteration_budget", s.world.solver.iteration_budget);
   add_number(provenance, "tolerance", s.world.solver.tolerance);
   add_number(provenance, "warm_start", s.world.warm_start);
-  add_number(provenance, "gravity", s.world.gravity.norm());
+  add_number(provenance, "gravity_x", s.world.gravity.x());
+  add_number(provenance, "gravity_y", s.world.gravity.y());
+  add_number(provenance, "gravity_z", s.world.gravity.z());
   add_number(provenance, "margin", s.world.contacts.margin);
+  add_number(provenance, "slack", s.world.contacts.slack);
   add_number(provenance, "reuse_distance", s.world.contacts.reuse_distance);
+  add_number(provenance, "reuse_angle", s.world.contacts.reuse_angle);
+  add_number(provenance, "hysteresis", s.world.contacts.hysteresis);
   add_number(provenance, "rest_speed", s.pile.rest.fastest);
   add_number(provenance, "rest_energy", s.pile.rest.mean_energy);
+  add_number(provenance, "rest_hold", s.pile.rest.hold);
+  add_number(provenance, "rest_cap", s.pile.rest.cap);
   if (const engine::FreezingOptions& f = s.world.freezing; f.on) {
     add_number(provenance, "freeze_hold", f.hold);
     add_number(provenance, "freeze_distance", f.distance);

@@ -5,13 +5,16 @@
 #include <drawpoint/engine/machine/constrained_response.h>
 #include <drawpoint/engine/machine/machine_rows.h>
 #include <algorithm>
+#include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/machine/machine.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace drawpoint::engine::machine {
 namespace {
 
-constexpr double fastest_motor = 1e3;  // [m/s] or [rad/s]
+constexpr double fastest_motor = 1e3;        // [m/s] or [rad/s]
+constexpr double farthest_coordinate = 1e4;  // [rad] or [m]
 
 }  // namespace
 
@@ -129,7 +132,13 @@ void Machine::place(const Eigen::Isometry3d& X_WM) {
   simbody_->tree.place(X_WM);
 }
 
-void Machine::set_coordinate(int body, double value) { simbody_->tree.set_coordinate(body, value); }
+void Machine::set_coordinate(int body, double value) {
+  check_joint(spec(), body, "machine::Machine::set_coordinate");
+  engine::detail::require(
+      "machine::Machine::set_coordinate: the coordinate of \"" + spec().bodies[body].name + "\"", value,
+      {-farthest_coordinate, farthest_coordinate, "rad or m"});
+  simbody_->tree.set_coordinate(body, value);
+}
 
 double Machine::coordinate(int body) const { return simbody_->tree.coordinate(body); }
 double Machine::speed(int body) const { return simbody_->tree.bodies[body].getOneU(simbody_->tree.state, 0); }
@@ -233,12 +242,14 @@ void Machine::advance(const engine::SuperBodySolution& solution) {
     throw std::runtime_error("machine::Machine::advance: the joint speeds come out with norm " +
                              std::to_string(u.norm()) + " m/s or rad/s; use a smaller step");
   const Eigen::VectorXd acceleration = (u - view(s.tree.state.getU())) / s.h;
-  s.reactions = reactions(
+  // At the pose before the step, but kept only once the step has been made.
+  Reactions felt = reactions(
       s.tree, s.G, {s.row_forces(solution.row_impulses), s.loads(&solution.part_impulses)}, acceleration);
+  s.tree.move(u, s.N * solution.mean_velocity, s.h);
+  s.reactions = std::move(felt);
   for (std::size_t m = 0; m < s.motor_forces.size(); ++m) s.motor_forces[m] = solution.row_impulses[m] / s.h;
   s.row_starts = solution.row_starts;
   std::fill(s.extra.begin(), s.extra.end(), Wrench());
-  s.tree.move(u, s.N * solution.mean_velocity, s.h);
 }
 
 std::vector<double> Machine::state() const {

@@ -35,7 +35,9 @@ class Machine final : public engine::ArticulatedBody {
   /// Puts the machine at rest in its reference pose with the machine frame at X_WM.
   void place(const Eigen::Isometry3d& X_WM);
 
-  /// Sets one joint's coordinate [rad] or [m]; the other joints of its loops follow.
+  /// Sets one joint's coordinate, at most 1e4 [rad] or [m] either way; the other joints of its loops follow.
+  /// Throws std::invalid_argument for a body without one and for other values, std::runtime_error for a
+  /// coordinate that the loops do not reach; the machine has not moved then.
   void set_coordinate(int body, double value);
 
   double coordinate(int body) const;  ///< joint coordinate [rad] or [m]; hinge or slider only

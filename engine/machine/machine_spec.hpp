@@ -64,7 +64,10 @@ struct MachineSpec {
   std::vector<StopSpec> stops;
 };
 
-/// Throws std::invalid_argument naming the place, the value and what is allowed.
+/// Throws std::invalid_argument naming the place, the value and what is allowed. Loops need no check of their
+/// own that they are closed at the reference pose: their point is one for both bodies.
 void check(const MachineSpec& spec);
+/// As check(), for a body that is to have one joint coordinate; `who` begins the message.
+void check_joint(const MachineSpec& spec, int body, const std::string& who);
 
 }  // namespace drawpoint::engine::machine

@@ -79,10 +79,17 @@ void SimbodyTree::place(const Eigen::Isometry3d& X_WM) {
 void SimbodyTree::set_coordinate(int body, double value) {
   const double start = coordinate(body);
   const int steps = 1 + static_cast<int>(std::abs(value - start) / coordinate_step);
-  for (int k = 1; k <= steps; ++k) {
-    bodies[body].lockAt(state,
-                        start + (value - start) * k / steps);  // held while the rest of its loops follow
-    close_loops();
+  const SimTK::State before = state;
+  try {
+    for (int k = 1; k <= steps; ++k) {
+      bodies[body].lockAt(state,
+                          start + (value - start) * k / steps);  // held while the rest of its loops follow
+      close_loops();
+    }
+  } catch (...) {
+    state = before;
+    system.realize(state, SimTK::Stage::Velocity);
+    throw;
   }
   bodies[body].unlock(state);
   system.realize(state, SimTK::Stage::Velocity);

@@ -21,7 +21,7 @@ struct SimbodyTree {
 
   /// At rest in the reference pose, the machine frame at X_WM.
   void place(const Eigen::Isometry3d& X_WM);
-  /// One joint's coordinate; the others of its loops follow.
+  /// One joint's coordinate; the others of its loops follow. Not moved if this throws.
   void set_coordinate(int body, double value);
   /// One step of h: `u` at its end, `mean` over it, both speeds of all joints. Not moved if this throws.
   void move(const Eigen::VectorXd& u, const Eigen::VectorXd& mean, double h);

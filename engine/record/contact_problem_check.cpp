@@ -86,6 +86,14 @@ void check_point(const ContactPoint& point, Finding& find) {
   find.finite(point.start, "start");
 }
 
+// The solver takes both from the first point of a pair.
+void check_shared(const ContactPoint& point, const ContactPoint& first, Finding& find) {
+  find.require(point.friction == first.friction, "friction", text(point.friction),
+               "one per pair, as its first point");
+  find.require(point.normal == first.normal, "normal", text(point.normal),
+               "one per pair, as its first point");
+}
+
 void check_row(const SuperBodyRow& row, Eigen::Index freedoms, Finding& find) {
   find.require(row.jacobian.size() == freedoms && row.jacobian.allFinite(), "jacobian",
                "of another length or not finite", "one finite number a freedom");
@@ -135,6 +143,14 @@ std::string problem_fault(const ContactProblem& problem) {
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     find.at("points", k);
     check_point(problem.points[k], find);
+  }
+  for (std::size_t q = 0; q < problem.pairs.size() && find.fault().empty(); ++q) {
+    const int first = problem.pairs[q].first;
+    for (int k = first; k < first + problem.pairs[q].count; ++k) {
+      find.at("points", static_cast<std::size_t>(k));
+      check_shared(problem.points[static_cast<std::size_t>(k)],
+                   problem.points[static_cast<std::size_t>(first)], find);
+    }
   }
   if (problem.machine) check_machine(*problem.machine, find);
   return find.fault();

@@ -76,6 +76,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
+  const std::filesystem::path& path() const;
   int version() const;  ///< of its format
 
   std::string text(const std::string& group, const std::string& name) const;

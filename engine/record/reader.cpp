@@ -193,6 +193,8 @@ Reader::Reader(std::filesystem::path path, const FileKind& kind) : state_(std::m
 
 Reader::~Reader() = default;
 
+const std::filesystem::path& Reader::path() const { return state_->path; }
+
 int Reader::version() const { return state_->version; }
 
 std::string Reader::text(const std::string& group, const std::string& name) const {

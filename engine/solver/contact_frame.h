@@ -28,11 +28,12 @@ inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
   return X;
 }
 
-/// A point's start impulse of one of S substeps in its frame, made admissible.
-inline Eigen::Vector3d start_impulse(const ContactPoint& point, const Eigen::Matrix3d& frame, int substeps) {
+/// A point's start impulse of one of S substeps in its frame, made admissible for the pair's friction.
+inline Eigen::Vector3d start_impulse(const ContactPoint& point, const Eigen::Matrix3d& frame, double friction,
+                                     int substeps) {
   Eigen::Vector3d impulse = frame * point.start / substeps;
   impulse[0] = std::max(0.0, impulse[0]);
-  impulse.tail<2>() *= detail::law::disc_factor(impulse.tail<2>().squaredNorm(), point.friction * impulse[0]);
+  impulse.tail<2>() *= detail::law::disc_factor(impulse.tail<2>().squaredNorm(), friction * impulse[0]);
   return impulse;
 }
 

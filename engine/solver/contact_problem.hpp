@@ -45,7 +45,7 @@ struct ContactPoint {
   double gap = 0;                                    ///< at the step's start [m], negative when overlapping
   double stiffness = 1e9;                            ///< k at this point [N/m]
   double damping_time = 0;                           ///< τ [s]
-  double friction = 0;                               ///< μ
+  double friction = 0;                               ///< μ; one per pair: what the first point says
   double restitution = 0;                            ///< e, 0 to 1
   /// On B, world axes, of the substep that starts (in) or ended (out) the step, times S [N s].
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
@@ -57,8 +57,8 @@ struct ContactPoint {
 /// Two bodies that touch, with their points [first, first + count) and the moment between them.
 struct ContactPair {
   int a = 0, b = 0;
-  int collider_a = 0, collider_b = 0;                 ///< label of the pair, for starting the next step
-  int first = 0, count = 0;                           ///< points lie pair after pair, without gaps
+  int collider_a = 0, collider_b = 0;  ///< label of the pair, for starting the next step
+  int first = 0, count = 0;  ///< points lie pair after pair, without gaps; a pair without any carries nothing
   double rolling_arm = 0, spinning_arm = 0;           ///< μ_r R*, μ_s R* [m]
   Eigen::Vector3d start = Eigen::Vector3d::Zero();    ///< moment impulse on B, as ContactPoint::start [N m s]
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< out: over the step [N m s]

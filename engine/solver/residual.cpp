@@ -132,7 +132,8 @@ double LastSubstep::evaluate(const ContactPair& pair, const ContactPoint& p) {
 
   const Vector3d tangent = impulse - normal * n, slip = u - n.dot(u) * n;
   const Vector3d stepped = tangent - law::inverse_or_zero(W.most_across) * slip;
-  friction_ += (tangent - in_disc(stepped, p.friction * std::max(0.0, normal))).norm();
+  const double friction = problem_.points[pair.first].friction;
+  friction_ += (tangent - in_disc(stepped, friction * std::max(0.0, normal))).norm();
   return normal;
 }
 
@@ -173,6 +174,7 @@ double LastSubstep::evaluate_rows() const {
 
 Residual LastSubstep::residual() {
   for (const ContactPair& pair : problem_.pairs) {
+    if (pair.count == 0) continue;
     double load = 0;
     for (int k = pair.first; k < pair.first + pair.count; ++k) load += evaluate(pair, problem_.points[k]);
     evaluate_moment(pair, std::max(0.0, load));

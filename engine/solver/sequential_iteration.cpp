@@ -42,7 +42,7 @@ void SequentialIteration::add_pair(const ContactPair& pair) {
   r.count = pair.count;
   r.rolling_arm = pair.rolling_arm;
   r.spinning_arm = pair.spinning_arm;
-  r.frame = contact_frame(problem_.points[pair.first].normal);
+  r.frame = contact_frame(pair.count > 0 ? problem_.points[pair.first].normal : Vector3d::UnitX());
   r.W.setZero();
   r.rows_a = r.a < 0 ? machine_.add_angular_rows(part_of(r.a), r.frame) : -1;
   r.rows_b = r.b < 0 ? machine_.add_angular_rows(part_of(r.b), r.frame) : -1;
@@ -63,7 +63,7 @@ void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint&
   p.frame = contact_frame(point.normal);
   p.terms = law::spook_terms(point, problem_.step, substeps_);
   p.gap = point.gap;
-  p.friction = point.friction;
+  p.friction = problem_.points[pair.first].friction;
   p.W.setZero();
   p.rows_a = p.a < 0 ? machine_.add_rows(part_of(p.a), p.arm_a, p.frame) : -1;
   p.rows_b = p.b < 0 ? machine_.add_rows(part_of(p.b), p.arm_b, p.frame) : -1;
@@ -71,7 +71,7 @@ void SequentialIteration::add_point(const ContactPair& pair, const ContactPoint&
   if (p.b >= 0) p.W += response(p.b, p.arm_b, p.frame);
   add_part_response(p);
   p.invert(p.terms.sigma);
-  p.impulse = start_impulse(point, p.frame, substeps_);
+  p.impulse = start_impulse(point, p.frame, p.friction, substeps_);
   p.initial_impulse = p.impulse[0];
   points_.push_back(p);
 }

@@ -5,6 +5,7 @@
 #include <drawpoint/engine/solver/problem_sizes.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
 #include <cassert>
+#include <cmath>
 #include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
@@ -19,10 +20,23 @@ void check(const SolverOptions& options) {
   const auto require = [](const std::string& name, double value, const detail::Range& allowed) {
     detail::require("engine::ContactSolver: " + name, value, allowed);
   };
+  require("method", static_cast<int>(options.method), {0, 1, "(Method::sequential, Method::batched)"});
   require("substeps", options.substeps, {1, 1e4, "per step"});
   require("iterations", options.iterations, {1, 1e6, "per substep"});
   require("iteration_budget", options.iteration_budget, {0, 1e9, "iterations times points"});
   require("tolerance", options.tolerance, {0, 1, "of the load"});
+}
+
+void check_step(double step) {
+  if (step > 0 && std::isfinite(step)) return;
+  throw std::invalid_argument("engine::solve: the problem's step is " + detail::text(step) +
+                              " s; allowed: above 0, finite; set ContactProblem::step");
+}
+
+// No force, so no moment; the methods that go by points never come to such a pair.
+void clear_pairs_without_points(ContactProblem& problem) {
+  for (ContactPair& pair : problem.pairs)
+    if (pair.count == 0) pair.start = pair.impulse = Eigen::Vector3d::Zero();
 }
 
 }  // namespace
@@ -50,6 +64,8 @@ SolverReport ContactSolver::solve(ContactProblem& problem) {
   assert(detail::sides_exist(problem) && "each side of a pair is a body or a part of the machine");
   assert((!problem.machine || detail::machine_sizes_agree(*problem.machine)) &&
          "the machine's maps, origins and rows have its number of coordinates");
+  check_step(problem.step);
+  clear_pairs_without_points(problem);
   impacts_->run(problem, *pool_);
   SolverReport report =
       options_.method == Method::batched ? batched_->solve(problem) : solve_sequentially(problem, options_);

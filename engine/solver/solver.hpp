@@ -43,6 +43,7 @@ class ContactSolver {
   ContactSolver(ContactSolver&&) noexcept;
   ContactSolver& operator=(ContactSolver&&) noexcept;
 
+  /// Throws std::invalid_argument for a step that is not above 0.
   SolverReport solve(ContactProblem& problem);
 
  private:
@@ -52,7 +53,8 @@ class ContactSolver {
   std::unique_ptr<detail::ImpactStage> impacts_;
 };
 
-/// One solve, on its own. Throws std::invalid_argument for options out of range.
+/// One solve, on its own. Throws std::invalid_argument for options out of range and a step that is not above
+/// 0.
 SolverReport solve(ContactProblem& problem, const SolverOptions& options = {},
                    std::shared_ptr<const ThreadPool> pool = nullptr);
 

@@ -23,7 +23,8 @@ class ArticulatedBody {
   /// advance().
   virtual const SuperBody& linearise(double h, const Eigen::Vector3d& gravity) = 0;
 
-  /// Takes the solved velocities, moves the machine by one step and recovers its joint forces.
+  /// Takes the solved velocities, moves the machine by one step and recovers its joint forces. One that
+  /// throws must have changed nothing, as World::step() promises.
   virtual void advance(const SuperBodySolution& solution) = 0;
 
   /// All numbers that later steps depend on, and taking them back. set_state() throws std::runtime_error for

@@ -99,11 +99,13 @@ unsigned ContactAssembly::joining(const Manifold& m) const {
   for (int k = 0; k < m.count; ++k)
     if (m.points[k].gap <= constants::resting_margin) joins |= 1u << k;
   if (joins + 1 == 1u << m.count) return joins;  // most: no need to look at the sides
-  const Side a = scene_.side_of(scene_.surface(m.collider_a)),
-             b = scene_.side_of(scene_.surface(m.collider_b));
+  const Surface &surface_a = scene_.surface(m.collider_a), &surface_b = scene_.surface(m.collider_b);
+  const Side a = scene_.side_of(surface_a), b = scene_.side_of(surface_b);
+  const double margin =
+      constants::resting_margin + scene_.extra_reach_of(surface_a) + scene_.extra_reach_of(surface_b);
   for (int k = 0; k < m.count; ++k) {
     const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
-    if (m.points[k].gap <= constants::resting_margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
+    if (m.points[k].gap <= margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
   }
   return joins;
 }

@@ -12,7 +12,8 @@
 /// From manifolds to the contact problem of a step, and from its impulses to what the next step starts from.
 ///
 /// Points that may come to bear within the step join the problem: those that overlap or are within 1 mm, and
-/// those that could close in at twice their present speed. Owns the problem and the memory of pairs.
+/// those that could close in at twice their present speed or that an impact may carry that far
+/// (extra_reach.h). Owns the problem and the memory of pairs.
 namespace drawpoint::engine::detail {
 
 class ContactAssembly {
@@ -26,7 +27,7 @@ class ContactAssembly {
   void fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake);
   /// Takes over the impulses of the solved problem.
   void keep_impulses();
-  /// Of a rock in anything, at the start of the step [m].
+  /// Of a rock in anything, at the start of the step [m]. Looks at the manifolds that fill() was given.
   double deepest_overlap();
 
   ContactProblem& problem() { return problem_; }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <drawpoint/engine/world/pair_memory.h>
 
 #include <algorithm>
@@ -10,6 +11,22 @@
 namespace drawpoint::engine::detail {
 
 using Eigen::Vector3d;
+
+namespace {
+
+// Of a pair's normal load, and so of the moment that it allows, what the next step starts from.
+double kept_share(const ContactProblem& problem, const ContactPair& pair) {
+  double load = 0, impacts = 0;
+  for (int k = pair.first; k < pair.first + pair.count; ++k) {
+    const ContactPoint& p = problem.points[static_cast<std::size_t>(k)];
+    const double normal = p.normal.dot(p.start);
+    load += normal;
+    impacts += (1 - p.warm_start_fraction) * normal;
+  }
+  return 1 + law::moment_change(impacts, load);
+}
+
+}  // namespace
 
 Vector3d PairMemory::Start::point(std::uint32_t feature, const Vector3d& position) {
   if (!pair_) return Vector3d::Zero();
@@ -49,7 +66,7 @@ void PairMemory::store(const ContactProblem& problem, int k) {
   pair.b = solved.collider_b;
   pair.held = false;
   pair.solved = step_;
-  pair.rolling = solved.start;
+  pair.rolling = kept_share(problem, solved) * solved.start;
   pair.count = solved.count;
   for (int i = 0; i < solved.count; ++i) {
     const ContactPoint& p = problem.points[static_cast<std::size_t>(solved.first + i)];

@@ -68,6 +68,7 @@ int Scene::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const V
       add_surface("World::add_rock", {{Owner::rock, index}, body.material, radius_about_origin(*body.shape)},
                   rock_collider(body, index));
   rocks_.push_back({body, pose, velocity, angular_velocity, true, id});
+  extra_reach_.add(*body.shape);
   finder_.set_pose(id, pose);
   return index;
 }
@@ -155,13 +156,14 @@ void Scene::hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& po
 void Scene::set_moves(int rock, bool moves) { finder_.set_moves(rocks_[rock].collider, moves); }
 
 const SuperBody* Scene::linearise(double h) {
-  super_ = machine_ ? &machine_->linearise(h, options_.gravity) : nullptr;
-  return super_;
+  if (!machine_) return nullptr;
+  super_ = machine_->linearise(h, options_.gravity);
+  return &super_;
 }
 
 Vector3d Scene::origin_of(const Surface& surface) const {
   if (surface.owner == Owner::rock) return rocks_[surface.index].pose.translation();
-  return surface.owner == Owner::part ? super_->origins[surface.index] : Vector3d(Vector3d::Zero());
+  return surface.owner == Owner::part ? super_.origins[surface.index] : Vector3d(Vector3d::Zero());
 }
 
 SurfaceOwner Scene::owner(int collider) const {
@@ -171,8 +173,8 @@ SurfaceOwner Scene::owner(int collider) const {
 
 Side Scene::side_of(const Surface& surface) const {
   if (surface.owner == Owner::part) {
-    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
-    return {super_->origins[surface.index], V.tail<3>(), V.head<3>()};
+    const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
+    return {super_.origins[surface.index], V.tail<3>(), V.head<3>()};
   }
   if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   const Rock& rock = rocks_[surface.index];
@@ -180,8 +182,8 @@ Side Scene::side_of(const Surface& surface) const {
 }
 
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its
-// speculative margins and the margin, so no contact is missed at any speed. In whole steps of
-// constants::speculative_step.
+// speculative margins and the margin, so no contact is missed at any speed that it has or gets
+// (extra_reach.h). In whole steps of constants::speculative_step.
 double Scene::speculative_margin_of(const Surface& surface, double h) const {
   constexpr double resolution = constants::speculative_step;
   const double fall = h * options_.gravity.norm();
@@ -190,10 +192,11 @@ double Scene::speculative_margin_of(const Surface& surface, double h) const {
     const Rock& rock = rocks_[surface.index];
     speed = rock.velocity.norm() + rock.angular_velocity.norm() * surface.radius + fall;
   } else if (surface.owner == Owner::part) {
-    const SpatialVector V = super_->part_maps[surface.index] * super_->velocity_before;
+    const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
     speed = V.tail<3>().norm() + V.head<3>().norm() * surface.radius + fall;
   }
-  return resolution * std::ceil(std::max(0.0, h * speed - 0.5 * options_.contacts.margin) / resolution);
+  const double way = h * speed + extra_reach_of(surface);
+  return resolution * std::ceil(std::max(0.0, way - 0.5 * options_.contacts.margin) / resolution);
 }
 
 void Scene::place_colliders(const std::vector<int>& awake, double h) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/world/extra_reach.h>
 #include <array>
 #include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/collision/contact_finder.hpp>
@@ -64,7 +65,8 @@ class Scene {
   /// Between two colliders that do not move nothing is searched.
   void set_moves(int rock, bool moves);
 
-  /// The machine's super-body for the coming step of h [s]; nullptr without a machine.
+  /// The machine's super-body for the coming step of h [s]; nullptr without a machine. Stays as it is until
+  /// the next call, whatever becomes of the machine.
   const SuperBody* linearise(double h);
 
   std::vector<Rock>& rocks() { return rocks_; }
@@ -77,6 +79,12 @@ class Scene {
   /// Where the origin of the surface's body is; of a machine, at the start of the last step.
   Eigen::Vector3d origin_of(const Surface& surface) const;
   Side side_of(const Surface& surface) const;
+
+  /// Beyond what velocities say, in this step [m].
+  ExtraReach& extra_reach() { return extra_reach_; }
+  double extra_reach_of(const Surface& surface) const {
+    return surface.owner == Owner::rock ? extra_reach_.of(surface.index) : 0.0;
+  }
 
   /// As World's function of this name.
   std::optional<RayHit> cast_ray(const Ray& ray, double most) const;
@@ -104,8 +112,9 @@ class Scene {
   std::vector<Surface> surfaces_;           // by collider
   std::array<std::vector<bool>, 3> kinds_;  // of the surfaces so far, by their owner
   std::vector<Rock> rocks_;
+  ExtraReach extra_reach_;
   ArticulatedBody* machine_ = nullptr;
-  const SuperBody* super_ = nullptr;
+  SuperBody super_;                  // of the last step, a copy: the machine's own is valid until it advances
   std::vector<ColliderMove> moves_;  // of this step
   StateHash surroundings_;
 };

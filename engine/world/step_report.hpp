@@ -13,7 +13,9 @@ struct StepReport {
   double complementarity = 0, cone = 0;  ///< residual of the contact law, relative to the normal load
   double max_overlap = 0;                ///< [m]
   int awake = 0;                         ///< rocks that were solved
-  int solves = 0;  ///< 1, and one more for each time that the load on frozen rocks changed too much
+  /// 1, and one more for each time that the load on frozen rocks changed too much, or that a rock was carried
+  /// farther from its way than contacts had been looked for.
+  int solves = 0;
   double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;  ///< wall time [s]
 };
 

@@ -103,19 +103,22 @@ StepReport World::Impl::step(double h) {
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
   contacts.begin_step(h, last_step);
+  scene.extra_reach().begin_step();
   contacts.problem().machine = scene.linearise(h);
   report.machine_s = scene.machine() ? seconds_since(start) : 0;
   SolverReport solved;
   do {
     solved = solve(with_thawed_near_machine(find_contacts(report), report), report);
     check_solution(solved.machine);
-  } while (thaw_struck(report.solves));
-  contacts.keep_impulses();
+  } while (thaw_struck(report.solves) ||
+           scene.extra_reach().grow(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h));
   if (scene.machine()) {
     const auto advance_start = std::chrono::steady_clock::now();
     scene.machine()->advance(solved.machine);
     report.machine_s += seconds_since(advance_start);
   }
+  contacts.keep_impulses();  // from here on nothing can fail
+  report.max_overlap = contacts.deepest_overlap();
   detail::move_rocks(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h);
   ++steps;
   time += h;
@@ -127,7 +130,6 @@ StepReport World::Impl::step(double h) {
   report.last_change = solved.last_change;
   report.complementarity = solved.complementarity;
   report.cone = solved.cone;
-  report.max_overlap = contacts.deepest_overlap();
   report.rest_s =
       seconds_since(start) - report.broad_s - report.narrow_s - report.machine_s - report.solver_s;
   return report;

@@ -24,8 +24,9 @@ std::string told(const std::function<void()>& call) {
 }
 
 /// Expects a refusal with all these words.
-inline void expect_told(const std::function<void()>& call, const std::vector<std::string>& words) {
-  const std::string what = told(call);
+template <class Refusal = std::invalid_argument>
+void expect_told(const std::function<void()>& call, const std::vector<std::string>& words) {
+  const std::string what = told<Refusal>(call);
   for (const std::string& word : words)
     EXPECT_NE(what.find(word), std::string::npos) << what << "\nlacks " << word;
 }

@@ -167,7 +167,7 @@ void PairBatches::fill_lane(const ContactProblem& problem, PairBatch& batch, int
     p.gap[lane] = static_cast<float>(point.gap);
     p.upsilon[lane] = static_cast<float>(terms.upsilon);
     p.sigma[lane] = static_cast<float>(terms.sigma);
-    put(start_impulse(point, frame, substeps), p.impulse, lane);
+    put(start_impulse(point, frame, first.friction, substeps), p.impulse, lane);
   }
 }
 

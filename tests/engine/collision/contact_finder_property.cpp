@@ -247,3 +247,37 @@ TEST(ContactFinder, RefusesBadInput) {
   skew.linear()(0, 1) = std::numeric_limits<double>::infinity();
   EXPECT_NE(message_of([&] { finder.set_pose(id, skew); }).find("collider 0 has axes"), std::string::npos);
 }
+
+// What find() gave is read while colliders are frozen, moved, added and removed for the next step: it stays,
+// bit for bit, until the next find().
+TEST(ContactFinder, ManifoldsStayUntilTheNextSearch) {
+  Heap heap(40, 8);
+  ContactFinder& finder = heap.finder();
+  const std::vector<Manifold>& found = finder.find();
+  const std::vector<Manifold> kept = found;
+  ASSERT_GT(kept.size(), 20u);
+  const std::vector<std::pair<const char*, std::function<void()>>> calls{
+      {"set_moves", [&] { finder.set_moves(3, false); }},
+      {"set_pose",
+       [&] {
+         finder.set_pose(4, pose_at({0, 0, 50}));
+       }},
+      {"set_speculative_margin", [&] { finder.set_speculative_margin(5, 1); }},
+      {"move", [&] { heap.shake(0.5, 0.5); }},
+      {"add",
+       [&] {
+         for (int k = 0; k < 1000; ++k) finder.add(collider_of(share(box({1, 1, 1})), 100 + k));
+       }},
+      {"remove",
+       [&] {
+         for (int k = 1; k < 20; ++k) finder.remove(k);
+       }},
+      {"save", [&] { finder.save(); }},
+      {"forget", [&] { finder.forget(); }}};
+  for (const auto& [name, call] : calls) {
+    call();
+    EXPECT_TRUE(same_bits(found, kept)) << name;
+  }
+  finder.find();
+  EXPECT_FALSE(same_bits(found, kept));
+}

@@ -112,6 +112,43 @@ TEST(SettledPile, BelongsToItsMaterials) {
   EXPECT_NE(pile_provenance(other), pile_provenance(own));
 }
 
+// And so is everything else that its bits depend on.
+TEST(SettledPile, BelongsToItsSetting) {
+  struct Case {
+    const char* what;
+    void (*change)(Scenario&);
+  };
+  const std::vector<Case> cases{
+      {"direction of gravity",
+       [](Scenario& s) {
+         s.world.gravity = {9.81, 0, 0};
+       }},
+      {"sideways gravity", [](Scenario& s) { s.world.gravity.y() = 1e-6; }},
+      {"rest's hold", [](Scenario& s) { s.pile.rest.hold *= 2; }},
+      {"rest's cap", [](Scenario& s) { s.pile.rest.cap *= 2; }},
+      {"rest's speed", [](Scenario& s) { s.pile.rest.fastest *= 2; }},
+      {"rest's energy", [](Scenario& s) { s.pile.rest.mean_energy *= 2; }},
+      {"margin", [](Scenario& s) { s.world.contacts.margin *= 2; }},
+      {"slack", [](Scenario& s) { s.world.contacts.slack *= 2; }},
+      {"reuse distance", [](Scenario& s) { s.world.contacts.reuse_distance *= 2; }},
+      {"reuse angle", [](Scenario& s) { s.world.contacts.reuse_angle *= 2; }},
+      {"hysteresis", [](Scenario& s) { s.world.contacts.hysteresis *= 2; }},
+      {"step", [](Scenario& s) { s.world.step *= 0.5; }},
+      {"method", [](Scenario& s) { s.world.solver.method = Method::sequential; }},
+      {"freezing", [](Scenario& s) { s.world.freezing.on = !s.world.freezing.on; }},
+      {"damping time", [](Scenario& s) { s.materials.rock_rock.damping_time = 0.1; }},
+      {"normal law", [](Scenario& s) { s.materials.rock_terrain.law = NormalLaw::hertz; }}};
+  const Scenario own = small_pile(20e3);
+  for (const Case& c : cases) {
+    Scenario other = own;
+    c.change(other);
+    EXPECT_NE(pile_provenance(other), pile_provenance(own)) << c.what;
+  }
+  Scenario faster = own;
+  faster.world.threads = 8;  // changes no bit
+  EXPECT_EQ(pile_provenance(faster), pile_provenance(own));
+}
+
 TEST(SettledPile, IsTheSameBitForBitWhenPouredAgain) {
   const SettledPile a = pour_pile(small_pile(10e3)), b = pour_pile(small_pile(10e3));
   ASSERT_EQ(a.rocks.size(), b.rocks.size());

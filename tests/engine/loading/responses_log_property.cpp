@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 #include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/engine/record/file.hpp>
+#include <drawpoint/tests/support/told.hpp>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -210,6 +212,126 @@ TEST(LoadingLog, AContradictionIsNotWritten) {
   log.cycles[0].columns_x = 5;
   EXPECT_THROW(write_log(folder.path / "run.h5", log), std::invalid_argument);
   EXPECT_TRUE(fs::is_empty(folder.path));
+}
+
+// A log of one body and one frame without cycles, as another program might write it: sound but for what
+// `spoil` changes.
+struct ForeignLog {
+  std::vector<std::int32_t> shape{0}, cycle{1};
+  std::vector<double> opacity{1}, t{0.5}, vertices{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::vector<std::string> color{"#808080"}, name{"boom"}, label{"lift"};
+  std::vector<float> poses = std::vector<float>(7);
+  std::vector<std::size_t> extents{1, 1, 7};
+
+  void write(const fs::path& path) const {
+    record::Writer file(path, {"drawpoint loading log", 2});
+    file.integer("/", "completed", 1);
+    file.text("/", "message", "");
+    for (const char* group : {"numbers", "texts", "cycles"}) file.group(group);
+    file.table("signals", {});
+    file.array("scene/shapes/0000", std::span<const double>(vertices));
+    file.array("scene/bodies/shape", std::span<const std::int32_t>(shape));
+    file.array("scene/bodies/opacity", std::span<const double>(opacity));
+    file.texts("scene/bodies/color", color);
+    file.texts("scene/bodies/name", name);
+    file.array("scene/frames/t_s", std::span<const double>(t));
+    file.array("scene/frames/cycle", std::span<const std::int32_t>(cycle));
+    file.texts("scene/frames/label", label);
+    file.array("scene/frames/poses", std::span<const float>(poses), extents);
+    file.commit();
+  }
+};
+
+TEST(LoadingLog, FramesThatDoNotFitTheBodiesAreRefused) {
+  const Folder folder;
+  const fs::path path = folder.path / "foreign.h5";
+  ForeignLog().write(path);
+  ASSERT_EQ(read_log(path).scene.frames.size(), 1u);
+  struct Case {
+    std::string words;
+    void (*spoil)(ForeignLog&);
+  };
+  const std::vector<Case> cases{{"scene/frames/poses",
+                                 [](ForeignLog& l) {
+                                   l.poses.resize(6), l.extents = {1, 1, 6};
+                                 }},
+                                {"scene/frames/poses",
+                                 [](ForeignLog& l) {
+                                   l.poses.clear(), l.extents = {0, 1, 7};
+                                 }},
+                                {"scene/frames/poses",
+                                 [](ForeignLog& l) {
+                                   l.poses.resize(14), l.extents = {2, 1, 7};
+                                 }},
+                                {"scene/frames/cycle", [](ForeignLog& l) { l.cycle.clear(); }},
+                                {"scene/frames/label", [](ForeignLog& l) { l.label.push_back("more"); }},
+                                {"scene/bodies/opacity", [](ForeignLog& l) { l.opacity.clear(); }},
+                                {"scene/bodies/color", [](ForeignLog& l) { l.color.clear(); }},
+                                {"scene/bodies/name", [](ForeignLog& l) { l.name.push_back("more"); }},
+                                {"scene/bodies/shape", [](ForeignLog& l) { l.shape[0] = 1; }},
+                                {"scene/bodies/shape", [](ForeignLog& l) { l.shape[0] = -1; }},
+                                {"scene/shapes/0000", [](ForeignLog& l) { l.vertices.resize(11); }}};
+  for (const Case& c : cases) {
+    ForeignLog log;
+    c.spoil(log);
+    log.write(path);
+    support::expect_told<std::runtime_error>([&] { read_log(path); }, {"foreign.h5", c.words});
+  }
+}
+
+// The plan's corners, the column heights and the stages of a cycle.
+TEST(LoadingLog, CyclesThatDoNotFitAreRefused) {
+  const Folder folder;
+  const fs::path path = folder.path / "foreign.h5";
+  const auto write_cycle = [&](std::size_t corners, const std::vector<std::size_t>& columns, double stage) {
+    record::Writer file(path, {"drawpoint loading log", 2});
+    file.integer("/", "completed", 1);
+    file.text("/", "message", "");
+    for (const char* group : {"numbers", "texts", "scene/shapes"}) file.group(group);
+    file.table("signals", {});
+    const std::string cycle = "cycles/0000", plan = cycle + "/plan";
+    for (const char* name : {"t_start_s", "t_end_s", "loaded_mass_kg", "front_mass_kg", "spilled_mass_kg"})
+      file.number(cycle, name, 1);
+    for (const char* name :
+         {"loaded_rock_masses_kg", "planned_x_m", "planned_z_m", "contour_x_m", "contour_z_m"})
+      file.array(cycle + "/" + name, std::span<const double>());
+    const std::vector<double> heights(6), poses(corners);
+    file.array(cycle + "/column_heights_m", std::span(heights), columns);
+    record::Table stages;
+    for (const char* name : {"stage", "reason", "t_start", "t_end", "progress", "start_x", "start_z",
+                             "start_phi", "end_x", "end_z", "end_phi"})
+      stages.columns.push_back({name, "1"});
+    stages.values.assign(11, 0);
+    stages.values[0] = stage;
+    file.table(cycle + "/stages", stages);
+    for (const char* name : {"y_m", "depth_m", "height_m", "tilt_rad", "slope_rad", "toe_m",
+                             "volume_centre_m", "crest_m", "height_limit_m", "area_m2", "phi_max_rad"})
+      file.number(plan, name, 1);
+    file.text(plan, "message", "");
+    for (const char* name : {"feasible", "limited", "row", "curl", "lift"}) file.integer(plan, name, 0);
+    file.array(plan + "/corners_x_z_phi", std::span<const double>(poses));
+    for (const char* name : {"shape", "cycle"})
+      file.array(std::string(name[0] == 's' ? "scene/bodies/" : "scene/frames/") + name,
+                 std::span<const std::int32_t>());
+    for (const char* name : {"scene/bodies/opacity", "scene/frames/t_s"})
+      file.array(name, std::span<const double>());
+    for (const char* name : {"scene/bodies/color", "scene/bodies/name", "scene/frames/label"})
+      file.texts(name, {});
+    file.array("scene/frames/poses", std::span<const float>(), {0, 0, 7});
+    file.commit();
+  };
+  const std::size_t corners = 3 * Plan().corners.size();
+  write_cycle(corners, {2, 3}, 1);
+  ASSERT_EQ(read_log(path).cycles.at(0).columns_x, 3);
+  const auto expect_refused = [&](const std::string& words) {
+    support::expect_told<std::runtime_error>([&] { read_log(path); }, {"foreign.h5", words});
+  };
+  write_cycle(corners - 1, {2, 3}, 1);
+  expect_refused("corners_x_z_phi");
+  write_cycle(corners + 3, {2, 3}, 1);
+  expect_refused("corners_x_z_phi");
+  write_cycle(corners, {6}, 1);
+  expect_refused("column_heights_m");
 }
 
 }  // namespace

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/solver/residual.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
+#include <drawpoint/tests/support/told.hpp>
+#include <functional>
+#include <limits>
 
 using namespace drawpoint::engine;
 using Eigen::Vector3d;
@@ -144,5 +148,124 @@ TEST(RollingResistance, TakesItsLimitFromASpinningBody) {
     const double press = rock_mass * 0.1, loss = std::min(0.5 * pair.spinning_arm * press, spin);
     EXPECT_NEAR(problem.points[0].impulse.z(), press, 1e-12);
     EXPECT_NEAR(problem.bodies[1].angular_velocity.z(), spin - loss, 1e-12);
+  }
+}
+
+namespace {
+
+// A body on the floor, pressed down and sliding along y, with a point on either side of its centre.
+ContactProblem sliding_on_two_points() {
+  ContactProblem problem;
+  problem.step = 0.01;
+  problem.bodies.resize(2);
+  problem.bodies[1].inverse_mass = 1 / rock_mass;
+  problem.bodies[1].inverse_inertia = Eigen::Matrix3d::Identity() / 5;
+  problem.bodies[1].velocity = Vector3d(0, 20, -1);
+  ContactPair pair;
+  pair.b = 1;
+  pair.count = 2;
+  problem.pairs = {pair};
+  for (const double x : {-0.1, 0.1}) {
+    ContactPoint point;
+    point.position = point.arm_a = point.arm_b = Vector3d(x, 0, 0);
+    point.normal = Vector3d::UnitZ();
+    point.stiffness = rigid;
+    problem.points.push_back(point);
+  }
+  return problem;
+}
+
+SolverOptions by(Method method) {
+  return {.method = method, .substeps = 1, .iterations = 200, .iteration_budget = 0};
+}
+
+}  // namespace
+
+// A pair of bodies has one friction, its first point's, whatever the others say: what the points carry across
+// is μ times what they carry along, in both methods and in the residual. Single precision: 1e-5 of the load.
+TEST(Friction, BelongsToThePairInEveryMethod) {
+  for (const Method method : {Method::sequential, Method::batched}) {
+    ContactProblem problem = sliding_on_two_points();
+    problem.points[0].friction = 0.5;
+    problem.points[1].friction = 0.1;
+    problem.points[1].start = Vector3d(0, -100, 100);  // admissible with neither
+    const SolverReport report = solve(problem, by(method));
+    const double load = problem.points[0].impulse.z() + problem.points[1].impulse.z();
+    ASSERT_NEAR(load, rock_mass, 1e-3 * rock_mass) << to_string(method);
+    for (const ContactPoint& point : problem.points)
+      EXPECT_NEAR(point.impulse.y(), -0.5 * point.impulse.z(), 1e-5 * load) << to_string(method);
+    EXPECT_LT(residual(problem, report.machine, 1).cone, 1e-5) << to_string(method);
+  }
+}
+
+// A pair without points carries nothing: no force, and so no moment, whatever it started from. Everything
+// else is solved to the same bits as without it. The sled's pair goes another way through the batched method.
+TEST(PairWithoutPoints, CarriesNothingAndChangesNothing) {
+  const SuperBody machine = sled(2);
+  for (const Method method : {Method::sequential, Method::batched})
+    for (const double restitution : {0.0, 0.5}) {
+      ContactProblem bare = sliding_on_two_points();
+      for (ContactPoint& point : bare.points) point.friction = 0.5, point.restitution = restitution;
+      bare.machine = &machine;
+      ContactProblem problem = bare;
+      for (const int a : {0, machine_part(0)}) {
+        ContactPair empty;
+        empty.a = a;
+        empty.b = 1;
+        empty.first = static_cast<int>(problem.points.size());
+        empty.rolling_arm = empty.spinning_arm = 0.1;
+        empty.start = empty.impulse = Vector3d(1, 2, 3);
+        problem.pairs.push_back(empty);
+      }
+      const SolverReport expected = solve(bare, by(method)), report = solve(problem, by(method));
+      for (std::size_t k = 1; k < problem.pairs.size(); ++k) {
+        EXPECT_EQ(problem.pairs[k].impulse, Vector3d(Vector3d::Zero())) << to_string(method);
+        EXPECT_EQ(problem.pairs[k].start, Vector3d(Vector3d::Zero())) << to_string(method);
+      }
+      EXPECT_EQ(problem.bodies[1].velocity, bare.bodies[1].velocity) << to_string(method);
+      EXPECT_EQ(problem.bodies[1].angular_velocity, bare.bodies[1].angular_velocity) << to_string(method);
+      EXPECT_EQ(report.machine.velocity, expected.machine.velocity) << to_string(method);
+      const Residual r = residual(problem, report.machine, 1), without = residual(bare, expected.machine, 1);
+      EXPECT_EQ(r.contacts(), without.contacts()) << to_string(method);
+    }
+}
+
+TEST(SolverOptions, AreRefusedByNameWhereverASolveBegins) {
+  struct Case {
+    const char* name;
+    std::function<void(SolverOptions&)> spoil;
+  };
+  std::vector<Case> cases;
+  for (const int count : {0, -1, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+    cases.push_back({"substeps", [=](SolverOptions& o) { o.substeps = count; }});
+    cases.push_back({"iterations", [=](SolverOptions& o) { o.iterations = count; }});
+  }
+  for (const int budget : {-1, std::numeric_limits<int>::max()})
+    cases.push_back({"iteration_budget", [=](SolverOptions& o) { o.iteration_budget = budget; }});
+  for (const double tolerance : {std::numeric_limits<double>::quiet_NaN(), -1e-9, 1.5})
+    cases.push_back({"tolerance", [=](SolverOptions& o) { o.tolerance = tolerance; }});
+  cases.push_back({"method", [](SolverOptions& o) { o.method = static_cast<Method>(2); }});
+  for (const Case& c : cases) {
+    SolverOptions options;
+    c.spoil(options);
+    ContactProblem problem = sliding_on_two_points();
+    drawpoint::support::expect_told([&] { solve(problem, options); }, {"ContactSolver", c.name, "allowed"});
+    drawpoint::support::expect_told([&] { ContactSolver solver(options); },
+                                    {"ContactSolver", c.name, "allowed"});
+  }
+  for (const int substeps : {0, -1}) {
+    const ContactProblem problem = sliding_on_two_points();
+    drawpoint::support::expect_told([&] { residual(problem, {}, substeps); },
+                                    {"residual", "substeps", "allowed"});
+  }
+}
+
+// A step that is no time would divide by zero.
+TEST(Solve, RefusesAStepThatIsNoTime) {
+  for (const double step :
+       {0.0, -0.01, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    ContactProblem problem = sliding_on_two_points();
+    problem.step = step;
+    drawpoint::support::expect_told([&] { solve(problem, plain(1)); }, {"solve", "step", "above 0"});
   }
 }

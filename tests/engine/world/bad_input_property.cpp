@@ -9,6 +9,7 @@
 #include <drawpoint/tests/support/told.hpp>
 #include <functional>
 #include <limits>
+#include <memory>
 
 using namespace drawpoint::engine;
 using drawpoint::support::at;
@@ -28,6 +29,7 @@ class OnePart final : public ArticulatedBody {
  public:
   double speed = 0;
   int advanced = 0;
+  bool fails = false;
 
   int parts() const override { return 1; }
   Eigen::Isometry3d part_pose(int) const override { return at(0, 0, 50); }
@@ -38,7 +40,10 @@ class OnePart final : public ArticulatedBody {
     super_.origins = {Vector3d(0, 0, 50)};
     return super_;
   }
-  void advance(const SuperBodySolution&) override { ++advanced; }
+  void advance(const SuperBodySolution&) override {
+    if (fails) throw std::runtime_error("OnePart cannot move");
+    ++advanced;
+  }
   std::vector<double> state() const override { return {static_cast<double>(advanced)}; }
   void set_state(const std::vector<double>& state) override { advanced = static_cast<int>(state.at(0)); }
 
@@ -242,6 +247,55 @@ TEST(BrokenSolution, IsToldAndMovesNothing) {
   machine.speed = 0;
   world.step();
   EXPECT_EQ(machine.advanced, 2);
+}
+
+// A machine that cannot move has moved nothing else, and the step that follows starts from what the last one
+// left, not from the impulses of the step that failed: a world that never failed goes on with the same bits.
+TEST(BrokenSolution, OfAMachineThatCannotMoveIsForgotten) {
+  OnePart machine, other;
+  WorldOptions options;
+  options.solver.iteration_budget = 0;  // so few iterations that what they start from shows
+  World world(options, one_material({.friction = 0.5})), untouched(options, one_material({.friction = 0.5}));
+  const auto set_up = [](World& w, OnePart& m) {
+    w.attach(&m);
+    drawpoint::support::add_floor(w);
+    w.add_rock(box_body({0.2, 0.2, 0.2}), at(0, 0, 0.2), {0.3, 0.1, -0.02});
+    for (int k = 0; k < 3; ++k) w.step();
+  };
+  set_up(world, machine);
+  set_up(untouched, other);
+  machine.fails = true;
+  const std::uint64_t before = state_hash(world);
+  EXPECT_THROW(world.step(), std::runtime_error);
+  EXPECT_EQ(state_hash(world), before);
+  machine.fails = false;
+  world.step();
+  untouched.step();
+  EXPECT_EQ(state_hash(world), state_hash(untouched));
+}
+
+// The problem of the last step is the world's: it stays what it was whatever becomes of the machine, whose
+// super-body is valid until it advances.
+TEST(BadMachines, LeaveTheProblemOfTheLastStepWhole) {
+  World world({}, one_material({.friction = 0}));
+  auto machine = std::make_unique<OnePart>();
+  machine->speed = 3;
+  world.attach(machine.get());
+  world.add_part_shape(0, shared(box({1, 1, 1})), at(0, 0, 0), 0);
+  world.step();
+  const auto expect_as_solved = [&] {
+    ASSERT_NE(world.problem().machine, nullptr);
+    EXPECT_EQ(world.problem().machine->velocity, Eigen::VectorXd::Constant(1, 3.0));
+    EXPECT_EQ(world.problem().machine->part_maps.size(), 1u);
+  };
+  machine->speed = 5;
+  machine->linearise(0.01, {0, 0, 0});
+  expect_as_solved();
+  world.attach(nullptr);
+  machine.reset();
+  expect_as_solved();
+  world.step();
+  EXPECT_EQ(world.problem().machine, nullptr);
 }
 
 }  // namespace

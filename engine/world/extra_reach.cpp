@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/world/extra_reach.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+namespace drawpoint::engine::detail {
+namespace {
+
+constexpr int rocks_per_reach_block = 256;  // that a thread takes at a time
+
+// Least distance of the surface from the origin, which is in the shape.
+double inner_radius(const Shape& shape) {
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    return std::min(cylinder->radius, cylinder->half_width);
+  const auto& polyhedron = std::get<ConvexPolyhedron>(shape);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t face = 0; face < polyhedron.faces().size(); ++face) {
+    const auto vertex = static_cast<std::size_t>(polyhedron.faces()[face].front());
+    least = std::min(least, polyhedron.face_normals()[face].dot(polyhedron.vertices()[vertex]));
+  }
+  return least;
+}
+
+}  // namespace
+
+void ExtraReach::add(const Shape& shape) {
+  allowed_.push_back(inner_radius(shape));
+  reach_.push_back(0);
+}
+
+void ExtraReach::begin_step() {
+  if (any_) std::fill(reach_.begin(), reach_.end(), 0.0);
+  any_ = false;
+}
+
+bool ExtraReach::grow(const std::vector<Rock>& rocks, const SolvedRocks& solved, double h) {
+  const auto beyond = [&](int k) {
+    const auto rock = static_cast<std::size_t>(solved.awake[k]);
+    const SolverBody& body = solved.problem.bodies[k + 1];
+    const double way = (body.displacement - h * rocks[rock].velocity).norm();
+    const double fall = h * body.external_velocity_change.norm();
+    return way > allowed_[rock] + reach_[rock] + fall ? way : 0.0;
+  };
+  std::atomic<bool> found{false};
+  const int count = static_cast<int>(solved.awake.size());
+  solved.pool.blocks(count, rocks_per_reach_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k)
+      if (beyond(k) > 0) found.store(true, std::memory_order_relaxed);
+  });
+  if (!found) return false;
+  for (int k = 0; k < count; ++k)
+    if (const double way = beyond(k); way > 0) reach_[static_cast<std::size_t>(solved.awake[k])] = 2 * way;
+  return any_ = true;
+}
+
+}  // namespace drawpoint::engine::detail
