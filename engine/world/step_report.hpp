@@ -14,6 +14,9 @@ struct StepReport {
   double max_overlap = 0;                ///< [m]
   int awake = 0;                         ///< rocks that were solved
   int solves = 0;  ///< 1, and one more for each time that the load on frozen rocks changed too much
+  int computed =
+      0;            ///< pairs of shapes whose contact was computed anew, as often as contacts were looked for
+  int refused = 0;  ///< of these, answers of FCL that were wrong (FinderTimes::refused)
   double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;  ///< wall time [s]
 };
 
