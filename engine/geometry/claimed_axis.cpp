@@ -40,7 +40,7 @@ void for_edges_at(const CollisionHull& hull, int vertex, const Use& use) {
 // The best axis of the faces and edges at the two vertices; as in AxisSearch, edges must beat a face by
 // constants::face_preference.
 Axis best_beside(const HullPair& pair, const Supports& at) {
-  static const AxisSearch axes;
+  static const AxisSearch axes{};
   Axis best;
   best.separation = -std::numeric_limits<double>::infinity();
   const auto note = [&](const Feature& feature, double by) {
@@ -65,7 +65,7 @@ bool is_best(const HullPair& pair, const Axis& axis, double margin) {
 }
 
 Axis with_hysteresis(const HullPair& pair, const Axis& best, const AxisQuery& query) {
-  static const AxisSearch axes;
+  static const AxisSearch axes{};
   if (query.hint.kind == FeatureKind::none) return best;
   const Axis last = axes.axis_of(pair, query.hint);
   const bool kept =

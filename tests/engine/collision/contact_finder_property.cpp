@@ -224,6 +224,13 @@ TEST_P(ContactFinding, FollowsAddingRemovingFreezingAndWaking) {
   EXPECT_EQ(finder.collider(again).body, 2);
 }
 
+TEST(ContactFinder, NamesItsNarrowMethods) {
+  for (const char* name : {"separating_axes", "fcl_libccd", "fcl_indep"})
+    EXPECT_EQ(to_string(engine::narrow_method_named(name)), name);
+  EXPECT_EQ(message_of([] { engine::narrow_method_named("gjk"); }),
+            "engine::narrow_method_named: no method \"gjk\"; known: separating_axes, fcl_libccd, fcl_indep");
+}
+
 TEST(ContactFinder, RefusesBadInput) {
   ContactFinder finder;
   EXPECT_EQ(message_of([] { ContactFinder{ContactFinderOptions{.margin = -1}}; }),
