@@ -87,7 +87,7 @@ drawpoint_pkg_config(pareto "Multi-objective search (headers, C++20)" REQUIRES "
 # Neither fcl.pc nor simbody.pc is named: they ask for C++11.
 if(DRAWPOINT_BUILD_CONTACT)
   drawpoint_pkg_config(contact "Convex rocks and their contacts (C++20)" REQUIRES "eigen3 >= 3.4" hdf5
-                       CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 LIBS -lfcl -lhwy -pthread)
+                       CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 LIBS -lfcl -lccd -lhwy -pthread)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
   drawpoint_pkg_config(engine "Articulated machines among convex rocks (C++20)" REQUIRES "drawpoint-contact ${drawpoint_same}"

@@ -6,6 +6,7 @@
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision.h>
 
+#include <drawpoint/engine/collision/fcl_axis.h>
 #include <drawpoint/engine/geometry/convex_contact.h>
 #include <drawpoint/engine/collision/contact_finder.hpp>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
@@ -138,6 +139,27 @@ void fcl_collide(benchmark::State& state, fcl::GJKSolverType solver) {
 }
 BENCHMARK_CAPTURE(fcl_collide, libccd, fcl::GST_LIBCCD);
 BENCHMARK_CAPTURE(fcl_collide, indep, fcl::GST_INDEP);
+
+// FCL's axis checked, with the engine's manifold, as NarrowMethod has it; fcl_failures counts more.
+void fcl_checked(benchmark::State& state, NarrowMethod method) {
+  const auto pairs = rock_pairs();
+  detail::FclAxes fcl(method);
+  for (std::size_t k = 0; k < hulls().size(); ++k) fcl.add(static_cast<int>(k), &hulls()[k]);
+  detail::ConvexContactSearch search;
+  std::size_t k = 0;
+  double refused = 0;
+  for (auto _ : state) {
+    const RockPair& p = pairs[k++ % pairs.size()];
+    detail::ConvexContact contact;
+    const bool used =
+        detail::find_by_fcl(fcl, p.a, p.b, {hulls()[p.a], hulls()[p.b], p.X_WA.inverse() * p.X_WB},
+                            {0.011, 1e-4, {}}, search, contact);
+    refused += used ? 0 : 1;
+  }
+  state.counters["refused"] = benchmark::Counter(refused, benchmark::Counter::kAvgIterations);
+}
+BENCHMARK_CAPTURE(fcl_checked, libccd, NarrowMethod::fcl_libccd);
+BENCHMARK_CAPTURE(fcl_checked, indep, NarrowMethod::fcl_indep);
 
 // A finder that is shown a recorded motion of a pile, to and fro.
 class Replay {

@@ -20,11 +20,13 @@ std::string plain(double value) {
   return text.str();
 }
 
-CLI::Validator known_method() {
+// Accepts what `named` does.
+template <class Named>
+CLI::Validator known_name(const Named& named) {
   return CLI::Validator(
-      [](std::string& name) -> std::string {
+      [named](std::string& name) -> std::string {
         try {
-          engine::method_named(name);
+          named(name);
           return {};
         } catch (const std::invalid_argument& error) {
           return error.what();
@@ -53,9 +55,15 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 
 void add_method_flags(CLI::App& app, EngineFlags& flags) {
   flags.method = to_string(flags.world.solver.method);
+  flags.narrow = to_string(flags.world.contacts.narrow);
   flags.freeze = flags.world.freezing.on ? "on" : "off";
   app.add_option("--method", flags.method, "contact solver: sequential (the reference) or batched")
-      ->check(known_method())
+      ->check(known_name(engine::method_named))
+      ->capture_default_str();
+  app.add_option(
+         "--narrow", flags.narrow,
+         "who finds the axis of two shapes: separating_axes, or FCL by fcl_libccd or fcl_indep, checked")
+      ->check(known_name(engine::narrow_method_named))
       ->capture_default_str();
   app.add_option("--threads", flags.world.threads, "threads; they change the time only")
       ->check(between(1, 256, "", "no more than there are cores"))
@@ -96,6 +104,7 @@ void add_material_flags(CLI::App& app, MaterialFlags& flags) {
 engine::WorldOptions world_options(const EngineFlags& flags) {
   engine::WorldOptions options = flags.world;
   options.solver.method = engine::method_named(flags.method);
+  options.contacts.narrow = engine::narrow_method_named(flags.narrow);
   options.freezing.on = flags.freeze == "on";
   return options;
 }
@@ -106,6 +115,7 @@ nlohmann::json described(const engine::WorldOptions& options) {
           {"substeps", options.solver.substeps},
           {"iterations", options.solver.iterations},
           {"iteration_budget", options.solver.iteration_budget},
+          {"narrow", to_string(options.contacts.narrow)},
           {"threads", options.threads},
           {"freeze", options.freezing.on ? "on" : "off"}};
 }

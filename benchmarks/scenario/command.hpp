@@ -23,11 +23,11 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 /// The flags; the defaults are those of WorldOptions{}.
 struct EngineFlags {
   engine::WorldOptions world;
-  std::string method, freeze;
+  std::string method, narrow, freeze;
 };
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags);
-/// Of these only --method, --threads and --freeze.
+/// Of these only --method, --narrow, --threads and --freeze.
 void add_method_flags(CLI::App& app, EngineFlags& flags);
 /// The world's options as the flags choose them; --threads holds for contact finding and solving.
 engine::WorldOptions world_options(const EngineFlags& flags);

@@ -66,6 +66,8 @@ engine::StepReport add_step(PhaseTimes& times, engine::World& world) {
   times.points = report.points;
   times.manifolds = report.manifolds;
   times.awake = report.awake;
+  times.computed += report.computed;
+  times.refused += report.refused;
   times.complementarity = std::max(times.complementarity, report.complementarity);
   times.cone = std::max(times.cone, report.cone);
   return report;

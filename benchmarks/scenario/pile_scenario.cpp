@@ -35,6 +35,9 @@ constexpr const char* about =
     "  ms_rest      median wall time of a step at rest; ms_dig: mean while the blade moves. Parts: means.\n"
     "  contacts     contact points in the last step at rest; manifolds: pairs with such points;\n"
     "               awake: rocks that were solved in it; dig_*: in the last step of digging\n"
+    "  computed     pairs whose contact was computed anew, refused: of these, answers of FCL that were "
+    "wrong\n"
+    "               (--narrow), over the rest phase; dig_*: while digging\n"
     "  complementarity, cone   the solver's largest residual at rest, relative to the normal load\n"
     "  overlap_*    of rock pairs that touch, after the rest phase: penetration depth by the "
     "separating-axis\n"
@@ -83,6 +86,8 @@ void measure_dig(nlohmann::json& out, support::PileWorld& world, int steps, Prog
   out["ms_dig_parts"] = times.parts();
   out["dig_contacts"] = times.points;
   out["dig_awake"] = times.awake;
+  out["dig_computed"] = times.computed;
+  out["dig_refused"] = times.refused;
   out["blade_drag_n"] = drag;
   out.update(overlaps("dig_", support::rock_overlaps(world.pile(), states)));
   out["dig_blade_overlap_max"] = support::blade_overlaps(world.pile(), states, blade).max;
@@ -108,6 +113,8 @@ nlohmann::json run(const Settings& s) {
   out["contacts"] = rest.points;
   out["manifolds"] = rest.manifolds;
   out["awake"] = rest.awake;
+  out["computed"] = rest.computed;
+  out["refused"] = rest.refused;
   out["complementarity"] = rest.complementarity;
   out["cone"] = rest.cone;
   measure_rest(out, world, before, steps * options.step);
@@ -136,6 +143,9 @@ void print_table(const nlohmann::json& j) {
   std::printf("contact points %d in %d manifolds, %d rocks awake at rest; %d and %d while digging\n",
               j.at("contacts").get<int>(), j.at("manifolds").get<int>(), j.at("awake").get<int>(),
               j.at("dig_contacts").get<int>(), j.at("dig_awake").get<int>());
+  std::printf("pairs computed by %s: %ld at rest, %ld while digging; FCL wrong in %ld and %ld\n",
+              j.at("narrow").get<std::string>().c_str(), j.at("computed").get<long>(),
+              j.at("dig_computed").get<long>(), j.at("refused").get<long>(), j.at("dig_refused").get<long>());
   for (const std::string prefix : {"", "dig_"})
     std::printf("%-6s overlap max %.3f %%, p99 %.3f %%, mean %.4f %% of the smaller rock, %d pairs\n",
                 prefix.empty() ? "rest" : "dig", 100 * number(j, (prefix + "overlap_max").c_str()),

@@ -119,6 +119,18 @@ constexpr int cylinder_sides = 48;
 /// result.
 constexpr double box_growth = 1e-6;
 
+/// [m] The tolerance that FCL's narrow phase is asked with. Chosen here, between the round-off of a height (1e-12) and
+/// `claim_tolerance`. Lower: EPA's planes are round-off and it may not end by itself. Higher: more axes that are off by
+/// more than `claim_tolerance`.
+constexpr double fcl_tolerance = 1e-9;
+
+/// [m] By how much the supports along FCL's axis may separate by more or less than FCL says. Derived: an axis from two
+/// witness points that are off by `height_round_off` turns by that over their distance d, which costs a shape of
+/// radius r a height of 1e-12 r / d: with d = 1e-5 r, 1e-7 m, as much as a face is preferred by. Right answers nearer
+/// to touching than that may be refused; none that is accepted is off by more than half of the promised 1e-6 m.
+/// Higher: wrong depths pass. Lower: more answers are refused for their round-off.
+constexpr double claim_tolerance = 1e-7;
+
 /// [m], of normals [1] How far the points, centres and normals of a restored finder may be off what its poses
 /// make them. Chosen here; costs nothing. Lower: states of other compilers are refused. Higher: a damaged
 /// state may pass.

@@ -67,11 +67,13 @@ class ContactFinder::Impl {
         fat_(0.5 * (options.margin + options.reuse_distance), options.slack),
         pool_(pool ? std::move(pool) : std::make_shared<const ThreadPool>(1)),
         boxes_(pool_->threads()),
-        narrow_(options, pool_->threads()) {}
+        fcl_(options.narrow),
+        narrow_(options, pool_->threads(), fcl_) {}
 
   int add(const Collider& collider) {
     const int id = items_.size();
     items_.add(hulls_.make_item(collider));
+    fcl_.add(id, items_.item[id].hull.get());
     if (items_.item[id].hull)
       boxes_.add(id, fat_.first(items_, id), collider.moves);
     else
@@ -83,6 +85,7 @@ class ContactFinder::Impl {
     require(id);
     boxes_.remove(id);
     items_.remove(id);
+    fcl_.remove(id);
     pairs_.remove(id);
   }
 
@@ -150,6 +153,7 @@ class ContactFinder::Impl {
     times_.broad = seconds_since(start);
     const auto middle = std::chrono::steady_clock::now();
     times_.computed = narrow_.run(items_, pairs_, manifolds_, *pool_);
+    times_.refused = narrow_.refused();
     times_.narrow = seconds_since(middle);
     return manifolds_;
   }
@@ -247,6 +251,7 @@ class ContactFinder::Impl {
   std::shared_ptr<const ThreadPool> pool_;
   detail::BroadPhase boxes_;
   detail::PairCache pairs_;
+  detail::FclAxes fcl_;
   detail::NarrowPhase narrow_;
   std::vector<char> leaves_;                    // by move: leaves its box
   std::vector<int> dirty_;                      // have left their boxes, or are half-spaces that were moved

@@ -17,9 +17,9 @@
 /// are looked up again. Narrow phase of two polyhedra: the axis of least overlap (all face normals and the
 /// edge pairs that can matter, exact), the facing polygons clipped to a manifold. Shapes apart by less than
 /// `margin` give points with positive gaps; the least of them is no less than the separation along the
-/// normal, but may exceed the distance of two shapes that do not face each other squarely. FCL's own narrow
-/// phase takes longer for a single point, with depths off by millimetres and more
-/// (benchmarks/micro/collision). Half-spaces have closed forms. Against polyhedra a cylinder is an inscribed
+/// normal, but may exceed the distance of two shapes that do not face each other squarely. On request FCL's narrow
+/// phase gives the axis (ContactFinderOptions::narrow): it is checked, and several times slower
+/// (docs/decisions/0007). Half-spaces have closed forms. Against polyhedra a cylinder is an inscribed
 /// 48-sided prism: at most R(1 − cos(π/48)) = 0.0021 R of it is missing and its normals step by 7.5°.
 ///
 /// Pairs that have hardly moved against each other reuse their manifold, carried along rigidly. A point's gap
@@ -39,6 +39,7 @@ struct FinderTimes {
   double broad = 0, narrow = 0;  ///< [s]
   int pairs = 0;                 ///< pairs with overlapping boxes
   int computed = 0;              ///< of these, not answered from the cache
+  int refused = 0;  ///< of the computed, answers of FCL that were wrong; 0 with NarrowMethod::separating_axes
 };
 
 class ContactFinder {

@@ -17,10 +17,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t mark = 0x3330444e46435044;  // "DPCFND03"
+constexpr std::uint64_t mark = 0x3430444e46435044;  // "DPCFND04"
 
-std::array<double, 5> numbers_of(const ContactFinderOptions& o) {
-  return {o.margin, o.slack, o.reuse_distance, o.reuse_angle, o.hysteresis};
+std::array<double, 6> numbers_of(const ContactFinderOptions& o) {
+  return {o.margin, o.slack, o.reuse_distance, o.reuse_angle, o.hysteresis, static_cast<double>(o.narrow)};
 }
 
 int vertices_of(const Items& items, int id) {

@@ -71,7 +71,7 @@ void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& 
 
 // One thread's part: buffers only, nothing that one pair leaves behind for another.
 struct NarrowPhase::Worker {
-  explicit Worker(const ContactFinderOptions& o) : options(o) {}
+  Worker(const ContactFinderOptions& o, const FclAxes& f) : options(o), fcl(f) {}
 
   // Brings the pairs [first, last) up to date and replaces `found` by their manifolds.
   void process(const Items& items, PairCache& pairs, int first, int last, std::vector<Manifold>& found) {
@@ -166,9 +166,12 @@ struct NarrowPhase::Worker {
   void compute(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
                PairState& state) {
     ++computed;
-    convex.find({*a.hull, *b.hull, pose_against(a, b)},
-                {margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin},
-                state.contact);
+    const HullPair pair{*a.hull, *b.hull, pose_against(a, b)};
+    const AxisQuery query{margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin};
+    if (!fcl.on())
+      convex.find(pair, query, state.contact);
+    else if (!find_by_fcl(fcl, entry.a, entry.b, pair, query, convex, state.contact))
+      ++refused;
     entry.count = state.contact.count;
     if (entry.count == 0) {
       entry.limit = motion_bound + (state.contact.separation - margin);
@@ -224,21 +227,22 @@ struct NarrowPhase::Worker {
   }
 
   ContactFinderOptions options;
+  const FclAxes& fcl;
   double margin = 0;  // of the pair at hand
   ConvexContactSearch convex;
   std::vector<ClipPoint> clip;
-  int computed = 0;
+  int computed = 0, refused = 0;
 };
 
-NarrowPhase::NarrowPhase(const ContactFinderOptions& options, int threads) {
-  for (int k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>(options));
+NarrowPhase::NarrowPhase(const ContactFinderOptions& options, int threads, const FclAxes& fcl) {
+  for (int k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>(options, fcl));
 }
 
 NarrowPhase::~NarrowPhase() = default;
 
 int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds,
                      const ThreadPool& pool) {
-  for (auto& worker : workers_) worker->computed = 0;
+  for (auto& worker : workers_) worker->computed = worker->refused = 0;
   if (pool.threads() > 1)
     run_in_blocks(items, pairs, manifolds, pool);
   else
@@ -246,6 +250,12 @@ int NarrowPhase::run(const Items& items, PairCache& pairs, std::vector<Manifold>
   int computed = 0;
   for (const auto& worker : workers_) computed += worker->computed;
   return computed;
+}
+
+int NarrowPhase::refused() const {
+  int refused = 0;
+  for (const auto& worker : workers_) refused += worker->refused;
+  return refused;
 }
 
 void NarrowPhase::run_alone(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds) {

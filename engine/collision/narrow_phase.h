@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/collision/fcl_axis.h>
 #include <drawpoint/engine/collision/finder_items.h>
 #include <drawpoint/engine/collision/pair_cache.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
@@ -24,12 +25,15 @@ namespace drawpoint::engine::detail {
 
 class NarrowPhase {
  public:
-  NarrowPhase(const ContactFinderOptions& options, int threads);
+  /// `fcl` knows the colliders, if the options ask for FCL.
+  NarrowPhase(const ContactFinderOptions& options, int threads, const FclAxes& fcl);
   ~NarrowPhase();
 
   /// Updates the pairs and replaces `manifolds` by their contacts, in the order of the pairs. Returns how
   /// many pairs were computed.
   int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds, const ThreadPool& pool);
+  /// Of the last run: answers of FCL that were not used.
+  int refused() const;
 
  private:
   struct Worker;

@@ -171,6 +171,22 @@ void ConvexContactSearch::find(const HullPair& pair, const AxisQuery& query, Con
     axis = axes_.find(pair, {query.margin, 0, {}});
     touch(pair, axis, query.margin, contact);
   }
+  complete(pair, query, axis, contact);
+}
+
+void ConvexContactSearch::find_along(const HullPair& pair, const AxisQuery& query, const Axis& axis,
+                                     ConvexContact& contact) {
+  contact.count = 0;
+  touch(pair, axis, query.margin, contact);
+  if (contact.count == 0 && axis.separation <= 0)
+    find(pair, {query.margin, 0, {}, query.report}, contact);
+  else
+    complete(pair, query, axis, contact);
+}
+
+// Where the features of the axis do not face each other, or too far out: the nearest points.
+void ConvexContactSearch::complete(const HullPair& pair, const AxisQuery& query, const Axis& axis,
+                                   ConvexContact& contact) {
   if (contact.count > 0 && least_gap(pair, contact) > query.report) {
     contact.count = 0;  // edges beside the facing polygons may be nearer
     nearest_contact(pair, axis, query.margin, contact);

@@ -38,7 +38,11 @@ class ConvexContactSearch {
   /// Into `contact`, whatever it held.
   void find(const HullPair& pair, const AxisQuery& query, ConvexContact& contact);
 
+  /// The same along an axis that is known; without features, one that separates by more than the margin.
+  void find_along(const HullPair& pair, const AxisQuery& query, const Axis& axis, ConvexContact& contact);
+
  private:
+  void complete(const HullPair& pair, const AxisQuery& query, const Axis& axis, ConvexContact& contact);
   void touch(const HullPair& pair, const Axis& axis, double margin, ConvexContact& contact);
   void clip_against(const HullPair& pair, const Feature& reference, int other, double margin,
                     ConvexContact& contact);

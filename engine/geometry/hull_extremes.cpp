@@ -74,18 +74,22 @@ struct Chosen {
   decltype(&HWY_STATIC_DISPATCH(lowest)) lowest;
   decltype(&HWY_STATIC_DISPATCH(heights)) heights;
 };
-const Chosen chosen;
+// At the first call, which may come from another file's globals before main().
+const Chosen& chosen() {
+  static const Chosen once;
+  return once;
+}
 
 }  // namespace
 
 Support lowest(const CollisionHull& hull, const Eigen::Vector3d& direction) {
-  return chosen.lowest(hull.x.data(), hull.y.data(), hull.z.data(), static_cast<std::size_t>(hull.x.size()),
+  return chosen().lowest(hull.x.data(), hull.y.data(), hull.z.data(), static_cast<std::size_t>(hull.x.size()),
                        direction.data());
 }
 
 void heights(const CollisionHull& hull, const Eigen::Vector3d& point, double* result) {
   const double* planes[] = {hull.nx.data(), hull.ny.data(), hull.nz.data(), hull.no.data()};
-  chosen.heights(planes, static_cast<std::size_t>(hull.nx.size()), point.data(), result);
+  chosen().heights(planes, static_cast<std::size_t>(hull.nx.size()), point.data(), result);
 }
 
 }  // namespace drawpoint::engine::detail

@@ -82,7 +82,6 @@ bool AxisSearch::edge_axis(const HullPair& pair, const EdgeOfA& first, const Edg
   return true;
 }
 
-// Of features that were an axis once; kind none when they no longer are.
 Axis AxisSearch::axis_of(const HullPair& pair, const Feature& feature) const {
   if (feature.kind == FeatureKind::face_a) return face_of_a(pair, feature.a);
   if (feature.kind == FeatureKind::face_b) return face_of_b(pair, feature.b);

@@ -65,6 +65,9 @@ class AxisSearch {
   /// The axis; the search stops early at any axis with more separation than the margin.
   Axis find(const HullPair& pair, const AxisQuery& query);
 
+  /// Of these features; kind none where two edges form no face of the Minkowski difference.
+  Axis axis_of(const HullPair& pair, const Feature& feature) const;
+
   /// The nearest points of two shapes that an axis separates by less than the margin, when an edge or a
   /// vertex of both is nearest. False when no edges are within the margin.
   struct Nearest {
@@ -90,7 +93,6 @@ class AxisSearch {
   };
 
   Axis guess(const HullPair& pair, Witness& witness);
-  Axis axis_of(const HullPair& pair, const Feature& feature) const;
   Axis face_of_a(const HullPair& pair, int face) const;
   Axis face_of_b(const HullPair& pair, int face) const;
   bool edge_axis(const HullPair& pair, const EdgeOfA& first, const EdgeOfB& second, Axis& axis) const;

@@ -74,6 +74,7 @@ std::string pile_provenance(const Scenario& s) {
   add_number(provenance, "reuse_distance", s.world.contacts.reuse_distance);
   add_number(provenance, "reuse_angle", s.world.contacts.reuse_angle);
   add_number(provenance, "hysteresis", s.world.contacts.hysteresis);
+  provenance += "narrow=" + std::string(engine::to_string(s.world.contacts.narrow)) + " ";
   add_number(provenance, "rest_speed", s.pile.rest.fastest);
   add_number(provenance, "rest_energy", s.pile.rest.mean_energy);
   add_number(provenance, "rest_hold", s.pile.rest.hold);

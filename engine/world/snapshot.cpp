@@ -15,7 +15,7 @@
 namespace drawpoint::engine {
 namespace {
 
-constexpr std::uint64_t state_mark = 0x346574617473'7044;  // "Dpstate4": the version is the last digit
+constexpr std::uint64_t state_mark = 0x356574617473'7044;  // "Dpstate5": the version is the last digit
 
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);
@@ -32,6 +32,7 @@ void add(StateHash& hash, const WorldOptions& o) {
   for (double x : {o.contacts.margin, o.contacts.slack, o.contacts.reuse_distance, o.contacts.reuse_angle,
                    o.contacts.hysteresis})
     hash.add(x);
+  hash.add(static_cast<std::uint64_t>(o.contacts.narrow));
 }
 
 void add(StateHash& hash, const Material& m) {

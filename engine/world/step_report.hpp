@@ -16,6 +16,8 @@ struct StepReport {
   /// 1, and one more for each time that the load on frozen rocks changed too much, or that a rock was carried
   /// farther from its way than contacts had been looked for.
   int solves = 0;
+  int computed = 0;  ///< pairs of shapes whose contact was computed anew, in all searches of the step
+  int refused = 0;   ///< of these, answers of FCL that were wrong (FinderTimes::refused)
   double broad_s = 0, narrow_s = 0, machine_s = 0, solver_s = 0, rest_s = 0;  ///< wall time [s]
 };
 

@@ -34,6 +34,8 @@ const std::vector<Manifold>& World::Impl::find_contacts(StepReport& report) {
   const std::vector<Manifold>& manifolds = scene.find_contacts(freezing.awake(), contacts.problem().step);
   report.broad_s += scene.finder_times().broad;
   report.narrow_s += scene.finder_times().narrow;
+  report.computed += scene.finder_times().computed;
+  report.refused += scene.finder_times().refused;
   return manifolds;
 }
 

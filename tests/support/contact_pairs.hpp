@@ -39,9 +39,8 @@ struct Placed {
 };
 
 /// The manifolds of two shapes with nothing remembered: none or one.
-inline std::vector<engine::Manifold> contact_of(const Placed& a, const Placed& b, double margin = 0.01) {
-  engine::ContactFinderOptions options;
-  options.margin = margin;
+inline std::vector<engine::Manifold> contact_of(const Placed& a, const Placed& b,
+                                                const engine::ContactFinderOptions& options = {}) {
   engine::ContactFinder finder(options);
   finder.set_pose(finder.add(collider_of(a.shape, 0)), a.pose);
   finder.set_pose(finder.add(collider_of(b.shape, 1)), b.pose);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/tests/support/feature_pairs.hpp>
+#include <drawpoint/tests/support/narrow_methods.hpp>
 #include <drawpoint/tests/support/rock_pairs.hpp>
 
 // Slivers, needles, flat plates, very different sizes, shapes in one place: right answers, or a refusal where
@@ -24,9 +25,15 @@ constexpr double margin = 0.01, depth_error = 1e-6, doubt = 1e-6;
 
 ConvexPolyhedron hull(const std::vector<Vector3d>& points) { return ConvexPolyhedron::hull_of(points); }
 
-void expect_truth(const ConvexPolyhedron& a, const Eigen::Isometry3d& X_WA, const ConvexPolyhedron& b,
-                  const Eigen::Isometry3d& X_WB) {
-  const auto found = support::contact_of({share(a), X_WA}, {share(b), X_WB});
+class ContactFinderDegenerateBy : public support::ByNarrowMethod {
+ protected:
+  static void expect_truth(const ConvexPolyhedron& a, const Eigen::Isometry3d& X_WA,
+                           const ConvexPolyhedron& b, const Eigen::Isometry3d& X_WB);
+};
+
+void ContactFinderDegenerateBy::expect_truth(const ConvexPolyhedron& a, const Eigen::Isometry3d& X_WA,
+                                             const ConvexPolyhedron& b, const Eigen::Isometry3d& X_WB) {
+  const auto found = support::contact_of({share(a), X_WA}, {share(b), X_WB}, options());
   const ConvexPolyhedron in_world_a = a.transformed(X_WA), in_world_b = b.transformed(X_WB);
   const double separation = support::best_separation(in_world_a, in_world_b);
   for (const auto& m : found) {
@@ -48,7 +55,10 @@ void expect_truth(const ConvexPolyhedron& a, const Eigen::Isometry3d& X_WA, cons
 
 }  // namespace
 
-TEST(ContactFinderDegenerate, FeaturesOfSliversMeetFeaturesOfRocks) {
+INSTANTIATE_TEST_SUITE_P(Narrow, ContactFinderDegenerateBy, support::every_narrow_method,
+                         support::narrow_method_name);
+
+TEST_P(ContactFinderDegenerateBy, FeaturesOfSliversMeetFeaturesOfRocks) {
   const std::vector<ConvexPolyhedron> shapes{
       box({0.5, 0.5, 1e-4}),                                             // a plate of 0.2 mm
       box({1, 1e-4, 1e-4}),                                              // a needle
@@ -68,19 +78,19 @@ TEST(ContactFinderDegenerate, FeaturesOfSliversMeetFeaturesOfRocks) {
   }
 }
 
-TEST(ContactFinderDegenerate, EqualShapesInOnePlaceOverlapByTheirWidth) {
+TEST_P(ContactFinderDegenerateBy, EqualShapesInOnePlaceOverlapByTheirWidth) {
   for (int shape = 0; shape < 6; ++shape) {
     const ConvexPolyhedron rock = support::rock(shape).scaled(0.6);
     const Eigen::Isometry3d X = pose_at({5, 6, 7}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5));
     expect_truth(rock, X, rock, X);
   }
   const ConvexPolyhedron cube = box({0.5, 0.5, 0.5});
-  const auto found = support::contact_of({share(cube)}, {share(cube)});
+  const auto found = support::contact_of({share(cube)}, {share(cube)}, options());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(support::least_gap(found[0]), -1, depth_error);
 }
 
-TEST(ContactFinderDegenerate, APebbleInsideASlabGoesOutTheNearestWay) {
+TEST_P(ContactFinderDegenerateBy, APebbleInsideASlabGoesOutTheNearestWay) {
   const ConvexPolyhedron pebble = support::rock(0).scaled(0.05), slab = box({3.5, 3.5, 3.5});
   for (const Vector3d& at : {Vector3d(0, 0, 3.45), Vector3d(3.4, 0, 0), Vector3d(0.1, -3.48, 0.2)})
     expect_truth(slab, pose_at({0, 0, 0}), pebble, pose_at(at));

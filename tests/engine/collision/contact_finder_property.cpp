@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/tests/support/contact_pairs.hpp>
+#include <drawpoint/tests/support/narrow_methods.hpp>
 #include <drawpoint/tests/support/rock_heap.hpp>
 #include <drawpoint/tests/support/rock_pairs.hpp>
 #include <functional>
@@ -39,10 +40,15 @@ std::string message_of(const std::function<void()>& call) {
   return "";
 }
 
+class ContactFinding : public support::ByNarrowMethod {};
+
 }  // namespace
 
-TEST(ContactFinder, ReportsExactlyThePairsThatTouch) {
-  const ContactFinderOptions exact{.margin = margin, .reuse_distance = 0, .reuse_angle = 0, .hysteresis = 0};
+INSTANTIATE_TEST_SUITE_P(Narrow, ContactFinding, support::every_narrow_method, support::narrow_method_name);
+
+TEST_P(ContactFinding, ReportsExactlyThePairsThatTouch) {
+  const ContactFinderOptions exact =
+      options({.margin = margin, .reuse_distance = 0, .reuse_angle = 0, .hysteresis = 0});
   Heap heap(40, 8, exact);
   for (int step = 0; step < 15; ++step) {
     // From small motions, looked up one by one, to large ones, for which the trees are queried as a whole.
@@ -52,7 +58,8 @@ TEST(ContactFinder, ReportsExactlyThePairsThatTouch) {
       if (m.collider_a > 0) found.insert({m.collider_a - 1, m.collider_b - 1});
     for (int a = 0; a < 40; ++a)
       for (int b = a + 1; b < 40; ++b)
-        if (!support::contact_of({heap.shapes()[a], heap.poses()[a]}, {heap.shapes()[b], heap.poses()[b]})
+        if (!support::contact_of({heap.shapes()[a], heap.poses()[a]}, {heap.shapes()[b], heap.poses()[b]},
+                                 exact)
                  .empty())
           expected.insert({a, b});
     EXPECT_EQ(found, expected) << "step " << step;
@@ -60,13 +67,13 @@ TEST(ContactFinder, ReportsExactlyThePairsThatTouch) {
   }
 }
 
-TEST(ContactFinder, ReusedManifoldsStayWithinTheStatedError) {
+TEST_P(ContactFinding, ReusedManifoldsStayWithinTheStatedError) {
   std::mt19937 rng(9);
-  const ContactFinderOptions options;
+  const ContactFinderOptions given = options();
   int reused = 0;
   for (int trial = 0; trial < 600; ++trial) {
     support::RockPair pair = support::random_rock_pair(rng);
-    ContactFinder finder(options);
+    ContactFinder finder(given);
     const int a = finder.add(collider_of(pair.placed_a.shape, 0)),
               b = finder.add(collider_of(pair.placed_b.shape, 1));
     finder.set_pose(a, pair.placed_a.pose);
@@ -79,7 +86,7 @@ TEST(ContactFinder, ReusedManifoldsStayWithinTheStatedError) {
       ++reused;
       const ConvexPolyhedron& small = std::get<ConvexPolyhedron>(*pair.placed_b.shape);
       const double exact = support::best_separation(pair.a, small.transformed(X_WB));
-      const double bound = 2 * (options.reuse_distance + options.reuse_angle * small.radius());
+      const double bound = 2 * (given.reuse_distance + given.reuse_angle * small.radius());
       if (exact <= 0) {
         ASSERT_EQ(found.size(), 1u);
         ASSERT_NEAR(support::least_gap(found[0]), exact, bound) << "trial " << trial;
@@ -89,10 +96,10 @@ TEST(ContactFinder, ReusedManifoldsStayWithinTheStatedError) {
   EXPECT_GT(reused, 1000);
 }
 
-TEST(ContactFinder, CarriesAManifoldWithACommonMotionExactly) {
+TEST_P(ContactFinding, CarriesAManifoldWithACommonMotionExactly) {
   std::mt19937 rng(10);
   const support::RockPair pair = support::random_rock_pair(rng);
-  ContactFinder finder;
+  ContactFinder finder(options());
   const int a = finder.add(collider_of(pair.placed_a.shape, 0)),
             b = finder.add(collider_of(pair.placed_b.shape, 1));
   finder.set_pose(a, pair.placed_a.pose);
@@ -114,10 +121,10 @@ TEST(ContactFinder, CarriesAManifoldWithACommonMotionExactly) {
 
 // A cube 60 mm over the ground, or over another cube: the margin of 10 mm does not see it, a reach of 55 mm
 // of either side does.
-TEST(ContactFinder, LooksAsFarAsTheReachOfEitherSide) {
+TEST_P(ContactFinding, LooksAsFarAsTheReachOfEitherSide) {
   for (const bool over_plane : {true, false})
     for (const bool upper : {true, false}) {
-      ContactFinder finder;
+      ContactFinder finder(options());
       const int below = over_plane
                             ? finder.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0.5}), -1, false))
                             : finder.add(collider_of(share(box(0.5 * Vector3d::Ones())), 1, false));
@@ -130,8 +137,8 @@ TEST(ContactFinder, LooksAsFarAsTheReachOfEitherSide) {
     }
 }
 
-TEST(ContactFinder, SameCallsGiveSameBits) {
-  Heap first(60, 12), second(60, 12);
+TEST_P(ContactFinding, SameCallsGiveSameBits) {
+  Heap first(60, 12, options()), second(60, 12, options());
   for (int step = 0; step < 40; ++step) {
     const double distance = step % 5 == 0 ? 0.01 : 2e-4;
     first.shake(distance, distance), second.shake(distance, distance);
@@ -139,24 +146,24 @@ TEST(ContactFinder, SameCallsGiveSameBits) {
   }
 }
 
-TEST(ContactFinder, AfterForgettingOnlyThePosesCount) {
-  Heap old(60, 13);
+TEST_P(ContactFinding, AfterForgettingOnlyThePosesCount) {
+  Heap old(60, 13, options());
   for (int step = 0; step < 20; ++step) {
     old.shake(1e-3, 1e-3);
     old.finder().find();
   }
-  ContactFinder fresh;
+  ContactFinder fresh(options());
   fresh.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
   for (int k = 0; k < 60; ++k) fresh.set_pose(fresh.add(collider_of(old.shapes()[k], k)), old.poses()[k]);
   old.finder().forget();
   EXPECT_TRUE(same_bits(old.finder().find(), fresh.find()));
 }
 
-TEST(ContactFinder, KeepsItsAxisWhenTwoAreNearlyAsGood) {
+TEST_P(ContactFinding, KeepsItsAxisWhenTwoAreNearlyAsGood) {
   // A cube on the corner of another, in both directions 5 mm deep: which face wins would change with every
   // nudge.
   const auto cube = share(box({0.5, 0.5, 0.5}));
-  ContactFinder finder(ContactFinderOptions{.reuse_distance = 0, .reuse_angle = 0});
+  ContactFinder finder(options({.reuse_distance = 0, .reuse_angle = 0}));
   finder.add(collider_of(cube, 0));
   const int b = finder.add(collider_of(cube, 1));
   finder.set_pose(b, pose_at({0.995 + 1e-5, 0, 0.995}));
@@ -169,10 +176,10 @@ TEST(ContactFinder, KeepsItsAxisWhenTwoAreNearlyAsGood) {
   EXPECT_GT((finder.find().at(0).normal - normal).norm(), 1);
 }
 
-TEST(ContactFinder, SkipsPairsThatMustNotTouch) {
+TEST_P(ContactFinding, SkipsPairsThatMustNotTouch) {
   const auto cube = share(box({0.5, 0.5, 0.5}));
   const auto pairs = [&](Collider a, Collider b) {
-    ContactFinder finder;
+    ContactFinder finder(options());
     finder.add(a);
     finder.add(b);
     return finder.find().size();
@@ -188,9 +195,9 @@ TEST(ContactFinder, SkipsPairsThatMustNotTouch) {
   EXPECT_EQ(pairs(a, b), 1u);
 }
 
-TEST(ContactFinder, FollowsAddingRemovingFreezingAndWaking) {
+TEST_P(ContactFinding, FollowsAddingRemovingFreezingAndWaking) {
   const auto cube = share(box({0.5, 0.5, 0.5}));
-  ContactFinder finder;
+  ContactFinder finder(options());
   finder.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
   const int low = finder.add(collider_of(cube, 0)), high = finder.add(collider_of(cube, 1));
   finder.set_pose(low, pose_at({0, 0, 0.5}));
@@ -215,6 +222,13 @@ TEST(ContactFinder, FollowsAddingRemovingFreezingAndWaking) {
   finder.set_pose(again, pose_at({0.2, 0, 1.5}));
   EXPECT_EQ(pairs(), (Pairs{{0, low}, {low, again}}));
   EXPECT_EQ(finder.collider(again).body, 2);
+}
+
+TEST(ContactFinder, NamesItsNarrowMethods) {
+  for (const char* name : {"separating_axes", "fcl_libccd", "fcl_indep"})
+    EXPECT_EQ(to_string(engine::narrow_method_named(name)), name);
+  EXPECT_EQ(message_of([] { engine::narrow_method_named("gjk"); }),
+            "engine::narrow_method_named: no method \"gjk\"; known: separating_axes, fcl_libccd, fcl_indep");
 }
 
 TEST(ContactFinder, RefusesBadInput) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <drawpoint/tests/support/narrow_methods.hpp>
 #include <drawpoint/tests/support/rock_heap.hpp>
 #include <memory>
 #include <stdexcept>
@@ -39,12 +40,17 @@ std::string refusal(ContactFinder& finder, std::span<const std::byte> bytes) {
 
 std::vector<std::byte> saved(RockHeap& heap) { return heap.finder().save(); }
 
+class ContactFinderBits : public support::ByNarrowMethod {};
+
 }  // namespace
 
-TEST(ContactFinderThreads, ChangeNoBit) {
+INSTANTIATE_TEST_SUITE_P(Narrow, ContactFinderBits, support::every_narrow_method,
+                         support::narrow_method_name);
+
+TEST_P(ContactFinderBits, AreTheSameOnAnyNumberOfThreads) {
   constexpr int steps = 30;
   std::vector<std::vector<Manifold>> expected;
-  RockHeap one(rocks, 31);
+  RockHeap one(rocks, 31, options());
   for (int k = 0; k < steps; ++k) {
     step(one, k);
     expected.push_back(one.finder().find());
@@ -52,7 +58,7 @@ TEST(ContactFinderThreads, ChangeNoBit) {
   }
   EXPECT_GT(one.finder().times().pairs, 300) << "too few pairs for more than one block";
   for (int threads : {2, 3, 8}) {
-    RockHeap other(rocks, 31, {}, threads);
+    RockHeap other(rocks, 31, options(), threads);
     for (int k = 0; k < steps; ++k) {
       step(other, k);
       ASSERT_TRUE(same_bits(expected[k], other.finder().find())) << threads << " threads, step " << k;
@@ -67,10 +73,11 @@ TEST(ContactFinderThreads, MustBeAtLeastOne) {
 
 // At every step of a run, before find() as well as after it: what is restored goes on as if nothing had been,
 // on another number of threads.
-TEST(ContactFinderState, ContinuesWithTheSameBits) {
+TEST_P(ContactFinderBits, ContinueFromASavedState) {
   for (const bool before_find : {false, true})
     for (int at : {0, 3, 9, 12, 17}) {
-      RockHeap whole(rocks, 32, {}, before_find ? 3 : 1), copy(rocks, 32, {}, before_find ? 1 : 3);
+      RockHeap whole(rocks, 32, options(), before_find ? 3 : 1),
+          copy(rocks, 32, options(), before_find ? 1 : 3);
       if (at > 9) copy.finder().remove(100), copy.drop(99);
       for (int k = 0; k < at + 9; ++k) {
         step(whole, k);
@@ -113,11 +120,13 @@ TEST(ContactFinderState, RefusesTheStateOfAnotherFinder) {
   RockHeap heap(20, 33);
   heap.finder().find();
   const auto bytes = saved(heap);
-  RockHeap fewer(19, 33), wider(20, 33, ContactFinderOptions{.margin = 0.02}), removed(20, 33);
+  RockHeap fewer(19, 33), wider(20, 33, ContactFinderOptions{.margin = 0.02}),
+      by_fcl(20, 33, ContactFinderOptions{.narrow = engine::NarrowMethod::fcl_libccd}), removed(20, 33);
   removed.finder().remove(4);
   EXPECT_NE(refusal(fewer.finder(), bytes).find("the state has 21 colliders, here there are 20"),
             std::string::npos);
   EXPECT_NE(refusal(wider.finder(), bytes).find("an option"), std::string::npos);
+  EXPECT_NE(refusal(by_fcl.finder(), bytes).find("an option"), std::string::npos);
   EXPECT_NE(refusal(removed.finder(), bytes).find("collider 4 is removed on one side only"),
             std::string::npos);
   ContactFinder shapes;

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Compiled without assertions, and so alone: see the header.
+#include <fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd.h>
+
+#include <drawpoint/engine/collision/fcl_signed_distance.h>
+#include <drawpoint/engine/geometry/hull_extremes.h>
+
+namespace drawpoint::engine::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+// GJK and EPA of rocks take some 40, of a wheel on a slab some 100.
+constexpr int most_supports = 2000;
+constexpr unsigned long most_iterations = 1000;  // FCL's own, of its distance
+
+struct Body {
+  const CollisionHull& hull;
+  Eigen::Isometry3d pose;
+  Vector3d first_direction;
+  int supports = 0;
+};
+
+Vector3d from_ccd(const ccd_vec3_t& v) { return {v.v[0], v.v[1], v.v[2]}; }
+
+void to_ccd(const Vector3d& from, ccd_vec3_t* to) { ccdVec3Set(to, from.x(), from.y(), from.z()); }
+
+void first_direction(const void* a, const void*, ccd_vec3_t* direction) {
+  to_ccd(static_cast<const Body*>(a)->first_direction, direction);
+}
+
+void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
+  Body& body = *static_cast<Body*>(const_cast<void*>(object));  // libccd hands on what it was given
+  if (++body.supports > most_supports) {
+    to_ccd(Vector3d::Zero(), point);
+    return;
+  }
+  const Vector3d local = body.pose.linear().transpose() * from_ccd(*direction);
+  to_ccd(body.pose * body.hull.vertices[static_cast<std::size_t>(lowest(body.hull, -local).vertex)], point);
+}
+
+}  // namespace
+
+SignedDistance fcl_signed_distance(const HullPair& pair, const Vector3d& guess, double tolerance) {
+  Body a{pair.a, Eigen::Isometry3d::Identity(), guess}, b{pair.b, pair.X_AB, guess};
+  ccd_t ccd;
+  CCD_INIT(&ccd);
+  ccd.support1 = ccd.support2 = support;
+  ccd.first_dir = first_direction;
+  ccd.max_iterations = most_iterations;
+  ccd.dist_tolerance = ccd.epa_tolerance = tolerance;
+  ccd_vec3_t on_a, on_b;
+  to_ccd(Vector3d::Zero(), &on_a), to_ccd(Vector3d::Zero(), &on_b);
+  SignedDistance result;
+  result.value = fcl::detail::libccd_extension::ccdGJKSignedDist(&a, &b, &ccd, &on_a, &on_b);
+  result.on_a = from_ccd(on_a), result.on_b = from_ccd(on_b);
+  result.ended = a.supports <= most_supports && b.supports <= most_supports;
+  return result;
+}
+
+}  // namespace drawpoint::engine::detail
