@@ -24,6 +24,11 @@ constexpr double impact_speed = 0.05;
 /// Higher: an impact is struck again, and the pile shakes. Lower: load builds up more slowly than it may.
 constexpr double load_growth = 2;
 
+/// [m/s] At most so fast are overlapping bodies pushed apart. Chosen here: overlaps above 20 mm are slowed down with
+/// steps of 10 ms, and gravity lifts what is pushed by 50 mm. Higher: rocks that are put into each other burst apart.
+/// Lower: the elastic force of an overlap ends sooner, here at k · 20 mm, 2 MN per point.
+constexpr double push_out_speed = 1;
+
 /// [steps] The least damping time τ of a contact, the stepper's own damping (docs/decisions/0008). Higher:
 /// overlap is taken back more slowly. Lower: contacts ring.
 constexpr double least_damping_steps = 2;
