@@ -99,8 +99,9 @@ struct NarrowPhase::Worker {
     }
     if (k + third < last && moved(items, entries[k + third])) {
       const CollisionHull& hull = *items.placed[entries[k + third].b].hull;
-      for (const auto* numbers : {&hull.x, &hull.y, &hull.z, &hull.nx, &hull.ny, &hull.nz, &hull.no})
+      for (const auto* numbers : {&hull.x, &hull.y, &hull.z})
         prefetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
+      prefetch(hull.face_planes.data(), static_cast<std::size_t>(hull.face_planes.size()) * sizeof(float));
     }
   }
 
