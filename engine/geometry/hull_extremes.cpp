@@ -36,19 +36,16 @@ Support lowest(const double* x, const double* y, const double* z, std::size_t co
   auto index = hn::Iota(d, 0), where = index;
   const auto step = hn::Set(d, static_cast<double>(hn::Lanes(d)));
   for (std::size_t k = hn::Lanes(d); k < count; k += hn::Lanes(d)) {
-    const auto height = at(k);
+    const auto here = at(k);
     where = hn::Add(where, step);
-    const auto lower = hn::Lt(height, least);
-    least = hn::IfThenElse(lower, height, least);
+    const auto lower = hn::Lt(here, least);
+    least = hn::IfThenElse(lower, here, least);
     index = hn::IfThenElse(lower, where, index);
   }
-  double heights[4], indices[4];
-  hn::StoreU(least, d, heights);
-  hn::StoreU(index, d, indices);
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < hn::Lanes(d); ++k)
-    if (heights[k] < heights[best] || (heights[k] == heights[best] && indices[k] < indices[best])) best = k;
-  return {heights[best], static_cast<int>(indices[best])};
+  const auto height = hn::MinOfLanes(d, least);
+  const auto none = hn::Set(d, std::numeric_limits<double>::infinity());
+  const auto first = hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(least, height), index, none));
+  return {hn::GetLane(height), static_cast<int>(hn::GetLane(first))};
 }
 
 // Bounds are single: hulls are padded to this.

@@ -5,6 +5,8 @@
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <drawpoint/engine/base/constants.hpp>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,9 @@ class SeparationBounds {
   std::span<const HullBound> edges(const CollisionHull& hull, double least);
 
  private:
+  static double most_over(const CollisionHull& hull, const HullEdge& edge, const Eigen::Vector3d& p);
+  bool rules_out(const CollisionHull& hull, const HullEdge& edge, double least) const;
+
   std::array<Eigen::Vector3d, most_points> points_;  // of the other shape, the witness first
   std::size_t count_ = 0;
   std::vector<HullBound> found_;
@@ -51,9 +56,32 @@ inline std::span<const HullBound> SeparationBounds::faces(const CollisionHull& h
   return std::span(found_).first(static_cast<std::size_t>(size));
 }
 
+// The most that a point lies over an edge, along directions between the normals of its two faces.
+inline double SeparationBounds::most_over(const CollisionHull& hull, const HullEdge& edge,
+                                          const Eigen::Vector3d& p) {
+  const Eigen::Vector3d from = p - hull.vertices[edge.start];
+  const double left = hull.normals[edge.left].dot(from),
+               end = std::max(left, hull.normals[edge.right].dot(from));
+  const double beyond = edge.beyond_left.dot(from);
+  const bool at_end = end <= 0 || beyond <= -constants::height_round_off ||
+                      edge.beyond_right.dot(from) <= -constants::height_round_off;
+  return at_end ? end : std::sqrt(left * left + beyond * beyond);
+}
+
+inline bool SeparationBounds::rules_out(const CollisionHull& hull, const HullEdge& edge, double least) const {
+  for (std::size_t k = 0; k < count_; ++k)
+    if (most_over(hull, edge, points_[k]) <= least) return true;
+  return false;
+}
+
+// Single precision cannot tell the edges of the face that leads from better ones, so what it lets through is
+// looked at again.
 inline std::span<const HullBound> SeparationBounds::edges(const CollisionHull& hull, double least) {
   const int size = edges_over(hull, std::span(points_).first(count_), least, found_.data());
-  return std::span(found_).first(static_cast<std::size_t>(size));
+  const auto end = std::remove_if(found_.begin(), found_.begin() + size, [&](const HullBound& bound) {
+    return rules_out(hull, hull.edges[static_cast<std::size_t>(bound.feature)], least);
+  });
+  return std::span(found_).first(static_cast<std::size_t>(end - found_.begin()));
 }
 
 }  // namespace drawpoint::engine::detail
