@@ -4,6 +4,7 @@
 #include <drawpoint/engine/collision/narrow_phase.h>
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,7 @@ using Eigen::Vector3d;
 
 // Pairs a block: some 20 µs of work, large against the hand-over of a block and small against a step.
 constexpr int block_size = 128;
+constexpr std::size_t apart_size = 64;  // of a pair state: what still_apart() reads, and whether it touches
 
 Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
   Eigen::Isometry3d X_AB;
@@ -76,54 +78,65 @@ struct NarrowPhase::Worker {
   // Brings the pairs [first, last) up to date and replaces `found` by their manifolds.
   void process(const Items& items, PairCache& pairs, int first, int last, std::vector<Manifold>& found) {
     Manifolds manifolds(found);
-    for (int k = first; k < last; ++k) {
-      prefetch_ahead(items, pairs, k, last);
-      process(items, pairs.entries()[k], pairs.state(pairs.entries()[k]), manifolds);
+    for (; first < last; first += block_size)
+      process_block(items, pairs, first, std::min(last, first + block_size), manifolds);
+  }
+
+  // First the pairs are listed that have moved, then those that touch: a list is gone through without a guess
+  // at what the next pair is, and what lies ahead on it is prefetched.
+  void process_block(const Items& items, PairCache& pairs, int first, int last, Manifolds& manifolds) {
+    PairEntry* const entries = pairs.entries().data();
+    const auto has_moved = [&](const PairEntry& e) { return motion_of(items, e) > e.limit; };
+    moved.list(first, last, [&](int k) { return has_moved(entries[k]); });
+    for (int i = 0; i < moved.size; ++i) {
+      prefetch_moved(items, pairs, i);
+      PairEntry& entry = entries[moved.pairs[i]];
+      if (!with_plane(items, entry)) refresh(items, entry, pairs.state(entry));
+    }
+    // A plane that is near has no limit: nothing is remembered of it.
+    touching.list(first, last, [&](int k) { return entries[k].count > 0 || has_moved(entries[k]); });
+    for (int i = 0; i < touching.size; ++i) {
+      prefetch_touching(items, pairs, i);
+      PairEntry& entry = entries[touching.pairs[i]];
+      if (entry.count > 0)
+        carry_along(items, entry, pairs.state(entry).contact, manifolds);
+      else if (with_plane(items, entry))
+        touch_plane(items, entry, manifolds);
     }
   }
 
-  // What the pairs after this one need: where they are and their contacts, then the hulls of those that have
-  // moved. Each of the three reads what the one before it has brought.
-  [[gnu::always_inline]] static void prefetch_ahead(const Items& items, const PairCache& pairs, int k,
-                                                    int last) {
-    const std::vector<PairEntry>& entries = pairs.entries();
-    constexpr int first = 6, second = 3, third = 1;  // pairs ahead
-    if (k + first < last) {
-      const PairEntry& soon = entries[k + first];
+  // What the pairs after this one need: where they are and what is remembered of them, then their hulls, which
+  // the former name.
+  [[gnu::always_inline]] void prefetch_moved(const Items& items, const PairCache& pairs, int i) const {
+    constexpr int first = 3, second = 1;  // pairs ahead
+    const PairEntry* const entries = pairs.entries().data();
+    if (i + first < moved.size) {
+      const PairEntry& soon = entries[moved.pairs[i + first]];
       prefetch(&items.placed[soon.b], sizeof(Placement));
-      if (soon.count > 0) prefetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
+      prefetch(&pairs.state(soon), soon.count > 0 ? sizeof(PairState) : apart_size);
     }
-    if (k + second < last && moved(items, entries[k + second])) {
-      prefetch(items.placed[entries[k + second].b].hull, sizeof(CollisionHull));
-      prefetch(&pairs.state(entries[k + second]), sizeof(PairState));
-    }
-    if (k + third < last && moved(items, entries[k + third])) {
-      const CollisionHull& hull = *items.placed[entries[k + third].b].hull;
-      for (const auto* numbers : {&hull.x, &hull.y, &hull.z})
+    if (i + second < moved.size) {
+      const CollisionHull* hull = items.placed[entries[moved.pairs[i + second]].b].hull;
+      if (!hull) return;
+      for (const auto* numbers : {&hull->x, &hull->y, &hull->z})
         prefetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
-      prefetch(hull.face_planes.data(), static_cast<std::size_t>(hull.face_planes.size()) * sizeof(float));
+      prefetch(hull->face_planes.data(), static_cast<std::size_t>(hull->face_planes.size()) * sizeof(float));
     }
   }
 
-  // Whether a pair of two hulls has to be looked at again.
-  static bool moved(const Items& items, const PairEntry& entry) {
-    return items.placed[entry.a].hull && items.placed[entry.b].hull &&
-           items.motion_bound[entry.a] + items.motion_bound[entry.b] > entry.limit;
+  [[gnu::always_inline]] void prefetch_touching(const Items& items, const PairCache& pairs, int i) const {
+    constexpr int ahead = 4;  // pairs
+    if (i + ahead >= touching.size) return;
+    const PairEntry& soon = pairs.entries()[touching.pairs[i + ahead]];
+    prefetch(&items.placed[soon.b], sizeof(Placement));
+    prefetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
   }
 
-  // Brings a pair up to date and appends its manifold, if there is one.
-  void process(const Items& items, PairEntry& entry, PairState& state, Manifolds& manifolds) {
-    const double motion_bound = items.motion_bound[entry.a] + items.motion_bound[entry.b];
-    const bool with_plane = !items.placed[entry.a].hull || !items.placed[entry.b].hull;
-    if (with_plane) {
-      touch_plane(items, entry, motion_bound, manifolds);
-      return;
-    }
-    if (motion_bound > entry.limit) {
-      margin = margin_of(items, entry);
-      refresh(items.placed[entry.a], items.placed[entry.b], motion_bound, entry, state);
-    }
-    if (entry.count > 0) carry_along(items, entry, state.contact, manifolds);
+  static double motion_of(const Items& items, const PairEntry& entry) {
+    return items.motion_bound[entry.a] + items.motion_bound[entry.b];
+  }
+  static bool with_plane(const Items& items, const PairEntry& entry) {
+    return !items.placed[entry.a].hull || !items.placed[entry.b].hull;
   }
 
   // How near the shapes of a pair must come to be reported.
@@ -131,8 +144,10 @@ struct NarrowPhase::Worker {
     return options.margin + items.speculative_margin[entry.a] + items.speculative_margin[entry.b];
   }
 
-  void refresh(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
-               PairState& state) {
+  void refresh(const Items& items, PairEntry& entry, PairState& state) {
+    const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
+    const double motion_bound = motion_of(items, entry);
+    margin = margin_of(items, entry);
     const bool known = entry.limit != PairEntry::at_once;
     if (known && entry.count > 0 && still_stands(a, b, motion_bound, entry, state)) return;
     if (known && entry.count == 0 && still_apart(a, b, motion_bound, entry, state.contact)) return;
@@ -199,12 +214,12 @@ struct NarrowPhase::Worker {
   }
 
   // Half-spaces have closed forms; only how long nothing can happen is remembered.
-  void touch_plane(const Items& items, PairEntry& entry, double motion_bound, Manifolds& manifolds) {
+  void touch_plane(const Items& items, PairEntry& entry, Manifolds& manifolds) {
     const bool first = !items.placed[entry.a].hull;
     const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
     const Placement& shape = items.placed[shape_id];
     // The motion bound of a half-space stands still: a moved one makes the pair new.
-    if (motion_bound <= entry.limit) return;
+    const double motion_bound = motion_of(items, entry);
     const Plane plane = items.plane(plane_id);
     const double height = plane.normal.dot(shape.centre) - plane.offset - shape.hull->radius;
     margin = margin_of(items, entry);
@@ -224,7 +239,19 @@ struct NarrowPhase::Worker {
                                                                      p.gap, p.feature};
   }
 
+  // Some pairs of a block, in their order.
+  struct List {
+    template <class Belongs>
+    void list(int first, int last, const Belongs& belongs) {
+      size = 0;
+      for (int k = first; k < last; ++k) pairs[size] = k, size += belongs(k);
+    }
+    int size = 0;
+    std::array<int, block_size> pairs;
+  };
+
   ContactFinderOptions options;
+  List moved, touching;
   double margin = 0;  // of the pair at hand
   ConvexContactSearch convex;
   std::vector<ClipPoint> clip;

@@ -20,7 +20,7 @@
 /// tolerance of its reuse, and a pile that stands on the old ones would be kicked.
 namespace drawpoint::engine::detail {
 
-struct PairState {
+struct alignas(64) PairState {
   ConvexContact contact;
   double margin = 0;                                 ///< that the contact was searched with [m]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the smaller shape, in the frame of the larger
