@@ -45,18 +45,16 @@ class Manifolds {
   std::size_t count_ = 0;
 };
 
-// How the smaller shape stands in the frame of the larger.
+// How the smaller shape of a pair stands in the frame of the larger.
 struct Stand {
-  Stand(const Placement& a, const Placement& b) {
-    const bool a_smaller = a.hull->radius < b.hull->radius;
-    const Placement &small = a_smaller ? a : b, &large = a_smaller ? b : a;
-    centre = large.R.transpose() * (small.centre - large.p);
-    orientation = large.R.transpose() * small.R;
-    radius = small.hull->radius;
-  }
-  Vector3d centre;
-  Matrix3d orientation;
-  double radius;
+  Stand(const Placement& a, const Placement& b)
+      : a_smaller(a.hull->radius < b.hull->radius), small(a_smaller ? a : b), large(a_smaller ? b : a) {}
+  Vector3d centre() const { return large.R.transpose() * (small.centre - large.p); }
+  Matrix3d orientation() const { return large.R.transpose() * small.R; }
+  double radius() const { return small.hull->radius; }
+
+  bool a_smaller;
+  const Placement &small, &large;
 };
 
 void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& normal, Manifold& manifold) {
@@ -169,21 +167,21 @@ struct NarrowPhase::Worker {
                     const PairState& state) const {
     if (margin > state.margin) return false;
     const Stand now(a, b);
-    const double distance = (now.centre - state.centre).norm();
+    const double distance = (now.centre() - state.centre).norm();
     if (distance > options.reuse_distance) return false;
     // ‖ΔR‖_F/√2 is the largest displacement of a unit vector, 2 sin(θ/2).
-    const double turn = (now.orientation - state.orientation).norm() / std::numbers::sqrt2;
+    const double turn = (now.orientation() - state.orientation).norm() / std::numbers::sqrt2;
     if (turn > options.reuse_angle) return false;
-    entry.limit =
-        motion_bound + std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius);
+    entry.limit = motion_bound +
+                  std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius());
     return true;
   }
 
   void compute(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
                PairState& state) {
     ++computed;
-    convex.find({*a.hull, *b.hull, pose_against(a, b)},
-                {margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin},
+    const HullPair pair{*a.hull, *b.hull, pose_against(a, b)};
+    convex.find(pair, {margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin},
                 state.contact);
     entry.count = state.contact.count;
     if (entry.count == 0) {
@@ -191,8 +189,10 @@ struct NarrowPhase::Worker {
       return;
     }
     const Stand now(a, b);
-    state.centre = now.centre, state.orientation = now.orientation, state.margin = margin;
-    entry.limit = motion_bound + std::min(options.reuse_distance, options.reuse_angle * now.radius);
+    state.centre = now.centre(), state.margin = margin;
+    state.orientation = pair.X_AB.linear();
+    if (now.a_smaller) state.orientation.transposeInPlace();
+    entry.limit = motion_bound + std::min(options.reuse_distance, options.reuse_angle * now.radius());
   }
 
   // The remembered contact at the present poses.
