@@ -81,6 +81,7 @@ void ContactAssembly::fill_contacts() {
   const int manifolds = static_cast<int>(manifolds_->size());
   joins_.resize(manifolds_->size());
   places_.assign(static_cast<std::size_t>(manifolds / manifolds_per_block + 1), ContactPlace());
+  deepest_.assign(places_.size(), 0.0);
   pool_->blocks(manifolds, manifolds_per_block, [&](int first, int last) { count_joining(first, last); });
   ContactPlace end;
   for (ContactPlace& place : places_) {
@@ -97,11 +98,12 @@ void ContactAssembly::fill_contacts() {
 unsigned ContactAssembly::joining(const Manifold& m) const {
   unsigned joins = 0;
   for (int k = 0; k < m.count; ++k)
-    if (m.points[k].gap <= constants::resting_margin) joins |= 1u << k;
+    joins |= static_cast<unsigned>(m.points[k].gap <= constants::resting_margin) << k;
   if (joins + 1 == 1u << m.count) return joins;  // most: no need to look at the sides
   const Side a = scene_.side_of(scene_.surface(m.collider_a)),
              b = scene_.side_of(scene_.surface(m.collider_b));
   for (int k = 0; k < m.count; ++k) {
+    if (joins >> k & 1u) continue;
     const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
     if (m.points[k].gap <= constants::resting_margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
   }
@@ -109,12 +111,19 @@ unsigned ContactAssembly::joining(const Manifold& m) const {
 }
 
 void ContactAssembly::count_joining(int first, int last) {
+  ContactPlace place;
+  double deepest = 0;
   for (int k = first; k < last; ++k) {
-    joins_[k] = joining((*manifolds_)[k]);
-    ContactPlace& block = places_[k / manifolds_per_block];
-    block.pair += joins_[k] != 0;
-    block.point += std::popcount(joins_[k]);
+    const Manifold& m = (*manifolds_)[k];
+    joins_[k] = joining(m);
+    place.pair += joins_[k] != 0;
+    place.point += std::popcount(joins_[k]);
+    if (scene_.surface(m.collider_a).owner == Owner::rock ||
+        scene_.surface(m.collider_b).owner == Owner::rock)
+      for (int i = 0; i < m.count; ++i) deepest = std::max(deepest, -m.points[i].gap);
   }
+  places_[first / manifolds_per_block] = place;
+  deepest_[first / manifolds_per_block] = deepest;
 }
 
 void ContactAssembly::fill_pairs(int first, int last) {
@@ -171,23 +180,14 @@ void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace 
 void ContactAssembly::keep_impulses() {
   memory_.begin_step(slots_, scene_.finder().slots());
   pool_->blocks(static_cast<int>(problem_.pairs.size()), manifolds_per_block, [&](int first, int last) {
-    for (int k = first; k < last; ++k) memory_.store(problem_, k);
+    for (int k = first; k < last; ++k) {
+      if (k + pairs_ahead < last) memory_.prefetch(slots_[static_cast<std::size_t>(k + pairs_ahead)]);
+      memory_.store(problem_, k);
+    }
   });
 }
 
-double ContactAssembly::deepest_overlap() {
-  const int manifolds = static_cast<int>(manifolds_->size());
-  deepest_.assign(static_cast<std::size_t>(manifolds / manifolds_per_block + 1), 0.0);
-  pool_->blocks(manifolds, manifolds_per_block, [&](int first, int last) {
-    double& deepest = deepest_[static_cast<std::size_t>(first / manifolds_per_block)];
-    for (int i = first; i < last; ++i) {
-      const Manifold& m = (*manifolds_)[i];
-      if (scene_.surface(m.collider_a).owner != Owner::rock &&
-          scene_.surface(m.collider_b).owner != Owner::rock)
-        continue;
-      for (int k = 0; k < m.count; ++k) deepest = std::max(deepest, -m.points[k].gap);
-    }
-  });
+double ContactAssembly::deepest_overlap() const {
   return *std::max_element(deepest_.begin(), deepest_.end());
 }
 

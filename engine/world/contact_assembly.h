@@ -27,7 +27,7 @@ class ContactAssembly {
   /// Takes over the impulses of the solved problem.
   void keep_impulses();
   /// Of a rock in anything, at the start of the step [m].
-  double deepest_overlap();
+  double deepest_overlap() const;
 
   ContactProblem& problem() { return problem_; }
   const ContactProblem& problem() const { return problem_; }
@@ -43,7 +43,7 @@ class ContactAssembly {
   void fill_bodies(const std::vector<int>& awake);
   void fill_contacts();
   unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
-  void count_joining(int first, int last);    // of these manifolds
+  void count_joining(int first, int last);    // of these manifolds, one block; and their deepest overlap
   void fill_pairs(int first, int last);
   void fill_pair(const Manifold& m, unsigned joins, ContactPlace place);
   int solver_index(const Surface& surface) const;
