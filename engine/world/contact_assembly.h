@@ -47,14 +47,17 @@ class ContactAssembly {
   void fill_pairs(int first, int last);
   void fill_pair(const Manifold& m, unsigned joins, ContactPlace place);
   int solver_index(const Surface& surface) const;
-  inline void prefetch_sides(const Manifold& m) const;
+  Side side_of(const Surface& surface) const;
+  Eigen::Vector3d origin_of(const Surface& surface) const;
 
   const WorldOptions& options_;
   const Scene& scene_;
   std::shared_ptr<const ThreadPool> pool_;
   const std::vector<Manifold>* manifolds_ = nullptr;
-  double start_share_ = 1;            // of the remembered impulses, to start from
-  std::vector<int> body_of_rock_;     // in the problem
+  double start_share_ = 1;         // of the remembered impulses, to start from
+  std::vector<int> body_of_rock_;  // in the problem
+  std::vector<Side>
+      sides_;  // by body of the problem, so that pairs find in a few lines what they ask of rocks
   std::vector<unsigned> joins_;       // by manifold
   std::vector<double> deepest_;       // overlap by block of manifolds [m]
   std::vector<ContactPlace> places_;  // by block of manifolds
