@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace drawpoint::engine::detail {
@@ -84,21 +85,24 @@ struct NarrowPhase::Worker {
   // at what the next pair is, and what lies ahead on it is prefetched.
   void process_block(const Items& items, PairCache& pairs, int first, int last, Manifolds& manifolds) {
     PairEntry* const entries = pairs.entries().data();
-    const auto has_moved = [&](const PairEntry& e) { return motion_of(items, e) > e.limit; };
-    moved.list(first, last, [&](int k) { return has_moved(entries[k]); });
+    moved.list(first, last, [&](int k) { return motion_of(items, entries[k]) > entries[k].limit; });
     for (int i = 0; i < moved.size; ++i) {
       prefetch_moved(items, pairs, i);
       PairEntry& entry = entries[moved.pairs[i]];
-      if (!with_plane(items, entry)) refresh(items, entry, pairs.state(entry));
+      if (with_plane(items, entry))
+        entry.limit = PairEntry::at_once;  // nothing is remembered of a plane
+      else
+        refresh(items, entry, pairs.state(entry));
     }
-    // A plane that is near has no limit: nothing is remembered of it.
-    touching.list(first, last, [&](int k) { return entries[k].count > 0 || has_moved(entries[k]); });
+    touching.list(first, last, [&](int k) {  // without a branch, as lists are made
+      return static_cast<bool>((entries[k].count > 0) | (entries[k].limit == PairEntry::at_once));
+    });
     for (int i = 0; i < touching.size; ++i) {
       prefetch_touching(items, pairs, i);
       PairEntry& entry = entries[touching.pairs[i]];
       if (entry.count > 0)
         carry_along(items, entry, pairs.state(entry).contact, manifolds);
-      else if (with_plane(items, entry))
+      else
         touch_plane(items, entry, manifolds);
     }
   }
@@ -127,7 +131,8 @@ struct NarrowPhase::Worker {
     if (i + ahead >= touching.size) return;
     const PairEntry& soon = pairs.entries()[touching.pairs[i + ahead]];
     prefetch(&items.placed[soon.b], sizeof(Placement));
-    prefetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
+    prefetch(&pairs.state(soon).contact,
+             offsetof(ConvexContact, points) + static_cast<std::size_t>(soon.count) * sizeof(Anchors));
   }
 
   static double motion_of(const Items& items, const PairEntry& entry) {

@@ -153,8 +153,8 @@ BoundQuery query_of(const Eigen::ArrayXXf& rows, std::size_t count, std::span<co
   return query;
 }
 
-void ease(const CollisionHull& hull, std::span<const Eigen::Vector3d> points, double least,
-          BoundQuery& query) {
+void set_limits(const CollisionHull& hull, std::span<const Eigen::Vector3d> points, double least,
+                BoundQuery& query) {
   double farthest = 0;
   for (const Eigen::Vector3d& p : points) farthest = std::max(farthest, p.squaredNorm());
   const double ease = constants::single_round_off * (std::sqrt(farthest) + hull.reach);
@@ -168,7 +168,7 @@ int faces_over(const CollisionHull& hull, const Eigen::Vector3d& point, double l
   float singles[3];
   const std::span<const Eigen::Vector3d> points(&point, 1);
   BoundQuery query = query_of(hull.face_planes, hull.normals.size(), points, singles);
-  ease(hull, points, least, query);
+  set_limits(hull, points, least, query);
   return chosen.faces_over(query, found);
 }
 
@@ -177,7 +177,7 @@ int edges_over(const CollisionHull& hull, std::span<const Eigen::Vector3d> point
   assert(points.size() <= most_points && "no more points than there is room for");
   float singles[3 * most_points];
   BoundQuery query = query_of(hull.edge_frames, hull.edges.size(), points, singles);
-  ease(hull, points, least, query);
+  set_limits(hull, points, least, query);
   return chosen.edges_over(query, found);
 }
 
