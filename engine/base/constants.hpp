@@ -108,6 +108,12 @@ constexpr double coincident = 1e-9;
 /// Chosen here; costs a radius times this, in height.
 constexpr double upright = 1e-9;
 
+/// [1] Of the farthest coordinates: what bounds of separations are eased by in single precision, unit round-off u = 2⁻²⁴.
+/// Derived: the difference of two points is off by 2u of them both, its products with a unit vector and their sum
+/// by 4u more, the root of two such squares by 12u in all; 16u. Costs a candidate too many. Lower: the axis of least
+/// overlap may be missed.
+constexpr double single_round_off = 0x1p-20;
+
 /// [m] Round-off of a height over a plane, for coordinates up to some 100 m. Bounds of separations are eased
 /// by it: costs at most a candidate too many. Lower: the axis of least overlap may be missed by round-off.
 constexpr double height_round_off = 1e-12;
