@@ -24,9 +24,15 @@ constexpr double impact_speed = 0.05;
 /// Higher: an impact is struck again, and the pile shakes. Lower: load builds up more slowly than it may.
 constexpr double load_growth = 2;
 
+/// [m/s], [rad/s] When no body in contact is faster before and after a step's first substep, all stand: the other substeps
+/// are not made, and nothing moves. Chosen here: a rock that is pushed by less than 1.6e-4 of its weight, at rest and in a
+/// pile at rest, does not begin to move. Higher: so do rocks that are pushed harder. Lower: single precision hardly
+/// gets there.
+constexpr double standing_speed = 1e-6;
+
 /// [m/s] At most so fast are overlapping bodies pushed apart. Chosen here: overlaps above 20 mm are slowed down with
-/// steps of 10 ms, and gravity lifts what is pushed by 50 mm. Higher: rocks that are put into each other burst apart.
-/// Lower: the elastic force of an overlap ends sooner, here at k · 20 mm, 2 MN per point.
+/// steps of 10 ms, and what is thrown up rises by 50 mm. Higher: rocks that are put into each other burst apart. Lower:
+/// a soft contact that is let go springs back more slowly.
 constexpr double push_out_speed = 1;
 
 /// [steps] The least damping time τ of a contact, the stepper's own damping (docs/decisions/0008). Higher:

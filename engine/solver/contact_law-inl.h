@@ -45,11 +45,12 @@ template <class T>
           select(regular, a * inverse, inverse_rho), inverse_rho};
 }
 
-/// λ_n after its step; `inverse_nn` = 1 / (W_nn + Σ).
+/// λ_n after its step; `inverse_nn` = 1 / (W_nn + Σ). Beyond the speed `fastest` the contact does not push, so that the
+/// law is u_n ≥ min(b − Σ λ_n, fastest) (contact_law.hpp).
 template <class T>
 [[gnu::always_inline]] inline T normal_step(const T& impulse, const T& velocity, const T& sigma,
-                                            const T& target, const T& inverse_nn) {
-  const T rest = (velocity + sigma * impulse) - target;
+                                            const T& target, const T& inverse_nn, const T& fastest) {
+  const T rest = max((velocity + sigma * impulse) - target, velocity - fastest);
   return max(number<T>(0), impulse - inverse_nn * rest);
 }
 
@@ -97,15 +98,14 @@ template <class T>
 }
 
 /// b [m/s] of a gap [m] (negative: overlap) and its approach G v⁻ [m/s] (negative: closing); `closing_rate` =
-/// −1/h. An open gap only limits the approach to what closes it; an impact takes the whole approach; no overlap is
-/// pushed out faster than push_out_speed (contact_law.hpp).
+/// −1/h. An open gap only limits the approach to what closes it; an impact takes the whole approach
+/// (contact_law.hpp).
 template <class T>
 [[gnu::always_inline]] inline T bias_velocity(const T& gap, const T& approach, const T& upsilon,
                                               const T& closing_rate) {
   const T open = gap * closing_rate, zero = number<T>(0);
   const T damping = select(approach < number<T>(-constants::impact_speed), zero, approach);
-  const T apart = min(number<T>(constants::push_out_speed), upsilon * (damping + number<T>(4) * open));
-  return select(gap > zero, open, apart);
+  return select(gap > zero, open, upsilon * (damping + number<T>(4) * open));
 }
 
 /// What of a substep's normal impulse λ is there for the next one to start from. Load that is there to stay

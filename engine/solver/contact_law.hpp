@@ -14,8 +14,9 @@
 /// Three departures: an approach faster than `impact_speed` is an impact, which takes the whole approach speed
 /// (b without the G v⁻ term, so that nothing bounces by the discretisation as long as h is not far below
 /// √(m/k); restitution has its own stage); an open gap g > 0 only limits the approach to what closes it
-/// within the step, b = −g/h, so that near contacts do nothing before they touch; and b ≤ `push_out_speed`, so that
-/// bodies that were put into each other part slowly. h is the substep. Hertz's
+/// within the step, b = −g/h, so that near contacts do nothing before they touch; and no contact
+/// pushes bodies apart that part at `push_out_speed` already, G v⁺ ≥ min(b − Σ λ, push_out_speed), so that bodies that
+/// were put into each other part slowly, whatever they carry. h is the substep. Hertz's
 /// law is the same with the secant stiffness at the overlap of the step's start, exact at rest and first
 /// order in h.
 namespace drawpoint::engine {

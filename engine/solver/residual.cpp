@@ -126,7 +126,8 @@ double LastSubstep::evaluate(const ContactPair& pair, const ContactPoint& p) {
 
   const double normal = n.dot(impulse);
   const double next =
-      law::normal_step(normal, n.dot(u), terms.sigma, target, law::inverse_or_zero(W.along + terms.sigma));
+      law::normal_step(normal, n.dot(u), terms.sigma, target, law::inverse_or_zero(W.along + terms.sigma),
+                       constants::push_out_speed);
   normal_ += std::abs(normal - next);
   load_ += std::max(normal, next);
 

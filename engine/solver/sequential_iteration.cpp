@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace drawpoint::engine::detail {
 
@@ -171,6 +172,7 @@ void SequentialIteration::correct() {
 void SequentialIteration::set_bias_velocities(const std::vector<double>& targets) {
   assert(targets.size() == points_.size() && "one bias velocity per point");
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k].target = targets[k];
+  fastest_ = std::numeric_limits<double>::infinity();
 }
 
 void SequentialIteration::start() {
@@ -198,7 +200,7 @@ double SequentialIteration::iteration() {
 void SequentialIteration::solve_point(PointBlock& p) {
   const Vector3d u = velocity(p);
   const Vector3d before = p.impulse;
-  p.impulse[0] = law::normal_step(before[0], u[0], p.terms.sigma, p.target, p.inverse_nn);
+  p.impulse[0] = law::normal_step(before[0], u[0], p.terms.sigma, p.target, p.inverse_nn, fastest_);
   p.step_tangents(u, before[0], p.friction * p.impulse[0]);
   const Vector3d delta = p.impulse - before;
   const double moved = delta.lpNorm<1>();
@@ -224,6 +226,12 @@ void SequentialIteration::finish() {
   for (PairBlock& r : pairs_) r.total += r.impulse;
 }
 
+void SequentialIteration::repeat(int substeps) {
+  machine_.repeat(substeps);
+  for (PointBlock& p : points_) p.total += substeps * p.impulse;
+  for (PairBlock& r : pairs_) r.total += substeps * r.impulse;
+}
+
 double SequentialIteration::normal_load() const {
   double sum = 0;
   for (const PointBlock& p : points_) sum += p.impulse[0];
@@ -235,7 +243,7 @@ ResidualSums SequentialIteration::residual_sums() const {
   for (const PointBlock& p : points_) {
     const Vector3d u = velocity(p);
     const double normal = p.impulse[0];
-    const double next = law::normal_step(normal, u[0], p.terms.sigma, p.target, p.inverse_nn);
+    const double next = law::normal_step(normal, u[0], p.terms.sigma, p.target, p.inverse_nn, fastest_);
     sum.normal += std::abs(normal - next);
     sum.load += std::max(normal, next);
     sum.tangent +=

@@ -35,7 +35,7 @@ class SequentialIteration {
 
   /// Gaps and targets from the bodies' velocities, which are those at the end of the last substep.
   void refresh();
-  /// In place of refresh(): the velocities that the points' normals must reach [m/s].
+  /// In place of refresh(): the velocities that the points' normals must reach [m/s], however fast.
   void set_bias_velocities(const std::vector<double>& targets);
   /// First substep: the machine's outer forces, and the start impulses on bodies and machine.
   void start();
@@ -50,6 +50,11 @@ class SequentialIteration {
   double iteration();
   /// Adds the substep's impulses and the machine's displacement to the step's.
   void finish();
+
+  /// Whether the machine is slower than that [m/s, rad/s times the square root of mass], before and after the substep.
+  bool stands(double speed) const { return machine_.stands(speed); }
+  /// So many substeps more with the impulses and speeds of the last one.
+  void repeat(int substeps);
 
   double normal_load() const;          ///< Σ λ_n of the substep [N s]
   ResidualSums residual_sums() const;  ///< of the points, at the velocities reached
@@ -78,6 +83,7 @@ class SequentialIteration {
   std::vector<PointBlock> points_;
   std::vector<PairBlock> pairs_;
   double change_ = 0;
+  double fastest_ = constants::push_out_speed;  // that contacts push; set velocities have no bound
 };
 
 }  // namespace drawpoint::engine::detail

@@ -44,6 +44,7 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
   std::vector<Motion> begin(problem.bodies.size()), now(problem.bodies.size()),
       previous(problem.bodies.size());
   double change = 0;
+  SolverReport report;
   for (int s = 0; s < options.substeps; ++s) {
     iteration.refresh();
     for (std::size_t k = 0; k < now.size(); ++k)
@@ -64,6 +65,7 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
         iteration.add_momentum(detail::momentum_of(k));
       }
       change = iteration.iteration();
+      ++report.iterations;
     }
     iteration.finish();
     for (SolverBody& body : problem.bodies) {
@@ -72,7 +74,6 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
     }
   }
   const double load = iteration.normal_load();
-  SolverReport report;
   if (load > 0) report.last_change = change / load;
   detail::report_residual(iteration.residual_sums(), report);
   report.machine = iteration.store();

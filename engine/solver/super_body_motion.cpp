@@ -86,6 +86,11 @@ void SuperBodyMotion::finish() {
   for (Row& row : rows_) row.total += row.impulse;
 }
 
+void SuperBodyMotion::repeat(int substeps) {
+  travel_ += substeps * h_ * w_;
+  for (Row& row : rows_) row.total += substeps * row.impulse;
+}
+
 SuperBodySolution SuperBodyMotion::store() const {
   SuperBodySolution solution;
   if (!machine_) return solution;

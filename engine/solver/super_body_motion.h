@@ -44,6 +44,10 @@ class SuperBodyMotion {
   void iteration();
   /// Adds the substep's displacement and impulses to the step's.
   void finish();
+  /// Whether |w| is at most so much, before and after the substep; without a machine true.
+  bool stands(double speed) const { return w_.norm() <= speed && begin_.norm() <= speed; }
+  /// finish() so many times.
+  void repeat(int substeps);
 
   /// The machine's part of the solution, but for contact impulses on its parts: these are zero.
   SuperBodySolution store() const;

@@ -9,6 +9,7 @@ namespace drawpoint::engine {
 
 struct StepReport {
   int manifolds = 0, points = 0;         ///< of the problem that was solved
+  int iterations = 0;                    ///< of the solver, in the last solve; 1 where everything stands
   double last_change = 0;                ///< of the solver's last iteration, relative to the normal load
   double complementarity = 0, cone = 0;  ///< residual of the contact law, relative to the normal load
   double max_overlap = 0;                ///< [m]

@@ -129,6 +129,7 @@ StepReport World::Impl::step(double h) {
   settle_frozen();
   report.manifolds = static_cast<int>(contacts.problem().pairs.size());
   report.points = static_cast<int>(contacts.problem().points.size());
+  report.iterations = solved.iterations;
   report.last_change = solved.last_change;
   report.complementarity = solved.complementarity;
   report.cone = solved.cone;

@@ -146,14 +146,15 @@ HWY_NOINLINE void sweep_lanes(const BatchArrays& arrays, int batch, int at, cons
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
-  const V zero = all(0), friction = load(pair.friction, at);
+  const V zero = all(0), friction = load(pair.friction, at),
+          fastest = all(static_cast<float>(constants::push_out_speed));
   V force = zero, change = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     PointBatch& p = arrays.points[k];
     const V3 arm = load(p.arm, at), u = pairs.velocity(arm),
              before = start_impulse(p.impulse, p.previous, at, iteration);
     V3 l = before;
-    l.x = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at));
+    l.x = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at), fastest);
     const V dn = l.x - before.x;
     law::tangent_step(l.y, l.z, u.y + load(p.w10, at) * dn, u.z + load(p.w20, at) * dn,
                       load_tangents(p.inverse_tt, p.inverse_rho, at), friction * l.x);
@@ -184,12 +185,14 @@ HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
   PairBatch& pair = arrays.pairs[batch];
   Pairs pairs(arrays, batch, at);
   pairs.gather(arrays.bodies);
-  const V zero = all(0), friction = load(pair.friction, at);
+  const V zero = all(0), friction = load(pair.friction, at),
+          fastest = all(static_cast<float>(constants::push_out_speed));
   V normal = zero, tangent = zero, force = zero;
   for (int k = pair.first; k < pair.first + pair.points; ++k) {
     const PointBatch& p = arrays.points[k];
     const V3 u = pairs.velocity(load(p.arm, at)), l = load(p.impulse, at);
-    const V next = law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at));
+    const V next =
+        law::normal_step(l.x, u.x, load(p.sigma, at), load(p.target, at), load(p.inverse_nn, at), fastest);
     normal = normal + abs(l.x - next);
     force = force + max(l.x, next);
     tangent = tangent + law::tangent_residual(l.y, l.z, u.y, u.z, load(p.inverse_rho, at), friction * l.x);
@@ -197,6 +200,15 @@ HWY_NOINLINE void evaluate_lanes(const BatchArrays& arrays, int batch, int at) {
   store(normal, pair.normal_miss, at);
   store(tangent, pair.tangent_miss, at);
   store(force, pair.load, at);
+}
+
+HWY_NOINLINE void repeat_lanes(const BatchArrays& arrays, int batch, int at, V substeps) {
+  PairBatch& pair = arrays.pairs[batch];
+  for (int k = pair.first; k < pair.first + pair.points; ++k) {
+    PointBatch& p = arrays.points[k];
+    store(load(p.total, at) + substeps * load(p.impulse, at), p.total, at);
+  }
+  store(load(pair.moment_total, at) + substeps * load(pair.moment, at), pair.moment_total, at);
 }
 
 template <class Kernel>
@@ -218,6 +230,10 @@ void start(const BatchArrays& arrays, BatchRange range) {
 }
 void end_substep(const BatchArrays& arrays, BatchRange range) {
   over_lanes(range, [&](int batch, int at) { end_substep_lanes(arrays, batch, at); });
+}
+void repeat(const BatchArrays& arrays, BatchRange range, int substeps) {
+  const float times = static_cast<float>(substeps);
+  over_lanes(range, [&](int batch, int at) { repeat_lanes(arrays, batch, at, all(times)); });
 }
 void evaluate(const BatchArrays& arrays, BatchRange range) {
   over_lanes(range, [&](int batch, int at) { evaluate_lanes(arrays, batch, at); });
@@ -244,6 +260,7 @@ HWY_EXPORT(prepare);
 HWY_EXPORT(start);
 HWY_EXPORT(iteration);
 HWY_EXPORT(evaluate);
+HWY_EXPORT(repeat);
 HWY_EXPORT(end_substep);
 
 void prepare_batches(const BatchArrays& arrays, BatchRange range) {
@@ -257,6 +274,9 @@ void iterate_batches(const BatchArrays& arrays, BatchRange range, const Iteratio
 }
 void end_substep_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(end_substep)(arrays, range);
+}
+void repeat_batches(const BatchArrays& arrays, BatchRange range, int substeps) {
+  HWY_DYNAMIC_DISPATCH(repeat)(arrays, range, substeps);
 }
 void evaluate_batches(const BatchArrays& arrays, BatchRange range) {
   HWY_DYNAMIC_DISPATCH(evaluate)(arrays, range);

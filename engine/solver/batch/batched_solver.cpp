@@ -4,6 +4,7 @@
 #include <drawpoint/engine/solver/momentum.h>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -29,7 +30,12 @@ SolverReport BatchedSolver::solve(ContactProblem& problem) {
   travel_.assign(problem.bodies.size(), BodyRow());
   previous_.resize(problem.bodies.size());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
-  for (int s = 0; s < options_.substeps; ++s) run_substep(s);
+  find_touched();
+  iterations_ = 0;
+  run_substep(0);
+  const bool standing = stands();
+  for (int s = 1; s < options_.substeps && !standing; ++s) run_substep(s);
+  if (standing) stand();
   assert(batches_.row_of.size() == problem.bodies.size() && "each body has a row");
   each_row([this](int row) { displacement(row); });
   SolverReport solved = report();
@@ -41,6 +47,7 @@ SolverReport BatchedSolver::solve(ContactProblem& problem) {
 
 SolverReport BatchedSolver::report() {
   SolverReport solved;
+  solved.iterations = iterations_;
   const double load = normal_load();
   if (load > 0) solved.last_change = change() / load;
   everywhere([this](BatchRange range) { evaluate_batches(batches_.arrays(), range); });
@@ -110,6 +117,50 @@ void BatchedSolver::run_substep(int number) {
   machine_->finish();
 }
 
+// Whether the first substep has left everything as it was: then so will the others. Bodies in free flight do not count,
+// and a machine that touches nothing that moves is on its own.
+bool BatchedSolver::stands() const {
+  if (options_.substeps == 1 || change() > options_.tolerance * normal_load()) return false;
+  if (machine_->touches_bodies() && !machine_->stands(constants::standing_speed)) return false;
+  const auto small = [](const float(&x)[4]) {
+    return std::all_of(x, x + 3,
+                       [](float v) { return std::abs(v) <= static_cast<float>(constants::standing_speed); });
+  };
+  for (std::size_t row = 0; row < problem_->bodies.size(); ++row) {
+    if (!touched_[static_cast<std::size_t>(batches_.order().bodies[row])]) continue;
+    const BodyRow &now = batches_.bodies[row], &before = batches_.begin[row];
+    if (!small(now.velocity) || !small(now.angular_velocity) || !small(before.velocity) ||
+        !small(before.angular_velocity))
+      return false;
+  }
+  return true;
+}
+
+// The other substeps, with the impulses of the first. What little speed there is would grow by round-off, since the
+// substeps that damp it are not made: it is taken away.
+void BatchedSolver::stand() {
+  const int left = options_.substeps - 1;
+  everywhere([&](BatchRange range) { repeat_batches(batches_.arrays(), range, left - 1); });
+  each_row([&](int row) { batches_.bodies[row] = BodyRow(); });
+  if (machine_->stands(constants::standing_speed))
+    machine_->repeat(left);
+  else
+    for (int s = 1; s <= left; ++s) run_machine_alone();
+}
+
+void BatchedSolver::run_machine_alone() {
+  machine_->refresh(batches_.bodies);
+  machine_->extrapolate();
+  machine_->correct(batches_.bodies);
+  const int most = most_iterations(options_, machine_->points());
+  for (int k = 0; k < most; ++k) {
+    if (k >= options_.iterations && machine_change_ <= options_.tolerance * machine_->normal_load()) break;
+    if (remembers(k)) machine_->add_momentum(momentum_of(k));
+    machine_change_ = machine_->iteration(batches_.bodies);
+  }
+  machine_->finish();
+}
+
 void BatchedSolver::add_momentum(int k, Iteration& iteration) {
   iteration.remember = remembers(k);
   iteration.momentum = iteration.remember ? static_cast<float>(momentum_of(k)) : 0;
@@ -158,6 +209,7 @@ void BatchedSolver::extrapolate() {
 }
 
 void BatchedSolver::iteration(const Iteration& this_iteration) {
+  ++iterations_;
   machine_change_ = machine_->iteration(batches_.bodies);
   each_stage([&](BatchRange range) { iterate_batches(batches_.arrays(), range, this_iteration); });
 }
@@ -171,11 +223,14 @@ void BatchedSolver::displacement(int row) {
   }
 }
 
-void BatchedSolver::store_bodies() {
+void BatchedSolver::find_touched() {
   touched_.assign(problem_->bodies.size(), 0);
   for (const ContactPair& pair : problem_->pairs)
     for (const int body : {pair.a, pair.b})
       if (body >= 0) touched_[body] = 1;
+}
+
+void BatchedSolver::store_bodies() {
   pool_->blocks(static_cast<int>(problem_->bodies.size()), bodies_per_block, [this](int first, int last) {
     for (int body = first; body < last; ++body) store_body(body);
   });

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/machine_pairs.h>
+#include <algorithm>
 #include <cassert>
 
 namespace drawpoint::engine::detail {
@@ -36,6 +37,11 @@ ContactProblem MachinePairs::part_of_problem(const ContactProblem& problem, cons
     part.pairs.push_back(pair);
   }
   return part;
+}
+
+bool MachinePairs::touches_bodies() const {
+  return std::any_of(part_.bodies.begin(), part_.bodies.end(),
+                     [](const SolverBody& body) { return body.inverse_mass > 0; });
 }
 
 void MachinePairs::gather_bodies(const std::vector<BodyRow>& bodies) {

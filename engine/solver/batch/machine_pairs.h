@@ -20,6 +20,10 @@ class MachinePairs {
   void correct(std::vector<BodyRow>& bodies);
   void add_momentum(double share) { iteration_.add_momentum(share); }  ///< the bodies are the caller's
   double iteration(std::vector<BodyRow>& bodies);                      ///< returns Σ|Δλ|
+  bool touches_bodies() const;                                         ///< that move
+  bool stands(double speed) const { return iteration_.stands(speed); }
+  void repeat(int substeps) { iteration_.repeat(substeps); }
+  std::size_t points() const { return part_.points.size(); }
   void finish() { iteration_.finish(); }
   double normal_load() const { return iteration_.normal_load(); }
   ResidualSums residual_sums(const std::vector<BodyRow>& bodies);

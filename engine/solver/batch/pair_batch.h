@@ -91,6 +91,8 @@ void iterate_batches(const BatchArrays& arrays, BatchRange range, const Iteratio
 /// impulses to the totals and leaves start impulses without impacts; what extrapolation would repeat of these
 /// goes into the corrections.
 void end_substep_batches(const BatchArrays& arrays, BatchRange range);
+/// So many substeps more with the impulses of the last: adds them to the totals.
+void repeat_batches(const BatchArrays& arrays, BatchRange range, int substeps);
 /// The natural map of the law in the substep that has just ended (residual.hpp), summed over a pair's points.
 void evaluate_batches(const BatchArrays& arrays, BatchRange range);
 
