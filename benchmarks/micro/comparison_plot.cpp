@@ -100,12 +100,12 @@ class Panel {
   void name(std::vector<Curve> curves) const {
     std::sort(curves.begin(), curves.end(),
               [](const Curve& a, const Curve& b) { return a.points.back().second > b.points.back().second; });
-    const double at = x_ + panel_width + 24;
+    const double at = x_ + panel_width + 30;
     double free = top - label_height;
     for (std::size_t k = 0; k < curves.size(); ++k) {
       const auto& [time, value] = curves[k].points.back();
       const double room_below = label_height * static_cast<double>(curves.size() - 1 - k);
-      const double lowest = top + panel_height + 30 - room_below;
+      const double lowest = top + panel_height - 4 - room_below;
       const double y = free = std::max(free + label_height, std::min(down(value), lowest));
       out_ << "<path class=\"leader\" stroke=\"" << curves[k].colour << "\" d=\"M" << across(time) << ' '
            << down(value) << " L" << at - 3 << ' ' << y << "\"/>\n<text class=\"name\" fill=\""
@@ -147,7 +147,7 @@ text { font: 12px sans-serif; }
 std::string comparison_svg(const std::vector<Measured>& rows, const std::string& title) {
   std::ostringstream out;
   out << std::fixed << std::setprecision(1)
-      << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1130 480\">\n"
+      << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1170 480\">\n"
       << style << "<text class=\"title\" x=\"" << left << "\" y=\"24\">" << escaped(title) << "</text>\n";
   const std::vector<std::pair<std::string, double (*)(const Evaluation&)>> panels{
       {"residual, of the contact load", [](const Evaluation& e) { return e.residual.contacts(); }},

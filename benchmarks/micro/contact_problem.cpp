@@ -93,6 +93,7 @@ void solve(const Arguments& arguments) {
   ConvergedSolutions solutions(recorded.problem, solution_file(arguments.file));
   const Converged& converged = solutions.of(std::max(1, arguments.options.substeps));
   json out = numbers(evaluate(recorded.problem, method, arguments.options, arguments.repeats, converged));
+  out["uncertainty_of_converged"] = converged.uncertainty;
   out["residual_of_converged"] = converged.residual.contacts();
   out["method"] = method.name;
   out["contacts"] = recorded.problem.points.size();
@@ -161,6 +162,7 @@ void write_solutions(const Arguments& arguments) {
                    {"most_iterations_per_substep", c.iterations},
                    {"last_change", c.last_change},
                    {"residual", c.residual.contacts()},
+                   {"uncertainty", c.uncertainty},
                    {"machine_rows", c.residual.rows}});
     const Solved &first = solutions.front().solved, &now = c.solved;
     all.back()["distance_to_first"] =

@@ -40,6 +40,7 @@ void write(Writer& file, const Converged& c) {
   file.integer(group, "substeps", c.substeps);
   file.integer(group, "most iterations per substep", c.iterations);
   file.number(group, "last change", c.last_change);
+  file.number(group, "uncertainty", c.uncertainty);
   file.number(group, "residual complementarity", c.residual.complementarity);
   file.number(group, "residual cone", c.residual.cone);
   file.number(group, "residual moments", c.residual.moments);
@@ -94,6 +95,7 @@ Converged read(const Reader& file, const std::string& name, const ContactProblem
   c.substeps = static_cast<int>(file.integer(name, "substeps"));
   c.iterations = static_cast<int>(file.integer(name, "most iterations per substep"));
   c.last_change = file.number(name, "last change");
+  c.uncertainty = file.number(name, "uncertainty");
   c.residual = {file.number(name, "residual complementarity"), file.number(name, "residual cone"),
                 file.number(name, "residual moments"), file.number(name, "residual rows")};
   ContactProblem& p = c.solved.problem;
@@ -121,20 +123,29 @@ Converged read(const Reader& file, const std::string& name, const ContactProblem
   return c;
 }
 
+Solved solved_by(const ContactProblem& problem, int substeps, int iterations) {
+  constexpr double settled = 1e-14;
+  SolverOptions options{.method = Method::sequential, .substeps = substeps, .tolerance = settled};
+  const double budget = static_cast<double>(iterations) * static_cast<double>(problem.points.size());
+  options.iteration_budget = static_cast<int>(std::min<double>(budget, std::numeric_limits<int>::max()));
+  Solved solved{problem, {}};
+  solved.report = solve(solved.problem, options);
+  return solved;
+}
+
 }  // namespace
 
 Converged converge(const ContactProblem& problem, int substeps, int most_iterations) {
-  constexpr double settled = 1e-14;
   Converged c;
   c.substeps = substeps;
   c.iterations = std::max(1, most_iterations / substeps);
-  SolverOptions options{.method = Method::sequential, .substeps = substeps, .tolerance = settled};
-  const double budget = static_cast<double>(c.iterations) * static_cast<double>(problem.points.size());
-  options.iteration_budget = static_cast<int>(std::min<double>(budget, std::numeric_limits<int>::max()));
-  c.solved.problem = problem;
-  c.solved.report = solve(c.solved.problem, options);
+  c.solved = solved_by(problem, substeps, c.iterations);
+  const ContactProblem& solved = c.solved.problem;
+  const SuperBodySolution& machine = c.solved.report.machine;
   c.last_change = c.solved.report.last_change;
-  c.residual = residual(c.solved.problem, c.solved.report.machine, substeps);
+  c.residual = residual(solved, machine, substeps);
+  const Solved half = solved_by(problem, substeps, std::max(1, c.iterations / 2));
+  c.uncertainty = distance(half.problem, half.report.machine, solved, machine).velocities;
   return c;
 }
 
