@@ -104,6 +104,8 @@ nlohmann::json run_pile(const Settings& s) {
   add_overlaps(out, "", support::rock_overlaps(pile, rested));
   out["wall_overlap_max"] = support::wall_overlaps(pile, rested).max;
   out["drift_mm_s"] = 1e3 * drift.mean;
+  out["drift_median_mm_s"] = 1e3 * drift.median;
+  out["drift_p99_mm_s"] = 1e3 * drift.p99;
   out["drift_worst_mm_s"] = 1e3 * drift.worst;
   out["drift_window_s"] = steps * h;
   out["kinetic_energy_per_rock_j"] = support::kinetic_energy_per_rock(pile, rested);

@@ -1,45 +1,139 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <time.h>
+
 #include <cstdio>
-#include <cstring>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
-#include <exception>
+#include <stdexcept>
 
+#include "command.hpp"
+#include "setting.hpp"
 #include "step_times.hpp"
 
-/// One loading cycle, with where its steps spend their time. The pile is poured once and kept in PILE_FILE.
-/// usage: loading_cycle PILE_FILE [--lindmark2016-scale]
+/// What a loading cycle costs: seconds of a core per cycle, cycles per core-hour, and where steps spend them. See --help.
 using namespace drawpoint;
+using namespace drawpoint::benchmarks;
 using namespace drawpoint::engine::loading;
 
-int main(int argc, char** argv) try {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: loading_cycle PILE_FILE [--lindmark2016-scale]\n");
-    return 2;
-  }
-  const bool lindmark2016_scale = argc > 2 && std::strcmp(argv[2], "--lindmark2016-scale") == 0;
-  Scenario scenario = lindmark2016_scale ? lh621_at_lindmark2016_scale() : lh621_in_a_drift();
-  scenario.cycles = 1;
+namespace {
+
+constexpr const char* about =
+    "Simulates loading cycles of the LHD and prints what they cost: seconds per cycle, cycles per core-hour, "
+    "and\n"
+    "where the steps spend their time. The pile is poured once and kept in PILE_FILE; pouring is not "
+    "counted.\n\n"
+    "  loading_cycle /tmp/small.h5                       the default scene: 120 t\n"
+    "  loading_cycle /tmp/full.h5 --scene lindmark2016   the scale of Lindmark (2016): 290 t, some 4300 "
+    "rocks\n\n"
+    "Fields of --json:\n"
+    "  seconds_per_cycle   processor time of a cycle, from its start to the next, refill and wait for rest\n"
+    "                      included; real_time_factor: simulated over that\n"
+    "  cycles_per_core_hour   3600 over it: the measure by which versions are compared\n"
+    "  ms_step, ms_*       per step, and its parts (wall time; broad, narrow, machine, solver, rest)\n"
+    "  loaded_kg, production_kg_s, damage_s, spill   what came out, means over the cycles";
+
+struct Settings {
+  std::string pile, scene = "small", setting;
+  int cycles = 1, threads = 1;
+  bool json = false;
+};
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Scenario scenario_of(const Settings& s) {
+  Scenario scenario = s.scene == "small" ? lh621_in_a_drift() : lh621_at_lindmark2016_scale();
+  scenario.cycles = s.cycles;
   scenario.strategy = {1.2, 0.8, 0.8, 0.2};
-  scenario.pile_file = argv[1];
-  prepared_pile(scenario);
-  benchmarks::StepTimes times;
-  const LoadingLog log = simulate(scenario, {[&](const auto& report) { times.add(report); }});
-  if (!log.completed) {
-    std::fprintf(stderr, "loading_cycle: %s\n", log.message.c_str());
-    return 1;
-  }
-  const CycleRecord& cycle = log.cycles.front();
-  times.print("loading cycle", cycle.t_end);
+  scenario.pile_file = s.pile;
+  return scenario;
+}
+
+nlohmann::json run(const Settings& s) {
+  Scenario scenario = scenario_of(s);
+  const SettledPile pile = prepared_pile(scenario);
+  if (!s.setting.empty()) scenario.world = with(scenario.world, setting_of(s.setting));
+  scenario.world.threads = s.threads;
+  StepTimes times;
+  Progress progress;
+  long steps = 0;
+  const double start = processor_seconds();
+  const LoadingLog log = simulate(scenario, pile, {[&](const auto& report) {
+                                    times.add(report);
+                                    progress.show("steps", static_cast<int>(++steps), s.cycles * 1300);
+                                  }});
+  const double spent = processor_seconds() - start;
+  if (!log.completed) throw std::runtime_error(log.message);
+  const double cycles = static_cast<double>(log.cycles.size()), simulated = log.cycles.back().t_end;
+  double loaded = 0;
+  for (const CycleRecord& cycle : log.cycles) loaded += cycle.loaded_mass / cycles;
+  nlohmann::json out = times.per_step();
+  out.update({{"scene", s.scene},
+              {"threads", s.threads},
+              {"cycles", log.cycles.size()},
+              {"simulated_s", simulated},
+              {"seconds_per_cycle", spent / cycles},
+              {"cycles_per_core_hour", 3600 * cycles / spent},
+              {"real_time_factor", simulated / spent},
+              {"rocks", log.numbers.at("rocks")},
+              {"most_contact_points", log.numbers.at("most_contact_points")},
+              {"most_iterations_per_substep", log.numbers.at("most_iterations_per_substep")},
+              {"loaded_kg", loaded},
+              {"production_kg_s", production(log)},
+              {"damage_s", joint_damage(log)},
+              {"spill", rock_spill(log)}});
+  return out;
+}
+
+double number(const nlohmann::json& j, const char* key) { return j.at(key).get<double>(); }
+
+void print(const nlohmann::json& j) {
   std::printf(
-      "  %.0f rocks; cycle %.1f s, loaded %.0f kg, production %.1f kg/s, damage %.2f s, spill %.3f\n"
-      "  at most %.0f contact points, with up to %.0f iterations per substep while rocks move\n",
-      log.numbers.at("rocks"), cycle.t_end - cycle.t_start, cycle.loaded_mass, production(log),
-      joint_damage(log), rock_spill(log), log.numbers.at("most_contact_points"),
-      log.numbers.at("most_iterations_per_substep"));
-  return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "loading_cycle: %s\n", error.what());
-  return 1;
+      "%.0f rocks, %d thread%s: %.2f s of processor time per cycle of %.1f s, %.0f cycles per core-hour\n",
+      number(j, "rocks"), j.at("threads").get<int>(), j.at("threads") == 1 ? "" : "s",
+      number(j, "seconds_per_cycle"), number(j, "simulated_s") / number(j, "cycles"),
+      number(j, "cycles_per_core_hour"));
+  std::printf(
+      "  ms per step: total %.3f = broad %.3f + narrow %.3f + machine %.3f + solver %.3f + rest %.3f\n",
+      number(j, "ms_step"), number(j, "ms_broad"), number(j, "ms_narrow"), number(j, "ms_machine"),
+      number(j, "ms_solver"), number(j, "ms_rest"));
+  std::printf(
+      "  at most %.0f contact points, with up to %.0f iterations per substep while rocks move; largest "
+      "overlap of a "
+      "rock %.1f mm\n",
+      number(j, "most_contact_points"), number(j, "most_iterations_per_substep"),
+      number(j, "largest_overlap_mm"));
+  std::printf("  loaded %.0f kg, production %.1f kg/s, damage %.2f s, spill %.3f\n", number(j, "loaded_kg"),
+              number(j, "production_kg_s"), number(j, "damage_s"), number(j, "spill"));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings s;
+  CLI::App app(about, "loading_cycle");
+  app.add_option("PILE_FILE", s.pile, "where the pile is kept; poured when missing")->required();
+  app.add_option("--scene", s.scene, "small (the default scene) or lindmark2016 (full scale)")
+      ->check(CLI::IsMember({"small", "lindmark2016"}))
+      ->capture_default_str();
+  app.add_option("--cycles", s.cycles, "of one run, each from the pile that the last one left")
+      ->check(between(1, 1000, "", "1 to 5 are usual"))
+      ->capture_default_str();
+  app.add_option("--threads", s.threads, "threads; they change the time only")
+      ->check(between(1, 256, "", "at most the machine's cores"))
+      ->capture_default_str();
+  app.add_option("--setting", s.setting, "step and work, as 10x16x5 or 10x16x1+20000 (default: the scene's)");
+  app.add_flag("--json", s.json, "print one JSON object");
+  return run_command(app, argc, argv, [&] {
+    const nlohmann::json result = run(s);
+    if (s.json)
+      std::printf("%s\n", result.dump().c_str());
+    else
+      print(result);
+    return 0;
+  });
 }

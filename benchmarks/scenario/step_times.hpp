@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <drawpoint/engine/world/world.hpp>
+#include <nlohmann/json.hpp>
 
 /// Sums up where the steps of a scenario spend their time and prints it in milliseconds per step.
 namespace drawpoint::benchmarks {
@@ -32,6 +33,18 @@ class StepTimes {
         total * ms, broad_ * ms, narrow_ * ms, machine_ * ms, solver_ * ms, rest_ * ms);
     std::printf("  accuracy: most contact points %d, largest overlap of a rock %.2f mm\n", points_,
                 overlap_ * 1e3);
+  }
+
+  /// Milliseconds per step, by part, and the accuracy.
+  nlohmann::json per_step() const {
+    const double ms = 1e3 / static_cast<double>(std::max(1L, steps_));
+    return {{"ms_step", ms * (broad_ + narrow_ + machine_ + solver_ + rest_)},
+            {"ms_broad", ms * broad_},
+            {"ms_narrow", ms * narrow_},
+            {"ms_machine", ms * machine_},
+            {"ms_solver", ms * solver_},
+            {"ms_rest", ms * rest_},
+            {"largest_overlap_mm", 1e3 * overlap_}};
   }
 
  private:

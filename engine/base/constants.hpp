@@ -24,6 +24,11 @@ constexpr double impact_speed = 0.05;
 /// Higher: an impact is struck again, and the pile shakes. Lower: load builds up more slowly than it may.
 constexpr double load_growth = 2;
 
+/// [m/s] At most so fast are overlapping bodies pushed apart. Chosen here: overlaps above 20 mm are slowed down with
+/// steps of 10 ms, and gravity lifts what is pushed by 50 mm. Higher: rocks that are put into each other burst apart.
+/// Lower: the elastic force of an overlap ends sooner, here at k · 20 mm, 2 MN per point.
+constexpr double push_out_speed = 1;
+
 /// [steps] The least damping time τ of a contact, the stepper's own damping (docs/decisions/0008). Higher:
 /// overlap is taken back more slowly. Lower: contacts ring.
 constexpr double least_damping_steps = 2;
@@ -102,6 +107,12 @@ constexpr double coincident = 1e-9;
 /// [1] Sine of the tilt below which a cylinder stands on its face and its lowest line has no direction.
 /// Chosen here; costs a radius times this, in height.
 constexpr double upright = 1e-9;
+
+/// [1] Of the farthest coordinates: what bounds of separations are eased by in single precision, unit round-off u = 2⁻²⁴.
+/// Derived: the difference of two points is off by 2u of them both, its products with a unit vector and their sum
+/// by 4u more, the root of two such squares by 12u in all; 16u. Costs a candidate too many. Lower: the axis of least
+/// overlap may be missed.
+constexpr double single_round_off = 0x1p-20;
 
 /// [m] Round-off of a height over a plane, for coordinates up to some 100 m. Bounds of separations are eased
 /// by it: costs at most a candidate too many. Lower: the axis of least overlap may be missed by round-off.

@@ -41,7 +41,7 @@ using Objects = std::vector<fcl::CollisionObjectd*>;
 
 struct Entry {
   std::unique_ptr<BoxObject> object;  // none for a half-space
-  bool plane = false, moves = false, changed = false, changed_before = false, dirty = false;
+  bool plane = false, moves = false, changed = false, dirty = false;
 };
 
 struct Collector {
@@ -88,6 +88,7 @@ class BroadPhase::Impl {
     const auto size = std::max(entries_.size(), static_cast<std::size_t>(id) + 1);
     entries_.resize(size);
     boxes_.resize(size);
+    changed_before_.resize(size);
     planes_.resize(size);
     at(id).moves = moves;
     mark(id);
@@ -140,7 +141,7 @@ class BroadPhase::Impl {
   }
 
   Changes update(const ThreadPool& pool) {
-    for (int id : before_) at(id).changed_before = false;
+    for (int id : before_) changed_before_[static_cast<std::size_t>(id)] = false;
     before_.swap(changed_);
     changed_.clear();
     std::sort(before_.begin(), before_.end());
@@ -149,7 +150,7 @@ class BroadPhase::Impl {
     for (int id : before_) {
       Entry& entry = at(id);
       entry.changed = false;
-      entry.changed_before = true;
+      changed_before_[static_cast<std::size_t>(id)] = true;
       if (entry.object && entry.dirty)
         (entry.moves ? moved_[share_of(id)] : fixed_moved_).push_back(entry.object.get());
       entry.dirty = false;
@@ -161,7 +162,7 @@ class BroadPhase::Impl {
     return look_up(pool);
   }
 
-  bool changed(int id) const { return entries_[static_cast<std::size_t>(id)].changed_before; }
+  const std::vector<char>& changed() const { return changed_before_; }
   const AlignedBox3d& box(int id) const { return boxes_[static_cast<std::size_t>(id)]; }
   const std::vector<int>& pending() const { return changed_; }
 
@@ -260,6 +261,7 @@ class BroadPhase::Impl {
   Tree fixed_;
   std::vector<std::pair<Tree*, Tree*>> tree_pairs_;  // of a tree with itself or another, that find all pairs
   std::vector<int> changed_, before_;
+  std::vector<char> changed_before_;  // by number: it is in before_
   std::vector<Objects> moved_;
   Objects fixed_moved_;
   std::vector<Pair> pairs_;
@@ -279,7 +281,7 @@ void BroadPhase::set_box(int id, const AlignedBox3d& box) { impl_->set_box(id, b
 void BroadPhase::set_plane(int id, const Plane& plane) { impl_->set_plane(id, plane); }
 void BroadPhase::set_moves(int id, bool moves) { impl_->set_moves(id, moves); }
 BroadPhase::Changes BroadPhase::update(const ThreadPool& pool) { return impl_->update(pool); }
-bool BroadPhase::changed(int id) const { return impl_->changed(id); }
+const std::vector<char>& BroadPhase::changed() const { return impl_->changed(); }
 const AlignedBox3d& BroadPhase::box(int id) const { return impl_->box(id); }
 const std::vector<int>& BroadPhase::pending() const { return impl_->pending(); }
 void BroadPhase::set_pending(const std::vector<int>& ids) { impl_->set_pending(ids); }

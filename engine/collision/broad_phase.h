@@ -43,8 +43,8 @@ class BroadPhase {
   /// The pairs of all that was added or changed since the last call.
   /// `parallel` may have any number of threads.
   Changes update(const ThreadPool& pool);
-  /// Whether something was added, changed or removed before the last update().
-  bool changed(int id) const;
+  /// By number, whether it was added, changed or removed before the last update().
+  const std::vector<char>& changed() const;
 
   const Eigen::AlignedBox3d& box(int id) const;
   /// What the next update() will look up again; for snapshots.

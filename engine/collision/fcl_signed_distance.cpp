@@ -33,11 +33,12 @@ void first_direction(const void* a, const void*, ccd_vec3_t* direction) {
 
 void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   Body& body = *static_cast<Body*>(const_cast<void*>(object));  // libccd hands on what it was given
+  const Vector3d local = body.pose.linear().transpose() * from_ccd(*direction);
+  if (!local.allFinite()) body.supports = most_supports;  // shapes in one place: FCL has no direction
   if (++body.supports > most_supports) {
     to_ccd(Vector3d::Zero(), point);
     return;
   }
-  const Vector3d local = body.pose.linear().transpose() * from_ccd(*direction);
   to_ccd(body.pose * body.hull.vertices[static_cast<std::size_t>(lowest(body.hull, -local).vertex)], point);
 }
 

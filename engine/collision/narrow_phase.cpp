@@ -4,7 +4,9 @@
 #include <drawpoint/engine/collision/narrow_phase.h>
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace drawpoint::engine::detail {
@@ -15,6 +17,7 @@ using Eigen::Vector3d;
 
 // Pairs a block: some 20 µs of work, large against the hand-over of a block and small against a step.
 constexpr int block_size = 128;
+constexpr std::size_t apart_size = 64;  // of a pair state: what still_apart() reads, and whether it touches
 
 Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
   Eigen::Isometry3d X_AB;
@@ -43,18 +46,16 @@ class Manifolds {
   std::size_t count_ = 0;
 };
 
-// How the smaller shape stands in the frame of the larger.
+// How the smaller shape of a pair stands in the frame of the larger.
 struct Stand {
-  Stand(const Placement& a, const Placement& b) {
-    const bool a_smaller = a.hull->radius < b.hull->radius;
-    const Placement &small = a_smaller ? a : b, &large = a_smaller ? b : a;
-    centre = large.R.transpose() * (small.centre - large.p);
-    orientation = large.R.transpose() * small.R;
-    radius = small.hull->radius;
-  }
-  Vector3d centre;
-  Matrix3d orientation;
-  double radius;
+  Stand(const Placement& a, const Placement& b)
+      : a_smaller(a.hull->radius < b.hull->radius), small(a_smaller ? a : b), large(a_smaller ? b : a) {}
+  Vector3d centre() const { return large.R.transpose() * (small.centre - large.p); }
+  Matrix3d orientation() const { return large.R.transpose() * small.R; }
+  double radius() const { return small.hull->radius; }
+
+  bool a_smaller;
+  const Placement &small, &large;
 };
 
 void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& normal, Manifold& manifold) {
@@ -76,53 +77,69 @@ struct NarrowPhase::Worker {
   // Brings the pairs [first, last) up to date and replaces `found` by their manifolds.
   void process(const Items& items, PairCache& pairs, int first, int last, std::vector<Manifold>& found) {
     Manifolds manifolds(found);
-    for (int k = first; k < last; ++k) {
-      prefetch_ahead(items, pairs, k, last);
-      process(items, pairs.entries()[k], pairs.state(pairs.entries()[k]), manifolds);
+    for (; first < last; first += block_size)
+      process_block(items, pairs, first, std::min(last, first + block_size), manifolds);
+  }
+
+  // First the pairs are listed that have moved, then those that touch: a list is gone through without a guess
+  // at what the next pair is, and what lies ahead on it is prefetched.
+  void process_block(const Items& items, PairCache& pairs, int first, int last, Manifolds& manifolds) {
+    PairEntry* const entries = pairs.entries().data();
+    moved.list(first, last, [&](int k) { return motion_of(items, entries[k]) > entries[k].limit; });
+    for (int i = 0; i < moved.size; ++i) {
+      prefetch_moved(items, pairs, i);
+      PairEntry& entry = entries[moved.pairs[i]];
+      if (with_plane(items, entry))
+        entry.limit = PairEntry::at_once;  // nothing is remembered of a plane
+      else
+        refresh(items, entry, pairs.state(entry));
+    }
+    touching.list(first, last, [&](int k) {  // without a branch, as lists are made
+      return static_cast<bool>((entries[k].count > 0) | (entries[k].limit == PairEntry::at_once));
+    });
+    for (int i = 0; i < touching.size; ++i) {
+      prefetch_touching(items, pairs, i);
+      PairEntry& entry = entries[touching.pairs[i]];
+      if (entry.count > 0)
+        carry_along(items, entry, pairs.state(entry).contact, manifolds);
+      else
+        touch_plane(items, entry, manifolds);
     }
   }
 
-  // What the pairs after this one need: where they are and their contacts, then the hulls of those that have
-  // moved. Each of the three reads what the one before it has brought.
-  [[gnu::always_inline]] static void prefetch_ahead(const Items& items, const PairCache& pairs, int k,
-                                                    int last) {
-    const std::vector<PairEntry>& entries = pairs.entries();
-    constexpr int first = 6, second = 3, third = 1;  // pairs ahead
-    if (k + first < last) {
-      const PairEntry& soon = entries[k + first];
+  // What the pairs after this one need: where they are and what is remembered of them, then their hulls, which
+  // the former name.
+  [[gnu::always_inline]] void prefetch_moved(const Items& items, const PairCache& pairs, int i) const {
+    constexpr int first = 3, second = 1;  // pairs ahead
+    const PairEntry* const entries = pairs.entries().data();
+    if (i + first < moved.size) {
+      const PairEntry& soon = entries[moved.pairs[i + first]];
       prefetch(&items.placed[soon.b], sizeof(Placement));
-      if (soon.count > 0) prefetch(&pairs.state(soon).contact, sizeof(ConvexContact) / 2);
+      prefetch(&pairs.state(soon), soon.count > 0 ? sizeof(PairState) : apart_size);
     }
-    if (k + second < last && moved(items, entries[k + second])) {
-      prefetch(items.placed[entries[k + second].b].hull, sizeof(CollisionHull));
-      prefetch(&pairs.state(entries[k + second]), sizeof(PairState));
-    }
-    if (k + third < last && moved(items, entries[k + third])) {
-      const CollisionHull& hull = *items.placed[entries[k + third].b].hull;
-      for (const auto* numbers : {&hull.x, &hull.y, &hull.z, &hull.nx, &hull.ny, &hull.nz, &hull.no})
+    if (i + second < moved.size) {
+      const CollisionHull* hull = items.placed[entries[moved.pairs[i + second]].b].hull;
+      if (!hull) return;
+      for (const auto* numbers : {&hull->x, &hull->y, &hull->z})
         prefetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
+      prefetch(hull->face_planes.data(), static_cast<std::size_t>(hull->face_planes.size()) * sizeof(float));
     }
   }
 
-  // Whether a pair of two hulls has to be looked at again.
-  static bool moved(const Items& items, const PairEntry& entry) {
-    return items.placed[entry.a].hull && items.placed[entry.b].hull &&
-           items.motion_bound[entry.a] + items.motion_bound[entry.b] > entry.limit;
+  [[gnu::always_inline]] void prefetch_touching(const Items& items, const PairCache& pairs, int i) const {
+    constexpr int ahead = 4;  // pairs
+    if (i + ahead >= touching.size) return;
+    const PairEntry& soon = pairs.entries()[touching.pairs[i + ahead]];
+    prefetch(&items.placed[soon.b], sizeof(Placement));
+    prefetch(&pairs.state(soon).contact,
+             offsetof(ConvexContact, points) + static_cast<std::size_t>(soon.count) * sizeof(Anchors));
   }
 
-  // Brings a pair up to date and appends its manifold, if there is one.
-  void process(const Items& items, PairEntry& entry, PairState& state, Manifolds& manifolds) {
-    const double motion_bound = items.motion_bound[entry.a] + items.motion_bound[entry.b];
-    const bool with_plane = !items.placed[entry.a].hull || !items.placed[entry.b].hull;
-    if (with_plane) {
-      touch_plane(items, entry, motion_bound, manifolds);
-      return;
-    }
-    if (motion_bound > entry.limit) {
-      margin = margin_of(items, entry);
-      refresh(items.placed[entry.a], items.placed[entry.b], motion_bound, entry, state);
-    }
-    if (entry.count > 0) carry_along(items, entry, state.contact, manifolds);
+  static double motion_of(const Items& items, const PairEntry& entry) {
+    return items.motion_bound[entry.a] + items.motion_bound[entry.b];
+  }
+  static bool with_plane(const Items& items, const PairEntry& entry) {
+    return !items.placed[entry.a].hull || !items.placed[entry.b].hull;
   }
 
   // How near the shapes of a pair must come to be reported.
@@ -130,8 +147,10 @@ struct NarrowPhase::Worker {
     return options.margin + items.speculative_margin[entry.a] + items.speculative_margin[entry.b];
   }
 
-  void refresh(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
-               PairState& state) {
+  void refresh(const Items& items, PairEntry& entry, PairState& state) {
+    const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
+    const double motion_bound = motion_of(items, entry);
+    margin = margin_of(items, entry);
     const bool known = entry.limit != PairEntry::at_once;
     if (known && entry.count > 0 && still_stands(a, b, motion_bound, entry, state)) return;
     if (known && entry.count == 0 && still_apart(a, b, motion_bound, entry, state.contact)) return;
@@ -153,13 +172,13 @@ struct NarrowPhase::Worker {
                     const PairState& state) const {
     if (margin > state.margin) return false;
     const Stand now(a, b);
-    const double distance = (now.centre - state.centre).norm();
+    const double distance = (now.centre() - state.centre).norm();
     if (distance > options.reuse_distance) return false;
     // ‖ΔR‖_F/√2 is the largest displacement of a unit vector, 2 sin(θ/2).
-    const double turn = (now.orientation - state.orientation).norm() / std::numbers::sqrt2;
+    const double turn = (now.orientation() - state.orientation).norm() / std::numbers::sqrt2;
     if (turn > options.reuse_angle) return false;
-    entry.limit =
-        motion_bound + std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius);
+    entry.limit = motion_bound +
+                  std::min(options.reuse_distance - distance, (options.reuse_angle - turn) * now.radius());
     return true;
   }
 
@@ -178,8 +197,10 @@ struct NarrowPhase::Worker {
       return;
     }
     const Stand now(a, b);
-    state.centre = now.centre, state.orientation = now.orientation, state.margin = margin;
-    entry.limit = motion_bound + std::min(options.reuse_distance, options.reuse_angle * now.radius);
+    state.centre = now.centre(), state.margin = margin;
+    state.orientation = pair.X_AB.linear();
+    if (now.a_smaller) state.orientation.transposeInPlace();
+    entry.limit = motion_bound + std::min(options.reuse_distance, options.reuse_angle * now.radius());
   }
 
   // The remembered contact at the present poses.
@@ -201,12 +222,12 @@ struct NarrowPhase::Worker {
   }
 
   // Half-spaces have closed forms; only how long nothing can happen is remembered.
-  void touch_plane(const Items& items, PairEntry& entry, double motion_bound, Manifolds& manifolds) {
+  void touch_plane(const Items& items, PairEntry& entry, Manifolds& manifolds) {
     const bool first = !items.placed[entry.a].hull;
     const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
     const Placement& shape = items.placed[shape_id];
     // The motion bound of a half-space stands still: a moved one makes the pair new.
-    if (motion_bound <= entry.limit) return;
+    const double motion_bound = motion_of(items, entry);
     const Plane plane = items.plane(plane_id);
     const double height = plane.normal.dot(shape.centre) - plane.offset - shape.hull->radius;
     margin = margin_of(items, entry);
@@ -226,8 +247,20 @@ struct NarrowPhase::Worker {
                                                                      p.gap, p.feature};
   }
 
+  // Some pairs of a block, in their order.
+  struct List {
+    template <class Belongs>
+    void list(int first, int last, const Belongs& belongs) {
+      size = 0;
+      for (int k = first; k < last; ++k) pairs[size] = k, size += belongs(k);
+    }
+    int size = 0;
+    std::array<int, block_size> pairs;
+  };
+
   ContactFinderOptions options;
   const FclAxes& fcl;
+  List moved, touching;
   double margin = 0;  // of the pair at hand
   ConvexContactSearch convex;
   std::vector<ClipPoint> clip;

@@ -20,7 +20,7 @@
 /// tolerance of its reuse, and a pile that stands on the old ones would be kicked.
 namespace drawpoint::engine::detail {
 
-struct PairState {
+struct alignas(64) PairState {
   ConvexContact contact;
   double margin = 0;                                 ///< that the contact was searched with [m]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the smaller shape, in the frame of the larger
@@ -72,11 +72,20 @@ class PairCache {
       for (; found != changes.pairs.end() && *found < end; ++found)
         if (allowed(found->first, found->second)) merged_.push_back(entry_of(*found));
     };
+    merged_.reserve(entries_.size() + changes.pairs.size());
+    const std::vector<char>& changed = boxes.changed();
     for (const PairEntry& entry : entries_) {
-      add_until({entry.a, entry.b});
-      const bool again = found != changes.pairs.end() && *found == BroadPhase::Pair{entry.a, entry.b};
+      const BroadPhase::Pair pair{entry.a, entry.b};
+      const bool in_question = changes.everything || changed[static_cast<std::size_t>(entry.a)] ||
+                               changed[static_cast<std::size_t>(entry.b)];
+      if (!in_question && (found == changes.pairs.end() || pair < *found)) {  // most
+        merged_.push_back(entry);
+        continue;
+      }
+      add_until(pair);
+      const bool again = found != changes.pairs.end() && *found == pair;
       if (again) ++found;
-      if (again || !(changes.everything || boxes.changed(entry.a) || boxes.changed(entry.b)))
+      if (again || !in_question)
         merged_.push_back(entry);
       else if (stands(entry.a, entry.b))
         inactive_.emplace(BroadPhase::Pair{entry.a, entry.b}, entry);

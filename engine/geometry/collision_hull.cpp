@@ -42,6 +42,7 @@ CollisionHull::CollisionHull(const ConvexPolyhedron& shape)
       edges(detail::edges_of(shape.faces(), *this)),
       centre(Vector3d::Zero()),
       radius(0),
+      reach(0),
       equivalent_radius(std::cbrt(3 * shape.volume() / (4 * std::numbers::pi))) {
   for (const Vector3d& normal : normals) {
     // The outermost vertex, not the first: all vertices lie below every plane whatever the round-off.
@@ -50,7 +51,10 @@ CollisionHull::CollisionHull(const ConvexPolyhedron& shape)
     offsets.push_back(offset);
   }
   for (const Vector3d& p : vertices) centre += p / vertex_count();
-  for (const Vector3d& p : vertices) radius = std::max(radius, (p - centre).norm());
+  for (const Vector3d& p : vertices) {
+    radius = std::max(radius, (p - centre).norm());
+    reach = std::max(reach, p.norm());
+  }
   index(shape.faces());
   lay_out();
   assert(vertex_count() + face_count() == static_cast<int>(edges.size()) + 2 && "a closed hull (Euler)");
@@ -82,16 +86,24 @@ void CollisionHull::index(const std::vector<std::vector<int>>& faces) {
 }
 
 void CollisionHull::lay_out() {
-  const auto padded = [](int count) { return (count + 3) / 4 * 4; };
-  for (auto* array : {&x, &y, &z}) array->resize(padded(vertex_count()));
+  const auto padded = [](std::size_t count, int to) { return (static_cast<int>(count) + to - 1) / to * to; };
+  for (auto* array : {&x, &y, &z}) array->resize(padded(vertices.size(), 4));
   for (int k = 0; k < x.size(); ++k) {
     const Vector3d& p = vertices[std::min(k, vertex_count() - 1)];
     x[k] = p.x(), y[k] = p.y(), z[k] = p.z();
   }
-  for (auto* array : {&nx, &ny, &nz}) array->setZero(padded(face_count()));
-  no.setConstant(padded(face_count()), unbounded);
-  for (int f = 0; f < face_count(); ++f)
-    nx[f] = normals[f].x(), ny[f] = normals[f].y(), nz[f] = normals[f].z(), no[f] = offsets[f];
+  face_planes.setZero(padded(normals.size(), padding), 4);
+  for (int f = 0; f < face_count(); ++f) {
+    face_planes.row(f).head<3>() = normals[f].cast<float>();
+    face_planes(f, 3) = static_cast<float>(offsets[f]);
+  }
+  edge_frames.setZero(padded(edges.size(), padding), 15);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const HullEdge& edge = edges[e];
+    const Vector3d* const frame[] = {&vertices[edge.start], &normals[edge.left], &normals[edge.right],
+                                     &edge.beyond_left, &edge.beyond_right};
+    for (int k = 0; k < 5; ++k) edge_frames.row(e).segment<3>(3 * k) = frame[k]->cast<float>();
+  }
 }
 
 }  // namespace drawpoint::engine::detail

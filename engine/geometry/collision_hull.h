@@ -29,6 +29,8 @@ struct HullCorner {
 };
 
 struct CollisionHull {
+  static constexpr int padding = 16;  ///< of single precision: the widest vector
+
   explicit CollisionHull(const ConvexPolyhedron& shape);
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
@@ -51,10 +53,13 @@ struct CollisionHull {
   std::vector<Eigen::Vector3d> vertices, normals, middles;  ///< middle: mean of a face's vertices
   std::vector<double> offsets;                              ///< face plane: normal·x = offset
   std::vector<HullEdge> edges;
-  Eigen::ArrayXd x, y, z;         ///< vertices, padded to a multiple of four by repeating the last
-  Eigen::ArrayXd nx, ny, nz, no;  ///< face planes, padded to a multiple of four by planes infinitely far out
+  Eigen::ArrayXd x, y, z;  ///< vertices, padded to a multiple of four by repeating the last
+  /// For bounds (hull_extremes.h), a row per face or edge, padded by zeros to a multiple of `padding`. Faces: normal and
+  /// offset. Edges: start, normals of left and right, beyond_left, beyond_right.
+  Eigen::ArrayXXf face_planes, edge_frames;
   Eigen::Vector3d centre;         ///< mean of the vertices
   double radius;                  ///< of the sphere about the centre
+  double reach;                   ///< of the vertex farthest from the frame's origin
   double equivalent_radius;       ///< of the sphere of the same volume
 
  private:

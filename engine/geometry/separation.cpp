@@ -146,21 +146,25 @@ bool AxisSearch::search_faces(const HullPair& pair, const Witness& witness) {
   const auto see_a = [&](int f) {
     const bool known = best_.feature.kind == FeatureKind::face_a && best_.feature.a == f;
     const Axis axis = known ? best_ : face_of_a(pair, f);
-    bounds_a_.see(f, axis.separation, pair.vertex_b(axis.vertex));
+    bounds_a_.see(pair.vertex_b(axis.vertex));
     return note(axis);
   };
   const auto see_b = [&](int f) {
     const bool known = best_.feature.kind == FeatureKind::face_b && best_.feature.b == f;
     const Axis axis = known ? best_ : face_of_b(pair, f);
-    bounds_b_.see(f, axis.separation, pair.in_b(pair.a.vertices[axis.vertex]));
+    bounds_b_.see(pair.in_b(pair.a.vertices[axis.vertex]));
     return note(axis);
   };
   bounds_a_.measure(pair.a, witness.on_b);
   bounds_b_.measure(pair.b, pair.in_b(witness.on_a));
-  for (int f = 0; f < pair.a.face_count(); ++f)
-    if (bounds_a_.over(f) > floor_ - constants::height_round_off && !see_a(f)) return false;
-  for (int f = 0; f < pair.b.face_count(); ++f)
-    if (bounds_b_.over(f) > floor_ - constants::height_round_off && !see_b(f)) return false;
+  // The floor rises while faces are looked at.
+  const auto may_win = [this](const HullBound& face) {
+    return face.most > floor_ - constants::height_round_off;
+  };
+  for (const HullBound& face : bounds_a_.faces(pair.a, floor_ - constants::height_round_off))
+    if (may_win(face) && !see_a(face.feature)) return false;
+  for (const HullBound& face : bounds_b_.faces(pair.b, floor_ - constants::height_round_off))
+    if (may_win(face) && !see_b(face.feature)) return false;
   return true;
 }
 
@@ -170,13 +174,11 @@ void AxisSearch::search_edges(const HullPair& pair, Axis& best_edges) {
   const double least = best_edges.separation;
   edges_a_.clear();
   edges_b_.clear();
-  bounds_a_.for_edges(pair.a, least, [&](int e, double most) {
+  for (const auto& [e, most] : bounds_a_.edges(pair.a, least))
     edges_a_.push_back({e, most, R.transpose() * pair.a.edges[e].along});
-  });
   if (edges_a_.empty()) return;
-  bounds_b_.for_edges(pair.b, least, [&](int e, double most) {
+  for (const auto& [e, most] : bounds_b_.edges(pair.b, least))
     edges_b_.push_back({e, most, R * pair.b.edges[e].along, pair.vertex_b(pair.b.edges[e].start)});
-  });
   sort_by_most(edges_a_);
   sort_by_most(edges_b_);
   Axis axis;

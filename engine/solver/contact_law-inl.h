@@ -97,14 +97,15 @@ template <class T>
 }
 
 /// b [m/s] of a gap [m] (negative: overlap) and its approach G v⁻ [m/s] (negative: closing); `closing_rate` =
-/// −1/h. An open gap only limits the approach to what closes it; an impact takes the whole approach
-/// (contact_law.hpp).
+/// −1/h. An open gap only limits the approach to what closes it; an impact takes the whole approach; no overlap is
+/// pushed out faster than push_out_speed (contact_law.hpp).
 template <class T>
 [[gnu::always_inline]] inline T bias_velocity(const T& gap, const T& approach, const T& upsilon,
                                               const T& closing_rate) {
   const T open = gap * closing_rate, zero = number<T>(0);
   const T damping = select(approach < number<T>(-constants::impact_speed), zero, approach);
-  return select(gap > zero, open, upsilon * (damping + number<T>(4) * open));
+  const T apart = min(number<T>(constants::push_out_speed), upsilon * (damping + number<T>(4) * open));
+  return select(gap > zero, open, apart);
 }
 
 /// What of a substep's normal impulse λ is there for the next one to start from. Load that is there to stay

@@ -11,10 +11,11 @@
 ///
 /// ε λ_f + g + τ ġ = 0 with ε = 1/k, averaged over three steps, becomes for the impulse λ = h λ_f
 ///     0 ≤ λ ⊥ G v⁺ + Σ λ − b ≥ 0,   Σ = 4 Υ / (h² k),   b = Υ (G v⁻ − 4 g / h),   Υ = 1 / (1 + 4τ/h).
-/// Two departures: an approach faster than `impact_speed` is an impact, which takes the whole approach speed
+/// Three departures: an approach faster than `impact_speed` is an impact, which takes the whole approach speed
 /// (b without the G v⁻ term, so that nothing bounces by the discretisation as long as h is not far below
-/// √(m/k); restitution has its own stage); and an open gap g > 0 only limits the approach to what closes it
-/// within the step, b = −g/h, so that near contacts do nothing before they touch. h is the substep. Hertz's
+/// √(m/k); restitution has its own stage); an open gap g > 0 only limits the approach to what closes it
+/// within the step, b = −g/h, so that near contacts do nothing before they touch; and b ≤ `push_out_speed`, so that
+/// bodies that were put into each other part slowly. h is the substep. Hertz's
 /// law is the same with the secant stiffness at the overlap of the step's start, exact at rest and first
 /// order in h.
 namespace drawpoint::engine {

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr int world_body = 0;            // problem().bodies[0] never moves
 constexpr int awake_per_block = 128;     // that a thread takes at a time
 constexpr int manifolds_per_block = 64;  // that a thread takes at a time
-constexpr int pairs_ahead = 4;           // whose rocks are prefetched
+constexpr int pairs_ahead = 4;           // whose memory is prefetched
 
 Matrix3d turned(const Matrix3d& R, const Vector3d& principal) {
   return R * principal.asDiagonal() * R.transpose();
@@ -46,6 +46,8 @@ void ContactAssembly::fill_bodies(const std::vector<int>& awake) {
   const std::vector<Rock>& rocks = scene_.rocks();
   problem_.bodies.resize(awake.size() + 1);
   problem_.bodies[world_body] = SolverBody();
+  sides_.resize(problem_.bodies.size());
+  sides_[world_body] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   body_of_rock_.assign(rocks.size(), world_body);
   pool_->blocks(static_cast<int>(awake.size()), awake_per_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) {
@@ -57,6 +59,7 @@ void ContactAssembly::fill_bodies(const std::vector<int>& awake) {
       body.velocity = rock.velocity;
       body.external_velocity_change = problem_.step * options_.gravity;
       body.angular_velocity = rock.angular_velocity;
+      sides_[k + 1] = {rock.pose.translation(), rock.velocity, rock.angular_velocity};
     }
   });
 }
@@ -66,13 +69,15 @@ int ContactAssembly::solver_index(const Surface& surface) const {
   return surface.owner == Owner::rock ? body_of_rock_[surface.index] : world_body;
 }
 
-[[gnu::always_inline]] inline void ContactAssembly::prefetch_sides(const Manifold& m) const {
-  for (const int collider : {m.collider_a, m.collider_b}) {
-    const Surface& surface = scene_.surface(collider);
-    if (surface.owner == Owner::rock)
-      prefetch(scene_.rocks()[surface.index].pose.translation().data(), sizeof(Vector3d));
-  }
-  memory_.prefetch(m.slot);
+// Frozen rocks stand, as the world does.
+Side ContactAssembly::side_of(const Surface& surface) const {
+  const int body = solver_index(surface);
+  return body >= 0 ? sides_[static_cast<std::size_t>(body)] : scene_.side_of(surface);
+}
+
+Vector3d ContactAssembly::origin_of(const Surface& surface) const {
+  const int body = solver_index(surface);
+  return body > world_body ? sides_[static_cast<std::size_t>(body)].origin : scene_.origin_of(surface);
 }
 
 // Each manifold is looked at twice, first to see which points join, then to write them where they belong, so
@@ -81,6 +86,7 @@ void ContactAssembly::fill_contacts() {
   const int manifolds = static_cast<int>(manifolds_->size());
   joins_.resize(manifolds_->size());
   places_.assign(static_cast<std::size_t>(manifolds / manifolds_per_block + 1), ContactPlace());
+  deepest_.assign(places_.size(), 0.0);
   pool_->blocks(manifolds, manifolds_per_block, [&](int first, int last) { count_joining(first, last); });
   ContactPlace end;
   for (ContactPlace& place : places_) {
@@ -97,13 +103,14 @@ void ContactAssembly::fill_contacts() {
 unsigned ContactAssembly::joining(const Manifold& m) const {
   unsigned joins = 0;
   for (int k = 0; k < m.count; ++k)
-    if (m.points[k].gap <= constants::resting_margin) joins |= 1u << k;
+    joins |= static_cast<unsigned>(m.points[k].gap <= constants::resting_margin) << k;
   if (joins + 1 == 1u << m.count) return joins;  // most: no need to look at the sides
   const Surface &surface_a = scene_.surface(m.collider_a), &surface_b = scene_.surface(m.collider_b);
-  const Side a = scene_.side_of(surface_a), b = scene_.side_of(surface_b);
+  const Side a = side_of(surface_a), b = side_of(surface_b);
   const double margin =
       constants::resting_margin + scene_.extra_reach_of(surface_a) + scene_.extra_reach_of(surface_b);
   for (int k = 0; k < m.count; ++k) {
+    if (joins >> k & 1u) continue;
     const Vector3d u = b.at(m.points[k].position) - a.at(m.points[k].position);
     if (m.points[k].gap <= margin + 2 * problem_.step * u.norm()) joins |= 1u << k;
   }
@@ -111,18 +118,25 @@ unsigned ContactAssembly::joining(const Manifold& m) const {
 }
 
 void ContactAssembly::count_joining(int first, int last) {
+  ContactPlace place;
+  double deepest = 0;
   for (int k = first; k < last; ++k) {
-    joins_[k] = joining((*manifolds_)[k]);
-    ContactPlace& block = places_[k / manifolds_per_block];
-    block.pair += joins_[k] != 0;
-    block.point += std::popcount(joins_[k]);
+    const Manifold& m = (*manifolds_)[k];
+    joins_[k] = joining(m);
+    place.pair += joins_[k] != 0;
+    place.point += std::popcount(joins_[k]);
+    if (scene_.surface(m.collider_a).owner == Owner::rock ||
+        scene_.surface(m.collider_b).owner == Owner::rock)
+      for (int i = 0; i < m.count; ++i) deepest = std::max(deepest, -m.points[i].gap);
   }
+  places_[first / manifolds_per_block] = place;
+  deepest_[first / manifolds_per_block] = deepest;
 }
 
 void ContactAssembly::fill_pairs(int first, int last) {
   ContactPlace place = places_[first / manifolds_per_block];
   for (int k = first; k < last; ++k) {
-    if (k + pairs_ahead < last) prefetch_sides((*manifolds_)[k + pairs_ahead]);
+    if (k + pairs_ahead < last) memory_.prefetch((*manifolds_)[k + pairs_ahead].slot);
     if (joins_[k] == 0) continue;
     fill_pair((*manifolds_)[k], joins_[k], place);
     ++place.pair;
@@ -133,7 +147,7 @@ void ContactAssembly::fill_pairs(int first, int last) {
 void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace place) {
   const Surface &a = scene_.surface(m.collider_a), &b = scene_.surface(m.collider_b);
   const Material& material = scene_.materials().of(a.material, b.material);
-  const Vector3d origin_a = scene_.origin_of(a), origin_b = scene_.origin_of(b);
+  const Vector3d origin_a = origin_of(a), origin_b = origin_of(b);
   PairMemory::Start start = memory_.start(m.slot, m.collider_a, m.collider_b);
   slots_[place.pair] = m.slot;
   ContactPair& pair = problem_.pairs[place.pair];
@@ -173,23 +187,14 @@ void ContactAssembly::fill_pair(const Manifold& m, unsigned joins, ContactPlace 
 void ContactAssembly::keep_impulses() {
   memory_.begin_step(slots_, scene_.finder().slots());
   pool_->blocks(static_cast<int>(problem_.pairs.size()), manifolds_per_block, [&](int first, int last) {
-    for (int k = first; k < last; ++k) memory_.store(problem_, k);
+    for (int k = first; k < last; ++k) {
+      if (k + pairs_ahead < last) memory_.prefetch(slots_[static_cast<std::size_t>(k + pairs_ahead)]);
+      memory_.store(problem_, k);
+    }
   });
 }
 
-double ContactAssembly::deepest_overlap() {
-  const int manifolds = static_cast<int>(manifolds_->size());
-  deepest_.assign(static_cast<std::size_t>(manifolds / manifolds_per_block + 1), 0.0);
-  pool_->blocks(manifolds, manifolds_per_block, [&](int first, int last) {
-    double& deepest = deepest_[static_cast<std::size_t>(first / manifolds_per_block)];
-    for (int i = first; i < last; ++i) {
-      const Manifold& m = (*manifolds_)[i];
-      if (scene_.surface(m.collider_a).owner != Owner::rock &&
-          scene_.surface(m.collider_b).owner != Owner::rock)
-        continue;
-      for (int k = 0; k < m.count; ++k) deepest = std::max(deepest, -m.points[k].gap);
-    }
-  });
+double ContactAssembly::deepest_overlap() const {
   return *std::max_element(deepest_.begin(), deepest_.end());
 }
 

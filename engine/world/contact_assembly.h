@@ -27,8 +27,8 @@ class ContactAssembly {
   void fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake);
   /// Takes over the impulses of the solved problem.
   void keep_impulses();
-  /// Of a rock in anything, at the start of the step [m]. Looks at the manifolds that fill() was given.
-  double deepest_overlap();
+  /// Of a rock in anything, at the start of the step [m].
+  double deepest_overlap() const;
 
   ContactProblem& problem() { return problem_; }
   const ContactProblem& problem() const { return problem_; }
@@ -44,18 +44,21 @@ class ContactAssembly {
   void fill_bodies(const std::vector<int>& awake);
   void fill_contacts();
   unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
-  void count_joining(int first, int last);    // of these manifolds
+  void count_joining(int first, int last);    // of these manifolds, one block; and their deepest overlap
   void fill_pairs(int first, int last);
   void fill_pair(const Manifold& m, unsigned joins, ContactPlace place);
   int solver_index(const Surface& surface) const;
-  inline void prefetch_sides(const Manifold& m) const;
+  Side side_of(const Surface& surface) const;
+  Eigen::Vector3d origin_of(const Surface& surface) const;
 
   const WorldOptions& options_;
   const Scene& scene_;
   std::shared_ptr<const ThreadPool> pool_;
   const std::vector<Manifold>* manifolds_ = nullptr;
-  double start_share_ = 1;            // of the remembered impulses, to start from
-  std::vector<int> body_of_rock_;     // in the problem
+  double start_share_ = 1;         // of the remembered impulses, to start from
+  std::vector<int> body_of_rock_;  // in the problem
+  std::vector<Side>
+      sides_;  // by body of the problem, so that pairs find in a few lines what they ask of rocks
   std::vector<unsigned> joins_;       // by manifold
   std::vector<double> deepest_;       // overlap by block of manifolds [m]
   std::vector<ContactPlace> places_;  // by block of manifolds

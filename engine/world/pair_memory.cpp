@@ -4,6 +4,7 @@
 #include <drawpoint/engine/world/pair_memory.h>
 
 #include <algorithm>
+#include <bit>
 #include <drawpoint/engine/base/byte_stream.hpp>
 #include <drawpoint/engine/base/constants.hpp>
 #include <utility>
@@ -30,6 +31,10 @@ double kept_share(const ContactProblem& problem, const ContactPair& pair) {
 
 Vector3d PairMemory::Start::point(std::uint32_t feature, const Vector3d& position) {
   if (!pair_) return Vector3d::Zero();
+  // Mostly the points come as they did last time: the first that is left has the feature.
+  const int next = std::countr_one(used_);
+  if (next < pair_->count && pair_->points[static_cast<std::size_t>(next)].feature == feature)
+    return take(next);
   int best = -1;
   double best_distance = constants::match_distance * constants::match_distance;
   for (int k = 0; k < pair_->count; ++k) {
@@ -41,9 +46,12 @@ Vector3d PairMemory::Start::point(std::uint32_t feature, const Vector3d& positio
       best_distance = distance;
     }
   }
-  if (best < 0) return Vector3d::Zero();
-  used_ |= 1u << best;
-  return pair_->points[static_cast<std::size_t>(best)].impulse;
+  return best < 0 ? Vector3d::Zero().eval() : take(best);
+}
+
+Vector3d PairMemory::Start::take(int point) {
+  used_ |= 1u << point;
+  return pair_->points[static_cast<std::size_t>(point)].impulse;
 }
 
 PairMemory::Start PairMemory::start(int slot, int a, int b) const {

@@ -55,6 +55,8 @@ class PairMemory {
     Eigen::Vector3d rolling() const { return pair_ ? pair_->rolling : Eigen::Vector3d::Zero().eval(); }
 
    private:
+    Eigen::Vector3d take(int point);
+
     const RememberedPair* pair_;
     unsigned used_ = 0;  // a bit for each point
   };

@@ -12,8 +12,9 @@
 ///
 /// Overlap of two rocks: their penetration depth, the least translation that parts them, by the separating
 /// axis theorem over all face normals and all edge pairs of the true hulls, divided by the longest dimension
-/// of the smaller rock. Pairs of positive depth touch; mean and percentiles are over these. Drift: distance
-/// between a rock's centres at two times over the time between. Kinetic energy: translation and rotation,
+/// of the smaller rock. Pairs deeper than 10 µm touch; mean and percentiles are over these: pairs that touch by less
+/// carry next to nothing, and would only thin the percentiles out. Drift: distance between a rock's centres at two times
+/// over the time between. Kinetic energy: translation and rotation,
 /// per rock. SI units, world frame. Cost: about 0.1 ms per touching pair, 0.5 s for 3000 settled rocks.
 namespace drawpoint::support {
 
@@ -53,6 +54,8 @@ inline double penetration_depth(const PlacedHull& a, const PlacedHull& b) {
     }
   return -best;
 }
+
+constexpr double touching_depth = 1e-5;  ///< [m]
 
 /// Over touching pairs; fractions of the smaller rock's longest dimension. Zeros when nothing touches.
 struct OverlapStatistics {
@@ -105,7 +108,7 @@ inline OverlapStatistics rock_overlaps(const RockPile& pile, const std::vector<R
       if (apart.x() > hull(a).radius() + widest) break;
       if (apart.norm() >= hull(a).radius() + hull(b).radius()) continue;
       const double depth = penetration_depth(placed[a], placed[b]);
-      if (depth > 0) overlaps.push_back(depth / std::min(hull(a).length(), hull(b).length()));
+      if (depth > touching_depth) overlaps.push_back(depth / std::min(hull(a).length(), hull(b).length()));
     }
   return overlap_statistics(std::move(overlaps));
 }
@@ -119,7 +122,7 @@ inline OverlapStatistics wall_overlaps(const RockPile& pile, const std::vector<R
       double lowest = std::numeric_limits<double>::infinity();
       for (const Vector3d& p : hull.vertices())
         lowest = std::min(lowest, wall.normal.dot(states[k].pose * p) - wall.offset);
-      if (lowest < 0) overlaps.push_back(-lowest / hull.length());
+      if (lowest < -touching_depth) overlaps.push_back(-lowest / hull.length());
     }
   return overlap_statistics(std::move(overlaps));
 }
@@ -136,14 +139,14 @@ inline OverlapStatistics blade_overlaps(const RockPile& pile, const std::vector<
     const Vector3d apart = (states[k].pose.translation() - blade_centre).cwiseAbs() - pile.blade.half;
     if (apart.maxCoeff() >= hull.radius()) continue;
     const double depth = penetration_depth(blade, {hull, states[k].pose});
-    if (depth > 0) overlaps.push_back(depth / hull.length());
+    if (depth > touching_depth) overlaps.push_back(depth / hull.length());
   }
   return overlap_statistics(std::move(overlaps));
 }
 
 /// Speeds between two times [m/s].
 struct Drift {
-  double mean = 0, median = 0, worst = 0;  ///< over rocks
+  double mean = 0, median = 0, p99 = 0, worst = 0;  ///< over rocks; p99: nearest rank, as of overlaps
 };
 
 /// seconds: between the two states, > 0.
@@ -161,9 +164,9 @@ inline Drift drift(const std::vector<RockState>& before, const std::vector<RockS
     d.worst = std::max(d.worst, speed);
     speeds.push_back(speed);
   }
-  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
-  std::nth_element(speeds.begin(), middle, speeds.end());
-  d.median = *middle;
+  std::sort(speeds.begin(), speeds.end());
+  d.median = speeds[speeds.size() / 2];
+  d.p99 = speeds[static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(speeds.size()))) - 1];
   return d;
 }
 

@@ -100,6 +100,11 @@ TEST(PileMeasures, DriftEnergyAndHash) {
   EXPECT_NEAR(drift(before, after, 2).mean, 0.001, round_off);
   EXPECT_EQ(drift({before[0], before[0], before[1]}, {after[0], after[0], after[1]}, 2).median, 0);
   EXPECT_NEAR(drift(before, after, 2).worst, 0.002, round_off);
+  std::vector<RockState> still(200, before[0]), two_moved = still;
+  for (const int k : {7, 150}) two_moved[static_cast<std::size_t>(k)].pose.translation().y() += 0.001 * k;
+  EXPECT_EQ(drift(still, two_moved, 1).p99, 0);  // 198 of 200 stand
+  two_moved[99].pose.translation().y() += 0.001;
+  EXPECT_NEAR(drift(still, two_moved, 1).p99, 0.001, round_off);
   EXPECT_EQ(kinetic_energy_per_rock(pile, after), 0);
   after[0].velocity = {0, 2, 0};
   after[0].angular_velocity = {0, 0, 3};
