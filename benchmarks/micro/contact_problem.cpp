@@ -87,10 +87,16 @@ void info(const Arguments& arguments) {
         arguments.as_json);
 }
 
+void say_fault(const ConvergedSolutions& solutions) {
+  if (!solutions.fault().empty())
+    std::fprintf(stderr, "contact_problem: %s; computed here instead\n", solutions.fault().c_str());
+}
+
 void solve(const Arguments& arguments) {
   const RecordedProblem recorded = engine::record::read_contact_problem(arguments.file);
   const ContactMethod method = contact_method(arguments.method);
   ConvergedSolutions solutions(recorded.problem, solution_file(arguments.file));
+  say_fault(solutions);
   const Converged& converged = solutions.of(std::max(1, arguments.options.substeps));
   json out = numbers(evaluate(recorded.problem, method, arguments.options, arguments.repeats, converged));
   out["uncertainty_of_converged"] = converged.uncertainty;
@@ -124,6 +130,7 @@ void compare_methods(const Arguments& arguments) {
   const RecordedProblem recorded = engine::record::read_contact_problem(arguments.file);
   const std::size_t points = recorded.problem.points.size();
   ConvergedSolutions converged(recorded.problem, solution_file(arguments.file));
+  say_fault(converged);
   json all = json::array();
   if (!arguments.as_json)
     std::printf("%-22s %8s %10s %15s %9s %10s %10s %10s\n", "method", "substeps", "iterations",

@@ -8,6 +8,7 @@
 #include <drawpoint/engine/solver/solver_report.hpp>
 #include <filesystem>
 #include <map>
+#include <string>
 #include <vector>
 
 /// What the methods converge to: the sequential method's solution after very many iterations.
@@ -48,21 +49,26 @@ std::filesystem::path solution_file(const std::filesystem::path& problem_file);
 void write_converged(const std::filesystem::path& file, const engine::ContactProblem& problem,
                      const std::vector<Converged>& solutions);
 
-/// Throws std::runtime_error if the file cannot be read or is of another problem.
+/// Throws std::runtime_error if the file cannot be read, is of another problem, or solves another law than today's.
 std::vector<Converged> read_converged(const std::filesystem::path& file,
                                       const engine::ContactProblem& problem);
 
-/// The converged solutions of one problem: those in the file, if it is there; others are computed when asked for.
+/// The converged solutions of one problem: those in the file, if it is there and fits; others are computed when asked
+/// for.
 class ConvergedSolutions {
  public:
-  /// Keeps a reference to the problem. Throws as read_converged.
+  /// Keeps a reference to the problem.
   ConvergedSolutions(const engine::ContactProblem& problem, const std::filesystem::path& file);
   const Converged& of(int substeps);
   const std::map<int, Converged>& known() const { return known_; }
+  const std::string& fault() const {
+    return fault_;
+  }  ///< why the file is not used; empty: it is, or is not there
 
  private:
   const engine::ContactProblem& problem_;
   std::map<int, Converged> known_;
+  std::string fault_;
 };
 
 }  // namespace drawpoint::benchmarks
