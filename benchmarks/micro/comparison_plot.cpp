@@ -10,7 +10,7 @@
 namespace drawpoint::benchmarks {
 namespace {
 
-constexpr double panel_width = 330, panel_height = 360, left = 70, top = 60, panel_pitch = 560;  // [px]
+constexpr double panel_width = 330, panel_height = 360, left = 70, top = 60, panel_pitch = 590;  // [px]
 constexpr double label_height = 15;
 // Of medium lightness, so that they stand out from white and from black.
 constexpr const char* colours[] = {"#2f7fc1", "#d9661f", "#1a9e6c", "#c4569b",
@@ -133,12 +133,12 @@ class Panel {
 
 constexpr const char* style = R"(<style>
 text { font: 12px sans-serif; }
-.word { fill: #333; }
-.title { fill: #333; font-size: 15px; }
+.word { fill: #767676; }
+.title { fill: #767676; font-size: 15px; }
 .grid { stroke: #888; stroke-opacity: 0.3; }
 .curve { fill: none; stroke-width: 1.8; }
 .leader { fill: none; stroke-width: 0.7; stroke-opacity: 0.6; }
-@media (prefers-color-scheme: dark) { .word, .title { fill: #ddd; } }
+@media (prefers-color-scheme: dark) { .word, .title { fill: #ccc; } }
 </style>
 )";
 
@@ -147,7 +147,7 @@ text { font: 12px sans-serif; }
 std::string comparison_svg(const std::vector<Measured>& rows, const std::string& title) {
   std::ostringstream out;
   out << std::fixed << std::setprecision(1)
-      << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1170 480\">\n"
+      << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1220 480\">\n"
       << style << "<text class=\"title\" x=\"" << left << "\" y=\"24\">" << escaped(title) << "</text>\n";
   const std::vector<std::pair<std::string, double (*)(const Evaluation&)>> panels{
       {"residual, of the contact load", [](const Evaluation& e) { return e.residual.contacts(); }},

@@ -22,6 +22,19 @@ double product(const Rows& matrix, Index row, const Eigen::VectorXd& x) {
   return sum;
 }
 
+// Of rows of two matrices.
+double product(const Rows& a, Index row_of_a, const Rows& b, Index row_of_b) {
+  double sum = 0;
+  Rows::InnerIterator entry(a, row_of_a), other(b, row_of_b);
+  while (entry && other) {
+    if (entry.col() == other.col()) sum += entry.value() * other.value();
+    const bool behind = entry.col() <= other.col();
+    if (other.col() <= entry.col()) ++other;
+    if (behind) ++entry;
+  }
+  return sum;
+}
+
 void add_row(const Rows& matrix, Index row, double factor, Eigen::VectorXd& x) {
   for (Rows::InnerIterator entry(matrix, row); entry; ++entry) x[entry.col()] += factor * entry.value();
 }
@@ -38,8 +51,11 @@ void step_tangents(Vector3d& impulse, const Vector3d& before, const Vector3d& u,
 
 RowIteration::RowIteration(const ContactProblem& problem, const MatrixForm& form)
     : impulses(form.start), problem_(problem), form_(form), response_(form.J * form.inverse_mass) {
-  for (Index row = 0; row < form.machine_begin; row += 3)
-    blocks_.push_back((response_.middleRows(row, 3) * form.J.middleRows(row, 3).transpose()).toDense());
+  for (Index row = 0; row < form.machine_begin; row += 3) {
+    Matrix3d& W = blocks_.emplace_back();
+    for (Index i = 0; i < 3; ++i)
+      for (Index j = 0; j < 3; ++j) W(i, j) = product(response_, row + i, form.J, row + j);
+  }
   project();
 }
 
