@@ -96,6 +96,11 @@ constexpr double face_preference = 1e-7;
 /// here. Higher: one end at a time carries the rock, and it rattles. Lower: the points' normal is off by the angle.
 constexpr double flat_cosine = 0.9998;
 
+/// [1] So much more counts a point of the last step in the choice of four. Chosen here. Higher: points stay that others
+/// outdo, up to this ratio of the area that the four span. Lower: a rock on five corners changes them as their gaps
+/// change by micrometres, and rattles.
+constexpr double kept_points = 1.5;
+
 /// [1] Squared sine below which two edges are parallel and have no axis; some face normal stands in for it,
 /// off by 1e-7 rad at most. Derived: the axis keeps nine of sixteen digits there.
 constexpr double parallel_edges = 1e-14;

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t mark = 0x3430444e46435044;  // "DPCFND04"
+constexpr std::uint64_t mark = 0x3530444e46435044;  // "DPCFND05"
 
 std::array<double, 6> numbers_of(const ContactFinderOptions& o) {
   return {o.margin, o.slack, o.reuse_distance, o.reuse_angle, o.hysteresis, static_cast<double>(o.narrow)};
@@ -62,7 +62,7 @@ ColliderState read_collider(const FinderParts& parts, int id, ByteReader& in) {
   return state;
 }
 
-void save_pair(const PairEntry& entry, const PairState& state, ByteWriter& out) {
+void save_pair(const PairEntry& entry, const PairState& state, bool with_plane, ByteWriter& out) {
   const ConvexContact& c = state.contact;
   out.put(entry.a), out.put(entry.b), out.put(entry.count), out.put(entry.limit);
   out.put(c.normal), out.put(c.separation), out.put(c.support), out.put(c.normal_of_b);
@@ -72,6 +72,9 @@ void save_pair(const PairEntry& entry, const PairState& state, ByteWriter& out) 
     out.put(point.on_a), out.put(point.on_b), out.put(point.feature);
   }
   if (entry.count > 0) out.put(state.centre), out.put(state.orientation), out.put(state.margin);
+  if (!with_plane) return;
+  out.put(c.count);  // of the points that touched only which they were
+  for (int k = 0; k < c.count; ++k) out.put(c.points[static_cast<std::size_t>(k)].feature);
 }
 
 constexpr std::size_t least_pair_size = 3 * 4 + 8 + 5 * 8 + 1 + 3 * 4;
@@ -126,6 +129,9 @@ PairEntry read_pair(const Items& items, ByteReader& in, PairState& state) {
     state.orientation = in.get_rotation("the stand of a pair");
     state.margin = in.get<double>("the margin of a pair");
   }
+  if (a.hull && b.hull) return entry;
+  c.count = in.get_int("the number of points of a pair", 0, static_cast<int>(c.points.size()));
+  for (int k = 0; k < c.count; ++k) c.points[static_cast<std::size_t>(k)].feature = in.get<std::uint32_t>();
   return entry;
 }
 
@@ -160,10 +166,14 @@ std::vector<std::byte> save_state(const FinderParts& parts) {
   std::size_t pairs = 0;
   for (const PairEntry& entry : parts.pairs.entries()) pairs += alive(entry) ? 1 : 0;
   out.put_count(pairs);
+  const auto save = [&](const PairEntry& e) {
+    const bool with_plane = !parts.items.placed[e.a].hull || !parts.items.placed[e.b].hull;
+    save_pair(e, parts.pairs.state(e), with_plane, out);
+  };
   for (const PairEntry& entry : parts.pairs.entries())
-    if (alive(entry)) save_pair(entry, parts.pairs.state(entry), out);
+    if (alive(entry)) save(entry);
   out.put_count(parts.pairs.inactive().size());
-  for (const auto& [pair, entry] : parts.pairs.inactive()) save_pair(entry, parts.pairs.state(entry), out);
+  for (const auto& [pair, entry] : parts.pairs.inactive()) save(entry);
   out.put(Checksum::of(out.bytes()));
   return out.take();
 }

@@ -103,7 +103,7 @@ struct NarrowPhase::Worker {
       if (entry.count > 0)
         carry_along(items, entry, pairs.state(entry).contact, manifolds);
       else
-        touch_plane(items, entry, manifolds);
+        touch_plane(items, entry, pairs.state(entry).contact, manifolds);
     }
   }
 
@@ -221,8 +221,8 @@ struct NarrowPhase::Worker {
     if (manifold.count == 0) manifolds.take_back();
   }
 
-  // Half-spaces have closed forms; only how long nothing can happen is remembered.
-  void touch_plane(const Items& items, PairEntry& entry, Manifolds& manifolds) {
+  // Half-spaces have closed forms; remembered is how long nothing can happen, and which points touched.
+  void touch_plane(const Items& items, PairEntry& entry, ConvexContact& last, Manifolds& manifolds) {
     const bool first = !items.placed[entry.a].hull;
     const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
     const Placement& shape = items.placed[shape_id];
@@ -235,16 +235,26 @@ struct NarrowPhase::Worker {
     if (height > margin) return;
     Eigen::Isometry3d X_WC;
     X_WC.linear() = shape.R, X_WC.translation() = shape.p, X_WC.makeAffine();
+    const KeptPoints kept = kept_points(last);
     if (const Cylinder* cylinder = items.item[shape_id].cylinder)
-      plane_contact(plane, *cylinder, X_WC, margin, clip);
+      plane_contact(plane, *cylinder, X_WC, margin, kept, clip);
     else
-      plane_contact(plane, *shape.hull, X_WC, margin, clip);
+      plane_contact(plane, *shape.hull, X_WC, margin, kept, clip);
+    last.count = static_cast<int>(clip.size());
+    for (std::size_t k = 0; k < clip.size(); ++k) last.points[k].feature = clip[k].feature;
     if (clip.empty()) return;
     Manifold& manifold = manifolds.add();
     start_manifold(items, entry, first ? plane.normal : Vector3d(-plane.normal), manifold);
     for (const ClipPoint& p : clip)
       manifold.points[static_cast<std::size_t>(manifold.count++)] = {p.position - 0.5 * p.gap * plane.normal,
                                                                      p.gap, p.feature};
+  }
+
+  KeptPoints kept_points(const ConvexContact& last) const {
+    KeptPoints kept{.count = last.count, .within = options.hysteresis};
+    for (int k = 0; k < last.count; ++k)
+      kept.features[static_cast<std::size_t>(k)] = last.points[static_cast<std::size_t>(k)].feature;
+    return kept;
   }
 
   // Some pairs of a block, in their order.

@@ -27,15 +27,17 @@ bool promote(std::vector<ClipPoint>& points, std::size_t place, const Score& sco
 
 }  // namespace
 
-int reduce_to_four(std::vector<ClipPoint>& points, const Vector3d& along) {
+int reduce_to_four(std::vector<ClipPoint>& points, const Vector3d& along, const KeptPoints& kept) {
   const int count = static_cast<int>(points.size());
   if (count <= 4) return count;
-  const auto deeper = [](const ClipPoint& p, const ClipPoint& q) { return p.gap < q.gap; };
+  const auto depth = [&](const ClipPoint& p) { return p.gap - (kept.has(p.feature) ? kept.within : 0.0); };
+  const auto deeper = [&](const ClipPoint& p, const ClipPoint& q) { return depth(p) < depth(q); };
   std::swap(points[0], *std::min_element(points.begin(), points.end(), deeper));
-  const double deepest = points[0].gap;
+  double deepest = points[0].gap;
+  for (const ClipPoint& p : points) deepest = std::min(deepest, p.gap);
   const auto weight = [&](const ClipPoint& p) {
     const double near = constants::resting_margin / (constants::resting_margin + (p.gap - deepest));
-    return near * near;
+    return near * near * (kept.has(p.feature) ? constants::kept_points : 1.0);
   };
   const auto position = [&](std::size_t k) -> const Vector3d& { return points[k].position; };
   if (!promote(points, 1,

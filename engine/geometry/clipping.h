@@ -4,6 +4,8 @@
 
 #include <drawpoint/engine/geometry/collision_hull.h>
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,10 +30,23 @@ constexpr std::uint32_t feature_number(std::uint32_t group, int first, std::uint
   return group << 24 | (static_cast<std::uint32_t>(first) & 0xfff) << 12 | (second & 0xfff);
 }
 
+/// The points that were chosen last time. A body that rests on five points would rock if the choice of four followed each
+/// micrometre of their gaps: the one left out sinks until it is chosen again, for ever.
+struct KeptPoints {
+  std::array<std::uint32_t, 4> features{};
+  int count = 0;
+  double within = 0;  ///< [m] by how much another point must be deeper to be the first
+
+  bool has(std::uint32_t feature) const {
+    return std::find(features.begin(), features.begin() + count, feature) != features.begin() + count;
+  }
+};
+
 /// The deepest point and three that span a large area with it, those near its gap before those that only might
-/// touch (a point counts (g₀ / (g₀ + gap − least))², g₀ = resting_margin), moved to the front; returns min(count,
-/// 4). `along` is the contact normal. Ties go to the earlier point.
-int reduce_to_four(std::vector<ClipPoint>& points, const Eigen::Vector3d& along);
+/// touch (a point counts (g₀ / (g₀ + gap − least))², g₀ = resting_margin, and `kept_points` times as much if it was
+/// chosen last time), moved to the front; returns min(count, 4). `along` is the contact normal. Ties go to the
+/// earlier point.
+int reduce_to_four(std::vector<ClipPoint>& points, const Eigen::Vector3d& along, const KeptPoints& kept = {});
 
 class Clipper {
  public:

@@ -14,14 +14,14 @@ void keep(const Plane& plane, const Vector3d& p, std::uint32_t feature, double m
   if (gap <= margin) points.push_back({p, gap, feature});
 }
 
-void reduce(const Plane& plane, std::vector<ClipPoint>& points) {
-  points.resize(static_cast<std::size_t>(reduce_to_four(points, plane.normal)));
+void reduce(const Plane& plane, const KeptPoints& kept, std::vector<ClipPoint>& points) {
+  points.resize(static_cast<std::size_t>(reduce_to_four(points, plane.normal, kept)));
 }
 
 }  // namespace
 
 void plane_contact(const Plane& plane, const CollisionHull& hull, const Eigen::Isometry3d& X_WC,
-                   double margin, std::vector<ClipPoint>& points) {
+                   double margin, const KeptPoints& kept, std::vector<ClipPoint>& points) {
   points.clear();
   const Vector3d n = X_WC.linear().transpose() * plane.normal;
   const double offset = plane.offset - plane.normal.dot(X_WC.translation());
@@ -30,11 +30,11 @@ void plane_contact(const Plane& plane, const CollisionHull& hull, const Eigen::I
     const double gap = n.dot(p) - offset;
     if (gap <= margin) points.push_back({X_WC * p, gap, static_cast<std::uint32_t>(v)});
   }
-  reduce(plane, points);
+  reduce(plane, kept, points);
 }
 
 void plane_contact(const Plane& plane, const Cylinder& cylinder, const Eigen::Isometry3d& X_WC, double margin,
-                   std::vector<ClipPoint>& points) {
+                   const KeptPoints& kept, std::vector<ClipPoint>& points) {
   points.clear();
   const Vector3d axis = X_WC.linear().col(1);
   Vector3d down = -(plane.normal - plane.normal.dot(axis) * axis);
@@ -49,7 +49,7 @@ void plane_contact(const Plane& plane, const Cylinder& cylinder, const Eigen::Is
   keep(plane, low_face + cylinder.radius * aside, 2 + low, margin, points);
   keep(plane, low_face - cylinder.radius * aside, 4 + low, margin, points);
   keep(plane, low_face - cylinder.radius * down, 6 + low, margin, points);
-  reduce(plane, points);
+  reduce(plane, kept, points);
 }
 
 }  // namespace drawpoint::engine::detail

@@ -12,8 +12,8 @@
 /// plane.
 ///
 /// Polyhedron: its vertices within the margin. Cylinder: the ends of its lowest line and, for one that lies
-/// on its face, the points of that face's rim a quarter and half a turn on. Reduced to four. World frame,
-/// metres.
+/// on its face, the points of that face's rim a quarter and half a turn on. Reduced to four, those of last time before
+/// others (clipping.h). World frame, metres.
 namespace drawpoint::engine::detail {
 
 /// The plane normal·x = offset in the world.
@@ -23,8 +23,8 @@ struct Plane {
 };
 
 void plane_contact(const Plane& plane, const CollisionHull& hull, const Eigen::Isometry3d& X_WC,
-                   double margin, std::vector<ClipPoint>& points);
+                   double margin, const KeptPoints& kept, std::vector<ClipPoint>& points);
 void plane_contact(const Plane& plane, const Cylinder& cylinder, const Eigen::Isometry3d& X_WC, double margin,
-                   std::vector<ClipPoint>& points);
+                   const KeptPoints& kept, std::vector<ClipPoint>& points);
 
 }  // namespace drawpoint::engine::detail
