@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cassert>
 #include <drawpoint/benchmarks/micro/evaluated_solve.hpp>
 #include <limits>
 #include <stdexcept>
@@ -47,21 +48,10 @@ void check(const ContactMethod& method, const MethodOptions& options, int repeat
 
 }  // namespace
 
-Solved converged_solution(const ContactProblem& problem) {
-  constexpr int most = 10000, first = 625;
-  constexpr double settled = 1e-14;
-  Solved solved;
-  for (int iterations = first; iterations <= most; iterations *= 2) {
-    solved.problem = problem;
-    solved.report = contact_method("sequential").solve(solved.problem, fixed_work(1, iterations));
-    if (solved.report.last_change < settled) break;
-  }
-  return solved;
-}
-
 Evaluation evaluate(const ContactProblem& problem, const ContactMethod& method, const MethodOptions& options,
-                    int repeats, const Solved& converged) {
+                    int repeats, const Converged& converged) {
   check(method, options, repeats);
+  assert(converged.substeps == options.substeps && "a distance is to the limit of as many substeps");
   Solved solved;
   Evaluation j;
   j.milliseconds = std::numeric_limits<double>::infinity();
@@ -71,7 +61,8 @@ Evaluation evaluate(const ContactProblem& problem, const ContactMethod& method, 
     return time;
   });
   j.residual = residual(solved.problem, solved.report.machine, options.substeps);
-  j.distance = distance(solved.problem, solved.report.machine, converged.problem, converged.report.machine);
+  j.distance = distance(solved.problem, solved.report.machine, converged.solved.problem,
+                        converged.solved.report.machine);
   j.momentum_defect = momentum_defect(problem, solved.problem, solved.report.machine);
   return j;
 }

@@ -6,6 +6,8 @@
 #include <drawpoint/engine/loading/pile_store.hpp>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace drawpoint::benchmarks {
 namespace {
@@ -48,12 +50,17 @@ void record_settled_pile(const std::filesystem::path& file) {
   world.step();
 }
 
-loading::Scenario cycle() {
-  loading::Scenario scenario = loading::lh621_in_a_drift();
-  scenario.pile.mass = 45e3;
-  scenario.strategy = {1.2, 0.8, 0.8, 0.2};
-  return scenario;
-}
+// A moment of a loading cycle.
+struct Moment {
+  const char *name, *words;
+  long (*find)(const loading::LoadingLog&, double);
+};
+
+struct Scene {
+  std::string name, note;
+  loading::Scenario scenario;
+  long (*find)(const loading::LoadingLog&, double);
+};
 
 // Number of the step, from 0, that ends at a time.
 long step_ending_at(double time, double h) { return std::lround(time / h) - 1; }
@@ -68,44 +75,83 @@ long breakout_step(const loading::LoadingLog& log, double h) {
     const double load = std::hypot(table.at(row, force), table.at(row, force + 1), table.at(row, force + 2));
     if (load > most) most = load, when = table.at(row, time);
   }
-  if (when < 0) throw std::runtime_error("bucket_at_breakout: the cycle never loads the hinge");
+  if (when < 0) throw std::runtime_error("the cycle never loads the hinge");
   return step_ending_at(when, h);
 }
 
 long full_step(const loading::LoadingLog& log, double h) {
   for (const loading::StageResult& result : log.cycles.front().stages)
     if (result.stage == loading::Stage::curl) return step_ending_at(result.t_end, h);
-  throw std::runtime_error("bucket_full: the cycle has no curl");
+  throw std::runtime_error("the cycle has no curl");
 }
 
-// The cycle runs twice, bit for bit the same: once to find the step, once to record it.
-void record_cycle(const std::filesystem::path& file, long (*find)(const loading::LoadingLog&, double),
-                  const std::string& note) {
-  loading::Scenario scenario = cycle();
-  scenario.pile_file = file;
-  scenario.pile_file += ".pile";
-  const loading::LoadingLog log = loading::simulate(scenario);
-  if (!log.completed || log.cycles.empty()) throw std::runtime_error("the cycle fails: " + log.message);
-  const long wanted = find(log, scenario.world.step);
+loading::Scenario one_cycle(loading::Scenario scenario, double rolling) {
+  scenario.cycles = 1;
+  scenario.strategy = {1.2, 0.8, 0.8, 0.2};
+  scenario.materials = loading::with_resistance(loading::calibrated_materials(), rolling, 0);
+  return scenario;
+}
+
+std::vector<Scene> cycle_scenes() {
+  const std::vector<Moment> moments{{"bucket_full", "bucket full, curled", full_step},
+                                    {"bucket_at_breakout", "bucket at breakout", breakout_step}};
+  std::vector<Scene> scenes;
+  for (const Moment& moment : moments) {
+    const std::string name = moment.name, note = moment.words;
+    loading::Scenario small = one_cycle(loading::lh621_in_a_drift(), 0.1);
+    small.pile.mass = 45e3;
+    scenes.push_back({name, note + ": LH621 in a drift with 45 t of ore", small, moment.find});
+    for (const auto& [rolling, text] : {std::pair(0.0, "0"), std::pair(0.1, "0.1")}) {
+      const std::string materials = std::string(", calibrated materials with rolling resistance ") + text;
+      scenes.push_back({name + "_rolling_" + text, note + ": LH621 in a drift with 120 t of ore" + materials,
+                        one_cycle(loading::lh621_in_a_drift(), rolling), moment.find});
+      scenes.push_back({name + "_at_lindmark2016_scale_rolling_" + text,
+                        note + ": LH621 in a drift 7 m wide with 290 t of ore" + materials,
+                        one_cycle(loading::lh621_at_lindmark2016_scale(), rolling), moment.find});
+    }
+  }
+  return scenes;
+}
+
+struct Recorded {};  // thrown to end a simulation whose step is in its file
+
+// The cycle runs twice from one pile, bit for bit the same: once to find the step, once to record it.
+void record_cycle(const std::filesystem::path& file, const Scene& scene) {
+  const loading::SettledPile pile = loading::pour_pile(scene.scenario);
+  const loading::LoadingLog log = loading::simulate(scene.scenario, pile);
+  if (!log.completed || log.cycles.empty())
+    throw std::runtime_error(scene.name + ": the cycle fails: " + log.message);
+  const long wanted = scene.find(log, scene.scenario.world.step);
   long step = 0;
   loading::SimulationHooks hooks;
   hooks.before_solve = [&](const ContactProblem& problem) {
-    if (step++ == wanted) record::write_contact_problem(file, problem, note);
+    if (step++ != wanted) return;
+    record::write_contact_problem(file, problem, scene.note);
+    throw Recorded();
   };
-  loading::simulate(scenario, hooks);
-  std::filesystem::remove(scenario.pile_file);
+  try {
+    loading::simulate(scene.scenario, pile, hooks);
+  } catch (const Recorded&) {
+    return;
+  }
+  throw std::runtime_error(scene.name + ": the cycle ends before its step " + std::to_string(wanted));
 }
 
 }  // namespace
 
-void record_scene(const std::string& scene, const std::filesystem::path& file) {
-  if (scene == "settled_pile") return record_settled_pile(file);
-  if (scene == "bucket_at_breakout")
-    return record_cycle(file, breakout_step, "bucket at breakout: LH621 in a drift with 45 t of ore");
-  if (scene == "bucket_full")
-    return record_cycle(file, full_step, "bucket full, curled: LH621 in a drift with 45 t of ore");
-  throw std::invalid_argument("no scene \"" + scene +
-                              "\"; known: settled_pile, bucket_full, bucket_at_breakout");
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names{"settled_pile"};
+  for (const Scene& scene : cycle_scenes()) names.push_back(scene.name);
+  return names;
+}
+
+void record_scene(const std::string& name, const std::filesystem::path& file) {
+  if (name == "settled_pile") return record_settled_pile(file);
+  for (const Scene& scene : cycle_scenes())
+    if (scene.name == name) return record_cycle(file, scene);
+  std::string known;
+  for (const std::string& other : scene_names()) known += (known.empty() ? "" : ", ") + other;
+  throw std::invalid_argument("no scene \"" + name + "\"; known: " + known);
 }
 
 }  // namespace drawpoint::benchmarks

@@ -5,6 +5,8 @@
 
 namespace drawpoint::benchmarks {
 
+std::vector<std::string> scene_names() { return {}; }
+
 void record_scene(const std::string& scene, const std::filesystem::path&) {
   throw std::runtime_error("this build leaves out engine/loading, so it cannot simulate \"" + scene +
                            "\"; use a build of the whole engine, or the sets in benchmarks/sets");

@@ -1,63 +1,95 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/record/contact_problem_check.h>
+#include <drawpoint/engine/record/contact_problem_fields.h>
 #include <bit>
+#include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 namespace drawpoint::engine::record {
 namespace {
 
+using detail::Field;
+using detail::Shape;
 using Eigen::Index;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-using engine::ContactPair;
-using engine::ContactPoint;
 using engine::ContactProblem;
-using engine::SolverBody;
-using engine::SpatialMap;
 using engine::SuperBody;
 using engine::SuperBodyRow;
 
-const FileKind problem_kind{"drawpoint contact problem", 2, 1};
+const FileKind problem_kind{"drawpoint contact problem", 3, 1};
+
+// What a reader needs to solve the problem, in the names of the arrays.
+constexpr const char* law =
+    "At a point with frame (n, t1, t2): u = velocity of b minus that of a, p = impulse on b, h = step / "
+    "S in each of S substeps. 0 <= p_n, u_n + Sigma p_n - bias >= 0, one of them 0. |p_t| <= friction "
+    "p_n; u_t = -s p_t with s >= 0, and s = 0 inside the cone. Y = 1 / (1 + 4 tau / h), tau = "
+    "max(damping_time, 2 step), Sigma = 4 Y / (h^2 stiffness). With u_n- before the substep: bias = "
+    "-gap / h if gap > 0; else Y (u_n- - 4 gap / h), 1 m/s at most, without u_n- where it is below "
+    "-0.05 m/s. Per pair, P = sum of its p_n, the moment m on b and the relative angular velocity: "
+    "|m_t| <= rolling_arm P and |m_n| <= spinning_arm P, with friction's rule. Machine row: J w = "
+    "target with lower <= p <= upper, complementary at the limits; stop: J w >= -gap / h, past the end "
+    "-gap / recovery.";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& fault) {
   throw std::runtime_error("record::read_contact_problem: " + path.string() + ": " + fault +
                            "; record the problem anew");
 }
 
-// One way through all fields, for writing and for reading, so that the two cannot part.
+std::string shape_text(const Shape& shape) {
+  std::string text;
+  for (const std::size_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  return text;
+}
+
+// Item by item, row by row.
+template <class Item, class Get>
+std::vector<double> flat(std::vector<Item>& items, Get get) {
+  std::vector<double> values;
+  for (Item& item : items) {
+    const auto& m = get(item);
+    for (Index i = 0; i < m.rows(); ++i)
+      for (Index j = 0; j < m.cols(); ++j) values.push_back(m(i, j));
+  }
+  return values;
+}
+
+Shape with_count(std::size_t items, const Shape& shape) {
+  Shape all{items};
+  all.insert(all.end(), shape.begin(), shape.end());
+  return all;
+}
+
 class FieldWriter {
  public:
   explicit FieldWriter(Writer& file) : file_(file) {}
 
-  void units(const std::string& group, const std::string& text) { file_.text(group, "units", text); }
-
   template <class Item, class Get>
-  void vectors(const std::string& path, std::vector<Item>& items, std::size_t width, Get get) {
-    std::vector<double> values;
-    values.reserve(items.size() * width);
-    for (Item& item : items) {
-      const auto& v = get(item);
-      values.insert(values.end(), v.data(), v.data() + v.size());
-    }
-    file_.array(path, std::span<const double>(values), {items.size(), width});
+  void arrays(const Field& field, std::vector<Item>& items, const Shape& shape, Get get) {
+    write(field, flat(items, get), with_count(items.size(), shape));
   }
   template <class Item, class Get>
-  void numbers(const std::string& path, std::vector<Item>& items, Get get) {
+  void reals(const Field& field, std::vector<Item>& items, Get get) {
     std::vector<double> values;
     for (Item& item : items) values.push_back(get(item));
-    file_.array(path, std::span<const double>(values));
+    write(field, values, {items.size()});
   }
   template <class Item, class Get>
-  void integers(const std::string& path, std::vector<Item>& items, Get get) {
+  void integers(const Field& field, std::vector<Item>& items, Get get) {
     std::vector<std::int32_t> values;
     for (Item& item : items) values.push_back(std::bit_cast<std::int32_t>(get(item)));
-    file_.array(path, std::span<const std::int32_t>(values));
+    write(field, values, {items.size()});
   }
 
  private:
+  template <class T>
+  void write(const Field& field, const std::vector<T>& values, const Shape& shape) {
+    file_.array(field.path, std::span<const T>(values), shape);
+    file_.describe(field.path, field.unit, field.description);
+  }
+
   Writer& file_;
 };
 
@@ -65,27 +97,32 @@ class FieldReader {
  public:
   FieldReader(const Reader& file, const std::filesystem::path& path) : file_(file), path_(path) {}
 
-  void units(const std::string&, const std::string&) {}
-
   template <class Item, class Get>
-  void vectors(const std::string& path, std::vector<Item>& items, std::size_t width, Get get) {
-    const Array<double> stored = file_.doubles(stored_path(path));
-    if (stored.shape != std::vector<std::size_t>{items.size(), width})
-      refuse(path_,
-             "/" + path + " is not of " + std::to_string(items.size()) + " rows of " + std::to_string(width));
-    for (std::size_t k = 0; k < items.size(); ++k)
-      std::copy_n(stored.values.data() + k * width, width, get(items[k]).data());
+  void arrays(const Field& field, std::vector<Item>& items, Shape shape, Get get) {
+    // Up to version 2 matrices are stored column by column, in one dimension.
+    const bool by_columns = file_.version() < 3 && shape.size() == 2;
+    if (by_columns) shape = {shape[0] * shape[1]};
+    const Array<double> stored = file_.doubles(stored_path(field.path));
+    require_shape(field, stored.shape, with_count(items.size(), shape));
+    const double* value = stored.values.data();
+    for (Item& item : items) {
+      auto& m = get(item);
+      for (Index k = 0; k < m.size(); ++k)
+        (by_columns ? m(k % m.rows(), k / m.rows()) : m(k / m.cols(), k % m.cols())) = *value++;
+    }
   }
   template <class Item, class Get>
-  void numbers(const std::string& path, std::vector<Item>& items, Get get) {
-    const auto values = counted(file_.doubles(path).values, items.size(), path);
-    for (std::size_t k = 0; k < items.size(); ++k) get(items[k]) = values[k];
+  void reals(const Field& field, std::vector<Item>& items, Get get) {
+    const Array<double> stored = file_.doubles(field.path);
+    require_shape(field, stored.shape, {items.size()});
+    for (std::size_t k = 0; k < items.size(); ++k) get(items[k]) = stored.values[k];
   }
   template <class Item, class Get>
-  void integers(const std::string& path, std::vector<Item>& items, Get get) {
-    const auto values = counted(file_.integers(path).values, items.size(), path);
+  void integers(const Field& field, std::vector<Item>& items, Get get) {
+    const Array<std::int32_t> stored = file_.integers(field.path);
+    require_shape(field, stored.shape, {items.size()});
     using Integer = std::remove_reference_t<decltype(get(items[0]))>;
-    for (std::size_t k = 0; k < items.size(); ++k) get(items[k]) = std::bit_cast<Integer>(values[k]);
+    for (std::size_t k = 0; k < items.size(); ++k) get(items[k]) = std::bit_cast<Integer>(stored.values[k]);
   }
 
  private:
@@ -94,125 +131,37 @@ class FieldReader {
     const bool renamed = file_.version() == 1 && path == "bodies/external_velocity_change";
     return renamed ? "bodies/push" : path;
   }
-
-  template <class T>
-  std::vector<T> counted(std::vector<T> values, std::size_t count, const std::string& path) const {
-    if (values.size() != count)
-      refuse(path_, "/" + path + " has " + std::to_string(values.size()) + " values for " +
-                        std::to_string(count) + " rows");
-    return values;
+  void require_shape(const Field& field, const Shape& found, const Shape& wanted) const {
+    if (found != wanted)
+      refuse(path_, std::string("/") + field.path + " is of shape " + shape_text(found) + ", not " +
+                        shape_text(wanted));
   }
 
   const Reader& file_;
   const std::filesystem::path& path_;
 };
 
-template <class Fields>
-void bodies(Fields& f, std::vector<SolverBody>& items) {
-  f.units("bodies",
-          "velocity m/s; angular_velocity rad/s; external_velocity_change m/s; inverse_mass 1/kg; "
-          "inverse_inertia 1/(kg m2)");
-  f.vectors(
-      "bodies/velocity", items, 3, [](auto& b) -> auto& { return b.velocity; });
-  f.vectors(
-      "bodies/angular_velocity", items, 3, [](auto& b) -> auto& { return b.angular_velocity; });
-  f.vectors(
-      "bodies/external_velocity_change", items, 3,
-      [](auto& b) -> auto& { return b.external_velocity_change; });
-  f.numbers(
-      "bodies/inverse_mass", items, [](auto& b) -> auto& { return b.inverse_mass; });
-  f.vectors(
-      "bodies/inverse_inertia", items, 9, [](auto& b) -> auto& { return b.inverse_inertia; });
-}
+class FieldHash {
+ public:
+  template <class Item, class Get>
+  void arrays(const Field&, std::vector<Item>& items, const Shape& shape, Get get) {
+    sum.add(static_cast<std::uint64_t>(shape.back()));
+    for (const double value : flat(items, get)) sum.add(value);
+  }
+  template <class Item, class Get>
+  void reals(const Field&, std::vector<Item>& items, Get get) {
+    for (Item& item : items) sum.add(static_cast<double>(get(item)));
+  }
+  template <class Item, class Get>
+  void integers(const Field&, std::vector<Item>& items, Get get) {
+    sum.add(static_cast<std::uint64_t>(items.size()));
+    for (Item& item : items) sum.add(std::uint64_t{std::bit_cast<std::uint32_t>(get(item))});
+  }
 
-template <class Fields>
-void pairs(Fields& f, std::vector<ContactPair>& items) {
-  f.units("pairs", "rolling_arm m; spinning_arm m; start N m s");
-  f.integers(
-      "pairs/a", items, [](auto& p) -> auto& { return p.a; });
-  f.integers(
-      "pairs/b", items, [](auto& p) -> auto& { return p.b; });
-  f.integers(
-      "pairs/collider_a", items, [](auto& p) -> auto& { return p.collider_a; });
-  f.integers(
-      "pairs/collider_b", items, [](auto& p) -> auto& { return p.collider_b; });
-  f.integers(
-      "pairs/first", items, [](auto& p) -> auto& { return p.first; });
-  f.integers(
-      "pairs/count", items, [](auto& p) -> auto& { return p.count; });
-  f.numbers(
-      "pairs/rolling_arm", items, [](auto& p) -> auto& { return p.rolling_arm; });
-  f.numbers(
-      "pairs/spinning_arm", items, [](auto& p) -> auto& { return p.spinning_arm; });
-  f.vectors(
-      "pairs/start", items, 3, [](auto& p) -> auto& { return p.start; });
-}
+  engine::StateHash sum;
+};
 
-template <class Fields>
-void points(Fields& f, std::vector<ContactPoint>& items) {
-  f.units("points",
-          "position m; arm_a m; arm_b m; normal 1; gap m; stiffness N/m; damping_time s; friction 1; "
-          "restitution 1; start N s");
-  f.integers(
-      "points/feature", items, [](auto& p) -> auto& { return p.feature; });
-  f.vectors(
-      "points/position", items, 3, [](auto& p) -> auto& { return p.position; });
-  f.vectors(
-      "points/arm_a", items, 3, [](auto& p) -> auto& { return p.arm_a; });
-  f.vectors(
-      "points/arm_b", items, 3, [](auto& p) -> auto& { return p.arm_b; });
-  f.vectors(
-      "points/normal", items, 3, [](auto& p) -> auto& { return p.normal; });
-  f.numbers(
-      "points/gap", items, [](auto& p) -> auto& { return p.gap; });
-  f.numbers(
-      "points/stiffness", items, [](auto& p) -> auto& { return p.stiffness; });
-  f.numbers(
-      "points/damping_time", items, [](auto& p) -> auto& { return p.damping_time; });
-  f.numbers(
-      "points/friction", items, [](auto& p) -> auto& { return p.friction; });
-  f.numbers(
-      "points/restitution", items, [](auto& p) -> auto& { return p.restitution; });
-  f.vectors(
-      "points/start", items, 3, [](auto& p) -> auto& { return p.start; });
-}
-
-template <class Fields>
-void machine_fields(Fields& f, SuperBody& machine) {
-  const auto freedoms = static_cast<std::size_t>(machine.velocity.size());
-  std::vector<Eigen::VectorXd*> velocities{&machine.velocity_before, &machine.velocity};
-  f.units("machine",
-          "velocities sqrt(kg) m/s, before the step and after outer forces; part_maps 6 x freedoms by "
-          "columns (angular; linear); origins m");
-  f.vectors(
-      "machine/velocities", velocities, freedoms, [](auto* v) -> auto& { return *v; });
-  f.vectors(
-      "machine/part_maps", machine.part_maps, 6 * freedoms, [](auto& m) -> auto& { return m; });
-  f.vectors(
-      "machine/origins", machine.origins, 3, [](auto& o) -> auto& { return o; });
-  f.units("machine/rows",
-          "kind 0 motor, 1 stop; target m/s or rad/s; gap m or rad; recovery s; lower, upper, start N s or N "
-          "m s");
-  auto& rows = machine.rows;
-  f.vectors(
-      "machine/rows/jacobian", rows, freedoms, [](auto& r) -> auto& { return r.jacobian; });
-  f.integers(
-      "machine/rows/kind", rows, [](auto& r) -> auto& { return r.kind; });
-  f.numbers(
-      "machine/rows/target", rows, [](auto& r) -> auto& { return r.target; });
-  f.numbers(
-      "machine/rows/gap", rows, [](auto& r) -> auto& { return r.gap; });
-  f.numbers(
-      "machine/rows/recovery", rows, [](auto& r) -> auto& { return r.recovery; });
-  f.numbers(
-      "machine/rows/lower", rows, [](auto& r) -> auto& { return r.lower; });
-  f.numbers(
-      "machine/rows/upper", rows, [](auto& r) -> auto& { return r.upper; });
-  f.numbers(
-      "machine/rows/start", rows, [](auto& r) -> auto& { return r.start; });
-}
-
-// An empty machine of the sizes in the file, for machine_fields to fill.
+// An empty machine of the sizes in the file, to be filled.
 SuperBody sized_machine(const Reader& file, const std::filesystem::path& path) {
   const auto shape = [&](const char* name) {
     const auto found = file.doubles(name).shape;
@@ -224,38 +173,35 @@ SuperBody sized_machine(const Reader& file, const std::filesystem::path& path) {
   machine.velocity_before = machine.velocity = Eigen::VectorXd::Zero(freedoms);
   const std::size_t parts = shape("machine/origins")[0], rows = shape("machine/rows/jacobian")[0];
   machine.part_maps.assign(parts, SpatialMap::Zero(6, freedoms));
-  machine.origins.assign(parts, Vector3d::Zero());
+  machine.origins.assign(parts, Eigen::Vector3d::Zero());
   SuperBodyRow row;
   row.jacobian = Eigen::VectorXd::Zero(freedoms);
   machine.rows.assign(rows, row);
   return machine;
 }
 
-}  // namespace
-
-void write_contact_problem(const std::filesystem::path& path, const ContactProblem& problem,
-                           const std::string& note) {
+void write(const std::filesystem::path& path, const ContactProblem& problem, const std::string& note,
+           Form form) {
   const std::string fault = detail::problem_fault(problem);
   if (!fault.empty())
     throw std::invalid_argument("record::write_contact_problem: " + fault +
                                 "; give a problem as World::before_solve does");
   ContactProblem copy = problem;
-  Writer file(path, problem_kind);
+  Writer file(path, problem_kind, form);
   file.text("/", "note", note);
+  file.text("/", "law", law);
   file.number("/", "step", problem.step);
   FieldWriter fields(file);
-  bodies(fields, copy.bodies);
-  pairs(fields, copy.pairs);
-  points(fields, copy.points);
+  detail::visit_items(fields, copy);
   if (problem.machine) {
     SuperBody machine = *problem.machine;
-    machine_fields(fields, machine);
+    detail::visit_machine(fields, machine);
   }
   file.commit();
 }
 
-RecordedProblem read_contact_problem(const std::filesystem::path& path) {
-  const Reader file(path, problem_kind);
+RecordedProblem read(const std::filesystem::path& path, Form form) {
+  const Reader file(path, problem_kind, form);
   RecordedProblem read;
   read.note = file.text("/", "note");
   read.problem.step = file.number("/", "step");
@@ -263,18 +209,44 @@ RecordedProblem read_contact_problem(const std::filesystem::path& path) {
   read.problem.bodies.resize(file.doubles("bodies/inverse_mass").values.size());
   read.problem.pairs.resize(file.integers("pairs/a").values.size());
   read.problem.points.resize(file.integers("points/feature").values.size());
-  bodies(fields, read.problem.bodies);
-  pairs(fields, read.problem.pairs);
-  points(fields, read.problem.points);
+  detail::visit_items(fields, read.problem);
   if (file.has("machine")) {
     auto machine = std::make_shared<SuperBody>(sized_machine(file, path));
-    machine_fields(fields, *machine);
+    detail::visit_machine(fields, *machine);
     read.machine = machine;
     read.problem.machine = read.machine.get();
   }
   const std::string fault = detail::problem_fault(read.problem);
   if (!fault.empty()) refuse(path, fault);
   return read;
+}
+
+}  // namespace
+
+void write_contact_problem(const std::filesystem::path& path, const ContactProblem& problem,
+                           const std::string& note) {
+  write(path, problem, note, Form::checked);
+}
+
+RecordedProblem read_contact_problem(const std::filesystem::path& path) { return read(path, Form::checked); }
+
+void export_contact_problem(const std::filesystem::path& path, const ContactProblem& problem,
+                            const std::string& note) {
+  write(path, problem, note, Form::plain);
+}
+
+RecordedProblem import_contact_problem(const std::filesystem::path& path) { return read(path, Form::plain); }
+
+std::uint64_t problem_hash(const ContactProblem& problem) {
+  ContactProblem copy = problem;
+  FieldHash fields;
+  fields.sum.add(problem.step);
+  detail::visit_items(fields, copy);
+  if (problem.machine) {
+    SuperBody machine = *problem.machine;
+    detail::visit_machine(fields, machine);
+  }
+  return fields.sum.value();
 }
 
 }  // namespace drawpoint::engine::record

@@ -16,7 +16,8 @@
 /// and data: arrays of double, float or int32 with a shape, tables, and lists of text. Data is
 /// gzip-compressed (level 1) in chunks. After the end that HDF5 knows stand 24 bytes: a mark, the length and
 /// the 64-bit FNV-1a checksum of all before; a reader checks them before anything else, seconds per gigabyte.
-/// Other programs (h5dump, h5py, MATLAB) ignore them and read the file as it is.
+/// Other programs (h5dump, h5py, MATLAB) ignore them and read the file as it is. A plain file is for, or of,
+/// other programs: arrays contiguous and uncompressed, nothing after the end, so that its damage is not seen.
 ///
 /// A Writer builds the file in memory; commit() writes it beside the target, syncs it and renames it over the
 /// target, so a full disk, a read-only folder or a killed process leave the old file. Safe to use from
@@ -30,6 +31,8 @@ struct FileKind {
   int oldest = version;  ///< a reader takes the versions from this one on
 };
 
+enum class Form { checked, plain };
+
 /// An array as it was stored; empty shape: no values.
 template <class T>
 struct Array {
@@ -39,7 +42,7 @@ struct Array {
 
 class Writer {
  public:
-  Writer(std::filesystem::path target, const FileKind& kind);
+  Writer(std::filesystem::path target, const FileKind& kind, Form form = Form::checked);
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -58,6 +61,8 @@ class Writer {
   void texts(const std::string& path, const std::vector<std::string>& values);
   void table(const std::string& path, const Table& table);
   void group(const std::string& path);
+  /// Attributes "unit" and "description" of data that is written.
+  void describe(const std::string& path, const std::string& unit, const std::string& description);
 
   /// Writes the target; afterwards the writer is spent. Without it nothing appears on the disk.
   void commit();
@@ -70,8 +75,8 @@ class Writer {
 class Reader {
  public:
   /// Throws std::runtime_error if the file is missing, truncated, damaged, of another format or another
-  /// version.
-  Reader(std::filesystem::path path, const FileKind& kind);
+  /// version. A plain one is read without a look at its checksum, which it need not have.
+  Reader(std::filesystem::path path, const FileKind& kind, Form form = Form::checked);
   ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;

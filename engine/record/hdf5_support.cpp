@@ -47,6 +47,22 @@ Handle element_type(Element element, std::size_t length) {
   return type;
 }
 
+std::string numpy_name(Element element) {
+  switch (element) {
+    case Element::real64:
+      return "float64";
+    case Element::real32:
+      return "float32";
+    case Element::int32:
+      return "int32";
+    case Element::int64:
+      return "int64";
+    case Element::text:
+      break;
+  }
+  return "text";
+}
+
 std::size_t element_size(Element element, std::size_t length) {
   if (element == Element::text) return std::max<std::size_t>(length, 1);
   return element == Element::real64 || element == Element::int64 ? 8 : 4;

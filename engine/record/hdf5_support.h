@@ -59,6 +59,8 @@ enum class Element : std::int32_t { real64 = 1, real32 = 2, int32 = 3, int64 = 4
 
 /// The library's type; for text of `length` bytes, at least 1.
 Handle element_type(Element element, std::size_t length = 0);
+/// As NumPy says: "float64".
+std::string numpy_name(Element element);
 std::size_t element_size(Element element, std::size_t length = 0);
 
 /// Without leading and trailing "/"; the root is "".

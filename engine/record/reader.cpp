@@ -108,8 +108,8 @@ struct Reader::State {
     throw std::runtime_error("record::Reader: \"" + path.string() + "\" " + what);
   }
 
-  void open() {
-    const std::string fault = detail::trailer_fault(path);
+  void open(Form form) {
+    const std::string fault = form == Form::checked ? detail::trailer_fault(path) : std::string();
     if (!fault.empty()) fail(fault);
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access.get(), false, true);  // a finished file never changes
@@ -123,10 +123,28 @@ struct Reader::State {
     return found;
   }
 
+  // As h5py stores a str.
+  Raw variable_text(hid_t attribute, const std::string& at, const std::string& name) const {
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type.get(), H5T_VARIABLE);
+    H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    char* text = nullptr;
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space.get()) != 1 || H5Aread(attribute, type.get(), &text) < 0)
+      fail("is damaged at attribute \"" + name + "\" of \"/" + at + "\"" + write_anew);
+    const std::string_view read = text ? text : "";
+    Raw raw{Element::text, read.size(), {}, {}};
+    raw.bytes.resize(read.size());
+    std::copy(read.begin(), read.end(), reinterpret_cast<char*>(raw.bytes.data()));
+    H5free_memory(text);
+    return raw;
+  }
+
   Raw attribute(hid_t owner, const std::string& at, const std::string& name) const {
     const Handle found(H5Aopen(owner, name.c_str(), H5P_DEFAULT), H5Aclose);
     if (!found.good()) fail("has no attribute \"" + name + "\" of \"/" + at + "\"; another program wrote it");
     const Handle stored(H5Aget_type(found.get()), H5Tclose);
+    if (H5Tis_variable_str(stored.get()) > 0) return variable_text(found.get(), at, name);
     const auto element = element_of(stored.get());
     if (!element) fail("has an attribute \"" + name + "\" of an unknown type; another program wrote it");
     Raw raw{*element, H5Tget_size(stored.get()), {}, {}};
@@ -166,7 +184,9 @@ struct Reader::State {
     const Handle data = object(at);
     if (H5Iget_type(data.get()) != H5I_DATASET) fail("has a group, not data, at \"/" + at + "\"");
     Raw raw = description(data.get(), at);
-    if (raw.element != wanted) fail("holds data of another type at \"/" + at + "\"; read it as what it is");
+    if (raw.element != wanted)
+      fail("holds " + detail::numpy_name(raw.element) + " at \"/" + at + "\", not " +
+           detail::numpy_name(wanted) + "; let it be written as that");
     raw.bytes.resize(raw.length * count_of(raw.shape));
     const Handle type = detail::element_type(wanted, raw.length);
     if (!raw.bytes.empty() &&
@@ -184,10 +204,11 @@ struct Reader::State {
   }
 };
 
-Reader::Reader(std::filesystem::path path, const FileKind& kind) : state_(std::make_unique<State>()) {
+Reader::Reader(std::filesystem::path path, const FileKind& kind, Form form)
+    : state_(std::make_unique<State>()) {
   const Library library;
   state_->path = std::move(path);
-  state_->open();
+  state_->open(form);
   state_->version = state_->verify(kind);
 }
 

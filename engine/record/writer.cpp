@@ -52,9 +52,9 @@ std::vector<hsize_t> chunk_of(const std::vector<std::size_t>& shape) {
   return chunk;
 }
 
-Handle array_creation(const std::vector<std::size_t>& shape, std::size_t count) {
+Handle array_creation(const std::vector<std::size_t>& shape, std::size_t count, Form form) {
   Handle list = creation(H5P_DATASET_CREATE);
-  if (count == 0) return list;
+  if (count == 0 || form == Form::plain) return list;
   const std::vector<hsize_t> chunk = chunk_of(shape);
   H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(list.get());
@@ -77,6 +77,7 @@ std::vector<std::byte> image_of(hid_t file) {
 
 struct Writer::State {
   std::filesystem::path target;
+  Form form = Form::checked;
   Handle file;
 
   ~State() {
@@ -152,7 +153,7 @@ void Writer::State::array(const std::string& data_path, Element element, Bytes b
   const Handle type = detail::element_type(element, length);
   const std::vector<hsize_t> extents(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
-  const Handle list = array_creation(shape, count);
+  const Handle list = array_creation(shape, count, form);
   const Handle made(
       H5Dcreate2(file.get(), path.c_str(), type.get(), space.get(), H5P_DEFAULT, list.get(), H5P_DEFAULT),
       H5Dclose);
@@ -162,8 +163,10 @@ void Writer::State::array(const std::string& data_path, Element element, Bytes b
                  "write \"" + path + "\"");
 }
 
-Writer::Writer(std::filesystem::path target, const FileKind& kind) : state_(std::make_unique<State>()) {
+Writer::Writer(std::filesystem::path target, const FileKind& kind, Form form)
+    : state_(std::make_unique<State>()) {
   const Library library;
+  state_->form = form;
   state_->target = std::move(target);
   state_->file = memory_file(state_->target.string());
   require_good(state_->file.good(), "make a file in memory");
@@ -238,12 +241,24 @@ void Writer::group(const std::string& path) {
   state_->group(detail::plain_path(path));
 }
 
+void Writer::describe(const std::string& data, const std::string& unit, const std::string& description) {
+  const Library library;
+  state_->require_open();
+  const std::string path = detail::plain_path(data);
+  const Handle object(H5Dopen2(state_->file.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!object.good())
+    throw std::invalid_argument("record::Writer: there is no data \"" + path +
+                                "\" to describe; write it first");
+  state_->attribute(object.get(), "unit", Element::text, std::as_bytes(std::span(unit)));
+  state_->attribute(object.get(), "description", Element::text, std::as_bytes(std::span(description)));
+}
+
 void Writer::commit() {
   const Library library;
   state_->require_open();
   std::vector<std::byte> image = image_of(state_->file.get());
   state_->file.reset();
-  detail::append_trailer(image);
+  if (state_->form == Form::checked) detail::append_trailer(image);
   write_atomically(state_->target, image);
 }
 

@@ -9,12 +9,13 @@
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
-#include <drawpoint/tests/support/scenes.hpp>
+#include <drawpoint/tests/support/contact_problems.hpp>
 #include <fstream>
 #include <functional>
 
 using namespace drawpoint;
 using namespace drawpoint::engine;
+using engine::record::problem_hash;
 using engine::record::read_contact_problem;
 using engine::record::RecordedProblem;
 using engine::record::write_contact_problem;
@@ -33,53 +34,7 @@ class ContactProblemFile : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("drawpoint_problem_" + std::to_string(::getpid()));
 };
 
-// Six boxes on a floor, in motion, and a sled with a motor and a stop that pushes the last of them.
-struct Scene {
-  ContactProblem problem;
-  SuperBody sled;
-
-  Scene() {
-    World world({}, support::one_material({0.6, 0.2, 1e8, 0, 0.05}));
-    support::add_floor(world);
-    for (int k = 0; k < 6; ++k)
-      world.add_rock(support::box_body({0.15, 0.12, 0.16}), support::at(0.05 * k, 0, 0.17 + 0.34 * k));
-    world.before_solve([&](const ContactProblem& p) { problem = p; });
-    for (int step = 0; step < 20; ++step) world.step();
-    add_sled();
-  }
-
-  void add_sled() {
-    sled.velocity_before = Eigen::Vector2d(200, 10);
-    sled.velocity = Eigen::Vector2d(201, 9);
-    SpatialMap map(6, 2);
-    map << 0, 0, 0, 1e-3, 0, 0, 4e-3, 0, 0, 0, 0, 2e-3;
-    sled.part_maps = {map, 2 * map};
-    sled.origins = {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 0, 1)};
-    SuperBodyRow motor;
-    motor.jacobian = Eigen::Vector2d(4e-3, 0);
-    motor.target = 1;
-    motor.lower = -300;
-    motor.upper = 500;
-    SuperBodyRow stop = motor;
-    stop.kind = SuperBodyRow::Kind::stop;
-    stop.gap = -1e-3;
-    stop.recovery = 0.1;
-    stop.lower = 0;
-    stop.start = 1.5;
-    sled.rows = {motor, stop};
-    problem.machine = &sled;
-    ContactPair pair;
-    pair.a = machine_part(1);
-    pair.b = static_cast<int>(problem.bodies.size()) - 1;
-    pair.first = static_cast<int>(problem.points.size());
-    pair.count = 1;
-    problem.pairs.push_back(pair);
-    ContactPoint point = problem.points.back();
-    point.feature = 0xfedcba98u;
-    point.normal = Eigen::Vector3d::UnitX();
-    problem.points.push_back(point);
-  }
-};
+using Scene = support::PushedStack;
 
 template <class M>
 bool same(const M& a, const M& b) {
@@ -100,7 +55,8 @@ std::string complaint(const fs::path& path) {
   }
 }
 
-// One body, without contacts, as the version writes it.
+// One body and a machine of one part and two freedoms, without contacts, as the version writes it. Up to version
+// 2 matrices are stored by columns, one row of numbers per item.
 void write_one_body(const fs::path& path, int version, const std::string& external, double step) {
   engine::record::Writer writer(path, {"drawpoint contact problem", version});
   writer.text("/", "note", "one body");
@@ -117,7 +73,10 @@ void write_one_body(const fs::path& path, int version, const std::string& extern
   doubles("bodies/velocity", {1, 0, 0}, 3);
   doubles("bodies/angular_velocity", {0, 2, 0}, 3);
   doubles("bodies/" + external, {0, 0, -0.0981}, 3);
-  doubles("bodies/inverse_inertia", std::vector<double>(9, 0), 9);
+  if (version < 3)
+    doubles("bodies/inverse_inertia", std::vector<double>(9, 0), 9);
+  else
+    writer.array("bodies/inverse_inertia", std::vector<double>(9, 0), {1, 3, 3});
   const std::vector<double> inverse_mass{0.5};
   writer.array("bodies/inverse_mass", std::span<const double>(inverse_mass));
   no_integers("pairs/", {"a", "b", "collider_a", "collider_b", "first", "count"});
@@ -127,25 +86,40 @@ void write_one_body(const fs::path& path, int version, const std::string& extern
   no_numbers("points/", {"gap", "stiffness", "damping_time", "friction", "restitution"});
   for (const char* name : {"position", "arm_a", "arm_b", "normal", "start"})
     doubles(std::string("points/") + name, {}, 3);
+  doubles("machine/velocities", {1, 2, 3, 4}, 2);
+  doubles("machine/origins", {7, 8, 9}, 3);
+  const std::vector<double> by_columns{0, 1, 2, 3, 4, 5, 10, 11, 12, 13, 14, 15},
+      by_rows{0, 10, 1, 11, 2, 12, 3, 13, 4, 14, 5, 15};
+  writer.array("machine/part_maps", version < 3 ? by_columns : by_rows,
+               version < 3 ? std::vector<std::size_t>{1, 12} : std::vector<std::size_t>{1, 6, 2});
+  doubles("machine/rows/jacobian", {}, 2);
+  no_integers("machine/rows/", {"kind"});
+  no_numbers("machine/rows/", {"target", "gap", "recovery", "lower", "upper", "start"});
   writer.commit();
 }
 
 }  // namespace
 
-// Version 1 says push for the external velocity change.
-TEST_F(ContactProblemFile, OldAndNewNamesAreRead) {
-  write_one_body(file("old.h5"), 1, "push", 0.01);
-  write_one_body(file("new.h5"), 2, "external_velocity_change", 0.01);
-  for (const char* name : {"old.h5", "new.h5"}) {
+// Version 1 says push for the external velocity change; versions 1 and 2 store matrices by columns.
+TEST_F(ContactProblemFile, OldAndNewVersionsAreRead) {
+  write_one_body(file("1.h5"), 1, "push", 0.01);
+  write_one_body(file("2.h5"), 2, "external_velocity_change", 0.01);
+  write_one_body(file("3.h5"), 3, "external_velocity_change", 0.01);
+  const std::uint64_t hash = problem_hash(read_contact_problem(file("3.h5")).problem);
+  for (const char* name : {"1.h5", "2.h5", "3.h5"}) {
     const RecordedProblem read = read_contact_problem(file(name));
     ASSERT_EQ(read.problem.bodies.size(), 1u) << name;
     EXPECT_EQ(read.problem.bodies[0].external_velocity_change, Eigen::Vector3d(0, 0, -0.0981)) << name;
+    const SpatialMap& map = read.problem.machine->part_maps.at(0);
+    for (int row = 0; row < 6; ++row)
+      EXPECT_TRUE(map(row, 0) == row && map(row, 1) == 10 + row) << name << ":\n" << map;
+    EXPECT_EQ(problem_hash(read.problem), hash) << name;
     write_contact_problem(file("again.h5"), read.problem);
-    const engine::record::Reader again(file("again.h5"), {"drawpoint contact problem", 2});
+    const engine::record::Reader again(file("again.h5"), {"drawpoint contact problem", 3});
     EXPECT_TRUE(again.has("bodies/external_velocity_change") && !again.has("bodies/push")) << name;
   }
-  write_one_body(file("newer.h5"), 3, "external_velocity_change", 0.01);
-  EXPECT_NE(complaint(file("newer.h5")).find("has version 3 of its format, not 1 to 2"), std::string::npos);
+  write_one_body(file("newer.h5"), 4, "external_velocity_change", 0.01);
+  EXPECT_NE(complaint(file("newer.h5")).find("has version 4 of its format, not 1 to 3"), std::string::npos);
 }
 
 TEST_F(ContactProblemFile, IsSolvedToTheSameBits) {
@@ -243,6 +217,6 @@ TEST_F(ContactProblemFile, UnsoundProblemsAreRefused) {
 
 // A sound file of the right kind with an unsound problem: the reader checks what it read.
 TEST_F(ContactProblemFile, UnsoundFilesAreRefused) {
-  write_one_body(file(), 2, "external_velocity_change", 0);
+  write_one_body(file(), 3, "external_velocity_change", 0);
   EXPECT_NE(complaint(file()).find("problem.h5"), std::string::npos) << complaint(file());
 }

@@ -66,7 +66,8 @@ class Heap {
 TEST(ContactMethods, AreNamedOnceAndIncludeTheEngines) {
   std::vector<std::string> names;
   for (const auto& method : benchmarks::contact_methods()) names.push_back(method.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"apgd", "batched", "jacobi", "sequential"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"anderson", "apgd", "batched", "jacobi", "nncg", "sequential",
+                                             "symmetric_gauss_seidel"}));
   EXPECT_THROW(benchmarks::contact_method("newton"), std::invalid_argument);
 }
 
