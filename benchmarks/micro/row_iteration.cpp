@@ -105,7 +105,8 @@ void RowIteration::solve_point(Index row, double friction) {
   const Vector3d u = velocity(row), before = impulses.segment<3>(row);
   const double sigma = form_.sigma[row];
   Vector3d after = before;
-  after[0] = law::normal_step(before[0], u[0], sigma, form_.b[row], law::inverse_or_zero(W(0, 0) + sigma));
+  after[0] = law::normal_step(before[0], u[0], sigma, form_.b[row], law::inverse_or_zero(W(0, 0) + sigma),
+                              constants::push_out_speed);
   step_tangents(after, before, u, W, friction * after[0]);
   apply(row, after - before);
 }

@@ -6,7 +6,7 @@
 #include <drawpoint/engine/solver/solver_options.hpp>
 #include <drawpoint/engine/solver/solver_report.hpp>
 
-/// The reference method: pairs one after another in their order, forth and back, double precision.
+/// The reference method: pairs one after another in their order, double precision.
 ///
 /// Cost: about 70 ns per point and iteration between rocks, O(r) more on a machine part. No threads.
 namespace drawpoint::engine {
