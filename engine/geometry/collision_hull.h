@@ -57,10 +57,10 @@ struct CollisionHull {
   /// For bounds (hull_extremes.h), a row per face or edge, padded by zeros to a multiple of `padding`. Faces: normal and
   /// offset. Edges: start, normals of left and right, beyond_left, beyond_right.
   Eigen::ArrayXXf face_planes, edge_frames;
-  Eigen::Vector3d centre;         ///< mean of the vertices
-  double radius;                  ///< of the sphere about the centre
-  double reach;                   ///< of the vertex farthest from the frame's origin
-  double equivalent_radius;       ///< of the sphere of the same volume
+  Eigen::Vector3d centre;    ///< mean of the vertices
+  double radius;             ///< of the sphere about the centre
+  double reach;              ///< of the vertex farthest from the frame's origin
+  double equivalent_radius;  ///< of the sphere of the same volume
 
  private:
   void index(const std::vector<std::vector<int>>& faces);

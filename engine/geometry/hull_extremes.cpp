@@ -143,7 +143,7 @@ const Chosen& chosen() {
 
 Support lowest(const CollisionHull& hull, const Eigen::Vector3d& direction) {
   return chosen().lowest(hull.x.data(), hull.y.data(), hull.z.data(), static_cast<std::size_t>(hull.x.size()),
-                       direction.data());
+                         direction.data());
 }
 
 namespace {

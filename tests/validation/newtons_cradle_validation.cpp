@@ -36,8 +36,10 @@ World cradle(int n, double restitution, double apart) {
 const char* const precision_reason =
     "Impulses are solved to a relative 1e-12 and velocities pass through single precision: 6e-8 of 2 m/s a "
     "rounding, some ten "
-    "roundings.";
-constexpr double precision = 10 * 6e-8 * v;
+    "roundings. Cubes that go on together carry no load, so 50 x 16 substeps make all 64 iterations that "
+    "have or precede "
+    "momentum: 25 600 roundings by at most 3e-8 m/s, as a random walk 4.8e-6 m/s.";
+constexpr double precision = 10 * 6e-8 * v + 4.8e-6;
 
 void record_velocity(const World& world, const std::string& which, int cube, double expected,
                      const std::string& source) {

@@ -16,7 +16,7 @@ namespace {
 
 const validation::Problem passive_wedge{
     "passive_wedge", validation::Group::granular, "Plate pushed into a bed of rock",
-    "A smooth plate closes one end of a bed of 685 rocks of 0.3 m (μ = 0.9, μ_r = 0.5), 6 m long, 1.2 m wide "
+    "A smooth plate closes one end of a bed of 685 rocks of 0.3 m (μ = 0.9, μ_r = 0.1), 6 m long, 1.2 m wide "
     "between smooth "
     "walls and about 1 m deep on a rough floor, and is pushed in at 0.2 m/s, by 0.5 m; force and surface "
     "height are means "
@@ -32,7 +32,7 @@ struct Push {
   double largest_rise, recoverable;
 };
 
-const Material rough{.friction = 0.9, .rolling = 0.5};
+const Material rough{.friction = 0.9, .rolling = 0.1};
 
 double poured_angle(std::uint64_t seed) {
   World world({}, support::one_material(rough));

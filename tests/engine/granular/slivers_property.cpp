@@ -66,14 +66,14 @@ TEST(Slivers, TurnFreelyWithoutGain) {
 
 // One at a time, thrown spinning on the floor: none breaks the solution, none ends above the energy that it
 // came with (contacts with e = 0 take; 1e-3 of it for gravity's discretisation), all lie still or roll
-// slowly.
+// slowly after four seconds; the needle of 0.08 g is the last.
 TEST(Slivers, FallWithoutGain) {
   for (const RockBody& body : slivers()) {
     World world({}, stone());
     add_floor(world);
     world.add_rock(body, at(0, 0, 0.5), {0, 0, 0}, {3, 20, 5});
     const double start = energy(world);
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < 400; ++k) {
       world.step();
       expect_finite(world);
       ASSERT_LT(energy(world), start * (1 + 1e-3)) << "step " << k;
