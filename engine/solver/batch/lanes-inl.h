@@ -3,10 +3,9 @@
 
 /// Arithmetic on the lanes of a batch, for the kernels (batch_kernels.cpp), compiled once per instruction set.
 ///
-/// A `V` holds `width` pairs: one vector of sixteen where there is one, else two parts side by side, so that
-/// two chains of dependent operations run at a time. Products and sums are separate operations on every
-/// target (no fused multiply-add), so the bits do not depend on the target. Highway includes this file once a
-/// target; hence the toggle instead of a guard.
+/// A `V` holds `width` pairs, as many as a register of the target holds. (Two registers side by side are slower: GCC keeps them in
+/// memory.) Products and sums are separate operations on every target (no fused multiply-add), so the bits do not depend
+/// on the target. Highway includes this file once a target; hence the toggle instead of a guard.
 #if defined(DRAWPOINT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef DRAWPOINT_LANES_INL
 #undef DRAWPOINT_LANES_INL
@@ -23,81 +22,36 @@ namespace drawpoint::engine::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, HWY_MAX_BYTES == 64 ? batch_lanes : batch_lanes / 2>;
-using Part = hn::Vec<D>;
+using D = hn::CappedTag<float, batch_lanes>;
+using Register = hn::Vec<D>;
 constexpr D d;
-constexpr int parts = HWY_MAX_BYTES == 64 ? 1 : 2;
-constexpr int part_width = static_cast<int>(hn::MaxLanes(D()));
-constexpr int width = parts * part_width;
+constexpr int width = static_cast<int>(hn::MaxLanes(D()));
 
+// One-member structs: the operators of a register are the compiler's.
 struct V {
-  Part v[parts];
+  Register v;
 };
 struct Mask {
-  hn::Mask<D> m[parts];
+  hn::Mask<D> m;
 };
 
-// operation(k) for each part k.
-template <class Operation>
-HWY_INLINE V each(const Operation& operation) {
-  V result;
-  for (int k = 0; k < parts; ++k) result.v[k] = operation(k);
-  return result;
-}
-
-HWY_INLINE V all(float x) {
-  return each([x](int) HWY_ATTR { return hn::Set(d, x); });
-}
-HWY_INLINE V load(const Lanes& lanes, int at) {
-  return each([&](int k) HWY_ATTR { return hn::Load(d, lanes + at + k * part_width); });
-}
-HWY_INLINE void store(const V& x, Lanes& lanes, int at) {
-  for (int k = 0; k < parts; ++k) hn::Store(x.v[k], d, lanes + at + k * part_width);
-}
-HWY_INLINE V operator+(const V& x, const V& y) {
-  return each([&](int k) HWY_ATTR { return hn::Add(x.v[k], y.v[k]); });
-}
-HWY_INLINE V operator-(const V& x, const V& y) {
-  return each([&](int k) HWY_ATTR { return hn::Sub(x.v[k], y.v[k]); });
-}
-HWY_INLINE V operator*(const V& x, const V& y) {
-  return each([&](int k) HWY_ATTR { return hn::Mul(x.v[k], y.v[k]); });
-}
-HWY_INLINE V operator/(const V& x, const V& y) {
-  return each([&](int k) HWY_ATTR { return hn::Div(x.v[k], y.v[k]); });
-}
-HWY_INLINE V min(const V& x, const V& y) {
-  return each([&](int k) HWY_ATTR { return hn::Min(x.v[k], y.v[k]); });
-}
-HWY_INLINE V max(const V& x, const V& y) {
-  return each([&](int k) HWY_ATTR { return hn::Max(x.v[k], y.v[k]); });
-}
-HWY_INLINE V operator-(const V& x) {
-  return each([&](int k) HWY_ATTR { return hn::Neg(x.v[k]); });
-}
-HWY_INLINE V abs(const V& x) {
-  return each([&](int k) HWY_ATTR { return hn::Abs(x.v[k]); });
-}
-HWY_INLINE V sqrt(const V& x) {
-  return each([&](int k) HWY_ATTR { return hn::Sqrt(x.v[k]); });
-}
-HWY_INLINE Mask operator>(const V& x, const V& y) {
-  Mask result;
-  for (int k = 0; k < parts; ++k) result.m[k] = hn::Gt(x.v[k], y.v[k]);
-  return result;
-}
+HWY_INLINE V all(float x) { return {hn::Set(d, x)}; }
+HWY_INLINE V load(const Lanes& lanes, int at) { return {hn::Load(d, lanes + at)}; }
+HWY_INLINE void store(const V& x, Lanes& lanes, int at) { hn::Store(x.v, d, lanes + at); }
+HWY_INLINE V operator+(const V& x, const V& y) { return {hn::Add(x.v, y.v)}; }
+HWY_INLINE V operator-(const V& x, const V& y) { return {hn::Sub(x.v, y.v)}; }
+HWY_INLINE V operator*(const V& x, const V& y) { return {hn::Mul(x.v, y.v)}; }
+HWY_INLINE V operator/(const V& x, const V& y) { return {hn::Div(x.v, y.v)}; }
+HWY_INLINE V min(const V& x, const V& y) { return {hn::Min(x.v, y.v)}; }
+HWY_INLINE V max(const V& x, const V& y) { return {hn::Max(x.v, y.v)}; }
+HWY_INLINE V operator-(const V& x) { return {hn::Neg(x.v)}; }
+HWY_INLINE V abs(const V& x) { return {hn::Abs(x.v)}; }
+HWY_INLINE V sqrt(const V& x) { return {hn::Sqrt(x.v)}; }
+HWY_INLINE Mask operator>(const V& x, const V& y) { return {hn::Gt(x.v, y.v)}; }
 HWY_INLINE Mask operator<(const V& x, const V& y) { return y > x; }
-HWY_INLINE V select(const Mask& m, const V& yes, const V& no) {
-  return each([&](int k) HWY_ATTR { return hn::IfThenElse(m.m[k], yes.v[k], no.v[k]); });
-}
-HWY_INLINE V select_or_zero(const Mask& m, const V& yes) {
-  return each([&](int k) HWY_ATTR { return hn::IfThenElseZero(m.m[k], yes.v[k]); });
-}
-HWY_INLINE bool all_zero(const V& x) {
-  bool zero = true;
-  for (int k = 0; k < parts; ++k) zero = zero && hn::AllTrue(d, hn::Eq(x.v[k], hn::Zero(d)));
-  return zero;
-}
+HWY_INLINE V select(const Mask& m, const V& yes, const V& no) { return {hn::IfThenElse(m.m, yes.v, no.v)}; }
+HWY_INLINE V select_or_zero(const Mask& m, const V& yes) { return {hn::IfThenElseZero(m.m, yes.v)}; }
+HWY_INLINE bool all_zero(const V& x) { return hn::AllTrue(d, hn::Eq(x.v, hn::Zero(d))); }
 
 /// All lanes of a batch, halves folded upon halves: in the same order whatever the target.
 HWY_INLINE float sum_of(const Lanes& lanes) {
@@ -140,25 +94,26 @@ HWY_INLINE Symmetric load(const Lanes (&lanes)[6], int at) {
            load(lanes[5], at)}};
 }
 
-// Four floats of as many rows as a part has lanes, as four parts, one a column.
-struct Columns {
-  Part c[4];
+/// Four numbers of the row of each lane: row(k) is where row k starts, aligned to 16 bytes.
+struct V4 {
+  V c[4];
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
 template <class Row>
-HWY_INLINE Columns gather_part(const Row& row, const std::int32_t* index) {
+HWY_INLINE V4 gather(const Row& row, const std::int32_t* index) {
   const float* r = row(*index);
-  return {{hn::Set(d, r[0]), hn::Set(d, r[1]), hn::Set(d, r[2]), hn::Set(d, r[3])}};
+  return {{all(r[0]), all(r[1]), all(r[2]), all(r[3])}};
 }
 
+// Writes three numbers and a zero or nothing; no two lanes may have the same row.
 template <class Row>
-HWY_INLINE void scatter_part(Part x, Part y, Part z, const Row& row, const std::int32_t* index) {
+HWY_INLINE void scatter(const V3& a, const Row& row, const std::int32_t* index) {
   float* r = row(*index);
-  r[0] = hn::GetLane(x);
-  r[1] = hn::GetLane(y);
-  r[2] = hn::GetLane(z);
+  r[0] = hn::GetLane(a.x.v);
+  r[1] = hn::GetLane(a.y.v);
+  r[2] = hn::GetLane(a.z.v);
 }
 
 #else
@@ -174,13 +129,15 @@ HWY_INLINE auto rows(const Row& row, const std::int32_t* index, int k) {
 }
 
 template <class Row>
-HWY_INLINE Columns gather_part(const Row& row, const std::int32_t* index) {
-  const Part r0 = rows<part_width>(row, index, 0), r1 = rows<part_width>(row, index, 1),
-             r2 = rows<part_width>(row, index, 2), r3 = rows<part_width>(row, index, 3);
-  const Part t0 = hn::InterleaveLower(d, r0, r2), t1 = hn::InterleaveLower(d, r1, r3);
-  const Part t2 = hn::InterleaveUpper(d, r0, r2), t3 = hn::InterleaveUpper(d, r1, r3);
-  return {{hn::InterleaveLower(d, t0, t1), hn::InterleaveUpper(d, t0, t1), hn::InterleaveLower(d, t2, t3),
-           hn::InterleaveUpper(d, t2, t3)}};
+HWY_INLINE V4 gather(const Row& row, const std::int32_t* index) {
+  const Register r0 = rows<width>(row, index, 0), r1 = rows<width>(row, index, 1),
+                 r2 = rows<width>(row, index, 2), r3 = rows<width>(row, index, 3);
+  const Register t0 = hn::InterleaveLower(d, r0, r2), t1 = hn::InterleaveLower(d, r1, r3);
+  const Register t2 = hn::InterleaveUpper(d, r0, r2), t3 = hn::InterleaveUpper(d, r1, r3);
+  return {{{hn::InterleaveLower(d, t0, t1)},
+           {hn::InterleaveUpper(d, t0, t1)},
+           {hn::InterleaveLower(d, t2, t3)},
+           {hn::InterleaveUpper(d, t2, t3)}}};
 }
 
 template <int N, class Vector, class Row>
@@ -195,38 +152,17 @@ HWY_INLINE void put_rows(Vector v, const Row& row, const std::int32_t* index, in
 }
 
 template <class Row>
-HWY_INLINE void scatter_part(Part x, Part y, Part z, const Row& row, const std::int32_t* index) {
-  const Part zero = hn::Zero(d);
-  const Part a0 = hn::InterleaveLower(d, x, z), a1 = hn::InterleaveLower(d, y, zero);
-  const Part a2 = hn::InterleaveUpper(d, x, z), a3 = hn::InterleaveUpper(d, y, zero);
-  put_rows<part_width>(hn::InterleaveLower(d, a0, a1), row, index, 0);
-  put_rows<part_width>(hn::InterleaveUpper(d, a0, a1), row, index, 1);
-  put_rows<part_width>(hn::InterleaveLower(d, a2, a3), row, index, 2);
-  put_rows<part_width>(hn::InterleaveUpper(d, a2, a3), row, index, 3);
+HWY_INLINE void scatter(const V3& a, const Row& row, const std::int32_t* index) {
+  const Register zero = hn::Zero(d);
+  const Register a0 = hn::InterleaveLower(d, a.x.v, a.z.v), a1 = hn::InterleaveLower(d, a.y.v, zero);
+  const Register a2 = hn::InterleaveUpper(d, a.x.v, a.z.v), a3 = hn::InterleaveUpper(d, a.y.v, zero);
+  put_rows<width>(hn::InterleaveLower(d, a0, a1), row, index, 0);
+  put_rows<width>(hn::InterleaveUpper(d, a0, a1), row, index, 1);
+  put_rows<width>(hn::InterleaveLower(d, a2, a3), row, index, 2);
+  put_rows<width>(hn::InterleaveUpper(d, a2, a3), row, index, 3);
 }
 
 #endif
-
-/// Four numbers of each lane's row; row(k) is where row k starts, aligned to 16 bytes.
-struct V4 {
-  V c[4];
-};
-
-template <class Row>
-HWY_INLINE V4 gather(const Row& row, const std::int32_t* index) {
-  V4 result;
-  for (int k = 0; k < parts; ++k) {
-    const Columns columns = gather_part(row, index + k * part_width);
-    for (int i = 0; i < 4; ++i) result.c[i].v[k] = columns.c[i];
-  }
-  return result;
-}
-
-/// Writes three numbers and a zero or nothing; no two lanes may have the same row.
-template <class Row>
-HWY_INLINE void scatter(const V3& a, const Row& row, const std::int32_t* index) {
-  for (int k = 0; k < parts; ++k) scatter_part(a.x.v[k], a.y.v[k], a.z.v[k], row, index + k * part_width);
-}
 
 }  // namespace drawpoint::engine::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
