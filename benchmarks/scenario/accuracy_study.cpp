@@ -243,11 +243,7 @@ int run(const Settings& s) {
                      {"configurations", nlohmann::json::array()}};
   if (s.cycle.empty()) out["rocks"] = s.rocks;
   for (const Configuration& c : all) out["configurations"].push_back(described(subject, c, all.front()));
-  if (s.json)
-    std::printf("%s\n", out.dump().c_str());
-  else
-    print_table(subject, out);
-  return 0;
+  return show(out, s.json, [&](const nlohmann::json& j) { print_table(subject, j); });
 }
 
 std::string wrong_setting(const std::string& text) {
@@ -288,6 +284,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   add_method_flags(app, s.engine);
   add_material_flags(app, s.material);
-  app.add_flag("--json", s.json, "print one JSON object");
+  add_json_flag(app, s.json);
   return run_command(app, argc, argv, [&] { return run(s); });
 }

@@ -293,13 +293,6 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", s.jobs, "piles at a time")
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
-  app.add_flag("--json", s.json, "print one JSON object");
-  return run_command(app, argc, argv, [&] {
-    const nlohmann::json result = as_json(s, study(s));
-    if (s.json)
-      std::printf("%s\n", result.dump().c_str());
-    else
-      print_table(result);
-    return 0;
-  });
+  add_json_flag(app, s.json);
+  return run_command(app, argc, argv, [&] { return show(as_json(s, study(s)), s.json, print_table); });
 }

@@ -128,6 +128,17 @@ std::string in_words(const nlohmann::json& j) {
   return text.str();
 }
 
+void add_json_flag(CLI::App& app, bool& as_json) { app.add_flag("--json", as_json, "print one JSON object"); }
+
+int show(const nlohmann::json& result, bool as_json,
+         const std::function<void(const nlohmann::json&)>& print) {
+  if (as_json)
+    std::printf("%s\n", result.dump().c_str());
+  else
+    print(result);
+  return 0;
+}
+
 int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action) {
   const auto complain = [&](const char* what, int code) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), what);

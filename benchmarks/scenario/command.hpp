@@ -52,6 +52,11 @@ nlohmann::json described(const engine::WorldOptions& options);
 /// "dt 5 ms, sequential, 1 x 25 iterations, threads 1, freeze off", from described().
 std::string in_words(const nlohmann::json& described);
 
+/// --json, whose help it is.
+void add_json_flag(CLI::App& app, bool& as_json);
+/// Writes a result: one JSON object on one line, or the table that `print` makes of it. Returns the exit code.
+int show(const nlohmann::json& result, bool as_json, const std::function<void(const nlohmann::json&)>& print);
+
 /// Parses, acts and turns what goes wrong into an exit code.
 int run_command(CLI::App& app, int argc, char** argv, const std::function<int()>& action);
 

@@ -126,14 +126,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", s.threads, "threads; they change the time only")
       ->check(between(1, 256, "", "at most the machine's cores"))
       ->capture_default_str();
-  app.add_option("--setting", s.setting, "step and work, as 10x16x5 or 10x16x1+20000 (default: the scene's)");
-  app.add_flag("--json", s.json, "print one JSON object");
-  return run_command(app, argc, argv, [&] {
-    const nlohmann::json result = run(s);
-    if (s.json)
-      std::printf("%s\n", result.dump().c_str());
-    else
-      print(result);
-    return 0;
-  });
+  app.add_option("--setting", s.setting,
+                 "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)");
+  add_json_flag(app, s.json);
+  return run_command(app, argc, argv, [&] { return show(run(s), s.json, print); });
 }

@@ -97,13 +97,6 @@ int main(int argc, char** argv) {
       ->check(between(0.001, 1e6, "", "101 and 1000 are usual"))
       ->capture_default_str();
   add_engine_flags(app, engine);
-  app.add_flag("--json", json, "print one JSON object");
-  return run_command(app, argc, argv, [&] {
-    const nlohmann::json result = run(ratio, engine);
-    if (json)
-      std::printf("%s\n", result.dump().c_str());
-    else
-      print_table(result);
-    return 0;
-  });
+  add_json_flag(app, json);
+  return run_command(app, argc, argv, [&] { return show(run(ratio, engine), json, print_table); });
 }

@@ -182,13 +182,6 @@ int main(int argc, char** argv) {
       ->check(between(1, 1e7, "steps", "leave it out for 1 s; the blade meets the wall after 3.6 s"));
   add_engine_flags(app, s.engine);
   add_material_flags(app, s.material);
-  app.add_flag("--json", s.json, "print one JSON object");
-  return run_command(app, argc, argv, [&] {
-    const nlohmann::json result = run(s);
-    if (s.json)
-      std::printf("%s\n", result.dump().c_str());
-    else
-      print_table(result);
-    return 0;
-  });
+  add_json_flag(app, s.json);
+  return run_command(app, argc, argv, [&] { return show(run(s), s.json, print_table); });
 }
