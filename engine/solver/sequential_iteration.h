@@ -51,7 +51,7 @@ class SequentialIteration {
   /// Adds the substep's impulses and the machine's displacement to the step's.
   void finish();
 
-  /// Whether the machine is slower than that [m/s, rad/s times the square root of mass], before and after the substep.
+  /// Whether the machine stands (SuperBodyMotion::stands).
   bool stands(double speed) const { return machine_.stands(speed); }
   /// So many substeps more with the impulses and speeds of the last one.
   void repeat(int substeps);

@@ -58,8 +58,7 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
       iteration.correct();
     }
     begin.swap(now);
-    for (int k = 0; k < most_iterations(options, problem.points.size()); ++k) {
-      if (k >= options.iterations && change <= options.tolerance * iteration.normal_load()) break;
+    for (int k = 0; goes_on(options, problem.points.size(), k, change, iteration.normal_load()); ++k) {
       if (detail::remembers(k)) {
         add_momentum(problem.bodies, detail::momentum_of(k), previous);
         iteration.add_momentum(detail::momentum_of(k));

@@ -86,6 +86,13 @@ void SuperBodyMotion::finish() {
   for (Row& row : rows_) row.total += row.impulse;
 }
 
+// Not by |w|: it counts mass, and what weighs 50 t would never stand.
+bool SuperBodyMotion::slower(const Eigen::VectorXd& w, double speed) const {
+  return !machine_ ||
+         std::all_of(machine_->part_maps.begin(), machine_->part_maps.end(),
+                     [&](const SpatialMap& map) { return (map * w).cwiseAbs().maxCoeff() <= speed; });
+}
+
 void SuperBodyMotion::repeat(int substeps) {
   travel_ += substeps * h_ * w_;
   for (Row& row : rows_) row.total += substeps * row.impulse;

@@ -44,8 +44,8 @@ class SuperBodyMotion {
   void iteration();
   /// Adds the substep's displacement and impulses to the step's.
   void finish();
-  /// Whether |w| is at most so much, before and after the substep; without a machine true.
-  bool stands(double speed) const { return w_.norm() <= speed && begin_.norm() <= speed; }
+  /// Whether no part is faster than that at its origin [m/s, rad/s], before and after the substep; without a machine true.
+  bool stands(double speed) const { return slower(begin_, speed) && slower(w_, speed); }
   /// finish() so many times.
   void repeat(int substeps);
 
@@ -59,6 +59,7 @@ class SuperBodyMotion {
     double total = 0, target = 0;
   };
   int add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& rows);
+  bool slower(const Eigen::VectorXd& w, double speed) const;
 
   const SuperBody* machine_;
   double step_, h_;

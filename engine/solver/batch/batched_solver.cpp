@@ -105,9 +105,8 @@ void BatchedSolver::run_substep(int number) {
   const int most = most_iterations(options_, problem_->points.size());
   const bool hands_over = number + 1 < options_.substeps;
   Iteration this_iteration{substep(), true, false, number == 0};
-  for (int k = 0; k < most; ++k, this_iteration.first = false) {
-    const bool converged = k >= options_.iterations && change() <= options_.tolerance * normal_load();
-    if (converged) break;
+  for (int k = 0; goes_on(options_, problem_->points.size(), k, change(), normal_load());
+       ++k, this_iteration.first = false) {
     this_iteration.last = hands_over && k + 1 == most;
     if (most > 1) add_momentum(k, this_iteration);
     iteration(this_iteration);
@@ -118,22 +117,30 @@ void BatchedSolver::run_substep(int number) {
 }
 
 // Whether the first substep has left everything as it was: then so will the others. Bodies in free flight do not count,
-// and a machine that touches nothing that moves is on its own.
+// and a machine that touches nothing that moves is on its own: the pile stands while it drives by.
 bool BatchedSolver::stands() const {
-  if (options_.substeps == 1 || change() > options_.tolerance * normal_load()) return false;
-  if (machine_->touches_bodies() && !machine_->stands(constants::standing_speed)) return false;
-  const auto small = [](const float(&x)[4]) {
-    return std::all_of(x, x + 3,
-                       [](float v) { return std::abs(v) <= static_cast<float>(constants::standing_speed); });
-  };
+  if (options_.substeps == 1) return false;
+  const bool alone = !machine_->touches_bodies();
+  if (!alone && !machine_->stands(constants::standing_speed)) return false;
+  const double changed = alone ? batches_.change() : change(),
+               load = alone ? batches_.normal_load() : normal_load();
+  if (changed > constants::standing_change * load) return false;
+  return bodies_stand(batches_.begin) && bodies_stand(batches_.bodies);
+}
+
+bool BatchedSolver::bodies_stand(const std::vector<BodyRow>& rows) const {
+  double squares = 0;
+  int count = 0;
   for (std::size_t row = 0; row < problem_->bodies.size(); ++row) {
     if (!touched_[static_cast<std::size_t>(batches_.order().bodies[row])]) continue;
-    const BodyRow &now = batches_.bodies[row], &before = batches_.begin[row];
-    if (!small(now.velocity) || !small(now.angular_velocity) || !small(before.velocity) ||
-        !small(before.angular_velocity))
-      return false;
+    double fastest = 0;  // of linear and angular velocity by component
+    for (int i = 0; i < 3; ++i)
+      fastest = std::max<double>(
+          {fastest, std::abs(rows[row].velocity[i]), std::abs(rows[row].angular_velocity[i])});
+    if (!(fastest <= constants::standing_speed_of_one)) return false;
+    squares += fastest * fastest, ++count;
   }
-  return true;
+  return squares <= count * constants::standing_speed * constants::standing_speed;
 }
 
 // The other substeps, with the impulses of the first. What little speed there is would grow by round-off, since the
@@ -152,9 +159,7 @@ void BatchedSolver::run_machine_alone() {
   machine_->refresh(batches_.bodies);
   machine_->extrapolate();
   machine_->correct(batches_.bodies);
-  const int most = most_iterations(options_, machine_->points());
-  for (int k = 0; k < most; ++k) {
-    if (k >= options_.iterations && machine_change_ <= options_.tolerance * machine_->normal_load()) break;
+  for (int k = 0; goes_on(options_, machine_->points(), k, machine_change_, machine_->normal_load()); ++k) {
     if (remembers(k)) machine_->add_momentum(momentum_of(k));
     machine_change_ = machine_->iteration(batches_.bodies);
   }

@@ -41,6 +41,7 @@ class BatchedSolver {
   void each_row(const Work& work);  // of the bodies
   void run_substep(int number);
   bool stands() const;
+  bool bodies_stand(const std::vector<BodyRow>& rows) const;
   void stand();
   void run_machine_alone();
   void start();
