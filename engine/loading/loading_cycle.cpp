@@ -97,6 +97,7 @@ void LoadingRun::describe() {
                   {"substeps", s.world.solver.substeps},
                   {"iterations", s.world.solver.iterations},
                   {"iteration_budget", s.world.solver.iteration_budget},
+                  {"tolerance", s.world.solver.tolerance},
                   {"warm_start", s.world.warm_start},
                   {"freezing", s.world.freezing.on ? 1.0 : 0.0},
                   {"freezing_tolerance", s.world.freezing.tolerance},

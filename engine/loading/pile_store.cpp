@@ -64,7 +64,7 @@ std::string pile_provenance(const Scenario& s) {
   add_number(provenance, "substeps", s.world.solver.substeps);
   add_number(provenance, "iterations", s.world.solver.iterations);
   add_number(provenance, "iteration_budget", s.world.solver.iteration_budget);
-  add_number(provenance, "tolerance", s.world.solver.tolerance);
+  add_number(provenance, "tolerance", s.pile.tolerance);
   add_number(provenance, "warm_start", s.world.warm_start);
   add_number(provenance, "gravity_x", s.world.gravity.x());
   add_number(provenance, "gravity_y", s.world.gravity.y());
@@ -94,7 +94,9 @@ std::string pile_provenance(const Scenario& s) {
 SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)>& progress,
                       const std::function<void(const engine::StepReport&)>& on_step) {
   check(scenario);
-  engine::World world(scenario.world, material_table(scenario.materials));
+  engine::WorldOptions options = scenario.world;
+  options.solver.tolerance = scenario.pile.tolerance;
+  engine::World world(options, material_table(scenario.materials));
   add_drift(world, scenario.drift);
   const granular::RockLibrary library(scenario.pile.density, static_cast<int>(SurfaceKind::rock));
   granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed);

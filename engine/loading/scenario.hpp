@@ -20,6 +20,9 @@ struct PileOptions {
   double density = 4500;   ///< of the rock [kg/m³]
   double max_height = 8;   ///< pouring stops when the pile reaches it [m]
   std::uint64_t seed = 1;  ///< of the pouring; one pile serves all runs of a study
+  /// SolverOptions::tolerance while pouring, in place of Scenario::world's: a pile is poured once, so it is solved
+  /// further than the cycles that dig in it.
+  double tolerance = engine::SolverOptions{}.tolerance;
   granular::RestOptions rest;
 };
 

@@ -68,11 +68,9 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 }
 
 // The pile of the default study lies as blasted ore lies, 35 to 42 degrees (published for hard rock). One
-// seed, the study's own: five seeds have 37.4 degrees in the mean and scatter by 3.6 (docs/measurements/loading.md), so
-// one pile may lie that much outside. No row is flatter
-// than a pile that was dropped (25 degrees at most) or steeper than wet sand stands; the crest is higher than
-// the bucket's mouth, 1.75 m, and no rock reaches the roof.
-
+// seed, the study's own: seeds have 36.9 degrees in the mean and scatter by 3 to 4.5 (docs/measurements/loading.md), so one
+// pile may lie that much outside. No row is flatter than a pile that was dropped (25 degrees at most) or steeper than
+// wet sand stands; the crest is higher than the bucket's mouth, 1.75 m, and no rock reaches the roof.
 TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
   Scenario scenario = lh621_in_a_drift();
   scenario.world.threads = 2;  // for time only
@@ -125,6 +123,7 @@ TEST(SettledPile, BelongsToItsSetting) {
          s.world.gravity = {9.81, 0, 0};
        }},
       {"sideways gravity", [](Scenario& s) { s.world.gravity.y() = 1e-6; }},
+      {"tolerance while pouring", [](Scenario& s) { s.pile.tolerance *= 2; }},
       {"rest's hold", [](Scenario& s) { s.pile.rest.hold *= 2; }},
       {"rest's cap", [](Scenario& s) { s.pile.rest.cap *= 2; }},
       {"rest's speed", [](Scenario& s) { s.pile.rest.fastest *= 2; }},
@@ -147,7 +146,8 @@ TEST(SettledPile, BelongsToItsSetting) {
     EXPECT_NE(pile_provenance(other), pile_provenance(own)) << c.what;
   }
   Scenario faster = own;
-  faster.world.threads = 8;  // changes no bit
+  faster.world.threads = 8;              // changes no bit
+  faster.world.solver.tolerance = 1e-3;  // nor does that of the cycles
   EXPECT_EQ(pile_provenance(faster), pile_provenance(own));
 }
 
