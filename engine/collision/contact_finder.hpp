@@ -29,7 +29,7 @@
 ///
 /// Same calls, same bits, on any number of threads and any x86-64 machine. save() and restore() carry over
 /// all that later results depend on. Not for concurrent use. World frame, SI units. Cost in a pile of rocks:
-/// about 0.07 µs per pair at rest and 0.7 µs per pair computed (benchmarks/micro/collision, find_in_pile).
+/// about 0.02 µs per pair at rest and 1 µs per pair computed (benchmarks/micro/collision, find_in_pile).
 namespace drawpoint::engine {
 
 class ThreadPool;

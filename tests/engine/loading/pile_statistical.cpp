@@ -68,7 +68,7 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 }
 
 // The pile of the default study lies as blasted ore lies, 35 to 42 degrees (published for hard rock). One
-// seed, the study's own: seeds have 36.9 degrees in the mean and scatter by 3 to 4.5 (docs/measurements/loading.md), so one
+// seed, the study's own: seeds have 36.6 degrees in the mean and scatter by 3 to 4.5 (docs/measurements/loading.md), so one
 // pile may lie that much outside. No row is flatter than a pile that was dropped (25 degrees at most) or steeper than
 // wet sand stands; the crest is higher than the bucket's mouth, 1.75 m, and no rock reaches the roof.
 TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
