@@ -288,13 +288,16 @@ bool inside_polygon(const std::vector<Vector2d>& polygon, const Vector2d& p) {
 
 Lhd sandvik_lh621(const LhdOptions& options) { return Builder(options).build(); }
 
-bool in_heaped_bucket(const Lhd& lhd, const Vector3d& p_M) {
-  if (std::abs(p_M.y()) > lhd.bucket_width / 2) return false;
+std::vector<Vector2d> heaped_profile(const Lhd& lhd) {
   const Vector2d edge = lhd.bucket_profile[0], lip = lhd.bucket_profile[1], opening = lip - edge;
   const Vector2d outward = Vector2d(opening.y(), -opening.x()).normalized();
   std::vector<Vector2d> heaped = lhd.bucket_profile;
   heaped.insert(heaped.begin() + 1, edge + 0.5 * opening + outward * (opening.norm() / 4));
-  return inside_polygon(heaped, {p_M.x(), p_M.z()});
+  return heaped;
+}
+
+bool in_heaped_bucket(const Lhd& lhd, const Vector3d& p_M) {
+  return std::abs(p_M.y()) <= lhd.bucket_width / 2 && inside_polygon(heaped_profile(lhd), {p_M.x(), p_M.z()});
 }
 
 }  // namespace drawpoint::engine::loading

@@ -73,8 +73,10 @@ struct Lhd {
 
 Lhd sandvik_lh621(const LhdOptions& options = {});
 
-/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket:
-/// the profile plus a 2:1 heap on the plane between the cutting edge and the top lip.
+/// The bucket's profile with a 2:1 heap on the plane between the cutting edge and the top lip.
+std::vector<Eigen::Vector2d> heaped_profile(const Lhd& lhd);
+
+/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket.
 bool in_heaped_bucket(const Lhd& lhd, const Eigen::Vector3d& p_M);
 
 }  // namespace drawpoint::engine::loading

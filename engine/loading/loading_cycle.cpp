@@ -12,9 +12,10 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-constexpr double stand_time = 0.6;       // for the tyres to take the weight before the clock starts [s]
-constexpr double room_under_roof = 1.0;  // for the bucket's lip to pass when it curls at the top [m]
-constexpr int trouble_interval = 50;     // steps between checks of the whole state
+constexpr double stand_time = 0.6;  // for the tyres to take the weight before the clock starts [s]
+constexpr double room_under_roof =
+    0.3;  // over the heaped bucket: rocks stand out of it, tyres run over rocks [m]
+constexpr int trouble_interval = 50;  // steps between checks of the whole state
 
 class LoadingRun {
  public:
@@ -125,7 +126,9 @@ PlannerOptions LoadingRun::planner_options() const {
   options.bucket_volume = site_.lhd().bucket_volume;
   options.bucket_width = site_.lhd().bucket_width;
   options.standoff = scenario_.standoff;
-  options.height_limit = scenario_.drift.height - room_under_roof;
+  options.roof = scenario_.drift.height - room_under_roof;
+  for (const Eigen::Vector2d& point : heaped_profile(site_.lhd()))
+    options.outline.emplace_back(point.x() - site_.lhd().G.x(), point.y() - site_.lhd().G.z());
   options.x_limit = scenario_.drift.length - scenario_.drift.wall_roughness;
   options.curl = scenario_.curl;
   options.lift = scenario_.lift;

@@ -124,13 +124,16 @@ Stage Executor::after(StageEnd reason) const {
   return static_cast<Stage>(number(stage_) + 1);
 }
 
-TipRates Executor::lift_rates(double s) const {
+// Straight at C from where the tip is, or along the slope as it was aimed at the start.
+TipRates Executor::lift_rates(const TipPose& tip) const {
   const SpeedPreset& v = options_.speeds;
-  const double time_scale = std::max({goal_.z / v.lift, goal_.x / v.drive_in, goal_.phi / v.curl});
-  const double f = translation_factor(s, options_.progress);
-  const double g = rotation_factor(s, options_.progress);
-  return {
-      .v_x = f * goal_.x / time_scale, .v_z = f * goal_.z / time_scale, .omega = g * goal_.phi / time_scale};
+  const bool steered = plan_.lift == LiftGoal::behind_surface;
+  const StageGoal ahead = steered ? stage_goal(plan_, number(Stage::lift), tip, cycle_start_) : goal_;
+  const double time = std::max({ahead.z / v.lift, ahead.x / v.drive_in, ahead.phi / v.curl});
+  if (!(time > 0)) return {};
+  const double f = translation_factor(progress_, options_.progress) / time,
+               g = rotation_factor(progress_, options_.progress) / time;
+  return {.v_x = f * ahead.x, .v_z = f * ahead.z, .omega = g * ahead.phi};
 }
 
 ActuatorRates Executor::set_speeds(const TipPose& tip) const {
@@ -143,7 +146,7 @@ ActuatorRates Executor::set_speeds(const TipPose& tip) const {
     case Stage::drive_in:
       return within_limits({.drive = speeds.drive_in}, speeds.limits);
     case Stage::lift:
-      return within_limits(along_tip(lift_rates(progress_)), speeds.limits);
+      return within_limits(along_tip(lift_rates(tip)), speeds.limits);
     case Stage::curl:
       if (plan_.curl == CurlMode::hinge_G) return within_limits({.tilt = speeds.curl * f}, speeds.limits);
       return within_limits(along_tip({.omega = speeds.curl * f}), speeds.limits);

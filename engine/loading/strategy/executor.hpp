@@ -13,8 +13,9 @@
 /// Each step: progress s from the tip; tip velocity from the stage's law; actuator rates by inverse
 /// kinematics; one common factor keeps them within limits. First speeds: stage 1 v_x, constant; stage 2
 /// straight to its goal in the least time T₀ at which none of drive-in, lift and curl speed is exceeded (v_z
-/// = the lift speed, v_x = v_z / tan θ and ω = κθ v_z / h when the drive-in reached its own); stage 3 ω;
-/// stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose set
+/// = the lift speed, v_x = v_z / tan θ and ω = κθ v_z / h when the drive-in reached its own), steered: what the
+/// pile keeps back in one direction is made good, and no direction goes beyond its goal (LiftGoal::along_slope: as
+/// aimed at its start); stage 3 ω; stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose set
 /// speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`. (b) and (c) are
 /// being stuck; the policy says what follows. Stage 2 is left out if h = 0.
 ///
@@ -86,7 +87,7 @@ class Executor {
   bool stage_ends(const Observation& now, StageEnd& reason) const;
   Stage after(StageEnd reason) const;
   ActuatorRates set_speeds(const TipPose& tip) const;
-  TipRates lift_rates(double s) const;
+  TipRates lift_rates(const TipPose& tip) const;
 
   Plan plan_;
   ArmGeometry arm_;

@@ -31,15 +31,39 @@ void check(const PlannerOptions& options) {
   require_finite_positive("phi_max [rad]", options.phi_max);
   if (!(options.standoff >= 0) || !std::isfinite(options.standoff))
     reject("PlannerOptions: standoff [m]", options.standoff, "a finite value of at least 0");
-  if (std::isnan(options.height_limit) || std::isnan(options.x_limit) || std::isnan(options.boom_max))
+  if (std::isnan(options.roof) || std::isnan(options.x_limit) || std::isnan(options.boom_max))
     throw std::invalid_argument(
-        "loading::PlannerOptions: height_limit [m], x_limit [m] or boom_max [rad] is not a number; "
+        "loading::PlannerOptions: roof [m], x_limit [m] or boom_max [rad] is not a number; "
         "give numbers, infinity for no limit");
+  for (const Eigen::Vector2d& point : options.outline)
+    if (!point.allFinite())
+      throw std::invalid_argument(
+          "loading::PlannerOptions: a point of the outline [m] is not finite; give x and z of each");
+}
+
+// How high a point gets over the pivot that the bucket turns about, from one bucket angle to another.
+double highest(const Eigen::Vector2d& point, double from, double to) {
+  const double level = std::atan2(point.y(), point.x());
+  if (level + from <= M_PI / 2 && M_PI / 2 <= level + to) return point.norm();
+  return point.norm() * std::max(std::sin(level + from), std::sin(level + to));
+}
+
+// How high the bucket with its load gets over where the tip is at C, while it curls.
+double room_over_tip(double tilt, const PlannerOptions& options) {
+  const ArmGeometry& arm = options.arm;
+  const Eigen::Vector2d tip = arm.GK * Eigen::Vector2d(std::cos(arm.psi_b), std::sin(arm.psi_b));
+  const bool about_tip = options.curl == CurlMode::tip_fixed;
+  const Eigen::Vector2d pivot = about_tip ? tip : Eigen::Vector2d(0, 0);
+  const double end = std::max(tilt, options.phi_max);
+  double room = highest(tip - pivot, tilt, end);
+  for (const Eigen::Vector2d& point : options.outline)
+    room = std::max(room, highest(point - pivot, tilt, end));
+  return about_tip ? room : room - arm.GK * std::sin(tilt + arm.psi_b);
 }
 
 double reachable_height(double crest, double tilt, const PlannerOptions& options) {
   const double tip = tip_pose(options.arm, {.a = options.boom_max, .b = tilt + options.arm.psi_b}).z;
-  return std::max(0.0, std::min({crest, tip, options.height_limit}));
+  return std::max(0.0, std::min({crest, tip, options.roof - room_over_tip(tilt, options)}));
 }
 
 // Depth gives way first; when the slope alone leads beyond the limit, so does the height.

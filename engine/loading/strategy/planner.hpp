@@ -5,6 +5,7 @@
 #include <drawpoint/engine/loading/strategy/column_model.hpp>
 #include <drawpoint/engine/loading/strategy/trajectory.hpp>
 #include <limits>
+#include <vector>
 
 /// Strategy and pile to trajectory.
 ///
@@ -13,7 +14,7 @@
 /// without cancellation, A = α V_b / w_b:
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
-/// end and the bucket at κθ, and `height_limit`. Row: rows sorted by volume centre, nearest to the back wall
+/// end and the bucket at κθ, and that from which the bucket curls below the roof. Row: rows sorted by volume centre, nearest to the back wall
 /// first, entry round(γ (n − 1)). φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark
 /// (2016) prints h²/θ under the root.
 namespace drawpoint::engine::loading {
@@ -35,8 +36,10 @@ struct PlannerOptions {
   double standoff = 2.0;       ///< ℓ₀, tip to toe at the start [m]
   double boom_max = 0.80285;   ///< highest elevation of FG, 46° [rad]
   double phi_max = 0.78540;    ///< bucket fully curled back, 45° [rad]
-  /// Of the tip at C, e.g. below the roof [m].
-  double height_limit = std::numeric_limits<double>::infinity();
+  double roof =
+      std::numeric_limits<double>::infinity();  ///< the bucket stays below it, at C and through the curl [m]
+  /// The bucket with its load, for `roof`: points (x, z) relative to G, floor level [m]; the tip counts anyway.
+  std::vector<Eigen::Vector2d> outline;
   /// Of the tip's x at C, e.g. before the back wall [m]; d gives way first, then h.
   double x_limit = std::numeric_limits<double>::infinity();
   CurlMode curl = CurlMode::hinge_G;

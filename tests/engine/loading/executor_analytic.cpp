@@ -189,6 +189,32 @@ TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
   EXPECT_NEAR(fastest, options.speeds.drive_in, 0.02 * options.speeds.drive_in);
 }
 
+// A pile that lets the machine drive at three tenths of the set speed only: the tip rises to its height and no further, while
+// the drive goes on to C. (A boom that follows its set speed goes at most one step too far.)
+TEST(Executor, ALiftWhoseDriveLagsBehindKeepsItsHeight) {
+  const Plan plan = example_plan();
+  bool lifting = false;
+  const auto heavy_pile = [&](const ActuatorRates& set, double) {
+    lifting = lifting || set.boom > 0;
+    return ActuatorRates{lifting && set.drive > 0 ? 0.3 * set.drive : set.drive, set.boom, set.tilt};
+  };
+  ExecutorOptions options;
+  options.speeds = lindmark2016_speeds();
+  options.speeds.limits = {infinity, infinity, infinity};
+  options.speeds.stage_limit = {60, 60, 60, 60};
+  const Drive run = driven(plan, options, heavy_pile);
+  ASSERT_TRUE(run.finished);
+  EXPECT_EQ(run.results[1].reason, StageEnd::goal);
+  const TipPose &end = run.results[1].end, &C = plan.corners[2];
+  for (std::size_t k = 0; k < run.path.size(); ++k)
+    if (run.stage[k] == Stage::lift) {
+      EXPECT_LT(run.path[k].z, C.z + options.speeds.lift * h);
+      EXPECT_LT(run.path[k].phi, C.phi + options.speeds.curl * h);
+    }
+  const double length = std::hypot(run.results[1].start.x - C.x, C.z) + arm.GK * plan.tilt;
+  EXPECT_NEAR(end.z, C.z, options.progress.tolerance * length + options.speeds.lift * h + drift_bound);
+}
+
 // As Lindmark (2016) has it: by (h / tan θ, h) from where the drive-in ended, short of C by what that fell
 // short.
 TEST(Executor, AlongTheSlopeAShortDriveInStaysShort) {
@@ -324,6 +350,7 @@ TEST(Executor, StuckWhileBackingOutEndsTheCycle) {
 TEST(Executor, ThePrintedLawNeverArrives) {
   Plan plan = example_plan(CurlMode::tip_fixed);
   plan.tilt = 0;
+  plan.lift = LiftGoal::along_slope;
   ExecutorOptions options = exact_options();
   options.progress = faithful_progress();
   options.least_set = {infinity, infinity, infinity};

@@ -8,6 +8,7 @@
 #include <drawpoint/engine/loading/strategy/planner.hpp>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::engine;
@@ -103,12 +104,41 @@ TEST(Planner, PlanOfAPlanePile) {
   EXPECT_FALSE(plan.limited);
 }
 
-TEST(Planner, HeightIsBoundByCrestAndOption) {
+TEST(Planner, HeightIsBoundByTheCrest) {
   const Strategy strategy{.alpha = 1, .beta = 1, .gamma = 0, .kappa = 0};
   EXPECT_DOUBLE_EQ(plan_trajectory(strategy, plane_pile(3.5, 35 * degree, straight, 1.7)).height, 1.7);
-  PlannerOptions options;
-  options.height_limit = 1.2;
-  EXPECT_DOUBLE_EQ(plan_trajectory(strategy, plane_pile(3.5, 35 * degree, straight), options).height, 1.2);
+}
+
+// Under a roof: at h_max the outline and the tip, turned through the curl in ten thousand steps, just touch it. Between two
+// steps a point within 3 m of the pivot rises by less than 3 m (π/2/1e4)²/8 = 1e-8 m over the higher one.
+TEST(Planner, HeightLetsTheBucketCurlUnderTheRoof) {
+  const ColumnModel model = plane_pile(3.5, 35 * degree, straight);
+  const std::vector<Eigen::Vector2d> bucket{{0.8, 1.25}, {1.74, 0.63}, {0.1, -0.4}};
+  for (const CurlMode curl : {CurlMode::hinge_G, CurlMode::tip_fixed})
+    for (const double kappa : {0.0, 0.3, 0.7, 1.0})
+      for (const bool loaded : {false, true}) {
+        PlannerOptions options;
+        options.roof = 3.0;
+        options.curl = curl;
+        if (loaded) options.outline = bucket;
+        const Plan plan =
+            plan_trajectory({.alpha = 1, .beta = 1, .gamma = 0, .kappa = kappa}, model, options);
+        const ArmGeometry& arm = options.arm;
+        const Eigen::Vector2d tip(arm.GK * std::cos(arm.psi_b), arm.GK * std::sin(arm.psi_b));
+        std::vector<Eigen::Vector2d> points = options.outline;
+        points.push_back(tip);
+        double highest = 0;
+        for (int k = 0; k <= 10000; ++k) {
+          const double phi = plan.tilt + (options.phi_max - plan.tilt) * k / 10000;
+          const double z_G = plan.height - arm.GK * std::sin(plan.tilt + arm.psi_b);
+          const Eigen::Rotation2Dd turned(phi);
+          for (const Eigen::Vector2d& p : points)
+            highest = std::max(highest, curl == CurlMode::hinge_G ? z_G + (turned * p).y()
+                                                                  : plan.height + (turned * (p - tip)).y());
+        }
+        EXPECT_LE(highest, options.roof + 1e-12) << kappa << loaded;
+        EXPECT_GT(highest, options.roof - 2e-8) << kappa << loaded;
+      }
 }
 
 // With the toe at 10 - y/2, the pile protrudes most at the largest y.
