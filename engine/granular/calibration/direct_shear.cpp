@@ -146,7 +146,9 @@ ShearResult shear(ShearBox& box, const ShearOptions& o) {
   if (result.curve.size() < 6) return result;
   double peak = 0, late = 0;
   const std::size_t n = result.curve.size(), first = n - n / 3;
-  for (const ShearPoint& p : result.curve) peak = std::max(peak, p.ratio);
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    peak =
+        std::max(peak, (result.curve[k - 1].ratio + result.curve[k].ratio + result.curve[k + 1].ratio) / 3);
   for (std::size_t k = first; k < n; ++k) late += result.curve[k].ratio / static_cast<double>(n - first);
   result.peak = degrees(peak);
   result.large = degrees(late);

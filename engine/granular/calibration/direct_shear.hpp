@@ -41,7 +41,7 @@ struct ShearOptions : RunOptions {
 
 struct ShearResult {
   RunStatus status = RunStatus::completed;
-  double peak = 0;           ///< φ where T/N is largest [deg]
+  double peak = 0;           ///< φ of the largest mean T/N over three parts in a row [deg]
   double large = 0;          ///< φ of the mean T/N over the last third of the way [deg]
   double dilation = 0;       ///< angle of the plate's mean rise over the way [deg]
   double normal_stress = 0;  ///< N over the box's section, mean [Pa]
