@@ -33,7 +33,8 @@ constexpr const char* about =
     "               last third of the way, mean dilation, normal stress on the cut\n"
     "  penetration  an upright plate pushed down into a bed: force, work; nothing published\n\n"
     "Figures are mean +- standard error over the seeds (with one seed: none). A row marked * has runs whose\n"
-    "rocks had not come to rest. Ctrl-C ends after the step in hand; rows that are complete are printed.\n"
+    "rocks had not come to rest. Ctrl-C ends after the step in hand; the seeds that are complete are "
+    "printed.\n"
     "Fields of --json: rows with friction, rolling, seeds, rocks, moving (runs not at rest), and each "
     "quantity "
     "as\nmean, standard_error and values; published with low, high and source.";
@@ -104,8 +105,9 @@ std::vector<Row> run_rows(const Settings& s, const RockTest& test) {
   for (const double friction : s.friction)
     for (const double rolling : s.rolling) {
       Row row{.friction = friction, .rolling = rolling, .values = {}};
-      if (!run_row(s, test, row)) return rows;
-      rows.push_back(row);
+      const bool complete = run_row(s, test, row);
+      if (!row.values.empty()) rows.push_back(row);
+      if (!complete) return rows;
     }
   return rows;
 }
@@ -136,7 +138,7 @@ nlohmann::json row_as_json(const RockTest& test, const Row& row) {
 nlohmann::json published(const RockTest& test) {
   nlohmann::json out = nlohmann::json::object();
   for (const MeasuredQuantity& q : test.quantities)
-    if (q.high > 0) out[q.key] = {{"low", q.low}, {"high", q.high}, {"source", q.source}};
+    if (q.high > 0) out[q.key] = {{"low", q.low}, {"high", finite_or_null(q.high)}, {"source", q.source}};
   return out;
 }
 
@@ -148,6 +150,16 @@ std::string plus_minus(const nlohmann::json& e, int digits) {
   else
     std::snprintf(text, sizeof text, "%.*f +- %.*f", digits, e.at("mean").get<double>(), digits,
                   e.at("standard_error").get<double>());
+  return text;
+}
+
+// "35 to 42", "at least 35"
+std::string range_of(const MeasuredQuantity& q) {
+  char text[64];
+  if (std::isfinite(q.high))
+    std::snprintf(text, sizeof text, "%g to %g", q.low, q.high);
+  else
+    std::snprintf(text, sizeof text, "at least %g", q.low);
   return text;
 }
 
@@ -167,7 +179,7 @@ void print_table(const RockTest& test, const nlohmann::json& j) {
   }
   for (const MeasuredQuantity& q : test.quantities)
     if (q.high > 0)
-      std::printf("published %s: %g to %g; %s\n", q.title.c_str(), q.low, q.high, q.source.c_str());
+      std::printf("published %s: %s; %s\n", q.title.c_str(), range_of(q).c_str(), q.source.c_str());
 }
 
 int run(const Settings& s) {

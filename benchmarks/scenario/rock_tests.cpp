@@ -6,6 +6,7 @@
 #include <drawpoint/engine/granular/calibration/direct_shear.hpp>
 #include <drawpoint/engine/granular/calibration/plate_penetration.hpp>
 #include <drawpoint/engine/granular/calibration/repose.hpp>
+#include <limits>
 #include <stdexcept>
 
 namespace drawpoint::benchmarks {
@@ -59,8 +60,8 @@ std::vector<RockTest> made_tests() {
        run_repose},
       {"ledge",
        "the bank that is left on a ledge when the end of a bin is taken away",
-       {{"angle_deg", "angle deg", 1, 35, 90,
-         "at least the poured heap's: iron-ore pellets 41 drained, 26 poured (Lommen et al. 2019, read)"},
+       {{"angle_deg", "angle deg", 1, 35, std::numeric_limits<double>::infinity(),
+         "the poured heap's and more: iron-ore pellets 41 drained, 26 poured (Lommen et al. 2019, read)"},
         {"crest_m", "crest m", 2}},
        run_ledge},
       {"density",

@@ -17,7 +17,7 @@ namespace drawpoint::benchmarks {
 struct MeasuredQuantity {
   std::string key, title;    ///< the title names the unit
   int digits = 1;            ///< after the point
-  double low = 0, high = 0;  ///< published; none when both are 0
+  double low = 0, high = 0;  ///< published, `high` may be infinite; none when both are 0
   std::string source = {};
 };
 

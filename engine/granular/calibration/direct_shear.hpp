@@ -33,7 +33,7 @@ struct ShearPoint {
 
 struct ShearOptions : RunOptions {
   ShearBoxSize box;
-  double stress = 50e3;  ///< σ, of plate on rock [Pa]
+  double stress = 50e3;  ///< σ, of plate on rock; what lies above the cut comes on top [Pa]
   double speed = 0.05;   ///< [m/s]
   double travel = 0.15;  ///< of the box's length
   int parts = 24;        ///< of the way, over which T/N is averaged; at least 6
