@@ -24,8 +24,19 @@ engine::RockBody RockLibrary::body(const RockSpec& spec) const {
 
 namespace {
 
-// Places of a layer: a square grid within the radius.
-std::vector<Eigen::Vector2d> layer_places(const EmitterOptions& o) {
+// Places of a layer: as many as fit between the walls.
+std::vector<Eigen::Vector2d> rectangle_places(const EmitterOptions& o) {
+  std::vector<Eigen::Vector2d> places;
+  const Eigen::Array2i n = (2 * o.half_lengths.array() / o.spacing).cast<int>().max(1);
+  for (int i = 0; i < n.x(); ++i)
+    for (int j = 0; j < n.y(); ++j)
+      places.emplace_back(o.top.head<2>() +
+                          o.spacing * Eigen::Vector2d(i - 0.5 * (n.x() - 1), j - 0.5 * (n.y() - 1)));
+  return places;
+}
+
+// A square grid within the radius.
+std::vector<Eigen::Vector2d> disc_places(const EmitterOptions& o) {
   std::vector<Eigen::Vector2d> places;
   const int reach = static_cast<int>(o.radius / o.spacing) + 1;
   for (int i = -reach; i <= reach; ++i)
@@ -34,6 +45,10 @@ std::vector<Eigen::Vector2d> layer_places(const EmitterOptions& o) {
       if (offset.norm() <= o.radius) places.emplace_back(o.top.head<2>() + offset);
     }
   return places;
+}
+
+std::vector<Eigen::Vector2d> layer_places(const EmitterOptions& o) {
+  return o.half_lengths.minCoeff() > 0 ? rectangle_places(o) : disc_places(o);
 }
 
 double radius_of(const engine::RockBody& body) {
@@ -55,11 +70,12 @@ double height_over(const engine::World& world, const Eigen::Vector2d& place, dou
 
 }  // namespace
 
-Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t seed)
+Emitter::Emitter(const EmitterOptions& options, double density, std::uint64_t seed,
+                 const SizeDistribution& sizes)
     : options_(options),
       places_(layer_places(options)),
       turns_(seed),
-      sampler_(seed, density),
+      sampler_(seed, density, sizes),
       next_(sampler_.next()) {}
 
 std::vector<int> Emitter::emit(engine::World& world, const RockLibrary& library, std::vector<RockSpec>& specs,

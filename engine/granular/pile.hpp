@@ -42,15 +42,18 @@ class RockLibrary {
 struct EmitterOptions {
   Eigen::Vector3d top = {0, 0, 8};  ///< no rock is born higher [m]; x and y: middle of the layer
   double radius = 1.2;              ///< centres of new rocks lie within this radius [m]
-  double spacing = 0.91;            ///< of the places in a layer [m], at least the largest rock
-  double clearance = 0.1;           ///< free fall of a new rock's sphere onto the spheres below it [m]
-  double interval = 0.5;            ///< between two layers [s]; a rock comes to rest in about that
+  /// If positive, they lie in a rectangle of these half lengths along x and y instead [m].
+  Eigen::Vector2d half_lengths = {0, 0};
+  double spacing = 0.91;   ///< of the places in a layer [m], at least the largest rock
+  double clearance = 0.1;  ///< free fall of a new rock's sphere onto the spheres below it [m]
+  double interval = 0.5;   ///< between two layers [s]; a rock comes to rest in about that
 };
 
 /// Draws rocks and lets them go over the heap, a layer of one rock per place at a time.
 class Emitter {
  public:
-  Emitter(const EmitterOptions& options, double density, std::uint64_t seed);
+  Emitter(const EmitterOptions& options, double density, std::uint64_t seed,
+          const SizeDistribution& sizes = blasted_ore);
   /// Call once per step. When a layer is due, lets go at most `mass` [kg] (the last rock may exceed it), but
   /// nothing where the heap reaches the top. Returns the new rocks' indices.
   std::vector<int> emit(engine::World& world, const RockLibrary& library, std::vector<RockSpec>& specs,

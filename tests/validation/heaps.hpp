@@ -3,17 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <drawpoint/engine/granular/heap_surface.hpp>
 #include <drawpoint/engine/world/world.hpp>
 #include <vector>
 
-/// Heaps of rocks: how they are poured, and the shape of their surface.
+/// Heaps of rocks: how they are poured. The shape of their surface: engine/granular/heap_surface.hpp.
 ///
 /// Rocks are of one size, their six shapes in turn, turned at random (CounterRandom: the seed gives the
-/// heap). The surface over a place (x, y) is the highest rock on the vertical line there, found exactly by
-/// clipping the line against the rocks' faces. Slopes are read from the area A(z) that the surface has above
-/// height z, which needs no centre and no edge to be found: a cone has the radius √(A/π) there, a bank of
-/// width W the depth A/W, and the angle is that of the least-squares line through radius or depth against z.
-/// World frame, z up, SI units.
+/// heap), let go in layers over the highest rock that lies. World frame, z up, SI units.
 namespace drawpoint::validation {
 
 struct Pour {
@@ -42,21 +39,10 @@ int let_go_layer(engine::World& world, const Pour& options, int most);
 /// Highest centre of the rocks slower than `slower_than` [m/s]; 0 without any [m].
 double highest_rock(const engine::World& world, double slower_than);
 
-/// A rectangle of places in a square grid of 5 cm.
-struct Area {
-  double x0, x1, y0, y1;  ///< [m]
-};
-constexpr double place_spacing = 0.05;  ///< [m]
-
-/// Surface height over each place of the area [m], 0 where there is no rock.
-std::vector<double> surface_heights(const engine::World& world, const Area& area);
-double mean_height(const engine::World& world, const Area& area);  ///< [m]
-
-/// Angle [deg] of a heap that was poured on the floor anywhere, from one rock above the floor to where it is
-/// one rock in radius.
-double angle_of_cone(const engine::World& world, double size);
-/// Angle [deg] of a bank that runs down along x, from half a rock above z = 0 to one rock below `crest` [m].
-double angle_of_bank(const engine::World& world, const Area& area, double size, double crest);
+using engine::granular::angle_of_bank;
+using engine::granular::angle_of_cone;
+using engine::granular::Area;
+using engine::granular::mean_height;
 
 /// Mean and standard error of a sample of at least two.
 struct Estimate {

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What a vertical line has of a rock: it is clipped against the half-spaces of the rock's faces, which is
+/// exact for a convex polyhedron. World frame, z up, metres.
+
+#include <drawpoint/engine/world/rock.hpp>
+#include <optional>
+
+namespace drawpoint::engine::granular {
+
+/// Heights at which the line enters and leaves the rock [m].
+struct Chord {
+  double low = 0, high = 0;
+};
+
+/// Of the vertical line over (x, y); nothing where it misses the rock. A rock's shape is a polyhedron.
+std::optional<Chord> chord(const engine::Rock& rock, const Eigen::Vector2d& place);
+
+}  // namespace drawpoint::engine::granular
