@@ -35,7 +35,7 @@ constexpr const char* about =
 
 struct Settings {
   std::string piles, materials = "calibrated", speeds = "lindmark2016", curl = "hinge", lift = "surface",
-                     setting;
+                     moves = "none", setting;
   std::vector<double> alphas = {0.3, 1.0, 1.6};
   Strategy strategy = {.alpha = 1, .beta = 0.4, .gamma = 0.5, .kappa = 0.5};
   std::optional<double> rolling, spinning, steel_friction, rock_friction, mass;
@@ -67,6 +67,7 @@ Scenario scenario_of(const Settings& s) {
   if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
   if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
   if (s.speeds == "machine") scenario.executor.speeds = machine_speeds();
+  if (s.moves == "skilled") scenario.executor.moves = skilled_operator();
   return scenario;
 }
 
@@ -184,6 +185,7 @@ nlohmann::json described(const Settings& s) {
               {"speeds", s.speeds},
               {"curl", s.curl},
               {"lift", s.lift},
+              {"moves", s.moves},
               {"solved", in_words(benchmarks::described(scenario.world)) + (s.cold ? ", cold" : "")}});
   return out;
 }
@@ -218,12 +220,12 @@ void print_table(const nlohmann::json& j) {
   std::printf(
       "%s: rolling %g (steel %g), spinning %g, friction %g (steel %g); beta %g, gamma %g, kappa %g; %s "
       "speeds, "
-      "curl about the %s, lift by the %s\nsolved with %s\n",
+      "curl about the %s, lift by the %s, operator's moves: %s\nsolved with %s\n",
       of.at("materials").get<std::string>().c_str(), number(of, "rolling"), number(of, "steel_rolling"),
       number(of, "spinning"), number(of, "rock_friction"), number(of, "steel_friction"), number(of, "beta"),
       number(of, "gamma"), number(of, "kappa"), of.at("speeds").get<std::string>().c_str(),
       of.at("curl").get<std::string>().c_str(), of.at("lift").get<std::string>().c_str(),
-      of.at("solved").get<std::string>().c_str());
+      of.at("moves").get<std::string>().c_str(), of.at("solved").get<std::string>().c_str());
   for (const nlohmann::json& r : j.at("rows"))
     if (const int failed = r.at("failed").get<int>())
       std::printf("alpha %g: %d of %d runs failed and are left out\n", number(r, "alpha"), failed,
@@ -274,6 +276,12 @@ int main(int argc, char** argv) {
   app.add_option("--mass", s.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
   app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
       ->check(CLI::IsMember({"lindmark2016", "machine"}))
+      ->capture_default_str();
+  app.add_option(
+         "--moves", s.moves,
+         "what an operator does beside following the plan: none, or skilled: pulses of lift and curl when "
+         "the drive is held up, thrust while the bucket curls")
+      ->check(CLI::IsMember({"none", "skilled"}))
       ->capture_default_str();
   app.add_option("--curl", s.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")

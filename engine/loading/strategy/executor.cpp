@@ -37,6 +37,7 @@ void check(const ExecutorOptions& options) {
   require_positive("progress.angle_length [m]", options.progress.angle_length);
   const double floor = options.progress.velocity_floor, tolerance = options.progress.tolerance;
   require(floor >= 0 && floor <= 1, "progress.velocity_floor [1]", floor, "0 to 1");
+  check(options.moves);
   require(tolerance >= 0 && tolerance < 1, "progress.tolerance [1]", tolerance, "0 to below 1");
 }
 
@@ -79,7 +80,7 @@ SpeedPreset lindmark2016_speeds() {
 }
 
 Executor::Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options)
-    : plan_(plan), arm_(arm), options_(options) {
+    : plan_(plan), arm_(arm), options_(options), pulses_(options.moves) {
   if (!plan.feasible)
     throw std::invalid_argument("loading::Executor: the plan is not feasible (" + plan.message +
                                 "); end the run or plan anew");
@@ -103,8 +104,26 @@ void Executor::watch_actuators(const Observation& now) {
   slow_time_.tilt = slow_for(slow_time_.tilt, dt, set_.tilt, now.actual.tilt, options_, least.tilt);
 }
 
+// A drive that has pulses left, or that presses while the arm moves, is not stuck.
+bool Executor::drive_may_be_stuck() const {
+  const OperatorMoves& moves = options_.moves;
+  const bool arm_moves =
+      std::abs(set_.boom) > options_.least_set.boom || std::abs(set_.tilt) > options_.least_set.tilt;
+  switch (stage_) {
+    case Stage::drive_in:
+      return !pulses_.left();
+    case Stage::lift:
+      return !(moves.press && arm_moves);
+    case Stage::curl:
+      return !(moves.crowd > 0);
+    default:
+      return true;
+  }
+}
+
 bool Executor::stage_ends(const Observation& now, StageEnd& reason) const {
-  const double slowest = std::max({slow_time_.drive, slow_time_.boom, slow_time_.tilt});
+  const double slowest =
+      std::max({drive_may_be_stuck() ? slow_time_.drive : 0.0, slow_time_.boom, slow_time_.tilt});
   if (goal_reached(progress_, options_.progress)) {
     reason = StageEnd::goal;
   } else if (now.time - stage_time_ >= options_.speeds.stage_limit[number(stage_) - 1]) {
@@ -136,20 +155,30 @@ TipRates Executor::lift_rates(const TipPose& tip) const {
   return {.v_x = f * ahead.x, .v_z = f * ahead.z, .omega = g * ahead.phi};
 }
 
+ActuatorRates Executor::drive_in_speeds() const {
+  ActuatorRates rates{.drive = options_.speeds.drive_in};
+  if (pulsing_) rates.boom = options_.moves.pulse_rates.boom, rates.tilt = options_.moves.pulse_rates.tilt;
+  return rates;
+}
+
+ActuatorRates Executor::curl_speeds(const TipPose& tip) const {
+  const double f = translation_factor(progress_, options_.progress), curl = options_.speeds.curl * f;
+  ActuatorRates rates{.tilt = curl};
+  if (plan_.curl == CurlMode::tip_fixed) rates = actuator_rates(arm_, arm_pose(arm_, tip), {.omega = curl});
+  rates.drive += options_.moves.crowd * f;
+  return rates;
+}
+
 ActuatorRates Executor::set_speeds(const TipPose& tip) const {
   const double f = translation_factor(progress_, options_.progress);
   const SpeedPreset& speeds = options_.speeds;
-  const auto along_tip = [&](const TipRates& rates) {
-    return actuator_rates(arm_, arm_pose(arm_, tip), rates);
-  };
   switch (stage_) {
     case Stage::drive_in:
-      return within_limits({.drive = speeds.drive_in}, speeds.limits);
+      return within_limits(drive_in_speeds(), speeds.limits);
     case Stage::lift:
-      return within_limits(along_tip(lift_rates(tip)), speeds.limits);
+      return within_limits(actuator_rates(arm_, arm_pose(arm_, tip), lift_rates(tip)), speeds.limits);
     case Stage::curl:
-      if (plan_.curl == CurlMode::hinge_G) return within_limits({.tilt = speeds.curl * f}, speeds.limits);
-      return within_limits(along_tip({.omega = speeds.curl * f}), speeds.limits);
+      return within_limits(curl_speeds(tip), speeds.limits);
     case Stage::back_out:
       return within_limits({.drive = -speeds.back_out * f}, speeds.limits);
     case Stage::finished:
@@ -173,6 +202,7 @@ ActuatorRates Executor::step(const Observation& now) {
     results_.push_back({stage_, reason, stage_time_, now.time, progress_, stage_start_, now.tip});
     start(after(reason), now);
   }
+  pulsing_ = stage_ == Stage::drive_in && pulses_.step(now.time, slow_time_.drive);
   set_ = set_speeds(now.tip);
   return set_;
 }

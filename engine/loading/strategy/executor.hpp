@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <drawpoint/engine/loading/strategy/operator_moves.hpp>
 #include <drawpoint/engine/loading/strategy/progress.hpp>
 #include <drawpoint/engine/loading/strategy/trajectory.hpp>
 #include <string_view>
@@ -48,6 +49,7 @@ struct ExecutorOptions {
   SpeedPreset speeds = machine_speeds();
   ProgressOptions progress;
   StuckPolicy stuck = StuckPolicy::next_stage;
+  OperatorMoves moves;
   double slow_share = 0.10;                       ///< [1]
   double slow_window = 1.0;                       ///< [s]
   ActuatorRates least_set = {0.05, 0.005, 0.01};  ///< v_min of rule (c) [m/s, rad/s, rad/s]
@@ -84,8 +86,11 @@ class Executor {
  private:
   void start(Stage stage, const Observation& now);
   void watch_actuators(const Observation& now);
+  bool drive_may_be_stuck() const;
   bool stage_ends(const Observation& now, StageEnd& reason) const;
   Stage after(StageEnd reason) const;
+  ActuatorRates drive_in_speeds() const;
+  ActuatorRates curl_speeds(const TipPose& tip) const;
   ActuatorRates set_speeds(const TipPose& tip) const;
   TipRates lift_rates(const TipPose& tip) const;
 
@@ -98,6 +103,8 @@ class Executor {
   double stage_time_ = 0, last_time_ = 0, progress_ = 0;
   StageGoal goal_;
   ActuatorRates set_, slow_time_;
+  Pulses pulses_;
+  bool pulsing_ = false;
   std::vector<StageResult> results_;
 };
 
