@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <drawpoint/engine/world/world.hpp>
+#include <string>
 #include <vector>
 
 /// Heaps of rocks: how they are poured, and the shape of their surface.
@@ -15,6 +16,9 @@
 /// width W the depth A/W, and the angle is that of the least-squares line through radius or depth against z.
 /// World frame, z up, SI units.
 namespace drawpoint::validation {
+
+/// "μ = 0.9, μ_r = 0.1", with μ_r the rolling resistance.
+std::string name_of(const engine::Material& material);
 
 struct Pour {
   int rocks = 100;
