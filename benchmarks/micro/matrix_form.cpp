@@ -154,6 +154,14 @@ void MatrixForm::project(const ContactProblem& problem, VectorXd& impulses) cons
     impulses[row] = std::clamp(impulses[row], lower[row], upper[row]);
 }
 
+VectorXd MatrixForm::errors(const VectorXd& impulses, const VectorXd& x) const {
+  const VectorXd u = J * x;
+  VectorXd g = u + sigma.cwiseProduct(impulses) - b;
+  for (Index row = 0; row < pairs_begin; row += 3)
+    g[row] = std::max(g[row], u[row] - constants::push_out_speed);
+  return g;
+}
+
 SolverReport MatrixForm::store(ContactProblem& problem, const VectorXd& impulses, const VectorXd& x) const {
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     SolverBody& body = problem.bodies[k];

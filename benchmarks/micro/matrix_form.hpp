@@ -9,11 +9,11 @@
 ///
 /// Velocities x are 6 per body (linear; angular), then the machine's w. Rows of J, in this order: n, t1, t2
 /// of each point, n, t1, t2 of each pair's moment, the machine's rows. With the impulses λ by row,
-///     x = x_free + M⁻¹ Jᵀ λ,   g = J x + Σ λ − b,
-/// and the law asks for: points 0 ≤ λ_n ⊥ g_n ≥ 0 and |λ_t| ≤ μ λ_n with g_t against λ_t; pairs the same with
-/// their arms times the pair's Σ λ_n as limits; machine rows λ within [lower, upper], g complementary. Linear in λ, so
-/// the bound on the speed of pushing apart (1 m/s) is not in it: where bodies overlap by more than 20 mm at steps of 10 ms
-/// its solution parts them faster, and its distance and residual say so.
+///     x = x_free + M⁻¹ Jᵀ λ,   g = J x + Σ λ − b,   but of normals g_n = max(u + Σ λ − b, u − c), u = (J x)_n,
+/// with c = push_out_speed, beyond which overlapping bodies are not pushed apart. The law asks for: points 0 ≤ λ_n ⊥
+/// g_n ≥ 0 and |λ_t| ≤ μ λ_n with g_t against λ_t; pairs the same with their arms times the pair's Σ λ_n as limits;
+/// machine rows λ within [lower, upper], g complementary. The normals' Σ λ − min(b, Σ λ + c) grows with λ, by Σ at
+/// most: g is still the gradient of a convex function where there is no friction, with J M⁻¹ Jᵀ + Σ as its bound.
 namespace drawpoint::benchmarks {
 
 struct MatrixForm {
@@ -25,6 +25,9 @@ struct MatrixForm {
   /// Onto the limits that the law sets at the present normal impulses: λ_n ≥ 0, then the discs of friction
   /// and moments, then the machine's limits.
   void project(const engine::ContactProblem& problem, Eigen::VectorXd& impulses) const;
+
+  /// g of impulses by row whose velocities are x.
+  Eigen::VectorXd errors(const Eigen::VectorXd& impulses, const Eigen::VectorXd& x) const;
 
   /// Writes the solution into the problem, all "out" fields, and returns the machine's part.
   engine::SolverReport store(engine::ContactProblem& problem, const Eigen::VectorXd& impulses,

@@ -89,6 +89,10 @@ void add_engine_flags(CLI::App& app, EngineFlags& flags) {
                  "iterations times points up to which a substep of a small problem goes on; 0: never")
       ->check(between(0, 1e9, "", "0 keeps to --iterations"))
       ->capture_default_str();
+  app.add_option("--tolerance", flags.world.solver.tolerance,
+                 "change of an iteration, of the load, below which a substep of a small problem ends")
+      ->check(between(0, 1, "", "0.02 is the loading case's, 0 always uses up the budget"))
+      ->capture_default_str();
   add_method_flags(app, flags);
 }
 
@@ -115,6 +119,7 @@ nlohmann::json described(const engine::WorldOptions& options) {
           {"substeps", options.solver.substeps},
           {"iterations", options.solver.iterations},
           {"iteration_budget", options.solver.iteration_budget},
+          {"tolerance", options.solver.tolerance},
           {"narrow", to_string(options.contacts.narrow)},
           {"threads", options.threads},
           {"freeze", options.freezing.on ? "on" : "off"}};
@@ -123,8 +128,9 @@ nlohmann::json described(const engine::WorldOptions& options) {
 std::string in_words(const nlohmann::json& j) {
   std::ostringstream text;
   text << "dt " << 1e3 * j.at("dt_s").get<double>() << " ms, " << j.at("method").get<std::string>() << ", "
-       << j.at("substeps") << " x " << j.at("iterations") << " iterations, threads " << j.at("threads")
-       << ", freeze " << j.at("freeze").get<std::string>();
+       << j.at("substeps") << " x " << j.at("iterations") << " iterations to "
+       << j.at("tolerance").get<double>() << ", threads " << j.at("threads") << ", freeze "
+       << j.at("freeze").get<std::string>();
   return text.str();
 }
 

@@ -49,7 +49,7 @@ void add_material_flags(CLI::App& app, MaterialFlags& flags);
 
 /// The options as they go into the results.
 nlohmann::json described(const engine::WorldOptions& options);
-/// "dt 5 ms, sequential, 1 x 25 iterations, threads 1, freeze off", from described().
+/// "dt 5 ms, sequential, 1 x 25 iterations to 1e-05, threads 1, freeze off", from described().
 std::string in_words(const nlohmann::json& described);
 
 /// --json, whose help it is.

@@ -7,6 +7,8 @@
 #include <drawpoint/engine/collision/fcl_signed_distance.h>
 #include <drawpoint/engine/geometry/hull_extremes.h>
 
+#include <cmath>
+
 namespace drawpoint::engine::detail {
 namespace {
 
@@ -42,6 +44,41 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point)
   to_ccd(body.pose * body.hull.vertices[static_cast<std::size_t>(lowest(body.hull, -local).vertex)], point);
 }
 
+// libccd's polytope, which EPA grows in memory of its own.
+class Polytope {
+ public:
+  Polytope() { ccdPtInit(&polytope_); }
+  ~Polytope() { ccdPtDestroy(&polytope_); }
+  Polytope(const Polytope&) = delete;
+  Polytope& operator=(const Polytope&) = delete;
+
+  ccd_pt_t* get() { return &polytope_; }
+
+ private:
+  ccd_pt_t polytope_;
+};
+
+// FCL's ccdGJKSignedDist(), which does not free the polytope when EPA throws.
+double signed_distance(const Body& a, const Body& b, const ccd_t& ccd, SignedDistance& result) {
+  namespace ccd_extension = fcl::detail::libccd_extension;
+  ccd_vec3_t on_a, on_b;
+  to_ccd(Vector3d::Zero(), &on_a), to_ccd(Vector3d::Zero(), &on_b);
+  ccd_simplex_t simplex;
+  double value = -1;  // EPA's word for no answer
+  if (ccd_extension::__ccdGJK(&a, &b, &ccd, &simplex) != 0) {
+    value = ccd_extension::_ccdDist(&a, &b, &ccd, &simplex, &on_a, &on_b);
+  } else {
+    Polytope polytope;
+    ccd_pt_el_t* nearest = nullptr;
+    if (ccd_extension::__ccdEPA(&a, &b, &ccd, &simplex, polytope.get(), &nearest) == 0 && nearest) {
+      value = -std::sqrt(nearest->dist);
+      ccd_extension::penEPAPosClosest(nearest, &on_a, &on_b);
+    }
+  }
+  result.on_a = from_ccd(on_a), result.on_b = from_ccd(on_b);
+  return value;
+}
+
 }  // namespace
 
 SignedDistance fcl_signed_distance(const HullPair& pair, const Vector3d& guess, double tolerance) {
@@ -52,11 +89,8 @@ SignedDistance fcl_signed_distance(const HullPair& pair, const Vector3d& guess, 
   ccd.first_dir = first_direction;
   ccd.max_iterations = most_iterations;
   ccd.dist_tolerance = ccd.epa_tolerance = tolerance;
-  ccd_vec3_t on_a, on_b;
-  to_ccd(Vector3d::Zero(), &on_a), to_ccd(Vector3d::Zero(), &on_b);
   SignedDistance result;
-  result.value = fcl::detail::libccd_extension::ccdGJKSignedDist(&a, &b, &ccd, &on_a, &on_b);
-  result.on_a = from_ccd(on_a), result.on_b = from_ccd(on_b);
+  result.value = signed_distance(a, b, ccd, result);
   result.ended = a.supports <= most_supports && b.supports <= most_supports;
   return result;
 }

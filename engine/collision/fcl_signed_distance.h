@@ -8,11 +8,12 @@
 /// FCL's signed distance of two convex polyhedra on libccd: GJK, and EPA where they overlap, with the engine's own
 /// support mapping.
 ///
-/// It is what fcl::distance() runs for GST_LIBCCD with enable_signed_distance, without three of its faults: Debian's
+/// It is what fcl::distance() runs for GST_LIBCCD with enable_signed_distance, without four of its faults: Debian's
 /// library keeps its assertions, and a failed one ends the program (here they are off, and the caller checks the
 /// answer); its EPA loop has no limit and may never end (here the support mapping ends it: after `most_supports` both
 /// shapes are at the origin, which EPA takes for convergence); it ignores a cached guess (here it is the first
-/// direction). A's frame, metres. Cost: 2 to 4 µs for rocks.
+/// direction); where its EPA throws it leaves its polytope allocated (here it is freed). A's frame, metres.
+/// Cost: 2 to 4 µs for rocks.
 namespace drawpoint::engine::detail {
 
 struct SignedDistance {

@@ -50,6 +50,7 @@ TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
   EXPECT_EQ(j.at("method"), to_string(options.solver.method));
   EXPECT_EQ(j.at("substeps"), options.solver.substeps);
   EXPECT_EQ(j.at("iterations"), options.solver.iterations);
+  EXPECT_EQ(j.at("tolerance"), options.solver.tolerance);
   EXPECT_EQ(j.at("threads"), options.threads);
   EXPECT_EQ(j.at("freeze"), options.freezing.on ? "on" : "off");
 }
@@ -69,8 +70,8 @@ TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
   const nlohmann::json once = hash("");
   EXPECT_EQ(hash(""), once);
   EXPECT_EQ(hash(" --threads 2"), once);
-  for (const char* flags :
-       {" --seed 2", " --rolling 0", " --spinning 0.1", " --iterations 10", " --substeps 2", " --dt 0.004"})
+  for (const char* flags : {" --seed 2", " --rolling 0", " --spinning 0.1", " --iterations 10",
+                            " --substeps 2", " --dt 0.004", " --tolerance 0.02"})
     EXPECT_NE(hash(flags), once) << flags;
 }
 
@@ -85,6 +86,7 @@ TEST_F(ScenarioCommands, PileWithoutJsonPrintsATable) {
   const Ended run = this->run(pile + " --rocks 5 --settle 5 --steps 5 --dig 5");
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "5 rocks"));
+  EXPECT_TRUE(contains(run.out, "16 x 1 iterations to 1e-05"));
   EXPECT_TRUE(contains(run.out, "ms per step"));
 }
 

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/tests/support/rocks.hpp>
 #include <drawpoint/tests/validation/heaps.hpp>
@@ -21,6 +23,12 @@ bool free_place(const engine::World& world, const Vector3d& place, double size) 
 }
 
 }  // namespace
+
+std::string name_of(const engine::Material& material) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "μ = %g, μ_r = %g", material.friction, material.rolling);
+  return text.data();
+}
 
 double highest_rock(const engine::World& world, double slower_than) {
   double top = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <drawpoint/engine/granular/heap_surface.hpp>
 #include <drawpoint/engine/world/world.hpp>
+#include <string>
 #include <vector>
 
 /// Heaps of rocks: how they are poured. The shape of their surface: engine/granular/heap_surface.hpp.
@@ -12,6 +13,9 @@
 /// Rocks are of one size, their six shapes in turn, turned at random (CounterRandom: the seed gives the
 /// heap), let go in layers over the highest rock that lies. World frame, z up, SI units.
 namespace drawpoint::validation {
+
+/// "μ = 0.9, μ_r = 0.1", with μ_r the rolling resistance.
+std::string name_of(const engine::Material& material);
 
 struct Pour {
   int rocks = 100;

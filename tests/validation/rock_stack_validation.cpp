@@ -16,7 +16,8 @@ namespace {
 const validation::Problem rock_stack{
     "rock_stack", validation::Group::assembly, "Stack of ten blocks",
     "Ten cubes of 0.3 m and 67.5 kg, one on the other on the floor, let go with all faces just touching, for "
-    "10 s with default steps and iterations; once with a stiffness of 1e9 N/m and once with 1e7 "
+    "10 s with default steps and iterations, friction 0.8 and no rolling resistance; once with a stiffness "
+    "of 1e9 N/m and once with 1e7 "
     "N/m."};
 
 constexpr int n = 10;

@@ -32,7 +32,7 @@ class Apgd {
   }
 
   void step() {
-    const VectorXd gradient = form_.J * x_y_ + form_.sigma.cwiseProduct(y_) - form_.b;
+    const VectorXd gradient = form_.errors(y_, x_y_);
     VectorXd next, moved, change;
     for (;; bound_ *= 2) {
       next = y_ - form_.step_size.cwiseProduct(gradient) / bound_;
@@ -60,7 +60,7 @@ class Apgd {
   VectorXd pushed_by(const VectorXd& impulses) const {
     return form_.inverse_mass * (form_.J.transpose() * impulses);
   }
-  // dᵀ (J M⁻¹ Jᵀ + Σ) d, and dᵀ D⁻¹ d over the rows that answer.
+  // dᵀ (J M⁻¹ Jᵀ + Σ) d, which is at least what the gradient changes by along d, and dᵀ D⁻¹ d over the rows that answer.
   double curvature(const VectorXd& d, const VectorXd& change) const {
     return d.dot(form_.J * change) + d.cwiseAbs2().dot(form_.sigma);
   }
