@@ -106,6 +106,13 @@ void LoadingRun::describe() {
                   {"set_lift", s.executor.speeds.lift},
                   {"set_curl", s.executor.speeds.curl},
                   {"set_back_out", s.executor.speeds.back_out},
+                  {"most_pulses", s.executor.moves.most_pulses},
+                  {"held_up", s.executor.moves.held_up},
+                  {"pulse", s.executor.moves.pulse},
+                  {"pulse_boom", s.executor.moves.pulse_rates.boom},
+                  {"pulse_tilt", s.executor.moves.pulse_rates.tilt},
+                  {"press", s.executor.moves.press ? 1.0 : 0.0},
+                  {"crowd", s.executor.moves.crowd},
                   {"wheel_torque_limit", s.machine.wheel_torque},
                   {"lift_cylinder_limit", s.machine.lift_cylinder_force},
                   {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
