@@ -5,6 +5,7 @@
 
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_headlines.h>
+#include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/studies/study.hpp>
 
@@ -18,16 +19,8 @@ const doe::Problem problem{.variables = {{"alpha", "1", 0.2, 2.0},
                                          {"joint_damage", "s", doe::Goal::minimize},
                                          {"rock_spill", "1", doe::Goal::minimize}}};
 
-engine::loading::Scenario scenario_of(const studies::RunContext& run) {
-  engine::loading::Scenario scenario = engine::loading::lh621_in_a_drift();
-  scenario.materials = engine::loading::materials_named(run.options.at("materials"));
-  scenario.cycles = std::stoi(run.options.at("cycles"));
-  scenario.pile_file = run.shared / "pile.h5";
-  return scenario;
-}
-
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
-  engine::loading::Scenario scenario = scenario_of(run);
+  engine::loading::Scenario scenario = studies::loading_scenario(run);
   scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
   scenario.seed = seed;
   scenario.log_file = run.log;
@@ -44,13 +37,9 @@ int main(int argc, char** argv) {
        .black_box = load,
        .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
        .defaults = {.runs = 40, .validation = 12},
-       .options =
-           {{"materials",
-             "contact coefficients",
-             "calibrated",
-             {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
-            {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000}},
-       .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
+       .options = studies::loading_options(),
+       .prepare =
+           [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,
        .headlines = studies::loading_headlines});
 }

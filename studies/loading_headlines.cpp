@@ -3,11 +3,14 @@
 
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/engine/loading/run_measures.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 namespace drawpoint::studies {
@@ -67,6 +70,69 @@ Headline noise_of(const std::string& response, const std::string& unit, const Sc
           "standard error of a run, from the scatter of its " + std::to_string(s.cycles) + " cycles" + share};
 }
 
+/// Of a run: what is summed over the runs, and what that is shared among.
+struct Part {
+  double of, among = 1;
+};
+
+/// Σ of / Σ among over the runs: the mean of a measure, or the ratio of two.
+class OverRuns {
+ public:
+  OverRuns(Headline told, std::function<Part(const LoadingLog&)> measure)
+      : told_(std::move(told)), measure_(std::move(measure)) {}
+
+  void add(const LoadingLog& log) {
+    try {
+      const Part part = measure_(log);
+      of_ += part.of;
+      among_ += part.among;
+    } catch (const std::invalid_argument&) {
+      lacking_ = true;
+    }
+  }
+  Headline headline() const {
+    const auto unknown = [&](const char* why) -> Headline {
+      return {told_.name, told_.unit, std::nan(""), why};
+    };
+    if (lacking_) return unknown("some logs lack what it takes: of an older version");
+    if (!(among_ > 0)) return unknown("nothing was loaded");
+    return {told_.name, told_.unit, of_ / among_, told_.note};
+  }
+
+ private:
+  Headline told_;
+  std::function<Part(const LoadingLog&)> measure_;
+  double of_ = 0, among_ = 0;
+  bool lacking_ = false;
+};
+
+Part energy_and_tonnes(const LoadingLog& log) {
+  Part part{0, 0};
+  for (const double energy : engine::loading::energy_by_cycle(log)) part.of += energy;
+  for (const auto& cycle : log.cycles) part.among += cycle.loaded_mass / 1000;
+  return part;
+}
+
+std::vector<OverRuns> measures() {
+  namespace loading = engine::loading;
+  const auto mean_of = [](double (*measure)(const LoadingLog&)) {
+    return [measure](const LoadingLog& log) { return Part{measure(log)}; };
+  };
+  return {{{"cycle_time", "s", 0, "from the start of stage 1 to the end of stage 4"},
+           mean_of(loading::cycle_time)},
+          {{"solid_fill", "1", 0, "volume of the loaded rocks over the struck volume of the bucket"},
+           mean_of(loading::solid_fill)},
+          {{"energy_per_tonne", "kJ/t", 0, "positive work of drive, lift and tilt over what was loaded"},
+           energy_and_tonnes},
+          {{"tracking_error", "m", 0,
+            "of the cutting edge from the planned path, stages 1 to 3, root mean square"},
+           mean_of(loading::tracking_error)},
+          {{"wheel_slip", "1", 0, "share of the set drive speed that the machine lacks"},
+           mean_of(loading::wheel_slip)},
+          {{"peak_pin_force", "kN", 0, "in the bucket's pin, low-passed at 20 Hz, mean of the cycles' peaks"},
+           [](const LoadingLog& log) { return Part{loading::peak_pin_force(log)}; }}};
+}
+
 }  // namespace
 
 std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs) {
@@ -74,6 +140,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   double fill = 0, most_fill = 0, stalls = 0;
   Scatter production, damage, spill;
   Headline pile;
+  std::vector<OverRuns> others = measures();
   for (const auto& file : logs) {
     const LoadingLog log = engine::loading::read_log(file);
     if (pile.name.empty()) pile = pile_of(log);
@@ -84,15 +151,19 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     production.add(production_by_cycle(log), engine::loading::production(log));
     damage.add(joint_damage_by_cycle(log), joint_damage(log));
     spill.add(rock_spill_by_cycle(log), rock_spill(log));
+    for (OverRuns& measure : others) measure.add(log);
   }
   char best[64];
   std::snprintf(best, sizeof best, "loaded mass over the rated payload; %.2f in the best run", most_fill);
-  return {{"fill_factor", "1", fill, best},
-          {"stall_share", "1", stalls, "drive-ins that ended before their goal, by time or a slow actuator"},
-          pile,
-          noise_of("production", "kg/s", production, Over::mean),
-          noise_of("joint_damage", "s", damage, Over::sum),
-          noise_of("rock_spill", "1", spill, Over::mean)};
+  std::vector<Headline> said = {
+      {"fill_factor", "1", fill, best},
+      {"stall_share", "1", stalls, "drive-ins that ended before their goal, by time or a slow actuator"},
+      noise_of("production", "kg/s", production, Over::mean),
+      noise_of("joint_damage", "s", damage, Over::sum),
+      noise_of("rock_spill", "1", spill, Over::mean),
+      pile};
+  for (const OverRuns& measure : others) said.push_back(measure.headline());
+  return said;
 }
 
 }  // namespace drawpoint::studies

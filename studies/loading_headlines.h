@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the loading study says first: does the bucket fill, do drive-ins stall, how noisy are the responses.
+/// What the loading study says first: does the bucket fill, do drive-ins stall, how noisy are the responses;
+/// then how the pile lies and what a cycle costs.
 
 #include <drawpoint/studies/headline.hpp>
 
@@ -10,9 +11,9 @@
 
 namespace drawpoint::studies {
 
-/// From the run logs: fill factor and share of stalled drive-ins, means over all cycles; the angle at which
-/// the pile lies at the start; and the noise of each response, by the scatter s of its n cycles within a run:
-/// s/√n for a mean over the cycles, s·√n for a sum, pooled over the runs. That is the noise of a run if its
+/// From the run logs: fill factor and share of stalled drive-ins, means over all cycles; the noise of each
+/// response; the angle at which the pile lies at the start; and the measures of run_measures.hpp, means over the
+/// runs, unknown where a log lacks what they take. Noise is by the scatter s of the n cycles within a run: s/√n for a mean over the cycles, s·√n for a sum, pooled over the runs. That is the noise of a run if its
 /// cycles are independent draws. They are not quite: all runs share the first pile, the second cycle finds
 /// another (more scatter), and spilled rock stays (less). Runs of one cycle tell none. Throws
 /// std::runtime_error if a log cannot be read.

@@ -284,6 +284,14 @@ bool inside_polygon(const std::vector<Vector2d>& polygon, const Vector2d& p) {
   return inside;
 }
 
+// Shoelace formula; positive counter-clockwise.
+double polygon_area(const std::vector<Vector2d>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    twice += polygon[j].x() * polygon[i].y() - polygon[i].x() * polygon[j].y();
+  return twice / 2;
+}
+
 }  // namespace
 
 Lhd sandvik_lh621(const LhdOptions& options) { return Builder(options).build(); }
@@ -295,6 +303,9 @@ std::vector<Vector2d> heaped_profile(const Lhd& lhd) {
   heaped.insert(heaped.begin() + 1, edge + 0.5 * opening + outward * (opening.norm() / 4));
   return heaped;
 }
+
+double struck_volume(const Lhd& lhd) { return polygon_area(lhd.bucket_profile) * lhd.bucket_width; }
+double heaped_volume(const Lhd& lhd) { return polygon_area(heaped_profile(lhd)) * lhd.bucket_width; }
 
 bool in_heaped_bucket(const Lhd& lhd, const Vector3d& p_M) {
   return std::abs(p_M.y()) <= lhd.bucket_width / 2 && inside_polygon(heaped_profile(lhd), {p_M.x(), p_M.z()});

@@ -76,6 +76,10 @@ Lhd sandvik_lh621(const LhdOptions& options = {});
 /// The bucket's profile with a 2:1 heap on the plane between the cutting edge and the top lip.
 std::vector<Eigen::Vector2d> heaped_profile(const Lhd& lhd);
 
+/// What lies between the side walls, inside the profile and inside the heaped profile [m³].
+double struck_volume(const Lhd& lhd);
+double heaped_volume(const Lhd& lhd);
+
 /// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket.
 bool in_heaped_bucket(const Lhd& lhd, const Eigen::Vector3d& p_M);
 

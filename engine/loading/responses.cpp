@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/cycle_samples.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <drawpoint/engine/loading/responses.hpp>
-#include <numbers>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 
 namespace drawpoint::engine::loading {
@@ -32,51 +30,6 @@ double duration(const CycleRecord& cycle) {
     throw std::invalid_argument("loading::production: a cycle lasts " + std::to_string(seconds) +
                                 " s; a cycle's t_end [s] must be after its t_start [s]");
   return seconds;
-}
-
-// The torque signal, row by row.
-class TorqueSignal {
- public:
-  explicit TorqueSignal(const record::Table& signals)
-      : signals_(signals),
-        time_(signals.index("time")),
-        torque_{signals.index("hinge_G_torque_x"), signals.index("hinge_G_torque_y"),
-                signals.index("hinge_G_torque_z")},
-        cycle_(signals.has("cycle") ? signals.index("cycle") : time_),
-        has_cycle_(signals.has("cycle")) {}
-
-  std::size_t rows() const { return signals_.rows(); }
-  double time(std::size_t row) const { return signals_.at(row, time_); }
-  Vector3d torque(std::size_t row) const {
-    return {signals_.at(row, torque_[0]), signals_.at(row, torque_[1]), signals_.at(row, torque_[2])};
-  }
-  /// Whether a row begins a cycle's samples.
-  bool begins(std::size_t row) const {
-    return row == 0 || (has_cycle_ && signals_.at(row, cycle_) != signals_.at(row - 1, cycle_));
-  }
-  /// The time that a sample stands for [s].
-  double weight(std::size_t row) const {
-    if (!begins(row)) return time(row) - time(row - 1);
-    const bool alone = row + 1 >= rows() || begins(row + 1);
-    return alone ? 0.0 : time(row + 1) - time(row);
-  }
-
- private:
-  const record::Table& signals_;
-  std::size_t time_;
-  std::array<std::size_t, 3> torque_;
-  std::size_t cycle_;
-  bool has_cycle_;
-};
-
-// The cycle that a sample counts for; none between cycles. A sample at the start of a cycle stands for the
-// time before it, unless it is the first of its samples.
-std::optional<std::size_t> cycle_of(const LoadingLog& log, double time, bool begins) {
-  for (std::size_t k = 0; k < log.cycles.size(); ++k) {
-    const CycleRecord& cycle = log.cycles[k];
-    if ((begins ? time >= cycle.t_start : time > cycle.t_start) && time <= cycle.t_end) return k;
-  }
-  return {};
 }
 
 double mean(const std::vector<double>& values) {
@@ -113,16 +66,12 @@ std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOpt
   if (!(options.lowpass_hz >= 0))
     throw std::invalid_argument("loading::DamageOptions: lowpass_hz [Hz] is " +
                                 std::to_string(options.lowpass_hz) + "; give 0 (none) or more");
-  const TorqueSignal signal(log.signals);
+  const CycleSamples samples(log);
+  LowPassedVector torque(log, "hinge_G_torque", options.lowpass_hz);
   std::vector<double> damage(log.cycles.size());
-  Vector3d filtered = Vector3d::Zero();
-  for (std::size_t row = 0; row < signal.rows(); ++row) {
-    const double dt = signal.weight(row);
-    const bool direct = signal.begins(row) || options.lowpass_hz == 0;
-    const double share = direct ? 1.0 : -std::expm1(-2 * std::numbers::pi * options.lowpass_hz * dt);
-    filtered += share * (signal.torque(row) - filtered);
-    if (const auto cycle = cycle_of(log, signal.time(row), signal.begins(row)))
-      damage[*cycle] += std::max(magnitude(filtered, options.component) / options.tau_y - 1, 0.0) * dt;
+  for (std::size_t row = 0; row < samples.rows(); ++row) {
+    const double excess = magnitude(torque.next(samples), options.component) / options.tau_y - 1;
+    if (const auto cycle = samples.cycle(row)) damage[*cycle] += std::max(excess, 0.0) * samples.weight(row);
   }
   return damage;
 }

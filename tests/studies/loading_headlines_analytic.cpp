@@ -93,6 +93,25 @@ TEST_F(LoadingHeadlines, OneCycleTellsNoNoise) {
   EXPECT_NE(of.at("noise_of_production").note.find("--cycles 2"), std::string::npos);
 }
 
+// What these logs know is told, what they lack is unknown with the reason: no signals of the drives.
+TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
+  const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
+  EXPECT_DOUBLE_EQ(of.at("cycle_time").value, 10);
+  for (const char* name :
+       {"solid_fill", "energy_per_tonne", "tracking_error", "wheel_slip", "peak_pin_force"}) {
+    EXPECT_TRUE(std::isnan(of.at(name).value)) << name;
+    EXPECT_NE(of.at(name).note.find("lack"), std::string::npos) << name;
+  }
+}
+
+TEST_F(LoadingHeadlines, FillStallsAndNoiseComeFirst) {
+  write_log(place_ / "run.h5", log_of({cycle(0, 4e3, 0, StageEnd::goal)}));
+  const auto said = loading_headlines({place_ / "run.h5"});
+  EXPECT_EQ(said[0].name, "fill_factor");
+  EXPECT_EQ(said[1].name, "stall_share");
+  EXPECT_EQ(said[2].name, "noise_of_production");
+}
+
 TEST_F(LoadingHeadlines, NoRunsNoHeadlines) { EXPECT_TRUE(told({}).empty()); }
 
 }  // namespace

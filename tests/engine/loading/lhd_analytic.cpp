@@ -221,3 +221,11 @@ TEST(HeapedBucket, HoldsTheProfileAndTheHeapOnly) {
       hits += in_heaped_bucket(lhd, {2.0 + 2.5 * (i + 0.5) / n, 0, 2.5 * (k + 0.5) / n});
   EXPECT_NEAR(hits * 6.25 / (n * n) * lhd.bucket_width, 7.9, 0.1);
 }
+
+// Profile of straight pieces, by the shoelace formula 1.95215 m²; the heap is a triangle on the opening √(1² +
+// 1.75²) m long, a quarter of that high: 4.0625 / 8 m². Both times a width of 3.2 m; round-off of some sums.
+TEST(HeapedBucket, VolumesAreAreasTimesTheWidth) {
+  const Lhd lhd = sandvik_lh621();
+  EXPECT_NEAR(struck_volume(lhd), 3.2 * 1.95215, 1e-12);
+  EXPECT_NEAR(heaped_volume(lhd), 3.2 * (1.95215 + 4.0625 / 8), 1e-12);
+}

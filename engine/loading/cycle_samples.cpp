@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/cycle_samples.h>
+#include <cmath>
+#include <numbers>
+
+namespace drawpoint::engine::loading {
+
+CycleSamples::CycleSamples(const LoadingLog& log)
+    : log_(log),
+      time_(log.signals.index("time")),
+      cycle_(log.signals.has("cycle") ? log.signals.index("cycle") : time_),
+      has_cycle_(log.signals.has("cycle")) {}
+
+bool CycleSamples::begins(std::size_t row) const {
+  return row == 0 || (has_cycle_ && log_.signals.at(row, cycle_) != log_.signals.at(row - 1, cycle_));
+}
+
+double CycleSamples::weight(std::size_t row) const {
+  if (!begins(row)) return time(row) - time(row - 1);
+  const bool alone = row + 1 >= rows() || begins(row + 1);
+  return alone ? 0.0 : time(row + 1) - time(row);
+}
+
+std::optional<std::size_t> CycleSamples::cycle(std::size_t row) const {
+  const bool first = begins(row);
+  for (std::size_t k = 0; k < log_.cycles.size(); ++k) {
+    const CycleRecord& cycle = log_.cycles[k];
+    if ((first ? time(row) >= cycle.t_start : time(row) > cycle.t_start) && time(row) <= cycle.t_end)
+      return k;
+  }
+  return {};
+}
+
+LowPassedVector::LowPassedVector(const LoadingLog& log, const std::string& name, double corner)
+    : signals_(log.signals),
+      columns_{signals_.index(name + "_x"), signals_.index(name + "_y"), signals_.index(name + "_z")},
+      corner_(corner) {}
+
+const Eigen::Vector3d& LowPassedVector::next(const CycleSamples& samples) {
+  const bool direct = samples.begins(row_) || corner_ == 0;
+  const double share = direct ? 1.0 : -std::expm1(-2 * std::numbers::pi * corner_ * samples.weight(row_));
+  const Eigen::Vector3d raw(signals_.at(row_, columns_[0]), signals_.at(row_, columns_[1]),
+                            signals_.at(row_, columns_[2]));
+  value_ += share * (raw - value_);
+  ++row_;
+  return value_;
+}
+
+}  // namespace drawpoint::engine::loading

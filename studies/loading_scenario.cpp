@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/studies/loading_scenario.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+using engine::loading::Scenario;
+
+const std::string& chosen(const RunContext& run, const std::string& option) {
+  const auto found = run.options.find(option);
+  if (found == run.options.end())
+    throw std::invalid_argument("studies::loading_scenario: option \"" + option +
+                                "\" has no value; give one for each of loading_options()");
+  return found->second;
+}
+
+/// Whether an option has the second of its two values.
+bool second_of(const RunContext& run, const std::string& option, const char* first, const char* second) {
+  const std::string& value = chosen(run, option);
+  if (value != first && value != second)
+    throw std::invalid_argument("studies::loading_scenario: option \"" + option + "\" is \"" + value +
+                                "\"; choose " + first + " or " + second);
+  return value == second;
+}
+
+}  // namespace
+
+std::vector<StudyOption> loading_options() {
+  return {{"materials",
+           "contact coefficients",
+           "calibrated",
+           {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
+          {"scene",
+           "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m",
+           "small",
+           {"small", "lindmark2016"}},
+          {"speeds",
+           "what drive, boom and bucket are set to: for the 12 s cycles of Lindmark (2016), or what the "
+           "machine can do",
+           "lindmark2016",
+           {"lindmark2016", "machine"}},
+          {"operator",
+           "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
+           "plan",
+           {"plan", "skilled"}},
+          {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000}};
+}
+
+Scenario loading_scenario(const RunContext& run) {
+  Scenario scenario = second_of(run, "scene", "small", "lindmark2016")
+                          ? engine::loading::lh621_at_lindmark2016_scale()
+                          : engine::loading::lh621_in_a_drift();
+  scenario.executor.speeds = second_of(run, "speeds", "lindmark2016", "machine")
+                                 ? engine::loading::machine_speeds()
+                                 : engine::loading::lindmark2016_speeds();
+  if (second_of(run, "operator", "plan", "skilled"))
+    scenario.executor.moves = engine::loading::skilled_operator();
+  scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
+  scenario.cycles = std::stoi(chosen(run, "cycles"));
+  scenario.pile_file = run.shared / "pile.h5";
+  return scenario;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// The measures of a run on hand-made logs whose values are known in closed form. Sums of 100 to 200 terms of
+// order 1 are off by some 1e-14; 1e-12 leaves room.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/engine/loading/run_measures.hpp>
+#include <drawpoint/tests/support/told.hpp>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+using namespace drawpoint;
+using namespace drawpoint::engine;
+using namespace drawpoint::engine::loading;
+
+namespace {
+
+constexpr double h = 0.01, round_off = 1e-12;
+constexpr const char* names[] = {
+    "time",       "cycle",        "stage",           "tip_x",           "tip_z",
+    "drive_set",  "drive_speed",  "lift_speed",      "lift_force",      "tilt_speed",
+    "tilt_force", "wheel_torque", "hinge_G_force_x", "hinge_G_force_y", "hinge_G_force_z"};
+using Row = std::map<std::string, double>;
+
+// Two cycles of 1 s, from 0 and from 10 s, of 100 samples each; `of` gives the signals at a time within a
+// cycle, those it leaves out are 0.
+LoadingLog log_with(const std::function<Row(double t, int cycle)>& of) {
+  LoadingLog log;
+  log.numbers = {{"tyre_radius", 1.0}, {"density", 4500}, {"bucket_struck_volume", 6}};
+  for (const char* name : names) log.signals.columns.push_back({name, "1"});
+  for (int c = 1; c <= 2; ++c) {
+    CycleRecord cycle;
+    cycle.t_start = 10 * (c - 1);
+    cycle.t_end = cycle.t_start + 1;
+    cycle.loaded_mass = 1000 * c;
+    cycle.planned_x = {0, 1, 1, 0};  // in, up, and out again
+    cycle.planned_z = {0, 0, 1, 1};
+    log.cycles.push_back(cycle);
+    for (int k = 1; k <= 100; ++k) {
+      Row row = of(k * h, c);
+      row["time"] = cycle.t_start + k * h;
+      row["cycle"] = c;
+      std::vector<double> values;
+      for (const char* name : names) values.push_back(row[name]);
+      log.signals.append_row(values);
+    }
+    log.cycles.back().t_end = log.signals.at(log.signals.rows() - 1, 0);
+  }
+  return log;
+}
+
+TEST(RunMeasures, CycleTimeAndSolidFill) {
+  const LoadingLog log = log_with([](double, int) { return Row{}; });
+  EXPECT_DOUBLE_EQ(cycle_time(log), 1);
+  EXPECT_DOUBLE_EQ(solid_fill_by_cycle(log)[1], 2000.0 / (4500 * 6));
+  EXPECT_DOUBLE_EQ(solid_fill(log), 1500.0 / (4500 * 6));
+}
+
+// Drive 30 kN m over a radius of 1 m at 1 m/s, lift 20 kN at 0.5 m/s: 40 kJ in the first cycle of 1 s. The
+// second lowers the arm, which costs nothing, and tilts with 5 kN at 2 m/s: 30 + 10 kJ. 1 and 2 t.
+TEST(RunMeasures, EnergyIsThePositiveWorkOfEachDrive) {
+  LoadingLog log = log_with([](double, int cycle) {
+    return Row{{"wheel_torque", 30e3}, {"drive_speed", 1},
+               {"lift_force", 20e3},   {"lift_speed", cycle == 1 ? 0.5 : -0.5},
+               {"tilt_force", -5e3},   {"tilt_speed", cycle == 1 ? 2.0 : -2.0}};
+  });
+  EXPECT_NEAR(energy_by_cycle(log)[0], 40, 40 * round_off);
+  EXPECT_NEAR(energy_by_cycle(log)[1], 40, 40 * round_off);
+  EXPECT_NEAR(energy_per_tonne_by_cycle(log)[1], 20, 20 * round_off);
+  EXPECT_NEAR(energy_per_tonne(log), 80.0 / 3, 40 * round_off);
+  log.numbers["tyre_radius"] = 0.5;
+  EXPECT_NEAR(energy_by_cycle(log)[0], 70, 70 * round_off);
+  log.cycles[0].loaded_mass = log.cycles[1].loaded_mass = 0;
+  EXPECT_TRUE(std::isinf(energy_per_tonne(log)));
+}
+
+// 0.3 m above the first leg for half of the time, 0.4 m beyond the second for the rest: √((0.09 + 0.16) / 2).
+// What the fourth stage does, and the leg on which it backs out, do not count.
+TEST(RunMeasures, TrackingErrorIsTheDistanceFromThePath) {
+  const LoadingLog log = log_with([](double t, int cycle) {
+    if (cycle == 2)
+      return t < 0.5 + h / 2 ? Row{{"stage", 2}, {"tip_z", 1}} : Row{{"stage", 4}, {"tip_z", 9}};
+    if (t < 0.5 + h / 2) return Row{{"stage", 1}, {"tip_x", t}, {"tip_z", 0.3}};
+    return Row{{"stage", 3}, {"tip_x", 1.4}, {"tip_z", 0.5}};
+  });
+  EXPECT_NEAR(tracking_error_by_cycle(log)[0], std::sqrt(0.125), round_off);
+  EXPECT_NEAR(tracking_error_by_cycle(log)[1], 1, round_off);  // (0, 1) is on the last leg, 1 m from the rest
+  EXPECT_NEAR(tracking_error(log), (1 + std::sqrt(0.125)) / 2, round_off);
+}
+
+// Half the set speed for half of the time, all of it for the rest; a set speed that is next to nothing, or
+// backward, is left out.
+TEST(RunMeasures, SlipIsTheSpeedThatIsMissing) {
+  const LoadingLog log = log_with([](double t, int cycle) {
+    if (cycle == 2) return Row{{"drive_set", t < 0.5 ? 0.04 : -1.0}};
+    return Row{{"drive_set", 2}, {"drive_speed", t < 0.5 + h / 2 ? 1.0 : 2.0}};
+  });
+  EXPECT_NEAR(wheel_slip_by_cycle(log)[0], 0.25, round_off);
+  EXPECT_EQ(wheel_slip_by_cycle(log)[1], 0);
+}
+
+// Of a step from 0 to (30, 0, 40) kN after the first sample: 50 (1 − qⁿ) after n = 99 samples, q = exp(−2π f h).
+TEST(RunMeasures, PinForceIsLowPassed) {
+  const LoadingLog log = log_with([](double t, int) {
+    return t < 1.5 * h ? Row{} : Row{{"hinge_G_force_x", 30e3}, {"hinge_G_force_z", -40e3}};
+  });
+  EXPECT_NEAR(peak_pin_force(log, 0), 50, 50 * round_off);
+  EXPECT_NEAR(peak_pin_force(log, 0.5), 50 * (1 - std::exp(-2 * std::numbers::pi * 0.5 * 99 * h)),
+              50 * round_off);
+  EXPECT_NEAR(peak_pin_force_by_cycle(log)[1], 50, 50 * round_off);  // the default forgets within the cycle
+}
+
+TEST(RunMeasures, SayWhatIsMissing) {
+  LoadingLog log = log_with([](double, int) { return Row{}; });
+  log.numbers.erase("tyre_radius");
+  support::expect_told<std::invalid_argument>([&] { energy_per_tonne(log); }, {"tyre_radius [m]"});
+  log.numbers.erase("bucket_struck_volume");
+  support::expect_told<std::invalid_argument>([&] { solid_fill(log); }, {"bucket_struck_volume [m3]"});
+  log.cycles[1].planned_x.clear();
+  support::expect_told<std::invalid_argument>([&] { tracking_error(log); }, {"planned path"});
+  support::expect_told<std::invalid_argument>([&] { peak_pin_force(log, -1); }, {"lowpass_hz [Hz] is -1"});
+  log.signals.columns[5].name = "something";
+  support::expect_told<std::invalid_argument>([&] { wheel_slip(log); }, {"no column \"drive_set\""});
+  support::expect_told<std::invalid_argument>([] { cycle_time(LoadingLog()); }, {"the log has no cycle"});
+}
+
+}  // namespace

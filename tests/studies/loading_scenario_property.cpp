@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// Each option of the loading study chooses what it says, and nothing else.
+
+#include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/studies/store/option_values.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
+namespace {
+
+namespace loading = engine::loading;
+
+loading::Scenario with(const OptionValues& given) {
+  return loading_scenario(
+      {.log = "", .shared = "shared", .options = with_defaults(loading_options(), given)});
+}
+
+TEST(LoadingScenario, DefaultsAreTheSmallSceneTwice) {
+  const loading::Scenario s = with({}), small = loading::lh621_in_a_drift();
+  EXPECT_EQ(s.cycles, 2);
+  EXPECT_EQ(s.pile.mass, small.pile.mass);
+  EXPECT_EQ(s.drift.width, small.drift.width);
+  EXPECT_EQ(s.executor.speeds.drive_in, loading::lindmark2016_speeds().drive_in);
+  EXPECT_EQ(s.executor.moves.most_pulses, 0);
+  EXPECT_EQ(s.materials.rock_rock.rolling, loading::calibrated_materials().rock_rock.rolling);
+  EXPECT_EQ(s.pile_file, "shared/pile.h5");
+}
+
+TEST(LoadingScenario, TheSceneSetsItsOwnSolverButNotTheCycles) {
+  const loading::Scenario s = with({{"scene", "lindmark2016"}}),
+                          large = loading::lh621_at_lindmark2016_scale();
+  EXPECT_EQ(s.cycles, 2);
+  EXPECT_EQ(s.pile.mass, large.pile.mass);
+  EXPECT_EQ(s.drift.width, large.drift.width);
+  EXPECT_EQ(s.world.solver.iteration_budget, large.world.solver.iteration_budget);
+  EXPECT_EQ(with({{"scene", "lindmark2016"}, {"cycles", "30"}}).cycles, 30);
+}
+
+TEST(LoadingScenario, SpeedsAndOperatorGoTogetherOrAlone) {
+  const loading::Scenario s = with({{"speeds", "machine"}, {"operator", "skilled"}});
+  EXPECT_EQ(s.executor.speeds.lift, loading::machine_speeds().lift);
+  EXPECT_EQ(s.executor.moves.most_pulses, loading::skilled_operator().most_pulses);
+  EXPECT_EQ(s.executor.moves.crowd, loading::skilled_operator().crowd);
+  EXPECT_EQ(with({{"speeds", "machine"}}).executor.moves.most_pulses, 0);
+  EXPECT_EQ(with({{"operator", "skilled"}}).executor.speeds.lift, loading::lindmark2016_speeds().lift);
+}
+
+TEST(LoadingScenario, EveryValueThatIsOfferedMakesAScenario) {
+  EXPECT_NO_THROW(check(loading_options()));
+  for (const StudyOption& option : loading_options())
+    for (const std::string& choice : option.choices)
+      EXPECT_NO_THROW(loading::check(with({{option.name, choice}}))) << option.name << " " << choice;
+}
+
+TEST(LoadingScenario, AnUnknownValueIsRefusedWithTheValuesThereAre) {
+  try {
+    with({{"speeds", "fast"}});
+    FAIL() << "fast was taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "studies::loading_scenario: option \"speeds\" is \"fast\"; choose lindmark2016 or machine");
+  }
+  EXPECT_THROW(loading_scenario({.log = "", .shared = ""}), std::invalid_argument);
+}
+
+}  // namespace
