@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <memory>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -12,6 +13,14 @@ double elevation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 }
 
 }  // namespace
+
+void add_machine(engine::World& world, const Lhd& lhd, machine::Machine& machine) {
+  world.attach(&machine);
+  for (const LhdSurface& s : lhd.surfaces)
+    if (s.touches)
+      world.add_part_shape(s.body, std::make_shared<const engine::Shape>(s.shape),
+                           Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
+}
 
 LhdDriver::LhdDriver(const Lhd& lhd, machine::Machine& machine)
     : lhd_(lhd), machine_(machine), arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {}

@@ -5,6 +5,7 @@
 #include <drawpoint/engine/loading/lhd.hpp>
 #include <drawpoint/engine/loading/strategy/kinematics.hpp>
 #include <drawpoint/engine/machine/machine.hpp>
+#include <drawpoint/engine/world/world.hpp>
 
 /// Reads a machine as the executor sees it and turns its commands into motor speeds.
 ///
@@ -24,6 +25,9 @@ struct MachineReading {
   ActuatorRates actual;  ///< forward speed of the front unit, rates of hinges F and G
   Eigen::Vector3d front_axle = Eigen::Vector3d::Zero();  ///< world [m]
 };
+
+/// Attaches the machine to a world, with all its surfaces that touch.
+void add_machine(engine::World& world, const Lhd& lhd, machine::Machine& machine);
 
 class LhdDriver {
  public:

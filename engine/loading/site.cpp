@@ -29,11 +29,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
       emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed) {
   add_drift(world_, drift_);
   driver_.place(0, 0);
-  world_.attach(&machine_);
-  for (const LhdSurface& s : lhd_.surfaces)
-    if (s.touches)
-      world_.add_part_shape(s.body, std::make_shared<const engine::Shape>(s.shape),
-                            Eigen::Isometry3d::Identity(), static_cast<int>(s.kind));
+  add_machine(world_, lhd_, machine_);
   for (const granular::PlacedRock& rock : pile.rocks) {
     world_.add_rock(library_.body(rock.spec), rock.pose);
     specs_.push_back(rock.spec);

@@ -26,11 +26,7 @@ struct Yard {
     world.add_static(std::make_shared<const Shape>(HalfSpace{Vector3d::UnitZ(), 0}),
                      Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
     driver.place(0, 0);
-    world.attach(&machine);
-    for (const LhdSurface& s : lhd.surfaces)
-      if (s.touches)
-        world.add_part_shape(s.body, std::make_shared<const Shape>(s.shape), Eigen::Isometry3d::Identity(),
-                             static_cast<int>(s.kind));
+    add_machine(world, lhd, machine);
   }
   /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce
   /// to die down.

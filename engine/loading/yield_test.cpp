@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/cycle_samples.h>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/engine/granular/rock_shapes.hpp>
+#include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <drawpoint/engine/loading/yield_test.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double stand_before_crash = 0.6;  // for the tyres to take the weight [s]
+
+void require_crash(bool good, const char* name, double value, const std::string& allowed) {
+  if (!good)
+    throw std::invalid_argument("loading::YieldTestOptions: " + std::string(name) + " is " +
+                                std::to_string(value) + "; give " + allowed);
+}
+
+void check(const YieldTestOptions& o, const Lhd& lhd) {
+  const double half = lhd.bucket_width / 2;
+  require_crash(o.rock_size >= 0.3 && o.rock_size <= 3, "rock_size [m]", o.rock_size, "0.3 to 3 m");
+  require_crash(std::abs(o.offset) <= half, "offset [m]", o.offset,
+                "-" + std::to_string(half) + " to " + std::to_string(half) + " m, the bucket's edge");
+  require_crash(o.lowpass_hz >= 0, "lowpass_hz [Hz]", o.lowpass_hz, "0 (none) or more");
+  require_crash(o.run_up >= 0.5 && o.run_up <= 50, "run_up [m]", o.run_up, "0.5 to 50 m");
+  require_crash(o.after_touch > 0 && o.after_touch <= 60, "after_touch [s]", o.after_touch,
+                "above 0, up to 60 s");
+}
+
+// The yard with the machine and the rock in its way.
+class Crash {
+ public:
+  Crash(const Scenario& scenario, const YieldTestOptions& options)
+      : lhd_(sandvik_lh621(scenario.machine)),
+        machine_(lhd_.spec),
+        world_(scenario.world, material_table(scenario.materials)),
+        driver_(lhd_, machine_) {
+    check(options, lhd_);
+    world_.add_static(std::make_shared<const Shape>(HalfSpace{Vector3d::UnitZ(), 0}),
+                      Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
+    driver_.place(0, 0);
+    add_machine(world_, lhd_, machine_);
+    add_rock(options);
+    log_.signals.columns = {
+        {"time", "s"}, {"hinge_G_torque_x", "N m"}, {"hinge_G_torque_y", "N m"}, {"hinge_G_torque_z", "N m"}};
+  }
+
+  void stand() {
+    driver_.command({});
+    while (world_.time() < stand_before_crash) world_.step();
+  }
+
+  /// Until it touches the rock; its speed then [m/s].
+  double drive_in(double speed, double longest) {
+    const double end = world_.time() + longest;
+    while (world_.time() < end) {
+      const double before = driver_.read().actual.drive;
+      step(speed);
+      if (touches()) return before;
+    }
+    throw std::runtime_error("loading::yield_test: the machine has not come to the rock after " +
+                             std::to_string(longest) +
+                             " s; give it a higher drive-in speed or more wheel torque");
+  }
+
+  void go_on(double speed, double seconds) {
+    note_torque();
+    for (const double end = world_.time() + seconds; world_.time() < end;) {
+      step(speed);
+      note_torque();
+    }
+  }
+
+  const LoadingLog& log() const { return log_; }
+
+ private:
+  // On the floor, its longest side along the drift.
+  void add_rock(const YieldTestOptions& options) {
+    const ConvexPolyhedron rock = granular::rock_shapes()[0].scaled(options.rock_size);
+    Vector3d low = rock.vertices().front();
+    for (const Vector3d& v : rock.vertices()) low = low.cwiseMin(v);
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = Vector3d(lhd_.K.x() + options.run_up - low.x(), options.offset, -low.z());
+    rock_ = {Owner::fixed, world_.add_static(std::make_shared<const Shape>(rock), pose,
+                                             static_cast<int>(SurfaceKind::rock))};
+  }
+
+  void step(double speed) {
+    driver_.command({.drive = speed});
+    world_.step();
+  }
+
+  bool touches() const {
+    const std::vector<PairForce> forces = world_.pair_forces();
+    return std::any_of(forces.begin(), forces.end(), [&](const PairForce& pair) {
+      return (pair.a == rock_ || pair.b == rock_) && pair.force.squaredNorm() > 0;
+    });
+  }
+
+  void note_torque() {
+    const Vector3d torque = machine_.joint_wrench(lhd_.bucket).moment;
+    log_.signals.append_row(std::vector<double>{world_.time(), torque.x(), torque.y(), torque.z()});
+  }
+
+  Lhd lhd_;
+  machine::Machine machine_;
+  World world_;
+  LhdDriver driver_;
+  SurfaceOwner rock_;
+  LoadingLog log_;
+};
+
+double largest_torque(const LoadingLog& log, double lowpass_hz) {
+  const CycleSamples samples(log);
+  LowPassedVector torque(log, "hinge_G_torque", lowpass_hz);
+  double largest = 0;
+  for (std::size_t row = 0; row < samples.rows(); ++row)
+    largest = std::max(largest, torque.next(samples).norm());
+  return largest;
+}
+
+}  // namespace
+
+YieldTest yield_test(const Scenario& scenario, const YieldTestOptions& options) {
+  const double speed = scenario.executor.speeds.drive_in;
+  Crash crash(scenario, options);
+  crash.stand();
+  YieldTest test;
+  test.touch_speed = crash.drive_in(speed, 10 + 10 * options.run_up / speed);
+  crash.go_on(speed, options.after_touch);
+  test.peak = largest_torque(crash.log(), options.lowpass_hz);
+  test.unfiltered_peak = largest_torque(crash.log(), 0);
+  const CycleSamples samples(crash.log());
+  LowPassedVector torque(crash.log(), "hinge_G_torque", options.lowpass_hz);
+  for (std::size_t row = 0; row < samples.rows(); ++row) {
+    const Vector3d& value = torque.next(samples);
+    test.time.push_back(samples.time(row) - samples.time(0));
+    test.torque.push_back(value.norm());
+    test.peak_twisting = std::max(test.peak_twisting, std::hypot(value.x(), value.z()));
+  }
+  return test;
+}
+
+}  // namespace drawpoint::engine::loading
