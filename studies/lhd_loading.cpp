@@ -4,6 +4,7 @@
 /// cost?
 
 #include <drawpoint/studies/loading_figures.h>
+#include <drawpoint/studies/loading_findings.h>
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
@@ -41,5 +42,6 @@ int main(int argc, char** argv) {
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,
-       .headlines = studies::loading_headlines});
+       .headlines = studies::loading_headlines,
+       .findings = studies::loading_findings});
 }

@@ -22,6 +22,7 @@
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
 #include <drawpoint/studies/options.hpp>
 
@@ -112,6 +113,8 @@ struct Study {
   std::function<nlohmann::json(const std::filesystem::path& log)> illustrate = {};
   /// Figures from the logs of all runs that succeeded, said first in summary and report.
   std::function<std::vector<Headline>(const std::vector<std::filesystem::path>& logs)> headlines = {};
+  /// What is claimed about the black box and whether its runs bear it out, said in summary and report.
+  std::function<std::vector<Finding>(const StudyResults& results)> findings = {};
 };
 
 /// The whole command line. Returns the exit code: 0 success, 1 failure, 2 wrong usage, 130 interrupted.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/analysis.h>
 #include <drawpoint/studies/analysis/facts.h>
+#include <drawpoint/studies/analysis/findings.h>
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/runs/plan.h>
@@ -225,6 +226,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
     input.facts.emplace_back("Model of " + study.problem.responses[j].name, chosen[j]);
   warn(input, runs);
   illustrate(input, study, runs, folder);
+  summary.findings = hold_findings(input, study, folder);
   write_report(folder.report(), input);
   summary.report = std::filesystem::absolute(folder.report()).lexically_normal();
   return summary;

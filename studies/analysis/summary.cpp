@@ -50,6 +50,8 @@ std::string json_line(const Summary& summary) {
   line["headlines"] = nlohmann::ordered_json::object();
   for (const Headline& headline : summary.headlines)
     line["headlines"][headline.name] = number_or_null(headline.value);
+  line["findings"] = nlohmann::ordered_json::object();
+  for (const Finding& finding : summary.findings) line["findings"][finding.id] = to_string(finding.verdict);
   line["nrmse"] = nlohmann::ordered_json::object();
   for (const auto& [response, value] : summary.nrmse) {
     line["nrmse"][response] = number_or_null(value);
@@ -76,6 +78,8 @@ std::string text(const Summary& summary) {
         !std::isfinite(value) ? "unknown" : formatted(value < 1e-3 ? "%.1e" : "%.4f", value);
     result += "  NRMSE of " + response + ": " + number + "\n";
   }
+  for (const Finding& f : summary.findings)
+    result += "  " + f.id + " " + to_string(f.verdict) + ": " + f.claim + " (" + f.grounds + ")\n";
   if (!summary.report.empty()) {
     result += front_text(summary) + "\nreport: " + summary.report.string() + "\n";
   }

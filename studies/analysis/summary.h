@@ -4,6 +4,7 @@
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
 #include <drawpoint/pareto/polishing.hpp>
+#include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
 
 #include <filesystem>
@@ -18,6 +19,7 @@ struct Summary {
   int training = 0, validation = 0;                        ///< runs in the store, failed ones among them
   int failed = 0;                                          ///< of both kinds
   std::vector<Headline> headlines = {};                    ///< what the study says first
+  std::vector<Finding> findings = {};                      ///< in the study's order
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
   pareto::Polishing polishing = pareto::Polishing();       ///< of the front; GCC 12 warns where this is {}
@@ -26,8 +28,8 @@ struct Summary {
   std::string error = {};                                  ///< why there is none
 };
 
-/// {"study", "runs", "training", "validation", "failed", "headlines": {name: number or null}, "nrmse":
-/// {response: number or null}, "front", "certified": number or null, "polishing_gain_percent": number or
+/// {"study", "runs", "training", "validation", "failed", "headlines": {name: number or null}, "findings": {id:
+/// verdict}, "nrmse": {response: number or null}, "front", "certified": number or null, "polishing_gain_percent": number or
 /// null, "report": path or null}, and "not_polished" and "error", which say why, if there is something to
 /// say. `runs` counts the rows of the store's table.
 std::string json_line(const Summary& summary);

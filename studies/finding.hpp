@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What is claimed about a black box, and whether the runs of a study bear it out. The study decides from what
+/// it knows when its runs are made and its models fitted, and says what decided.
+
+#include <drawpoint/doe/problem.hpp>
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies {
+
+enum class Verdict { reproduced, not_reproduced, unclear };
+
+constexpr const char* to_string(Verdict verdict) {
+  return verdict == Verdict::reproduced       ? "reproduced"
+         : verdict == Verdict::not_reproduced ? "not reproduced"
+                                              : "unclear";
+}
+
+struct Finding {
+  std::string id;     ///< F1
+  std::string claim;  ///< in a sentence
+  Verdict verdict = Verdict::unclear;
+  std::string grounds;  ///< the number that decided and its threshold, or why nothing could
+};
+
+/// Of the runs that succeeded, training and validation apart. Variables and responses in the problem's order.
+struct StudyResults {
+  doe::Problem problem;
+  Eigen::MatrixXd X, Y;                     ///< training: n x d and n x r, natural units
+  Eigen::MatrixXd X_new, Y_new;             ///< validation
+  std::vector<std::filesystem::path> logs;  ///< of the training runs, row by row; empty where there is none
+  std::vector<double> nrmse;                ///< of the models on the validation runs; empty without those
+};
+
+}  // namespace drawpoint::studies
