@@ -5,6 +5,8 @@
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/engine/loading/run_measures.hpp>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::engine::loading;
@@ -47,6 +49,32 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
             most_iterations(small_case().world.solver, log.numbers.at("most_contact_points")));
   EXPECT_EQ(cycle.stages.size(), 4u);
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
+}
+
+// Bounds that any loading cycle keeps: solid rock fills no more than the heaped bucket; to bring a tonne to the end
+// of the cycle takes less than to lift it by 100 m; the tip stays within a bucket's length of its plan.
+TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
+  const LoadingLog& log = cycle_log();
+  ASSERT_TRUE(log.completed) << log.message;
+  EXPECT_GT(solid_fill(log), 0);
+  EXPECT_LT(solid_fill(log), log.numbers.at("bucket_heaped_volume") / log.numbers.at("bucket_struck_volume"));
+  EXPECT_GT(energy_per_tonne(log), 0);
+  EXPECT_LT(energy_per_tonne(log), 9.81 * 100);
+  EXPECT_GT(tracking_error(log), 0);
+  EXPECT_LT(tracking_error(log), 1.9);
+  EXPECT_LT(wheel_slip(log), 1);
+  EXPECT_GT(peak_pin_force(log), 9.81e-3 * log.cycles[0].loaded_mass);  // it carries the load [kN]
+}
+
+TEST(LoadingCycle, LogNamesTheMoves) {
+  const LoadingLog& log = cycle_log();
+  const OperatorMoves moves = small_case().executor.moves;
+  EXPECT_EQ(log.numbers.at("most_pulses"), moves.most_pulses);
+  EXPECT_EQ(log.numbers.at("pulse"), moves.pulse);
+  EXPECT_EQ(log.numbers.at("pulse_boom"), moves.pulse_rates.boom);
+  EXPECT_EQ(log.numbers.at("pulse_tilt"), moves.pulse_rates.tilt);
+  EXPECT_EQ(log.numbers.at("press"), moves.press);
+  EXPECT_EQ(log.numbers.at("crowd"), moves.crowd);
 }
 
 // Every signal is finite, the machine's loops hold, and what drives is within its force limits: wheels 4 · 81
