@@ -63,7 +63,9 @@ class Crash {
     while (world_.time() < end) {
       const double before = driver_.read().actual.drive;
       step(speed);
-      if (touches()) return before;
+      if (!touches()) continue;
+      touch_ = log_.signals.rows() - 1;
+      return before;
     }
     throw std::runtime_error("loading::yield_test: the machine has not come to the rock after " +
                              std::to_string(longest) +
@@ -71,14 +73,26 @@ class Crash {
   }
 
   void go_on(double speed, double seconds) {
-    note_torque();
-    for (const double end = world_.time() + seconds; world_.time() < end;) {
-      step(speed);
-      note_torque();
-    }
+    for (const double end = world_.time() + seconds; world_.time() < end;) step(speed);
   }
 
-  const LoadingLog& log() const { return log_; }
+  /// Torque in hinge G from the touch on, low-passed from the start of the approach on, as a cycle's is.
+  std::vector<Eigen::Vector3d> torque(double lowpass_hz) const {
+    const CycleSamples samples(log_);
+    LowPassedVector filter(log_, "hinge_G_torque", lowpass_hz);
+    std::vector<Vector3d> values;
+    for (std::size_t row = 0; row < samples.rows(); ++row) {
+      const Vector3d value = filter.next(samples);
+      if (row >= touch_) values.push_back(value);
+    }
+    return values;
+  }
+  std::vector<double> time() const {
+    std::vector<double> times;
+    for (std::size_t row = touch_; row < log_.signals.rows(); ++row)
+      times.push_back(log_.signals.at(row, 0) - log_.signals.at(touch_, 0));
+    return times;
+  }
 
  private:
   // On the floor, its longest side along the drift.
@@ -95,6 +109,8 @@ class Crash {
   void step(double speed) {
     driver_.command({.drive = speed});
     world_.step();
+    const Vector3d torque = machine_.joint_wrench(lhd_.bucket).moment;
+    log_.signals.append_row(std::vector<double>{world_.time(), torque.x(), torque.y(), torque.z()});
   }
 
   bool touches() const {
@@ -104,47 +120,40 @@ class Crash {
     });
   }
 
-  void note_torque() {
-    const Vector3d torque = machine_.joint_wrench(lhd_.bucket).moment;
-    log_.signals.append_row(std::vector<double>{world_.time(), torque.x(), torque.y(), torque.z()});
-  }
-
   Lhd lhd_;
   machine::Machine machine_;
   World world_;
   LhdDriver driver_;
   SurfaceOwner rock_;
   LoadingLog log_;
+  std::size_t touch_ = 0;  // row of the log
 };
 
-double largest_torque(const LoadingLog& log, double lowpass_hz) {
-  const CycleSamples samples(log);
-  LowPassedVector torque(log, "hinge_G_torque", lowpass_hz);
-  double largest = 0;
-  for (std::size_t row = 0; row < samples.rows(); ++row)
-    largest = std::max(largest, torque.next(samples).norm());
-  return largest;
+double largest(const std::vector<Vector3d>& torques) {
+  double norm = 0;
+  for (const Vector3d& torque : torques) norm = std::max(norm, torque.norm());
+  return norm;
 }
 
 }  // namespace
 
 YieldTest yield_test(const Scenario& scenario, const YieldTestOptions& options) {
   const double speed = scenario.executor.speeds.drive_in;
+  require_crash(speed > 0 && std::isfinite(speed), "the scenario's speeds.drive_in [m/s]", speed,
+                "a finite value above 0");
   Crash crash(scenario, options);
   crash.stand();
   YieldTest test;
   test.touch_speed = crash.drive_in(speed, 10 + 10 * options.run_up / speed);
   crash.go_on(speed, options.after_touch);
-  test.peak = largest_torque(crash.log(), options.lowpass_hz);
-  test.unfiltered_peak = largest_torque(crash.log(), 0);
-  const CycleSamples samples(crash.log());
-  LowPassedVector torque(crash.log(), "hinge_G_torque", options.lowpass_hz);
-  for (std::size_t row = 0; row < samples.rows(); ++row) {
-    const Vector3d& value = torque.next(samples);
-    test.time.push_back(samples.time(row) - samples.time(0));
-    test.torque.push_back(value.norm());
-    test.peak_twisting = std::max(test.peak_twisting, std::hypot(value.x(), value.z()));
+  test.time = crash.time();
+  const std::vector<Vector3d> torques = crash.torque(options.lowpass_hz);
+  for (const Vector3d& torque : torques) {
+    test.torque.push_back(torque.norm());
+    test.peak_twisting = std::max(test.peak_twisting, std::hypot(torque.x(), torque.z()));
   }
+  test.peak = largest(torques);
+  test.unfiltered_peak = largest(crash.torque(0));
   return test;
 }
 

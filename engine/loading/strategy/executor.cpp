@@ -37,8 +37,10 @@ void check(const ExecutorOptions& options) {
   require_positive("progress.angle_length [m]", options.progress.angle_length);
   const double floor = options.progress.velocity_floor, tolerance = options.progress.tolerance;
   require(floor >= 0 && floor <= 1, "progress.velocity_floor [1]", floor, "0 to 1");
-  check(options.moves);
   require(tolerance >= 0 && tolerance < 1, "progress.tolerance [1]", tolerance, "0 to below 1");
+  check(options.moves);
+  require(options.moves.pulse < options.slow_window, "moves.pulse [s]", options.moves.pulse,
+          "a pulse shorter than slow_window, or an arm that is held up in it counts as stuck");
 }
 
 // Time that an actuator has been slow, after a step of dt.
@@ -157,7 +159,10 @@ TipRates Executor::lift_rates(const TipPose& tip) const {
 
 ActuatorRates Executor::drive_in_speeds() const {
   ActuatorRates rates{.drive = options_.speeds.drive_in};
-  if (pulsing_) rates.boom = options_.moves.pulse_rates.boom, rates.tilt = options_.moves.pulse_rates.tilt;
+  if (pulsing_) {
+    rates.boom = options_.moves.pulse_rates.boom;
+    rates.tilt = options_.moves.pulse_rates.tilt;
+  }
   return rates;
 }
 

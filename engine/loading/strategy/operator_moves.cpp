@@ -35,9 +35,16 @@ void check(const OperatorMoves& m) {
 
 // After a pulse the drive gets `held_up` to show that it moves again.
 bool Pulses::step(double time, double slow_for) {
-  if (pulsing_ && time >= until_) pulsing_ = false, next_ = time + moves_.held_up;
-  if (!pulsing_ && done_ < moves_.most_pulses && slow_for >= moves_.held_up && time >= next_)
-    ++done_, pulsing_ = true, until_ = time + moves_.pulse;
+  time_ = time;
+  if (pulsing_ && time >= until_) {
+    pulsing_ = false;
+    next_ = time + moves_.held_up;
+  }
+  if (!pulsing_ && done_ < moves_.most_pulses && slow_for >= moves_.held_up && time >= next_) {
+    ++done_;
+    pulsing_ = true;
+    until_ = time + moves_.pulse;
+  }
   return pulsing_;
 }
 

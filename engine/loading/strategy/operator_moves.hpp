@@ -37,14 +37,15 @@ class Pulses {
   explicit Pulses(const OperatorMoves& moves = {}) : moves_(moves) {}
   /// `slow_for`: how long the drive has been slow [s]. Returns whether the moves are due until the next call.
   bool step(double time, double slow_for);
-  /// Whether more pulses may come, or one is under way: the drive is then not stuck.
-  bool left() const { return done_ < moves_.most_pulses || pulsing_; }
+  /// Whether more pulses may come, one is under way, or the last one's time to show is not over: the drive is then not
+  /// stuck.
+  bool left() const { return done_ < moves_.most_pulses || pulsing_ || time_ < next_; }
 
  private:
   OperatorMoves moves_;
   int done_ = 0;
   bool pulsing_ = false;
-  double until_ = 0, next_ = 0;  // [s]
+  double time_ = 0, until_ = 0, next_ = 0;  // [s]
 };
 
 }  // namespace drawpoint::engine::loading

@@ -90,13 +90,13 @@ ActuatorRates pile_that_holds(const ActuatorRates& set, const TipPose& tip, Stag
 
 }  // namespace
 
-// Slow from the clock's zero on: pulses from 32 h to 96 h and, 32 h after, from 128 h to 192 h.
+// Slow from the clock's zero on: pulses from 32 h to 96 h and, 32 h after, from 128 h to 192 h, with 32 h after the last one.
 TEST(Pulses, ComeWhenTheDriveIsHeldUpAndLeaveItTimeBetween) {
   Pulses pulses(moves_of_the_clock());
   for (int k = 0; k < 400; ++k) {
     const bool due = (k >= 32 && k < 96) || (k >= 128 && k < 192);
     EXPECT_EQ(pulses.step(k * h, k * h), due) << k;
-    EXPECT_EQ(pulses.left(), k < 192) << k;
+    EXPECT_EQ(pulses.left(), k < 224) << k;
   }
 }
 
@@ -128,6 +128,10 @@ TEST(OperatorMoves, PulsesComeBeforeADriveInIsStuck) {
   }
   EXPECT_EQ(pulsed, 2 * 64);
   EXPECT_EQ(cycle.result(Stage::drive_in).reason, StageEnd::slow_actuator);
+  // Slow since it is held up, at t; pulses as above from there, and one step for each of the two that see it.
+  const auto held_up = std::find_if(cycle.steps.begin(), cycle.steps.end(),
+                                    [](const Step& step) { return step.set.boom > 0; });
+  EXPECT_NEAR(cycle.result(Stage::drive_in).t_end - held_up->time, (224 - 32) * h, 2 * h);
 }
 
 // The drive is held up from the start of the lift: the plan's rule ends it after 1 s, pressing lets the arm come to its height.
