@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 
 #include "command.hpp"
 #include "estimate.hpp"
@@ -35,9 +38,11 @@ constexpr const char* about =
     "Figures are mean +- standard error over the seeds (with one seed: none). A row marked * has runs whose\n"
     "rocks had not come to rest. Ctrl-C ends after the step in hand; the seeds that are complete are "
     "printed.\n"
-    "Fields of --json: rows with friction, rolling, seeds, rocks, moving (runs not at rest), and each "
-    "quantity "
-    "as\nmean, standard_error and values; published with low, high and source.";
+    "A seed that fails is left out: its error goes to stderr, its number into the row, and the exit code is "
+    "1.\n"
+    "Fields of --json: rows with friction, rolling, seeds (how many are complete), failed (their numbers),\n"
+    "rocks, moving (runs not at rest), and each quantity as\nmean, standard_error and values; published with "
+    "low, high and source.";
 
 struct Settings {
   EngineFlags engine;
@@ -60,42 +65,59 @@ engine::granular::SizeDistribution sizes_named(const std::string& text) {
 
 std::string wrong_sizes(const std::string& text) {
   if (text == "mine") return "";
-  return between(0.05, 5, "m", "or choose mine, 0.3 to 0.8 m by mass")(const_cast<std::string&>(text));
+  std::string copy = text;  // a validator may change what it checks
+  return between(0.05, 5, "m", "or choose mine, 0.3 to 0.8 m by mass")(copy);
 }
 
 struct Row {
   double friction, rolling;
   int rocks = 0, moving = 0;
-  std::vector<std::vector<double>> values;  // by seed, by quantity
+  std::vector<std::vector<double>> values;  // by seed that did not fail, by quantity
+  std::vector<int> failed;                  // seeds
 };
 
-// Whether the row is complete.
-bool run_row(const Settings& s, const RockTest& test, Row& row) {
+RockSample sample_of(const Settings& s, const Row& row) {
   RockSample sample;
   sample.contact.friction = row.friction;
   sample.contact.rolling = row.rolling;
   sample.contact.spinning = s.spinning;
   sample.density = s.density;
   sample.sizes = sizes_named(s.sizes);
+  return sample;
+}
+
+std::string name_of(const Row& row, int seed) {
+  return "friction " + std::to_string(row.friction).substr(0, 4) + ", rolling " +
+         std::to_string(row.rolling).substr(0, 4) + ", seed " + std::to_string(seed);
+}
+
+RockTestRun run_seed(const Settings& s, const RockTest& test, const Row& row, int seed) {
+  Progress progress;
+  std::stop_source source;
+  RockTestOptions options = s.options;
+  options.run.world = world_options(s.engine);
+  options.run.seed = static_cast<std::uint64_t>(seed);
+  options.run.stop = source.get_token();
+  options.run.progress = [&](std::string_view phase, double done) {
+    if (interrupted != 0) source.request_stop();
+    progress.show(name_of(row, seed) + ": " + std::string(phase) + " %", static_cast<int>(100 * done), 100);
+  };
+  return test.run(sample_of(s, row), options);
+}
+
+// Whether the row was not stopped. One seed that fails takes no other's figures away.
+bool run_row(const Settings& s, const RockTest& test, Row& row) {
   for (int seed = 1; seed <= s.seeds; ++seed) {
-    Progress progress;
-    std::stop_source source;
-    RockTestOptions options = s.options;
-    options.run.world = world_options(s.engine);
-    options.run.seed = static_cast<std::uint64_t>(seed);
-    options.run.stop = source.get_token();
-    options.run.progress = [&](std::string_view phase, double done) {
-      if (interrupted != 0) source.request_stop();
-      progress.show("friction " + std::to_string(row.friction).substr(0, 4) + ", rolling " +
-                        std::to_string(row.rolling).substr(0, 4) + ", seed " + std::to_string(seed) + ": " +
-                        std::string(phase) + " %",
-                    static_cast<int>(100 * done), 100);
-    };
-    const RockTestRun run = test.run(sample, options);
-    if (run.status == RunStatus::stopped) return false;
-    row.rocks = run.rocks;
-    row.moving += run.status == RunStatus::moving ? 1 : 0;
-    row.values.push_back(run.values);
+    try {
+      const RockTestRun run = run_seed(s, test, row, seed);
+      if (run.status == RunStatus::stopped) return false;
+      row.rocks = run.rocks;
+      row.moving += run.status == RunStatus::moving ? 1 : 0;
+      row.values.push_back(run.values);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "calibrate_rock: %s: %s\n", name_of(row, seed).c_str(), error.what());
+      row.failed.push_back(seed);
+    }
   }
   return true;
 }
@@ -104,9 +126,9 @@ std::vector<Row> run_rows(const Settings& s, const RockTest& test) {
   std::vector<Row> rows;
   for (const double friction : s.friction)
     for (const double rolling : s.rolling) {
-      Row row{.friction = friction, .rolling = rolling, .values = {}};
+      Row row{.friction = friction, .rolling = rolling, .values = {}, .failed = {}};
       const bool complete = run_row(s, test, row);
-      if (!row.values.empty()) rows.push_back(row);
+      if (!row.values.empty() || !row.failed.empty()) rows.push_back(row);
       if (!complete) return rows;
     }
   return rows;
@@ -118,17 +140,15 @@ nlohmann::json finite_or_null(double value) {
 }
 
 nlohmann::json row_as_json(const RockTest& test, const Row& row) {
-  nlohmann::json out{{"friction", row.friction},
-                     {"rolling", row.rolling},
-                     {"seeds", row.values.size()},
-                     {"rocks", row.rocks},
-                     {"moving", row.moving}};
+  nlohmann::json out{{"friction", row.friction}, {"rolling", row.rolling}, {"seeds", row.values.size()},
+                     {"failed", row.failed},     {"rocks", row.rocks},     {"moving", row.moving}};
   for (std::size_t k = 0; k < test.quantities.size(); ++k) {
     std::vector<double> values;
     for (const auto& run : row.values) values.push_back(run[k]);
     nlohmann::json all = nlohmann::json::array();
     for (const double v : values) all.push_back(finite_or_null(v));
-    out[test.quantities[k].key] = {{"mean", finite_or_null(mean_of(values))},
+    const double mean = values.empty() ? std::nan("") : mean_of(values);
+    out[test.quantities[k].key] = {{"mean", finite_or_null(mean)},
                                    {"standard_error", finite_or_null(standard_error(values))},
                                    {"values", all}};
   }
@@ -175,6 +195,7 @@ void print_table(const RockTest& test, const nlohmann::json& j) {
                 row.at("moving").get<int>() > 0 ? "*" : " ");
     for (const MeasuredQuantity& q : test.quantities)
       std::printf(" %17s", plus_minus(row.at(q.key), q.digits).c_str());
+    if (!row.at("failed").empty()) std::printf("  failed: seeds %s", row.at("failed").dump().c_str());
     std::printf("\n");
   }
   for (const MeasuredQuantity& q : test.quantities)
@@ -183,7 +204,7 @@ void print_table(const RockTest& test, const nlohmann::json& j) {
 }
 
 int run(const Settings& s) {
-  constexpr int interrupted_exit = 130;
+  constexpr int failed_exit = 1, interrupted_exit = 130;
   const RockTest& test = rock_test_named(s.test);
   const std::vector<Row> rows = run_rows(s, test);
   nlohmann::json out{{"test", s.test},
@@ -195,7 +216,9 @@ int run(const Settings& s) {
                      {"rows", nlohmann::json::array()}};
   for (const Row& row : rows) out["rows"].push_back(row_as_json(test, row));
   const int code = show(out, s.json, [&](const nlohmann::json& j) { print_table(test, j); });
-  return interrupted != 0 ? interrupted_exit : code;
+  if (interrupted != 0) return interrupted_exit;
+  const auto has_failed = [](const Row& row) { return !row.failed.empty(); };
+  return std::any_of(rows.begin(), rows.end(), has_failed) ? failed_exit : code;
 }
 
 std::string wrong_test(const std::string& name) {

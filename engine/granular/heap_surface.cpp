@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 namespace drawpoint::engine::granular {
 namespace {
@@ -15,10 +17,26 @@ namespace {
 using Eigen::Vector2d;
 using engine::Rock;
 
+[[noreturn]] void refuse_surface(const std::string& what) {
+  throw std::invalid_argument("granular::heap_surface: " + what);
+}
+
+void check_length(const std::string& name, double length) {
+  if (!(std::isfinite(length) && length > 0))
+    refuse_surface(name + " is " + std::to_string(length) + " m; give more than 0 m");
+}
+
 std::vector<Vector2d> places_of(const Area& area, double spacing) {
+  check_length("spacing of places", spacing);
   std::vector<Vector2d> places;
-  for (double x = area.x0 + spacing / 2; x < area.x1; x += spacing)
-    for (double y = area.y0 + spacing / 2; y < area.y1; y += spacing) places.emplace_back(x, y);
+  if (std::isfinite(area.x1 - area.x0) && std::isfinite(area.y1 - area.y0))
+    for (double x = area.x0 + spacing / 2; x < area.x1; x += spacing)
+      for (double y = area.y0 + spacing / 2; y < area.y1; y += spacing) places.emplace_back(x, y);
+  if (places.empty())
+    refuse_surface("area from x = " + std::to_string(area.x0) + " to " + std::to_string(area.x1) +
+                   ", y = " + std::to_string(area.y0) + " to " + std::to_string(area.y1) +
+                   " m has no place at a spacing of " + std::to_string(spacing) +
+                   " m; give finite sides of more than half the spacing");
   return places;
 }
 
@@ -57,8 +75,9 @@ double degrees_of(const std::vector<double>& levels, const std::vector<double>& 
   return std::atan2(1.0, -fitted_slope(levels, retreats)) * 180 / M_PI;
 }
 
+// About the origin and all rocks.
 Area around(const engine::World& world, double size) {
-  Area area{0, 0, 0, 0};
+  Area area{-size, size, -size, size};
   for (const Rock& rock : world.rocks()) {
     if (!rock.present) continue;
     const Vector2d p = rock.pose.translation().head<2>();
@@ -84,6 +103,8 @@ double mean_height(const engine::World& world, const Area& area, double spacing)
 }
 
 double angle_of_cone(const std::vector<double>& heights, double spacing, double size) {
+  check_length("spacing of places", spacing);
+  check_length("size of a rock", size);
   std::vector<double> levels, radii;
   for (double z = size;; z += 0.1 * size) {
     const double radius = std::sqrt(area_above(heights, spacing, z) / M_PI);
@@ -95,11 +116,14 @@ double angle_of_cone(const std::vector<double>& heights, double spacing, double 
 }
 
 double angle_of_cone(const engine::World& world, double size, double spacing) {
+  check_length("size of a rock", size);
   return angle_of_cone(surface_heights(world, around(world, size), spacing), spacing, size);
 }
 
 double angle_of_bank(const engine::World& world, const Area& area, double size, double crest,
                      double spacing) {
+  check_length("size of a rock", size);
+  if (!std::isfinite(crest)) refuse_surface("crest is " + std::to_string(crest) + " m; give a finite height");
   const auto heights = surface_heights(world, area, spacing);
   std::vector<double> levels, depths;
   for (double z = 0.5 * size; z < crest - size; z += 0.1 * size) {

@@ -13,7 +13,9 @@
 /// √(A/π) there, a bank of width W the depth A/W, and the angle is that of the least-squares line through
 /// radius or depth against z. The solid volume is the sum of what the lines have in rock times the square of
 /// the spacing s: off by O(s/L) of a rock of size L with either sign, so by its root over many rocks.
-/// World frame, z up, SI units. Cost: rocks times places under each.
+/// World frame, z up, SI units. Cost: rocks times places under each. All functions throw
+/// std::invalid_argument for a spacing or a size that is not finite and above 0, for a crest that is not
+/// finite, and for an area without a place: the sides have to be finite and longer than half the spacing.
 namespace drawpoint::engine::granular {
 
 /// A rectangle of places.

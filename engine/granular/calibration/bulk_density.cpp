@@ -7,11 +7,29 @@
 #include <algorithm>
 #include <drawpoint/engine/granular/heap_surface.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace drawpoint::engine::granular {
+namespace {
+
+// Half a rock below the surface's lowest place over the core.
+double checked_top(const engine::World& world, const Area& core, double L, const BulkDensityOptions& o,
+                   double spacing) {
+  const auto surface = surface_heights(world, core, spacing);
+  const double lowest = *std::min_element(surface.begin(), surface.end());
+  if (!(lowest > 1.5 * L))
+    throw std::invalid_argument("granular::bulk_density: the core's lowest place is " +
+                                std::to_string(lowest) + " m high; a core that begins at " +
+                                std::to_string(L) + " m takes more than " + std::to_string(1.5 * L) +
+                                " m; fill the box higher than " + std::to_string(o.height) +
+                                " largest rocks");
+  return lowest - 0.5 * L;
+}
+
+}  // namespace
 
 BulkDensity bulk_density(const RockSample& sample, const BulkDensityOptions& o) {
-  if (!(std::min(o.side, o.height) >= 3))
+  if (!(all_finite({o.side, o.height}) && std::min(o.side, o.height) >= 3))
     throw std::invalid_argument("granular::bulk_density: a box of side " + std::to_string(o.side) +
                                 " and height " + std::to_string(o.height) +
                                 " largest rocks has no core; give at least 3 each");
@@ -21,9 +39,9 @@ BulkDensity bulk_density(const RockSample& sample, const BulkDensityOptions& o) 
   TestRun run(world, o);
   run.pour(sample, over_box(0, {half, half}, L),
            loose_solid_share * sample.density * 4 * half * half * o.height * L);
+  if (run.stopped()) return {.status = RunStatus::stopped};
   const Area all{-half, half, -half, half}, core{L - half, half - L, L - half, half - L};
-  const auto surface = surface_heights(world, core, spacing);
-  const double top = *std::min_element(surface.begin(), surface.end()) - 0.5 * L;
+  const double top = checked_top(world, core, L, o, spacing);
   const double volume = (core.x1 - core.x0) * (core.y1 - core.y0) * (top - L);
   const double solid = solid_volume(world, core, L, top, spacing) / volume;
   const double whole =

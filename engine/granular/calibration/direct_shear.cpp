@@ -9,25 +9,28 @@
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <drawpoint/engine/granular/heap_surface.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace drawpoint::engine::granular {
 namespace {
 
 using Eigen::Vector3d;
 
-// The upper walls pass over the lower ones by this, less than any rock and more than what a wall is pressed in
-// [m].
-constexpr double cut = 0.01;
+// The upper walls pass over the lower ones by this, 1 cm for rocks of 0.3 m: less than any rock and more than
+// what a wall is pressed in [m].
+double cut_for(double mean_length) { return mean_length / 30; }
 
 [[noreturn]] void refuse_shear(const std::string& what) {
   throw std::invalid_argument("granular::direct_shear: " + what);
 }
 
 double checked_length(const ShearOptions& o, double L) {
-  if (!(std::min({o.box.length, o.box.width, o.box.height}) >= 2))
+  if (!(all_finite({o.box.length, o.box.width, o.box.height}) &&
+        std::min({o.box.length, o.box.width, o.box.height}) >= 2))
     refuse_shear("a box of " + std::to_string(o.box.length) + " x " + std::to_string(o.box.width) + " x " +
                  std::to_string(o.box.height) + " largest rocks; give at least 2 each way");
-  if (!(o.travel > 0 && o.travel <= 0.5) || !(o.speed > 0) || !(o.stress > 0) || o.parts < 6)
+  if (!(all_finite({o.travel, o.speed, o.stress}) && std::min({o.travel, o.speed, o.stress}) > 0 &&
+        o.travel <= 0.5 && o.parts >= 6))
     refuse_shear("travel " + std::to_string(o.travel) + " of the length at " + std::to_string(o.speed) +
                  " m/s under " + std::to_string(o.stress) + " Pa in " + std::to_string(o.parts) +
                  " parts; allowed: travel up to 0.5, positive speed and stress, at least 6 parts");
@@ -71,7 +74,10 @@ class Recorder {
   double mean_normal() const {
     double normal = 0;
     int steps = 0;
-    for (const Sums& s : sums_) normal += s.normal, steps += s.steps;
+    for (const Sums& s : sums_) {
+      normal += s.normal;
+      steps += s.steps;
+    }
     return normal / std::max(1, steps);
   }
 
@@ -87,9 +93,11 @@ ShearBox::ShearBox(const RockSample& sample, const ShearOptions& o)
     : length_(checked_length(o, largest(sample.sizes))),
       width_(o.box.width * largest(sample.sizes)),
       height_(o.box.height * largest(sample.sizes)),
+      mean_length_(mean_length(sample.sizes)),
       world_(o.world, calibration_materials(sample.contact)),
       upper_(Eigen::Isometry3d::Identity()) {
-  const double middle = 0.5 * height_, thick = o.travel * length_ + 0.2 * length_;
+  const double cut = cut_for(mean_length_), middle = 0.5 * height_,
+               thick = o.travel * length_ + 0.2 * length_;
   add_wall(world_, Vector3d::UnitZ(), 0, rough);
   for (double side : {-1.0, 1.0}) add_wall(world_, side * Vector3d::UnitY(), 0.5 * width_, smooth);
   // The lower walls carry what moves over them, the upper ones cover what they leave behind.
@@ -106,12 +114,14 @@ ShearBox::ShearBox(const RockSample& sample, const ShearOptions& o)
 }
 
 void ShearBox::load(double stress) {
-  const Vector3d half(0.5 * length_ - cut, 0.5 * width_ - cut, 0.05 * length_);
-  const auto heights = surface_heights(world_, {-half.x(), half.x(), -half.y(), half.y()});
-  const double bottom = *std::max_element(heights.begin(), heights.end());
-  if (bottom + 2 * half.z() > 2 * height_ || bottom < 0.6 * height_)
+  const double cut = cut_for(mean_length_), thick = 0.1 * length_;
+  const Vector3d half(0.5 * length_ - cut, 0.5 * width_ - cut, 0.5 * thick);
+  const auto heights = surface_heights(world_, {-half.x(), half.x(), -half.y(), half.y()}, mean_length_ / 12);
+  const double bottom = *std::max_element(heights.begin(), heights.end()), least = 0.6 * height_,
+               most = 2 * height_ - thick;
+  if (!(bottom >= least && bottom <= most))
     refuse_shear("rock stands " + std::to_string(bottom) + " m high in a box of " + std::to_string(height_) +
-                 " m; fill it between 0.6 and 1.5 of its height");
+                 " m; fill it between " + std::to_string(least) + " and " + std::to_string(most) + " m");
   const auto shape = engine::box(half);
   const double weight = stress * length_ * width_, g = world_.options().gravity.norm();
   const auto properties = engine::mass_properties(shape, weight / g / shape.volume());
@@ -163,8 +173,12 @@ ShearResult direct_shear(const RockSample& sample, const ShearOptions& o) {
   TestRun run(box.world(), o);
   run.pour(sample, over_box(0, {0.5 * box.length(), 0.5 * box.width()}, largest(sample.sizes)),
            loose_solid_share * sample.density * box.length() * box.width() * box.height());
+  ShearResult stopped;
+  stopped.status = RunStatus::stopped;
+  if (run.stopped()) return stopped;
   box.load(o.stress);
   run.settle();
+  if (run.stopped()) return stopped;
   ShearResult result = shear(box, o);
   if (result.status == RunStatus::completed) result.status = run.status();
   return result;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <drawpoint/engine/granular/heap_surface.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace drawpoint::engine::granular {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 void check_penetration(const PenetrationOptions& o) {
-  if (std::min({o.width, o.thickness, o.depth, o.speed}) > 0 && o.parts >= 2 && o.width <= o.side - 2 &&
+  if (all_finite({o.side, o.height, o.width, o.thickness, o.depth, o.speed}) &&
+      std::min({o.width, o.thickness, o.depth, o.speed}) > 0 && o.parts >= 2 && o.width <= o.side - 2 &&
       o.thickness <= o.side - 2 && o.depth <= o.height - 2)
     return;
   throw std::invalid_argument(
@@ -38,7 +40,10 @@ PenetrationResult push_down(engine::World& world, engine::KinematicBody& plate, 
   for (int k = 1; k <= o.parts && !run.stopped(); ++k) {
     double force = 0;
     int steps = 0;
-    run.go_on("push", part, [&] { force += plate.contact_wrench().force.z(), ++steps; });
+    run.go_on("push", part, [&] {
+      force += plate.contact_wrench().force.z();
+      ++steps;
+    });
     result.curve.push_back({k * depth / o.parts, force / std::max(1, steps)});
     if (k > o.parts / 2) result.mean_force += result.curve.back().force / (o.parts - o.parts / 2);
   }

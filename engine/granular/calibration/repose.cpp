@@ -5,8 +5,11 @@
 #include <drawpoint/engine/granular/calibration/test_run.h>
 
 #include <algorithm>
+#include <cmath>
 #include <drawpoint/engine/granular/heap_surface.hpp>
 #include <drawpoint/engine/world/kinematic_body.hpp>
+#include <stdexcept>
+#include <string>
 
 namespace drawpoint::engine::granular {
 namespace {
@@ -34,7 +37,7 @@ engine::World ledge(const RockSample& sample, const DrainedBankOptions& o, doubl
 }  // namespace
 
 PouredHeap poured_heap(const RockSample& sample, const PouredHeapOptions& o) {
-  if (o.rocks < 20 || !(o.radius > 0))
+  if (o.rocks < 20 || !(std::isfinite(o.radius) && o.radius > 0))
     refuse_repose("poured_heap: " + std::to_string(o.rocks) + " rocks over a radius of " +
                   std::to_string(o.radius) + " largest rocks; give at least 20 rocks and a positive radius");
   engine::World world(o.world, calibration_materials(sample.contact));
@@ -52,9 +55,12 @@ PouredHeap poured_heap(const RockSample& sample, const PouredHeapOptions& o) {
 }
 
 DrainedBank drained_bank(const RockSample& sample, const DrainedBankOptions& o) {
-  if (!(std::min({o.length, o.width, o.height}) >= 2))
+  if (!(all_finite({o.length, o.width, o.height}) && std::min({o.length, o.width, o.height}) >= 2))
     refuse_repose("drained_bank: a bin of " + std::to_string(o.length) + " x " + std::to_string(o.width) +
                   " x " + std::to_string(o.height) + " largest rocks; give at least 2 each way");
+  if (!(std::isfinite(o.opening_speed) && o.opening_speed > 0))
+    refuse_repose("drained_bank: the end opens at " + std::to_string(o.opening_speed) +
+                  " m/s; give more than 0, 4 is usual");
   const double L = largest(sample.sizes), length = o.length * L, width = o.width * L, height = o.height * L;
   engine::World world = ledge(sample, o, L);
   engine::KinematicBody gate(Eigen::Isometry3d(Eigen::Translation3d(0.5 * L, 0, height)));

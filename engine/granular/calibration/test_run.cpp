@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/granular/calibration/test_run.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace drawpoint::engine::granular {
 
@@ -40,6 +42,10 @@ EmitterOptions over_box(double x, const Eigen::Vector2d& half_lengths, double la
 
 int add_block(engine::World& world, const Eigen::Vector3d& half, const Eigen::Vector3d& centre, int kind) {
   return world.add_static(shape_of(engine::box(half)), Eigen::Isometry3d(Eigen::Translation3d(centre)), kind);
+}
+
+bool all_finite(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
 void TestRun::step(std::string_view phase, double done) {

@@ -7,6 +7,8 @@
 
 #include <drawpoint/engine/granular/calibration/rock_sample.hpp>
 #include <drawpoint/engine/granular/pile.hpp>
+#include <initializer_list>
+#include <memory>
 
 namespace drawpoint::engine::granular {
 
@@ -23,6 +25,9 @@ void add_open_box(engine::World& world, double half_side, int kind_of_walls);
 EmitterOptions over_box(double x, const Eigen::Vector2d& half_lengths, double largest_rock);
 /// Returns the number of the surface.
 int add_block(engine::World& world, const Eigen::Vector3d& half, const Eigen::Vector3d& centre, int kind);
+
+/// Whether no value is NaN, which std::min lets through, or infinite: such a box is never full.
+bool all_finite(std::initializer_list<double> values);
 
 class TestRun {
  public:
