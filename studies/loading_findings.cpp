@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace drawpoint::studies {
@@ -112,12 +115,12 @@ Finding f9(const LoadingRuns& runs) {
                  criteria);
 }
 
-// Thresholds: the source has 0.06, and 0.16 and 0.17; 0.10 is their geometric middle, 0.27 as far above. An NRMSE of
-// n errors is off by 1/√(2n) of itself.
+// Thresholds: the source has 0.06, and 0.16 and 0.17; 0.10 is their geometric middle, 0.27 as far above. An
+// NRMSE of n errors is off by 1/√(2n) of itself.
 Finding f15(const StudyResults& results) {
   std::vector<Estimate> e(3);
   const double n = static_cast<double>(results.X_new.rows());
-  for (std::size_t r = 0; r < 3 && n >= 5 && results.nrmse.size() == 3; ++r)
+  for (std::size_t r = 0; r < 3 && results.X_new.rows() >= least_group && results.nrmse.size() == 3; ++r)
     e[r] = {results.nrmse[r], results.nrmse[r] / std::sqrt(2 * n)};
   return decided("F15", "The surrogate of production is good, those of damage and spill are moderate",
                  {{"0.10 less NRMSE of production", difference({0.10}, e[production])},
@@ -139,42 +142,81 @@ Criterion uniform(const LoadingRuns& runs, const MatrixXd& X, const std::string&
   return {which + ": 1.63 less the distance from uniform", margin};
 }
 
+/// The corners of the box among the training points, and the rows of all other points.
+struct Corners {
+  std::set<unsigned> found;  // bit v: at the upper end of variable v
+  std::vector<Index> others;
+
+  explicit Corners(const LoadingRuns& runs) {
+    const MatrixXd& X = runs.results().X;
+    for (Index i = 0; i < X.rows(); ++i) {
+      unsigned upper = 0, lower = 0;
+      for (Index v = 0; v < X.cols(); ++v) {
+        upper |= static_cast<unsigned>(runs.upper(v) - X(i, v) < 1e-9) << v;
+        lower |= static_cast<unsigned>(X(i, v) - runs.lower(v) < 1e-9) << v;
+      }
+      if ((upper | lower) == (1u << X.cols()) - 1)
+        found.insert(upper);
+      else
+        others.push_back(i);
+    }
+  }
+};
+
+// The corners are forced, not drawn: half of them at each end of each variable. Uniform is what the other
+// runs should be; fewer than ten of them leave it unclear.
 Finding f16(const LoadingRuns& runs) {
   const MatrixXd& X = runs.results().X;
-  const int corners = 1 << X.cols();
-  int found = 0;
-  for (Index i = 0; i < X.rows(); ++i) {
-    bool corner = true;
-    for (Index v = 0; v < X.cols(); ++v)
-      corner &= std::min(X(i, v) - runs.lower(v), runs.upper(v) - X(i, v)) < 1e-9;
-    found += corner;
-  }
-  Estimate all;
-  if (X.rows() >= corners) all.value = found - corners + 0.5;  // replicates make it more, failed runs less
+  const Corners corners(runs);
+  const int all = 1 << X.cols();
+  Estimate margin;
+  if (X.rows() >= all) margin.value = static_cast<double>(corners.found.size()) - all + 0.5;
   return decided(
       "F16", "Training points cover the box near-uniformly with its corners, validation points are uniform",
-      {uniform(runs, X, "training"),
-       {"corners found, of " + std::to_string(corners) + ", less all but a half", all},
+      {uniform(runs, X(corners.others, Eigen::all), "training without corners"),
+       {"corners found, of " + std::to_string(all) + ", less all but a half", margin},
        uniform(runs, runs.results().X_new, "validation")});
 }
 
+/// What the logs say of tracking, of those that can be used.
+struct Tracking {
+  std::vector<double> error, depth, beta_of;
+  int unusable = 0;
+  std::string reason;  // why the first cannot be used
+
+  void add(const std::filesystem::path& file, double beta_of_run) {
+    try {
+      const auto log = engine::loading::read_log(file);
+      const double of_run = engine::loading::tracking_error(log);
+      double sum = 0;
+      for (const auto& cycle : log.cycles) sum += cycle.plan.depth;
+      if (!std::isfinite(of_run + sum))
+        throw std::runtime_error(file.string() + ": tracking error or planned depth is not a number");
+      error.push_back(of_run);
+      depth.push_back(sum / static_cast<double>(log.cycles.size()));
+      beta_of.push_back(beta_of_run);
+    } catch (const std::exception& e) {
+      if (unusable++ == 0) reason = e.what();
+    }
+  }
+};
+
 Finding f14(const LoadingRuns& runs) {
   const StudyResults& results = runs.results();
-  std::vector<double> error, depth, beta_of;
-  for (std::size_t i = 0; i < results.logs.size(); ++i) {
-    if (results.logs[i].empty()) continue;
-    const auto log = engine::loading::read_log(results.logs[i]);
-    error.push_back(engine::loading::tracking_error(log));
-    double sum = 0;
-    for (const auto& cycle : log.cycles) sum += cycle.plan.depth;
-    depth.push_back(sum / static_cast<double>(log.cycles.size()));
-    beta_of.push_back(results.X(static_cast<Index>(i), beta));
-  }
-  const auto n = static_cast<Index>(error.size());
+  Tracking tracking;
+  for (std::size_t i = 0; i < results.logs.size(); ++i)
+    if (!results.logs[i].empty()) tracking.add(results.logs[i], results.X(static_cast<Index>(i), beta));
+  const std::size_t n = tracking.error.size();
   const auto vector = [&](const std::vector<double>& v) {
-    return VectorXd(Eigen::Map<const VectorXd>(v.data(), n));
+    return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Index>(n)));
   };
-  return tracking_finding(vector(error), vector(depth), vector(beta_of));
+  Finding finding =
+      tracking_finding(vector(tracking.error), vector(tracking.depth), vector(tracking.beta_of));
+  if (tracking.unusable > 0)
+    finding.grounds += "; " + std::to_string(tracking.unusable) + " of " +
+                       std::to_string(n + static_cast<std::size_t>(tracking.unusable)) +
+                       " logs could not be used, the first: " + tracking.reason;
+  return finding;
 }
 
 void require_loading(const StudyResults& results) {

@@ -21,18 +21,21 @@ constexpr double beyond_all = std::numeric_limits<double>::infinity();
 Finding f2(const LoadingRuns& runs) {
   const VectorXd front = runs.front_x(alpha), all = runs.x(alpha);
   const double chance = all.size() == 0 ? 0 : (all.array() > 1.5).cast<double>().mean();
+  const int beyond = static_cast<int>((front.array() > 1.5).count());
   Estimate spared;
-  if (front.size() >= 5 && chance > 0) {
-    const Estimate there =
-        share(static_cast<int>((front.array() > 1.5).count()), static_cast<int>(front.size()));
+  if (front.size() >= least_group && chance > 0) {
+    const Estimate there = share(beyond, static_cast<int>(front.size()));
     spared = {chance - there.value, there.error};
   }
-  return decided("F2", "Beyond alpha 1.2 production falls, and no Pareto point has alpha above 1.5",
-                 {{"production at 0.9 to 1.3 over that above 1.5, in standard deviations",
-                   mean_difference(runs.within(production, alpha, 0.9, 1.3),
-                                   runs.within(production, alpha, 1.5, beyond_all)),
-                   small_difference},
-                  {"share of all runs above 1.5 less that of the non-dominated", spared, chance / 2}});
+  return decided(
+      "F2", "Beyond alpha 1.2 production falls, and fewer Pareto points than by chance have alpha above 1.5",
+      {{"production at 0.9 to 1.3 over that above 1.5, in standard deviations",
+        mean_difference(runs.within(production, alpha, 0.9, 1.3),
+                        runs.within(production, alpha, 1.5, beyond_all)),
+        small_difference},
+       {std::to_string(beyond) + " of " + std::to_string(front.size()) +
+            " non-dominated runs above 1.5; share of all runs there less that of these",
+        spared, chance / 2}});
 }
 
 Finding f10(const LoadingRuns& runs) {
@@ -43,8 +46,8 @@ Finding f10(const LoadingRuns& runs) {
                   {"of damage and spill", rank_correlation(d, s), small_correlation}});
 }
 
-// Low in both: in the lowest third of the runs in damage, and in that of spill. Sure: runs of low alpha are low more
-// often; only: most that are low have it.
+// Low in both: in the lowest third of the runs in damage, and in that of spill. Sure: runs of low alpha are
+// low more often; only: most that are low have it.
 Finding f11(const LoadingRuns& runs) {
   int low = 0, rest = 0, low_corner = 0, rest_corner = 0;
   const auto threshold = [&](Index r) {
@@ -62,7 +65,7 @@ Finding f11(const LoadingRuns& runs) {
       ++rest, rest_corner += corner;
   }
   Estimate only;
-  if (low_corner + rest_corner >= 5) {
+  if (low_corner + rest_corner >= least_group) {
     only = share(low_corner, low_corner + rest_corner);
     only.value -= 0.5;
   }
@@ -84,7 +87,7 @@ Finding f12(const LoadingRuns& runs) {
       low += a[i] < runs.third(alpha, 1);
     }
   Estimate over_chance;
-  if (found >= 3) {
+  if (found >= least_group) {
     over_chance = share(low, found);
     over_chance.value -= 1.0 / 3;
   }
@@ -94,8 +97,8 @@ Finding f12(const LoadingRuns& runs) {
         over_chance, 1.0 / 3}});
 }
 
-// The logarithm of a sample variance scatters by √(2/k), that of a ratio of two by 2/√k. A front that rises all the
-// way leaves none; a millionth stands for it.
+// The logarithm of a sample variance scatters by √(2/k), that of a ratio of two by 2/√k. A front that rises
+// all the way leaves none; a millionth stands for it.
 Finding f13(const LoadingRuns& runs) {
   const VectorXd p = runs.front_y(production);
   Estimate ratio;

@@ -12,6 +12,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -76,10 +78,10 @@ struct Part {
 };
 
 /// Σ of / Σ among over the runs: the mean of a measure, or the ratio of two.
-class OverRuns {
+class RunMean {
  public:
-  OverRuns(Headline told, std::function<Part(const LoadingLog&)> measure)
-      : told_(std::move(told)), measure_(std::move(measure)) {}
+  RunMean(Headline headline, std::function<Part(const LoadingLog&)> measure)
+      : headline_(std::move(headline)), measure_(std::move(measure)) {}
 
   void add(const LoadingLog& log) {
     try {
@@ -92,15 +94,15 @@ class OverRuns {
   }
   Headline headline() const {
     const auto unknown = [&](const char* why) -> Headline {
-      return {told_.name, told_.unit, std::nan(""), why};
+      return {headline_.name, headline_.unit, std::nan(""), why};
     };
     if (lacking_) return unknown("some logs lack what it takes: of an older version");
     if (!(among_ > 0)) return unknown("nothing was loaded");
-    return {told_.name, told_.unit, of_ / among_, told_.note};
+    return {headline_.name, headline_.unit, of_ / among_, headline_.note};
   }
 
  private:
-  Headline told_;
+  Headline headline_;
   std::function<Part(const LoadingLog&)> measure_;
   double of_ = 0, among_ = 0;
   bool lacking_ = false;
@@ -113,7 +115,7 @@ Part energy_and_tonnes(const LoadingLog& log) {
   return part;
 }
 
-std::vector<OverRuns> measures() {
+std::vector<RunMean> measures() {
   namespace loading = engine::loading;
   const auto mean_of = [](double (*measure)(const LoadingLog&)) {
     return [measure](const LoadingLog& log) { return Part{measure(log)}; };
@@ -140,7 +142,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   double fill = 0, most_fill = 0, stalls = 0;
   Scatter production, damage, spill;
   Headline pile;
-  std::vector<OverRuns> others = measures();
+  std::vector<RunMean> others = measures();
   for (const auto& file : logs) {
     const LoadingLog log = engine::loading::read_log(file);
     if (pile.name.empty()) pile = pile_of(log);
@@ -151,7 +153,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     production.add(production_by_cycle(log), engine::loading::production(log));
     damage.add(joint_damage_by_cycle(log), joint_damage(log));
     spill.add(rock_spill_by_cycle(log), rock_spill(log));
-    for (OverRuns& measure : others) measure.add(log);
+    for (RunMean& measure : others) measure.add(log);
   }
   char best[64];
   std::snprintf(best, sizeof best, "loaded mass over the rated payload; %.2f in the best run", most_fill);
@@ -162,7 +164,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
       noise_of("joint_damage", "s", damage, Over::sum),
       noise_of("rock_spill", "1", spill, Over::mean),
       pile};
-  for (const OverRuns& measure : others) said.push_back(measure.headline());
+  for (const RunMean& measure : others) said.push_back(measure.headline());
   return said;
 }
 

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/findings.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 
 namespace drawpoint::studies {
 namespace {
@@ -33,27 +31,12 @@ StudyResults results_of(const ReportInput& input, const Folder& folder) {
   return results;
 }
 
-nlohmann::json panel_of(const std::vector<Finding>& findings) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const Finding& f : findings) rows.push_back({f.id, f.claim, to_string(f.verdict), f.grounds});
-  return {
-      {"type", "table"},
-      {"title", "Findings held against the runs"},
-      {"caption",
-       "Of all runs of the study, not of one. What decides is given with two standard errors; unclear: the "
-       "runs do not tell."},
-      {"columns", {"finding", "claim", "verdict", "grounds"}},
-      {"rows", std::move(rows)}};
-}
-
 }  // namespace
 
 std::vector<Finding> hold_findings(ReportInput& input, const Study& study, const Folder& folder) {
   if (!study.findings) return {};
   try {
-    std::vector<Finding> findings = study.findings(results_of(input, folder));
-    if (!findings.empty()) input.illustrations.insert(input.illustrations.begin(), panel_of(findings));
-    return findings;
+    return input.findings = study.findings(results_of(input, folder));
   } catch (const std::exception& e) {
     input.warnings.push_back(std::string("The findings could not be held against the runs: ") + e.what());
     return {};

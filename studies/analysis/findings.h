@@ -11,8 +11,8 @@
 
 namespace drawpoint::studies {
 
-/// Asks the study with the runs and validations of the report, and puts a table of the answers before the
-/// report's figures of one run. If the study throws, there are no findings and a warning says why.
+/// Asks the study with the runs and validations of the report, and puts the answers there. If the study
+/// throws, there are no findings and a warning says why.
 std::vector<Finding> hold_findings(ReportInput& input, const Study& study, const Folder& folder);
 
 }  // namespace drawpoint::studies

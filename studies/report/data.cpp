@@ -76,6 +76,12 @@ json to_json(const kriging::Validation& v) {
           {"sd", to_json(Eigen::VectorXd(v.observation_variance.cwiseMax(0.0).cwiseSqrt()))}};
 }
 
+json to_json(const std::vector<Finding>& findings) {
+  json rows = json::array();
+  for (const Finding& f : findings) rows.push_back({f.id, f.claim, to_string(f.verdict), f.grounds});
+  return rows;
+}
+
 /// A residual is null where it is unknown.
 json to_json(const pareto::Polishing& polishing, const std::string& not_polished) {
   return {{"residual", to_json(polishing.residual)},
@@ -184,6 +190,7 @@ json report_data(const ReportInput& input) {
           {"polishing", to_json(input.polishing, input.not_polished)},
           {"influence", std::move(shares)},
           {"main_pair", main_pair(input.problem.variables.size(), effects)},
+          {"findings", to_json(input.findings)},
           {"illustrations", std::move(panels)},
           {"facts", input.facts},
           {"summary", summary(known, effects)}};

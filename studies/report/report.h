@@ -5,9 +5,9 @@
 /// It loads nothing from anywhere and opens from disk. The page is assembled from report/web when the library
 /// is built.
 ///
-/// Contents: a summary in words with cautions, figures of one simulation, trade-offs, response surfaces (the
-/// surrogates are evaluated in the browser), validation, the runs. Each part copes with what is missing: no
-/// validation runs, one response, no objective, no successful run.
+/// Contents: a summary in words with cautions, findings held against the runs, figures of one simulation,
+/// trade-offs, response surfaces (the surrogates are evaluated in the browser), validation, the runs. Each
+/// part copes with what is missing: no validation runs, one response, no objective, no successful run.
 /// studies::Study lists the kinds of figures ("panels") of a simulation.
 
 #include <drawpoint/doe/evaluations.hpp>
@@ -16,6 +16,7 @@
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/pareto/search.hpp>
+#include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
 
 #include <filesystem>
@@ -29,6 +30,7 @@ namespace drawpoint::studies {
 struct ReportInput {
   std::string study, about, command;     ///< any text; the page shows it as it is
   std::vector<Headline> headlines = {};  ///< said first
+  std::vector<Finding> findings = {};    ///< said next
   doe::Problem problem;
   doe::Evaluations training, validation;
   std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted

@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// The findings on made-up runs in which they hold, fail, and cannot be decided. Responses are formulas of the
-/// variables, without noise, on a uniform sample of fixed seed: effects are many standard errors away from 0.
+/// The findings on made-up runs in which they hold, fail, and cannot be decided. Responses are formulas of
+/// the variables, without noise, on a uniform sample of fixed seed: effects are many standard errors away
+/// from 0.
 
 #include <drawpoint/studies/loading_findings.h>
 #include <gtest/gtest.h>
+#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/tests/studies/support.hpp>
 #include <drawpoint/tests/support/told.hpp>
 
 #include <cmath>
@@ -64,14 +67,16 @@ std::map<std::string, Finding> found(const StudyResults& results) {
 
 double hill(double x, double top, double width) { return std::exp(-std::pow((x - top) / width, 2)); }
 
-/// As the source has it, but for the smoothness of the fronts: production leads by alpha with a top at 1.1, damage and spill as its findings say.
+/// As the source has it, but for the smoothness of the fronts: production leads by alpha with a top at 1.1,
+/// damage and spill as its findings say.
 Vector3d as_the_source(const Vector4d& x) {
   return {-50 + 600 * hill(x[0], 1.1, 0.6) + 120 * x[1] - 60 * x[3] + 5 * x[2],
           20 * hill(x[0], 1.0, 0.5) + 25 * x[1] + 8 * hill(x[3], 0.4, 0.3),
           0.1 + 0.1 * x[0] + 0.06 * x[1] - 0.04 * x[3]};
 }
 
-/// The opposite: production falls with alpha and leads by gamma, damage and spill fall where they should rise.
+/// The opposite: production falls with alpha and leads by gamma, damage and spill fall where they should
+/// rise.
 Vector3d otherwise(const Vector4d& x) {
   return {500 - 100 * hill(x[0], 1.1, 0.6) - 120 * x[1] + 60 * x[3] + 400 * x[2],
           20 - 10 * hill(x[0], 1.0, 0.5) - x[1] - 5 * hill(x[3], 0.4, 0.3) + 30 * x[2],
@@ -159,6 +164,107 @@ TEST(LoadingFindings, TrackingIsHeldAgainstDepthAndHeight) {
   EXPECT_EQ(tracking_finding(depth, depth, beta).verdict, Verdict::reproduced);
   EXPECT_EQ(tracking_finding(-depth, depth, beta).verdict, Verdict::not_reproduced);
   EXPECT_EQ(tracking_finding(depth.head(4), depth.head(4), beta.head(4)).verdict, Verdict::unclear);
+}
+
+/// Of a run of one cycle that stays `error` below the first leg of its planned path.
+engine::loading::LoadingLog log_of_tracking(double error, double depth) {
+  engine::loading::LoadingLog log;
+  log.completed = true;
+  log.signals.columns = {{"time", "s"}, {"cycle", "1"}, {"tip_x", "m"}, {"tip_z", "m"}, {"stage", "1"}};
+  for (int k = 0; k < 3; ++k) log.signals.append_row(std::vector<double>{1.0 * k, 1, 0.5, -error, 1});
+  engine::loading::CycleRecord cycle;
+  cycle.t_end = 2;
+  cycle.plan.depth = depth;
+  cycle.planned_x = {0, 1, 1, 0};
+  cycle.planned_z = {0, 0, 1, 1};
+  log.cycles = {cycle};
+  return log;
+}
+
+/// The first `n` runs with logs: the third cannot be read, the fifth is of a version that logged no plans.
+StudyResults with_logs(StudyResults results, int n, const studies::test::TestFolder& place) {
+  for (int i = 0; i < n; ++i) {
+    results.logs.push_back(place / (std::to_string(i) + ".h5"));
+    auto log = log_of_tracking(0.1 * (i + 1), 1 + 0.2 * (i % 5));
+    if (i == 4) log.cycles[0].planned_x = log.cycles[0].planned_z = {};
+    if (i == 2)
+      studies::test::write_file(results.logs.back(), "no log");
+    else
+      write_log(results.logs.back(), log);
+  }
+  return results;
+}
+
+TEST(LoadingFindings, ALogThatCannotBeUsedIsSkippedAndCounted) {
+  const studies::test::TestFolder place;
+  const StudyResults without = results_of(40, as_the_source);
+  const StudyResults results = with_logs(without, 8, place);
+  const auto of = found(results), before = found(without);
+  Eigen::VectorXd error(6), depth(6), beta(6);
+  error << 0.1, 0.2, 0.4, 0.6, 0.7, 0.8;
+  depth << 1, 1.2, 1.6, 1, 1.2, 1.4;
+  beta = results.X(std::vector<int>{0, 1, 3, 5, 6, 7}, 1);
+  const Finding expected = tracking_finding(error, depth, beta);
+  EXPECT_EQ(of.at("F14").verdict, expected.verdict);
+  EXPECT_EQ(of.at("F14").grounds.find(expected.grounds + "; 2 of 8 logs could not be used, the first: "), 0u)
+      << of.at("F14").grounds;
+  EXPECT_NE(of.at("F14").grounds.find("2.h5"), std::string::npos) << of.at("F14").grounds;
+  for (const auto& [id, finding] : before) {
+    if (id == "F14") continue;
+    EXPECT_EQ(of.at(id).verdict, finding.verdict) << id;
+    EXPECT_EQ(of.at(id).grounds, finding.grounds) << id;
+  }
+}
+
+TEST(LoadingFindings, FourUsableLogsDecideNothing) {
+  const studies::test::TestFolder place;
+  const auto of = found(with_logs(results_of(40, as_the_source), 6, place));
+  EXPECT_EQ(of.at("F14").verdict, Verdict::unclear);
+  EXPECT_NE(of.at("F14").grounds.find("too few runs"), std::string::npos) << of.at("F14").grounds;
+  EXPECT_NE(of.at("F14").grounds.find("2 of 6 logs"), std::string::npos) << of.at("F14").grounds;
+}
+
+TEST(LoadingFindings, ACornerTwiceDoesNotStandForAnother) {
+  StudyResults results = results_of(1000, as_the_source);
+  results.X.row(7) = results.X.row(12);
+  EXPECT_EQ(found(results).at("F16").verdict, Verdict::not_reproduced) << found(results).at("F16").grounds;
+}
+
+// Sixteen corners among 26 runs put 8 points at each end: Kolmogorov's distance would be 8/26 √26 = 1.57 or
+// more.
+TEST(LoadingFindings, CornersDoNotCountAgainstUniformity) {
+  const auto of = found(results_of(26, as_the_source));
+  EXPECT_EQ(of.at("F16").verdict, Verdict::reproduced) << of.at("F16").grounds;
+}
+
+/// All non-dominated: 20 runs that produce more, and n of high beta, low production and very low alpha.
+StudyResults with_high_beta(int n) {
+  StudyResults results{.problem = problem,
+                       .X = Eigen::MatrixXd::Constant(20 + n, 4, 0.5),
+                       .Y = Eigen::MatrixXd(20 + n, 3),
+                       .X_new = Eigen::MatrixXd(0, 4),
+                       .Y_new = Eigen::MatrixXd(0, 3),
+                       .logs = {},
+                       .nrmse = {}};
+  results.X.topLeftCorner(20, 1).setConstant(1.6);
+  for (int i = 0; i < 20; ++i) results.Y.row(i).setConstant(100 + i);
+  for (int i = 20; i < 20 + n; ++i) {
+    results.X.row(i).head<2>() << 0.3, 0.9;
+    results.Y.row(i).setConstant(i);
+  }
+  return results;
+}
+
+TEST(LoadingFindings, FourParetoPointsTellNothing) {
+  const Finding four = found(with_high_beta(4)).at("F12"), five = found(with_high_beta(5)).at("F12");
+  EXPECT_EQ(four.verdict, Verdict::unclear) << four.grounds;
+  EXPECT_EQ(four.grounds.find("4 such non-dominated runs"), 0u) << four.grounds;
+  EXPECT_EQ(five.verdict, Verdict::reproduced) << five.grounds;
+}
+
+TEST(LoadingFindings, ParetoPointsOfHighAlphaAreCounted) {
+  const Finding f2 = found(with_high_beta(5)).at("F2");
+  EXPECT_NE(f2.grounds.find("20 of 25 non-dominated runs above 1.5"), std::string::npos) << f2.grounds;
 }
 
 TEST(LoadingFindings, AnotherProblemIsRefused) {

@@ -75,6 +75,7 @@ TEST_F(Report, NoTextBecomesMarkup) {
   in.validation.rows[0].outcome = doe::Failure{nasty};
   in.facts = {{nasty, nasty}};
   in.warnings = {nasty};
+  in.findings = {{"F1", nasty, Verdict::unclear, nasty}};
   in.illustrations = {
       {{"type", "table"}, {"title", nasty}, {"caption", nasty}, {"columns", {nasty}}, {"rows", {{nasty}}}}};
   const auto data = written(in);
@@ -93,7 +94,18 @@ TEST_F(Report, NoTextBecomesMarkup) {
   EXPECT_EQ(data.at("study"), readable);
   EXPECT_EQ(data.at("facts").at(0).at(1), readable);
   EXPECT_EQ(data.at("validation").at("rows").at(0).at("reason"), readable);
+  EXPECT_EQ(data.at("findings").at(0).at(1), readable);
   EXPECT_EQ(data.at("illustrations").at(0).at("rows").at(0).at(0), readable);
+}
+
+TEST_F(Report, SaysTheFindingsApartFromTheFiguresOfOneRun) {
+  ReportInput in = input(1, 1, 8, 0);
+  EXPECT_TRUE(written(in).at("findings").empty());
+  in.findings = {{"F1", "it pays", Verdict::not_reproduced, "0.1"}, {"F2", "it costs", Verdict::unclear, ""}};
+  const auto data = written(in);
+  EXPECT_EQ(data.at("findings"),
+            nlohmann::json({{"F1", "it pays", "not reproduced", "0.1"}, {"F2", "it costs", "unclear", ""}}));
+  EXPECT_TRUE(data.at("illustrations").empty());
 }
 
 TEST_F(Report, CopesWithAnyNumberOfVariablesAndResponses) {

@@ -4,6 +4,7 @@
 
 import {choose} from './choice.js';
 import {summary, header, navigation, facts} from './summary.js';
+import {findings} from './findings.js';
 import {panels} from './panels.js';
 import {tradeOffs} from './front.js';
 import {surfaces} from './surfaces.js';
@@ -28,7 +29,7 @@ function attempt(build) {
   }
 }
 
-const sections = [summary, panels, tradeOffs, surfaces, validation, runs, facts].map(attempt).filter(Boolean);
+const sections = [summary, findings, panels, tradeOffs, surfaces, validation, runs, facts].map(attempt).filter(Boolean);
 page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}));
 document.getElementById('main').append(...sections);
 fitPlotsToPrint();

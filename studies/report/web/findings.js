@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// What is claimed about the black box, and what the runs say to it.
+
+import {el, section, table} from './dom.js';
+
+export function findings(data) {
+  if (!data.findings.length) return null;
+  const columns = ['Finding', 'Claim', 'Verdict', 'Grounds'].map((title) => ({title, text: true}));
+  return section('findings', 'Findings of the source, held against these runs',
+    'Of all runs of the study. What decides is given with two standard errors; unclear: the runs do not tell.',
+    el('div', {class: 'block'}, table(columns, data.findings).node));
+}
