@@ -246,15 +246,6 @@ int run(const Settings& s) {
   return show(out, s.json, [&](const nlohmann::json& j) { print_table(subject, j); });
 }
 
-std::string wrong_setting(const std::string& text) {
-  try {
-    setting_of(text);
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -270,10 +261,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--settings", s.tried, "settings to try, with commas between")
       ->delimiter(',')
-      ->check(wrong_setting)
+      ->check(taken_by(setting_of))
       ->capture_default_str();
   app.add_option("--reference", s.reference, "setting of the reference")
-      ->check(wrong_setting)
+      ->check(taken_by(setting_of))
       ->capture_default_str();
   app.add_option("--reference-method", s.reference_method,
                  "sequential: double precision; batched: a tenth of the time, to 1e-6 of the load")

@@ -221,22 +221,13 @@ int run(const Settings& s) {
   return std::any_of(rows.begin(), rows.end(), has_failed) ? failed_exit : code;
 }
 
-std::string wrong_test(const std::string& name) {
-  try {
-    rock_test_named(name);
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   Settings s;
   CLI::App app(about, "calibrate_rock");
   app.add_option("--test", s.test, "repose, ledge, density, shear or penetration")
-      ->check(wrong_test)
+      ->check(taken_by(rock_test_named))
       ->capture_default_str();
   app.add_option("--friction", s.friction, "of rock on rock and rough walls [1], with commas between")
       ->delimiter(',')

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace drawpoint::benchmarks {
 namespace {
@@ -72,6 +73,17 @@ void add_method_flags(CLI::App& app, EngineFlags& flags) {
                  "let rocks that stand still freeze, so that they cost next to nothing")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
+}
+
+std::function<std::string(const std::string&)> taken_by(std::function<void(const std::string&)> parse) {
+  return [parse = std::move(parse)](const std::string& text) -> std::string {
+    try {
+      parse(text);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
 }
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags) {

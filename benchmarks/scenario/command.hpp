@@ -20,6 +20,9 @@ namespace drawpoint::benchmarks {
 /// Accepts numbers from low to high; the error names the value, the range and what to choose.
 CLI::Validator between(double low, double high, const std::string& unit, const std::string& advice);
 
+/// For check(): what `parse` throws as std::invalid_argument against a text is the error; what it takes is right.
+std::function<std::string(const std::string&)> taken_by(std::function<void(const std::string&)> parse);
+
 /// The flags; the defaults are those of WorldOptions{}.
 struct EngineFlags {
   engine::WorldOptions world;

@@ -159,7 +159,7 @@ TipRates Executor::lift_rates(const TipPose& tip) const {
 
 ActuatorRates Executor::drive_in_speeds() const {
   ActuatorRates rates{.drive = options_.speeds.drive_in};
-  if (pulsing_) {
+  if (pulses_.under_way()) {
     rates.boom = options_.moves.pulse_rates.boom;
     rates.tilt = options_.moves.pulse_rates.tilt;
   }
@@ -207,7 +207,7 @@ ActuatorRates Executor::step(const Observation& now) {
     results_.push_back({stage_, reason, stage_time_, now.time, progress_, stage_start_, now.tip});
     start(after(reason), now);
   }
-  pulsing_ = stage_ == Stage::drive_in && pulses_.step(now.time, slow_time_.drive);
+  if (stage_ == Stage::drive_in) pulses_.step(now.time, slow_time_.drive);
   set_ = set_speeds(now.tip);
   return set_;
 }

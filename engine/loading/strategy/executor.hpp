@@ -104,7 +104,6 @@ class Executor {
   StageGoal goal_;
   ActuatorRates set_, slow_time_;
   Pulses pulses_;
-  bool pulsing_ = false;
   std::vector<StageResult> results_;
 };
 

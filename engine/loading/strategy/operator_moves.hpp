@@ -37,6 +37,7 @@ class Pulses {
   explicit Pulses(const OperatorMoves& moves = {}) : moves_(moves) {}
   /// `slow_for`: how long the drive has been slow [s]. Returns whether the moves are due until the next call.
   bool step(double time, double slow_for);
+  bool under_way() const { return pulsing_; }
   /// Whether more pulses may come, one is under way, or the last one's time to show is not over: the drive is then not
   /// stuck.
   bool left() const { return done_ < moves_.most_pulses || pulsing_ || time_ < next_; }
