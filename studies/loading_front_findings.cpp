@@ -92,7 +92,7 @@ Finding f12(const LoadingRuns& runs) {
     over_chance.value -= 1.0 / 3;
   }
   return decided(
-      "F12", "Pareto points of high beta and low production exist, always with very low alpha",
+      "F12", "Pareto points of high beta and low production exist, with low alpha more often than by chance",
       {{std::to_string(found) + " such non-dominated runs; share in the lowest third of alpha less 1/3",
         over_chance, 1.0 / 3}});
 }
