@@ -6,6 +6,7 @@
 #include "cycle_run.hpp"
 #include "each_seed.hpp"
 #include "estimate.hpp"
+#include "force_windows.hpp"
 #include "setting.hpp"
 
 /// Accuracy against cost: how far step, substeps and iterations are from a converged run of the same pile.
@@ -36,7 +37,13 @@ constexpr const char* about =
     "                             a loading cycle of the LHD on another pile per seed (poured and kept in "
     "FOLDER\n"
     "                             when missing): mean force in the bucket's pin, loaded mass, mean over the\n"
-    "                             steps of the deepest overlap of a rock\n\n"
+    "                             steps of the deepest overlap of a rock\n"
+    "  accuracy_study --windows FOLDER --seeds 8\n"
+    "                             the force on the bucket alone, before chaos parts the runs: while the "
+    "reference\n"
+    "                             digs, every 0.2 s each setting goes on from its state for 0.3 s; mean of "
+    "the\n"
+    "                             windows of a cycle\n\n"
     "Fields of --json: each quantity with its mean and half_width; *_difference: setting minus reference "
     "over\n"
     "the reference's mean.";
@@ -47,7 +54,8 @@ struct Settings {
   int rocks = 500, seeds = 5, jobs = 1;
   std::vector<std::string> tried = {"10x16x1+20000", "10x16x1", "10x16x4", "5x1x25", "2.5x4x1"};
   std::string reference = "2.5x1x1000", reference_method = "sequential";
-  std::string cycle;
+  std::string cycle, windows;
+  double alpha = engine::loading::Strategy{}.alpha;
   bool json = false;
 };
 
@@ -61,12 +69,6 @@ struct Quantity {
 using Sample = std::vector<double>;  // by quantity
 using Run = std::function<Sample(const engine::WorldOptions&, double offset)>;
 
-// What is studied: quantities, and for each seed the run that all settings share.
-struct Subject {
-  std::vector<Quantity> quantities;
-  std::function<Run(int seed)> prepare;
-};
-
 struct Configuration {
   std::string name;
   Setting setting;
@@ -74,6 +76,19 @@ struct Configuration {
   double offset = 0;
   std::vector<Sample> samples;  // by seed
 };
+
+// What is studied: quantities, and the samples of one seed's pile by all configurations, the reference first.
+struct Subject {
+  std::vector<Quantity> quantities;
+  std::function<std::vector<Sample>(int seed, const std::vector<Configuration>& all)> samples;
+};
+
+// Each configuration's run from the same start.
+std::vector<Sample> one_by_one(const std::vector<Configuration>& all, const Run& run) {
+  std::vector<Sample> samples;
+  for (const Configuration& c : all) samples.push_back(run(c.options, c.offset));
+  return samples;
+}
 
 std::vector<Configuration> configurations(const Settings& s, engine::WorldOptions options) {
   std::vector<Configuration> all;
@@ -106,17 +121,16 @@ Subject blade(const Settings& s) {
            {"drag_n", "drag kN", 1e-3, 1, true},
            {"drag_p95_n", "drag p95 kN", 1e-3, 1, true},
            {"mass_moved_kg", "moved t", 1e-3, 2, true}},
-          [&s](int seed) -> Run {
+          [&s](int seed, const std::vector<Configuration>& all) {
             Progress progress;
             const SettledState start =
                 settled(support::rock_pile(s.rocks, static_cast<std::uint64_t>(seed), s.material.pile()),
                         settling_options(), progress);
-            return [start](const engine::WorldOptions& options, double offset) -> Sample {
-              Progress shown;
-              const AccuracySample a = accuracy_sample(start, options, offset, shown);
+            return one_by_one(all, [&](const engine::WorldOptions& options, double offset) -> Sample {
+              const AccuracySample a = accuracy_sample(start, options, offset, progress);
               return {a.ms_rest, a.ms_dig, a.overlap_mean, a.overlap_p99, a.dig_overlap_p99,
                       a.drift,   a.drag,   a.drag_p95,     a.mass_moved};
-            };
+            });
           }};
 }
 
@@ -125,15 +139,37 @@ Subject cycle(const Settings& s, const engine::loading::Scenario& scenario) {
            {"mean_deepest_overlap_m", "mean deepest mm", 1e3, 2, false},
            {"bucket_force_n", "bucket kN", 1e-3, 1, true},
            {"loaded_mass_kg", "loaded t", 1e-3, 2, true}},
-          [&s, scenario](int seed) -> Run {
+          [&s, scenario](int seed, const std::vector<Configuration>& all) {
             const engine::loading::Scenario of = with_pile(scenario, s.cycle, seed);
             const engine::loading::SettledPile pile = prepared_pile(of);
-            return [of, pile](const engine::WorldOptions& options, double offset) -> Sample {
+            return one_by_one(all, [&](const engine::WorldOptions& options, double offset) -> Sample {
               engine::loading::Scenario started = of;
               started.world = options;
               const CycleSample c = cycle_run(started, displaced(pile, 1, offset));
               return {c.ms_step, c.mean_deepest_overlap, c.bucket_force, c.loaded_mass};
-            };
+            });
+          }};
+}
+
+// The reference drives the cycle, and is the first of those that go on from it.
+Subject windows(const Settings& s, const engine::loading::Scenario& scenario) {
+  return {{{"ms_step", "ms per step", 1, 2, false},
+           {"windows", "windows", 1, 0, false},
+           {"bucket_force_n", "bucket kN", 1e-3, 1, true}},
+          [&s, scenario](int seed, const std::vector<Configuration>& all) {
+            engine::loading::Scenario of = with_pile(scenario, s.windows, seed);
+            const engine::loading::SettledPile pile = prepared_pile(of);
+            of.world = all.front().options;
+            std::vector<WindowChoice> choices;
+            for (const Configuration& c : all)
+              choices.push_back({c.options.step, c.options.solver, c.offset / c.options.step});
+            std::vector<Sample> samples;
+            for (const std::vector<WindowMeans>& of_choice : force_windows(of, pile, choices)) {
+              std::vector<double> force, ms;
+              for (const WindowMeans& w : of_choice) force.push_back(w.force), ms.push_back(w.ms_step);
+              samples.push_back({mean_of(ms), static_cast<double>(force.size()), mean_of(force)});
+            }
+            return samples;
           }};
 }
 
@@ -152,12 +188,11 @@ std::string compared(const Subject& subject, const Sample& sample) {
 }
 
 void run_seed(const Subject& subject, int seed, std::vector<Configuration>& all) {
-  const Run run = subject.prepare(seed);
-  for (Configuration& c : all) {
-    Sample& sample = c.samples[static_cast<std::size_t>(seed - 1)];
-    sample = run(c.options, c.offset);
-    std::fprintf(stderr, "seed %d, %s %s: %s\n", seed, c.name.c_str(), name_of(c.setting).c_str(),
-                 compared(subject, sample).c_str());
+  const std::vector<Sample> samples = subject.samples(seed, all);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k].samples[static_cast<std::size_t>(seed - 1)] = samples[k];
+    std::fprintf(stderr, "seed %d, %s %s: %s\n", seed, all[k].name.c_str(), name_of(all[k].setting).c_str(),
+                 compared(subject, samples[k]).c_str());
   }
 }
 
@@ -229,19 +264,21 @@ void print_table(const Subject& subject, const nlohmann::json& j) {
 }
 
 int run(const Settings& s) {
+  const bool loads = !s.cycle.empty() || !s.windows.empty();
   engine::loading::Scenario scenario;
-  if (!s.cycle.empty()) {
+  if (loads) {
     scenario = engine::loading::lh621_in_a_drift();
     scenario.materials = with_resistance(scenario.materials, s.material.rolling, s.material.spinning);
+    scenario.strategy.alpha = s.alpha;
   }
-  const Subject subject = s.cycle.empty() ? blade(s) : cycle(s, scenario);
+  const Subject subject = !loads ? blade(s) : s.windows.empty() ? cycle(s, scenario) : windows(s, scenario);
   std::vector<Configuration> all = configurations(s, scenario.world);
   each_seed(s.seeds, s.jobs, [&](int seed) { run_seed(subject, seed, all); });
   nlohmann::json out{{"seeds", s.seeds},
                      {"rolling", s.material.rolling},
                      {"spinning", s.material.spinning},
                      {"configurations", nlohmann::json::array()}};
-  if (s.cycle.empty()) out["rocks"] = s.rocks;
+  if (!loads) out["rocks"] = s.rocks;
   for (const Configuration& c : all) out["configurations"].push_back(described(subject, c, all.front()));
   return show(out, s.json, [&](const nlohmann::json& j) { print_table(subject, j); });
 }
@@ -256,6 +293,13 @@ int main(int argc, char** argv) {
                     ->capture_default_str();
   app.add_option("--cycle", s.cycle, "study loading cycles instead; where their piles are kept")
       ->excludes(rocks);
+  app.add_option("--windows", s.windows, "study windows of loading cycles; where their piles are kept")
+      ->excludes(rocks)
+      ->excludes("--cycle");
+  app.add_option("--alpha", s.alpha,
+                 "of the strategy of loading cycles: penetration, as a share of the bucket's fill")
+      ->check(between(0.2, 2, "", ""))
+      ->capture_default_str();
   app.add_option("--seeds", s.seeds, "number of piles, seeds 1, 2, ...")
       ->check(between(1, 1000, "", "2 and more give intervals"))
       ->capture_default_str();

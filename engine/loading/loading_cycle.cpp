@@ -207,6 +207,7 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
     const auto log_signals = [&](const engine::StepReport& report) {
       signals_.append(site_, cycle, executor, set, report);
     };
+    if (hooks_.look_ahead) hooks_.look_ahead(site_.world());
     if (!step(log_signals)) return false;
   }
   site_.driver().command({});

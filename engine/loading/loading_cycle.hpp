@@ -26,6 +26,9 @@ namespace drawpoint::engine::loading {
 struct SimulationHooks {
   std::function<void(const engine::StepReport&)> on_step;  ///< after each step, with where its time went
   engine::World::Observer before_solve;  ///< in each step of the cycles, as World::before_solve
+  /// Before each step in which the strategy drives the machine. It may step the world, to look ahead with the speeds that are
+  /// set, but must restore it.
+  std::function<void(engine::World&)> look_ahead;
 };
 
 LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks = {});

@@ -199,6 +199,10 @@ double World::time() const { return impl_->time; }
 const ArticulatedBody* World::machine() const { return impl_->scene.machine(); }
 const WorldOptions& World::options() const { return impl_->options; }
 const ContactProblem& World::problem() const { return impl_->contacts.problem(); }
+void World::set_solver(const SolverOptions& solver) {
+  impl_->solver = ContactSolver(solver, impl_->pool);
+  impl_->options.solver = solver;
+}
 void World::before_solve(Observer observer) { impl_->before_solve = std::move(observer); }
 
 double World::kinetic_energy() const {

@@ -94,6 +94,9 @@ class World {
   double time() const;  ///< [s]
   const ArticulatedBody* machine() const;
   const WorldOptions& options() const;
+  /// Later steps are solved with these: to go on from one state at another accuracy. They belong to the options that a
+  /// saved state is compared with. Throws std::invalid_argument for options out of range and then changes nothing.
+  void set_solver(const SolverOptions& solver);
   /// Of the last step, with its impulses. Bodies are the world, then the rocks that are awake; sides that
   /// stand still are the world.
   const ContactProblem& problem() const;

@@ -78,6 +78,33 @@ TEST_P(SameBits, AcrossSaveAndRestoreWithChangesPending) {
 INSTANTIATE_TEST_SUITE_P(Methods, SameBits, testing::Values(Method::sequential, Method::batched),
                          [](const auto& info) { return std::string(to_string(info.param)); });
 
+// Solved by other options for a while: as a world that has had them from the start, and no trace of it once they are set back.
+TEST(SetSolver, SolvesLaterStepsAndLeavesNoTrace) {
+  WorldOptions other = options(1, Method::batched);
+  other.solver.substeps = 4;
+  other.solver.iterations = 3;
+  BladePile pile(rocks, options()), from_the_start(rocks, other);
+  const std::vector<std::byte> saved = pile.world().save();
+  const std::uint64_t end = hash_after(pile, half);
+  pile.world().restore(saved);
+  pile.world().set_solver(other.solver);
+  EXPECT_EQ(hash_after(pile, half), hash_after(from_the_start, half));
+  EXPECT_EQ(pile.world().options().solver.substeps, 4);
+  EXPECT_THROW(pile.world().restore(saved), std::runtime_error) << "a state of other options";
+  pile.world().set_solver(options().solver);
+  pile.world().restore(saved);
+  EXPECT_EQ(hash_after(pile, half), end);
+}
+
+TEST(SetSolver, RefusesWhatCannotBeAndChangesNothing) {
+  BladePile pile(3, options());
+  const std::vector<std::byte> saved = pile.world().save();
+  SolverOptions bad;
+  bad.substeps = 0;
+  EXPECT_THROW(pile.world().set_solver(bad), std::invalid_argument);
+  EXPECT_EQ(pile.world().save(), saved);
+}
+
 // The hash must see any single bit of any rock.
 TEST(StateHash, SeesOneBit) {
   BladePile a(3, options()), b(3, options());

@@ -66,6 +66,28 @@ TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
   EXPECT_GT(peak_pin_force(log), 9.81e-3 * log.cycles[0].loaded_mass);  // it carries the load [kN]
 }
 
+// Looking ahead with another solver, and coming back, changes no bit of the run.
+TEST(LoadingCycle, LooksAheadWithoutATrace) {
+  const Scenario scenario = small_case();
+  SolverOptions harder = scenario.world.solver;
+  harder.iterations = 5;
+  int looks = 0, step = 0;
+  SimulationHooks hooks;
+  hooks.look_ahead = [&](World& world) {
+    if (++step % 100 != 0) return;
+    ++looks;
+    const std::vector<std::byte> state = world.save();
+    world.set_solver(harder);
+    for (int k = 0; k < 5; ++k) world.step();
+    world.set_solver(scenario.world.solver);
+    world.restore(state);
+  };
+  const LoadingLog log = simulate(scenario, hooks);
+  EXPECT_GT(looks, 3);
+  for (const char* column : {"tip_x", "hinge_G_force_z", "contacts"})
+    EXPECT_EQ(log.signals.column(column), cycle_log().signals.column(column)) << column;
+}
+
 TEST(LoadingCycle, LogNamesTheMoves) {
   const LoadingLog& log = cycle_log();
   const OperatorMoves moves = small_case().executor.moves;
