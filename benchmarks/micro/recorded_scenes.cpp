@@ -89,6 +89,7 @@ loading::Scenario one_cycle(loading::Scenario scenario, double rolling) {
   scenario.cycles = 1;
   scenario.strategy = {1.2, 0.8, 0.8, 0.2};
   scenario.materials = loading::with_resistance(loading::calibrated_materials(), rolling, 0);
+  scenario.materials.rock_rock.friction = 0.9;
   return scenario;
 }
 
@@ -102,7 +103,7 @@ std::vector<Scene> cycle_scenes() {
     small.pile.mass = 45e3;
     scenes.push_back({name, note + ": LH621 in a drift with 45 t of ore", small, moment.find});
     for (const auto& [rolling, text] : {std::pair(0.0, "0"), std::pair(0.1, "0.1")}) {
-      const std::string materials = std::string(", calibrated materials with rolling resistance ") + text;
+      const std::string materials = std::string(", friction 0.9, rolling resistance ") + text;
       scenes.push_back({name + "_rolling_" + text, note + ": LH621 in a drift with 120 t of ore" + materials,
                         one_cycle(loading::lh621_in_a_drift(), rolling), moment.find});
       scenes.push_back({name + "_at_lindmark2016_scale_rolling_" + text,

@@ -59,6 +59,8 @@ struct Settings {
   bool json = false;
 };
 
+bool loads(const Settings& s) { return !s.cycle.empty() || !s.windows.empty(); }
+
 struct Quantity {
   const char *key, *title;
   double scale;
@@ -264,21 +266,22 @@ void print_table(const Subject& subject, const nlohmann::json& j) {
 }
 
 int run(const Settings& s) {
-  const bool loads = !s.cycle.empty() || !s.windows.empty();
   engine::loading::Scenario scenario;
-  if (loads) {
+  if (loads(s)) {
     scenario = engine::loading::lh621_in_a_drift();
     scenario.materials = with_resistance(scenario.materials, s.material.rolling, s.material.spinning);
     scenario.strategy.alpha = s.alpha;
   }
-  const Subject subject = !loads ? blade(s) : s.windows.empty() ? cycle(s, scenario) : windows(s, scenario);
+  const Subject subject = !loads(s)           ? blade(s)
+                          : s.windows.empty() ? cycle(s, scenario)
+                                              : windows(s, scenario);
   std::vector<Configuration> all = configurations(s, scenario.world);
   each_seed(s.seeds, s.jobs, [&](int seed) { run_seed(subject, seed, all); });
   nlohmann::json out{{"seeds", s.seeds},
                      {"rolling", s.material.rolling},
                      {"spinning", s.material.spinning},
                      {"configurations", nlohmann::json::array()}};
-  if (!loads) out["rocks"] = s.rocks;
+  if (!loads(s)) out["rocks"] = s.rocks;
   for (const Configuration& c : all) out["configurations"].push_back(described(subject, c, all.front()));
   return show(out, s.json, [&](const nlohmann::json& j) { print_table(subject, j); });
 }
@@ -320,5 +323,8 @@ int main(int argc, char** argv) {
   add_method_flags(app, s.engine);
   add_material_flags(app, s.material);
   add_json_flag(app, s.json);
-  return run_command(app, argc, argv, [&] { return run(s); });
+  return run_command(app, argc, argv, [&] {
+    if (loads(s)) take_mine_materials(app, s.material);
+    return run(s);
+  });
 }

@@ -15,8 +15,8 @@
 namespace drawpoint::benchmarks {
 
 struct WindowOptions {
-  double interval = 0.2;       ///< between windows [s]
-  double length = 0.3;         ///< of a window [s]
+  double interval = 0.2;        ///< between windows [s]
+  double length = 0.3;          ///< of a window [s]
   double force_of_dig = 100e3;  ///< in the step before, on the bucket: below, it does not dig [N]
 };
 

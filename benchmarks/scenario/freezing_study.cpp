@@ -178,6 +178,7 @@ int main(int argc, char** argv) {
   add_material_flags(app, s.material);
   return run_command(app, argc, argv, [&] {
     if (s.cost) return study_cost(s);
+    if (!s.blade) take_mine_materials(app, s.material);
     return s.blade ? study_blade(s) : study_cycle(s);
   });
 }

@@ -56,9 +56,9 @@ class Builder {
     lhd_.loaded_radius = 0.93;
     lhd_.tyre_radius = 1.01;
     lhd_.bucket_width = 3.2;
-    lhd_.bucket_volume = 8.0;
     lhd_.payload = 21e3;
     lhd_.bucket_profile = {{3.85, 0}, {2.85, 1.75}, {2.30, 1.58}, {2.14, 1.15}, {2.16, 0.35}, {2.40, 0}};
+    lhd_.bucket_volume = heaped_volume(lhd_);
   }
 
   Lhd build() {

@@ -64,7 +64,7 @@ struct Lhd {
   double tyre_radius;       ///< free radius [m]
   double loaded_radius;     ///< axle height under the machine's own weight [m]
   double bucket_width;      ///< [m]
-  double bucket_volume;     ///< heaped 2:1 [m³]
+  double bucket_volume;     ///< heaped_volume() [m³]
   double payload;           ///< rated [kg]
   std::vector<Eigen::Vector2d>
       bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]

@@ -29,8 +29,9 @@ MineMaterials lindmark2016_materials() {
 }
 
 MineMaterials calibrated_materials() {
-  MineMaterials m = with_resistance(lindmark2016_materials(), 0.1, 0);
+  MineMaterials m = with_resistance(lindmark2016_materials(), 0, 0);
   m.rock_rock.stiffness = soft_stiffness;
+  m.rock_rock.friction = 0.7;
   m.rock_steel.friction = 0.5;
   return m;
 }

@@ -11,9 +11,9 @@
 /// What the surfaces of the loading case do to each other: friction, rolling resistance, stiffness.
 ///
 /// A coefficient belongs to the shapes and to the solver that it was found with. Rolling resistance is a
-/// stand-in for shape, made for spheres. Convex polyhedra resist rolling by their corners: with friction 0.9
-/// and none of it our rocks already lie at 38 degrees, and with the 0.5 to 0.9 of Lindmark (2016), solved to
-/// convergence, they lock into a wall that no bucket enters.
+/// stand-in for shape, made for spheres. Convex polyhedra resist rolling by their corners: without any of it our rocks
+/// already lie at 37 to 41 degrees, and with the 0.5 to 0.9 of Lindmark (2016), solved to convergence, they lock into a
+/// wall that no bucket enters.
 namespace drawpoint::engine::loading {
 
 enum class SurfaceKind { rock, terrain, steel, tyre };  ///< rows of the material table
@@ -24,10 +24,9 @@ struct MineMaterials {
   engine::Material rock_rock, rock_terrain, rock_steel, rock_tyre, steel_terrain, tyre_terrain;
 };
 
-/// The default. Rolling resistance 0.1 and spinning resistance 0 wherever a rock takes part: the study's
-/// piles then lie at 37 degrees, where 35 to 42 are quoted for blasted hard rock, and a bucket fills
-/// (docs/measurements/loading.md). Friction 0.9 between rocks, 1.0 on floor and tyre, 0.5 on steel: with 1.0
-/// there buckets load a seventh less and scatter more. Stiffness 1e8 N/m, what the substeps resolve (material.hpp):
+/// The default. No rolling and no spinning resistance, friction 0.7 between rocks: within the bounds that tests of soil
+/// mechanics set for blasted iron ore (docs/decisions/0025, 0026). The study's piles lie at 37 degrees, where 35 to 42 are
+/// quoted. Friction 1.0 on floor and tyre, 0.5 on steel: with 1.0 there buckets load a seventh less and scatter more. Stiffness 1e8 N/m, what the substeps resolve (material.hpp):
 /// a rock that carries 100 kN of the bucket's edge is pressed in by 1 mm. Tyre as below.
 MineMaterials calibrated_materials();
 

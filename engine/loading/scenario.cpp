@@ -20,6 +20,8 @@ Scenario lh621_in_a_drift() {
   s.executor.speeds = lindmark2016_speeds();
   // Reached while the bucket goes up and back; while it digs the budget ends first (docs/decisions/0024).
   s.world.solver.tolerance = 0.02;
+  // The force on the bucket is then off by 1.4 %, with 20 000 by 2.9 % (docs/measurements/loading.md).
+  s.world.solver.iteration_budget = 40000;
   return s;
 }
 
@@ -31,8 +33,7 @@ Scenario lh621_at_lindmark2016_scale() {
   s.drift.raise_radius = 3.0;
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
-  s.world.solver.iteration_budget *=
-      4;  // as many iterations per substep for its points as the smaller scene has
+  s.world.solver.iteration_budget *= 2;  // as many iterations for each of its points as the smaller scene has
   return s;
 }
 

@@ -53,7 +53,7 @@ struct PileWall {
 struct PileMaterial {
   double friction = 0.9;    ///< Coulomb μ
   double restitution = 0;   ///< e
-  double rolling = 0.1;     ///< μ_r: moment ≤ μ_r R* × normal force (calibrated, as in the loading case)
+  double rolling = 0.1;     ///< μ_r: moment ≤ μ_r R* × normal force (the most that blasted ore may have)
   double spinning = 0;      ///< μ_s, the same about the normal
   double stiffness = 1e8;   ///< k of a pair of bodies [N/m] (the engine's rock-on-rock value)
   double damping_time = 0;  ///< [s]; 0: the least that the method allows

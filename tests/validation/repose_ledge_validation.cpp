@@ -23,7 +23,7 @@ const validation::Problem repose_ledge{
     "sides; its end is "
     "taken away and what slides off the ledge is gone. μ = 0.1 and 0.9, six seeds each with rolling "
     "resistance μ_r = 0.5; three "
-    "with none, and at μ = 0.9 three with the calibrated 0.1; default steps and iterations; the angle "
+    "with none, and at μ = 0.9 three with 0.1; default steps and iterations; the angle "
     "of what is left, from half a rock above the ledge to one rock below the crest. Four rocks of height "
     "over the edge "
     "and three across: the bank is a small one, steeper than a high one would stand."};
@@ -140,12 +140,12 @@ TEST(ReposeLedge, RisesWithFrictionAndStandsAsSteepAsPoured) {
       "one-sided); the error is what it lacks.");
 }
 
-// Rocks have shape: the same holds without rolling resistance, and with as little as is calibrated.
+// Rocks have shape: the same holds without rolling resistance, and with as little as blasted ore may have.
 TEST(ReposeLedge, StandsByShapeAlone) {
-  const Material none{.friction = 0.9}, calibrated{.friction = 0.9, .rolling = 0.1};
+  const Material none{.friction = 0.9}, little{.friction = 0.9, .rolling = 0.1};
   const Estimate low = drained_angle({.friction = 0.1}, three), high = drained_angle(none, three);
   record_steepness(none, high);
   record_rise("μ_r = 0", low, high, 3.75,
               "As before, with 3.75 standard errors (Student, 4 degrees of freedom).");
-  record_steepness(calibrated, drained_angle(calibrated, three));
+  record_steepness(little, drained_angle(little, three));
 }

@@ -21,7 +21,7 @@ const validation::Problem repose_poured{
     "0.7 m over the "
     "heap's top, on a floor as rough as they are; μ = 0.3, 0.6 and 0.9 with rolling resistance μ_r = 0.5, "
     "eight seeds each; μ = 0.9 "
-    "with none and with the calibrated 0.1, five seeds each; default steps and iterations. The angle "
+    "with none and with 0.1, five seeds each; default steps and iterations. The angle "
     "is that of the cone's sections, from one rock above the floor to one rock below the tip."};
 
 constexpr double size = 0.3;
@@ -110,24 +110,24 @@ TEST(ReposePoured, IsPlausibleAndRisesWithFriction) {
 }
 
 // Rocks have shape, and need no rolling resistance to stand as the field's do: the same band holds without it, and with
-// the calibrated 0.1. And what resists rolling does not flatten a heap (angles of repose rise with rolling friction, and
+// 0.1. And what resists rolling does not flatten a heap (angles of repose rise with rolling friction, and
 // level off: Zhou et al. 1999), beyond chance.
 TEST(ReposePoured, IsPlausibleByShapeAlone) {
   const engine::Material shape_alone{.friction = 0.9}, ore{.friction = 0.9, .rolling = 0.1};
-  const Estimate none = poured_angle(shape_alone, 5), calibrated = poured_angle(ore, 5);
+  const Estimate none = poured_angle(shape_alone, 5), little = poured_angle(ore, 5);
   const std::string reason =
       "The same half of the band, and 3.75 standard errors of a mean of five (Student, 4 degrees of "
       "freedom).";
   record_angle(shape_alone, none, student_of_mean_of_five, reason);
-  record_angle(ore, calibrated, student_of_mean_of_five, reason);
+  record_angle(ore, little, student_of_mean_of_five, reason);
   record(repose_poured,
          {.quantity = "fall from μ_r = 0 to 0.1, μ = 0.9",
           .unit = "deg",
           .expected = 0,
           .source = "rolling resistance does not flatten a heap",
-          .measured = none.mean - calibrated.mean,
-          .error = std::max(0.0, none.mean - calibrated.mean),
-          .budget = student_of_fives * together(none, calibrated),
+          .measured = none.mean - little.mean,
+          .error = std::max(0.0, none.mean - little.mean),
+          .budget = student_of_fives * together(none, little),
           .budget_reason = "A fall may not exceed what chance gives in 1 %: 2.90 standard errors of the "
                            "difference (Student, 8 degrees of freedom)."});
 }

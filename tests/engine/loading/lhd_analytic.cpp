@@ -62,6 +62,14 @@ TEST(Lhd, WeighsWhatItsPartsWeigh) {
   EXPECT_NEAR(mass, 56800, 1e-6);
 }
 
+// The bucket's stated volumes, struck and heaped 2:1; plans count in what is heaped.
+TEST(Lhd, BucketHoldsWhatIsStated) {
+  const Lhd lhd = sandvik_lh621();
+  EXPECT_NEAR(struck_volume(lhd), 6.3, 0.01 * 6.3);
+  EXPECT_NEAR(heaped_volume(lhd), 7.9, 0.01 * 7.9);
+  EXPECT_EQ(lhd.bucket_volume, heaped_volume(lhd));
+}
+
 // The estimated linkage's own table: lift and tilt cylinder lengths against boom elevation, with the bucket
 // level and racked by 45 deg. The table is rounded to 1 mm; its points to 1 mm too, which moves a length by
 // at most 2 mm.

@@ -36,7 +36,7 @@ TEST(MineMaterials, ResistanceIsOfTheRocksAlone) {
   const MineMaterials before = calibrated_materials(), after = with_resistance(before, 0.3, 0.2);
   for (const auto pair : {&MineMaterials::rock_rock, &MineMaterials::rock_terrain, &MineMaterials::rock_steel,
                           &MineMaterials::rock_tyre}) {
-    EXPECT_EQ((before.*pair).rolling, 0.1);
+    EXPECT_EQ((before.*pair).rolling, 0);
     EXPECT_EQ((before.*pair).spinning, 0);
     EXPECT_EQ((after.*pair).rolling, 0.3);
     EXPECT_EQ((after.*pair).spinning, 0.2);

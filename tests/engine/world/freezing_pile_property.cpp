@@ -39,7 +39,7 @@ void run(World& world, double seconds) {
 }
 
 // What is told here is of piles that come to rest. With as much rolling and spinning resistance as this,
-// rocks stop ticking in their seats; with the calibrated 0.1 and none some never do (docs/engine.md), and
+// rocks stop ticking in their seats; with 0.1 and none some never do (docs/engine.md), and
 // stay awake.
 support::PileMaterial that_holds_still() {
   support::PileMaterial material;
