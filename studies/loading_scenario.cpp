@@ -35,6 +35,11 @@ std::vector<StudyOption> loading_options() {
            "contact coefficients",
            "calibrated",
            {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
+          {"solver",
+           "contacts: solved as far as force and load need it, or as loosely as in Lindmark (2016), whose "
+           "materials need it",
+           "scene",
+           {"scene", "lindmark2016"}},
           {"scene",
            "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m",
            "small",
@@ -55,6 +60,8 @@ Scenario loading_scenario(const RunContext& run) {
   Scenario scenario = second_of(run, "scene", "small", "lindmark2016")
                           ? engine::loading::lh621_at_lindmark2016_scale()
                           : engine::loading::lh621_in_a_drift();
+  if (second_of(run, "solver", "scene", "lindmark2016"))
+    scenario.world = engine::loading::lindmark2016_solver();
   scenario.executor.speeds = second_of(run, "speeds", "lindmark2016", "machine")
                                  ? engine::loading::machine_speeds()
                                  : engine::loading::lindmark2016_speeds();

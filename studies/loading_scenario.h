@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the options of the loading study choose: materials, scene, speeds, operator and number of cycles, and
+/// What the options of the loading study choose: materials, solver, scene, speeds, operator and number of cycles, and
 /// the scenario that they make. The scene has a number of cycles of its own (thirty at the scale of Lindmark,
 /// 2016), which the study's option overrides: two, unless told.
 

@@ -55,6 +55,7 @@ struct Settings {
   std::vector<std::string> tried = {"10x16x1+20000", "10x16x1", "10x16x4", "5x1x25", "2.5x4x1"};
   std::string reference = "2.5x1x1000", reference_method = "sequential";
   std::string cycle, windows;
+  WindowOptions window;
   double alpha = engine::loading::Strategy{}.alpha;
   bool json = false;
 };
@@ -166,7 +167,7 @@ Subject windows(const Settings& s, const engine::loading::Scenario& scenario) {
             for (const Configuration& c : all)
               choices.push_back({c.options.step, c.options.solver, c.offset / c.options.step});
             std::vector<Sample> samples;
-            for (const std::vector<WindowMeans>& of_choice : force_windows(of, pile, choices)) {
+            for (const std::vector<WindowMeans>& of_choice : force_windows(of, pile, choices, s.window)) {
               std::vector<double> force, ms;
               for (const WindowMeans& w : of_choice) force.push_back(w.force), ms.push_back(w.ms_step);
               samples.push_back({mean_of(ms), static_cast<double>(force.size()), mean_of(force)});
@@ -299,6 +300,12 @@ int main(int argc, char** argv) {
   app.add_option("--windows", s.windows, "study windows of loading cycles; where their piles are kept")
       ->excludes(rocks)
       ->excludes("--cycle");
+  app.add_option("--length", s.window.length, "of a window [s]")
+      ->check(between(0.05, 5, "s", "chaos parts the runs after about a second"))
+      ->capture_default_str();
+  app.add_option("--interval", s.window.interval, "between windows [s]")
+      ->check(between(0.05, 5, "s", "0.2 is usual"))
+      ->capture_default_str();
   app.add_option("--alpha", s.alpha,
                  "of the strategy of loading cycles: penetration, as a share of the bucket's fill")
       ->check(between(0.2, 2, "", ""))

@@ -25,8 +25,8 @@ struct MineMaterials {
 };
 
 /// The default. No rolling and no spinning resistance, friction 0.7 between rocks: within the bounds that tests of soil
-/// mechanics set for blasted iron ore (docs/decisions/0025, 0026). The study's piles lie at 37 degrees, where 35 to 42 are
-/// quoted. Friction 1.0 on floor and tyre, 0.5 on steel: with 1.0 there buckets load a seventh less and scatter more. Stiffness 1e8 N/m, what the substeps resolve (material.hpp):
+/// mechanics set for blasted iron ore (docs/decisions/0025, 0026). The study's piles lie at 36 degrees in the mean, where 35
+/// to 42 are quoted. Friction 1.0 on floor and tyre, 0.5 on steel: with 1.0 there buckets load a seventh less and scatter more. Stiffness 1e8 N/m, what the substeps resolve (material.hpp):
 /// a rock that carries 100 kN of the bucket's edge is pressed in by 1 mm. Tyre as below.
 MineMaterials calibrated_materials();
 

@@ -37,6 +37,16 @@ Scenario lh621_at_lindmark2016_scale() {
   return s;
 }
 
+engine::WorldOptions lindmark2016_solver() {
+  engine::WorldOptions options;
+  options.step = 1.0 / 60;
+  options.warm_start = 0;
+  options.solver.substeps = 1;
+  options.solver.iterations = 150;
+  options.solver.iteration_budget = 0;
+  return options;
+}
+
 void check(const Scenario& s) {
   check(s.strategy);
   check(s.drift);

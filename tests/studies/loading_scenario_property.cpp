@@ -42,6 +42,17 @@ TEST(LoadingScenario, TheSceneSetsItsOwnSolverButNotTheCycles) {
   EXPECT_EQ(with({{"scene", "lindmark2016"}, {"cycles", "30"}}).cycles, 30);
 }
 
+TEST(LoadingScenario, TheSolverOfTheSourceGoesWithAnyScene) {
+  const loading::Scenario s = with({{"solver", "lindmark2016"}, {"scene", "lindmark2016"}});
+  EXPECT_EQ(s.world.solver.iterations, 150);
+  EXPECT_EQ(s.world.solver.substeps, 1);
+  EXPECT_EQ(s.world.warm_start, 0);
+  EXPECT_DOUBLE_EQ(s.world.step, 1.0 / 60);
+  EXPECT_EQ(s.pile.mass, loading::lh621_at_lindmark2016_scale().pile.mass);
+  EXPECT_EQ(with({{"materials", "lindmark2016"}}).world.solver.iterations, 1)
+      << "materials alone leave the solver";
+}
+
 TEST(LoadingScenario, SpeedsAndOperatorGoTogetherOrAlone) {
   const loading::Scenario s = with({{"speeds", "machine"}, {"operator", "skilled"}});
   EXPECT_EQ(s.executor.speeds.lift, loading::machine_speeds().lift);

@@ -68,8 +68,8 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 }
 
 // The pile of the default study lies as blasted ore lies, 35 to 42 degrees (published for hard rock). One
-// seed, the study's own: seeds have 36.6 degrees in the mean and scatter by 3 to 4.5 (docs/measurements/loading.md), so one
-// pile may lie that much outside. No row is flatter than a pile that was dropped (25 degrees at most) or steeper than
+// seed, the study's own: seeds lie at 36 degrees in the mean, and single piles scatter by 4.6 (standard deviation of 24;
+// docs/measurements/loading.md), so one pile may lie that much outside. No row is flatter than a pile that was dropped (25 degrees at most) or steeper than
 // wet sand stands; the crest is higher than the bucket's mouth, 1.75 m, and no rock reaches the roof.
 TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
   Scenario scenario = lh621_in_a_drift();
@@ -79,8 +79,8 @@ TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
   EXPECT_FALSE(pile.timed_out);
   EXPECT_GE(shape.mass, scenario.pile.mass);
   constexpr double degree = M_PI / 180;
-  EXPECT_GT(shape.surface.mean, (35 - 3.6) * degree);
-  EXPECT_LT(shape.surface.mean, (42 + 3.6) * degree);
+  EXPECT_GT(shape.surface.mean, (35 - 4.6) * degree);
+  EXPECT_LT(shape.surface.mean, (42 + 4.6) * degree);
   EXPECT_GT(shape.surface.least, 25 * degree);
   EXPECT_LT(shape.surface.most, 50 * degree);
   EXPECT_GT(shape.surface.crest, 1.75);

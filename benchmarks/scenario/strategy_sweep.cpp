@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <drawpoint/engine/loading/run_measures.hpp>
+#include <functional>
+
+#include "command.hpp"
+#include "cycle_run.hpp"
+#include "each_seed.hpp"
+#include "estimate.hpp"
+
+/// What one variable of the strategy does to the responses, the others held. See --help.
+using namespace drawpoint;
+using namespace drawpoint::benchmarks;
+using namespace drawpoint::engine::loading;
+
+namespace {
+
+constexpr const char* about =
+    "Runs of loading cycles over one variable of the strategy, the others held, on several piles: means over "
+    "the "
+    "piles with\n"
+    "95 % intervals (Student's t). Piles are poured when missing and kept in FOLDER. A run that fails is "
+    "left out "
+    "and counted.\n\n"
+    "  strategy_sweep --piles /tmp/piles --vary alpha --values 0.2,0.6,1,1.4,2\n"
+    "  strategy_sweep --piles /tmp/piles --vary kappa --alpha 1.4 --cycles 5 --seeds 6 --jobs 2\n\n"
+    "Columns: production [kg/s], joint damage per cycle [s], rock spill, loaded mass over the rated payload, "
+    "share of "
+    "drive-ins\n"
+    "that stalled, distance of the tip from its plan [m], energy per tonne [kJ/t], cycle [s].";
+
+struct Settings {
+  std::string piles, variable = "alpha", speeds = "lindmark2016", moves = "none";
+  std::vector<double> values;
+  Strategy strategy;
+  int seeds = 3, cycles = 5, jobs = 1;
+  bool json = false;
+};
+
+struct Measure {
+  const char *key, *title;
+  int digits;
+  std::function<double(const LoadingLog&)> of;
+};
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all{
+      {"production_kg_s", "production", 0, [](const LoadingLog& log) { return production(log); }},
+      {"joint_damage_s", "damage", 2,
+       [](const LoadingLog& log) { return joint_damage(log) / static_cast<double>(log.cycles.size()); }},
+      {"rock_spill", "spill", 3, [](const LoadingLog& log) { return rock_spill(log); }},
+      {"fill_factor", "fill", 3, fill_factor},
+      {"stall_share", "stalls", 2, stall_share},
+      {"tracking_error_m", "tracking", 2, tracking_error},
+      {"energy_kj_t", "energy", 0, energy_per_tonne},
+      {"cycle_s", "cycle", 1, cycle_time}};
+  return all;
+}
+
+double& varied(Strategy& strategy, const std::string& variable) {
+  if (variable == "alpha") return strategy.alpha;
+  if (variable == "beta") return strategy.beta;
+  return variable == "gamma" ? strategy.gamma : strategy.kappa;
+}
+
+// Nine, evenly over the studied range.
+std::vector<double> usual_values(const std::string& variable) {
+  const double low = variable == "alpha" ? 0.2 : 0, high = variable == "alpha" ? 2 : 1;
+  std::vector<double> values;
+  for (int k = 0; k < 9; ++k) values.push_back(low + (high - low) * k / 8);
+  return values;
+}
+
+Scenario scenario_of(const Settings& s) {
+  Scenario scenario = lh621_in_a_drift();
+  scenario.cycles = s.cycles;
+  scenario.strategy = s.strategy;
+  if (s.speeds == "machine") scenario.executor.speeds = machine_speeds();
+  if (s.moves == "skilled") scenario.executor.moves = skilled_operator();
+  return scenario;
+}
+
+using Row = std::vector<double>;  // by measure; empty: the run failed
+
+Row row_of(const LoadingLog& log, const std::string& name) {
+  Row row;
+  if (!log.completed) {
+    std::fprintf(stderr, "%s failed: %s\n", name.c_str(), log.message.c_str());
+    return row;
+  }
+  for (const Measure& m : measures()) row.push_back(m.of(log));
+  std::fprintf(stderr, "%s: %.0f kg/s, fill %.2f\n", name.c_str(), row[0], row[3]);
+  return row;
+}
+
+// By value, then by seed.
+std::vector<std::vector<Row>> sweep(const Settings& s) {
+  const auto seeds = static_cast<std::size_t>(s.seeds);
+  std::vector<Scenario> scenarios(seeds);
+  std::vector<SettledPile> piles(seeds);
+  each_seed(s.seeds, s.jobs, [&](int seed) {
+    const auto k = static_cast<std::size_t>(seed - 1);
+    scenarios[k] = with_pile(scenario_of(s), s.piles, seed);
+    scenarios[k].seed = static_cast<std::uint64_t>(seed);
+    piles[k] = prepared_pile(scenarios[k]);
+  });
+  std::vector<std::vector<Row>> rows(s.values.size(), std::vector<Row>(seeds));
+  each_seed(static_cast<int>(s.values.size() * seeds), s.jobs, [&](int run) {
+    const std::size_t k = static_cast<std::size_t>(run - 1) % seeds,
+                      v = static_cast<std::size_t>(run - 1) / seeds;
+    Scenario scenario = scenarios[k];
+    varied(scenario.strategy, s.variable) = s.values[v];
+    char name[64];
+    std::snprintf(name, sizeof name, "%s %g, seed %zu", s.variable.c_str(), s.values[v], k + 1);
+    rows[v][k] = row_of(simulate(scenario, piles[k]), name);
+  });
+  return rows;
+}
+
+nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Row>>& rows) {
+  nlohmann::json out{{"variable", s.variable},    {"seeds", s.seeds},
+                     {"cycles", s.cycles},        {"speeds", s.speeds},
+                     {"moves", s.moves},          {"alpha", s.strategy.alpha},
+                     {"beta", s.strategy.beta},   {"gamma", s.strategy.gamma},
+                     {"kappa", s.strategy.kappa}, {"rows", nlohmann::json::array()}};
+  out[s.variable] = "varied";
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    nlohmann::json row{{"value", s.values[v]}};
+    int failed = 0;
+    for (const Row& r : rows[v]) failed += r.empty();
+    row["failed"] = failed;
+    for (std::size_t m = 0; m < measures().size(); ++m) {
+      std::vector<double> values;
+      for (const Row& r : rows[v])
+        if (!r.empty()) values.push_back(r[m]);
+      const Estimate e = estimate(values);
+      row[measures()[m].key] = {{"mean", e.mean}};
+      row[measures()[m].key]["half_width"] =
+          std::isfinite(e.half_width) ? nlohmann::json(e.half_width) : nlohmann::json(nullptr);
+    }
+    out["rows"].push_back(row);
+  }
+  return out;
+}
+
+std::string held(const nlohmann::json& j) {
+  std::string text;
+  for (const char* variable : {"alpha", "beta", "gamma", "kappa"}) {
+    if (j.at(variable).is_string()) continue;
+    char part[32];
+    std::snprintf(part, sizeof part, "%s%s %g", text.empty() ? "" : ", ", variable,
+                  j.at(variable).get<double>());
+    text += part;
+  }
+  return text;
+}
+
+void print_table(const nlohmann::json& j) {
+  std::printf("%s varied; %s; %s speeds, operator's moves: %s; %d piles, %d cycles a run\n%8s",
+              j.at("variable").get<std::string>().c_str(), held(j).c_str(),
+              j.at("speeds").get<std::string>().c_str(), j.at("moves").get<std::string>().c_str(),
+              j.at("seeds").get<int>(), j.at("cycles").get<int>(),
+              j.at("variable").get<std::string>().c_str());
+  for (const Measure& m : measures()) std::printf(" %16s", m.title);
+  std::printf(" %7s\n", "failed");
+  for (const nlohmann::json& row : j.at("rows")) {
+    std::printf("%8.3f", row.at("value").get<double>());
+    for (const Measure& m : measures()) {
+      const nlohmann::json& e = row.at(m.key);
+      char text[48];
+      if (e.at("half_width").is_null())
+        std::snprintf(text, sizeof text, "%.*f", m.digits, e.at("mean").get<double>());
+      else
+        std::snprintf(text, sizeof text, "%.*f +- %.*f", m.digits, e.at("mean").get<double>(), m.digits,
+                      e.at("half_width").get<double>());
+      std::printf(" %16s", text);
+    }
+    std::printf(" %7d\n", row.at("failed").get<int>());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings s;
+  CLI::App app(about, "strategy_sweep");
+  app.add_option("--piles", s.piles, "FOLDER of the piles; made when missing")->required();
+  app.add_option("--vary", s.variable, "the variable")
+      ->check(CLI::IsMember({"alpha", "beta", "gamma", "kappa"}))
+      ->capture_default_str();
+  app.add_option("--values", s.values, "of it, with commas between (default: nine over its studied range)")
+      ->delimiter(',')
+      ->check(between(0, 5, "", "alpha 0.2 to 2, the others 0 to 1"));
+  app.add_option("--alpha", s.strategy.alpha, "wanted fill")
+      ->check(between(0, 5, "", "0.2 to 2 are studied"))
+      ->capture_default_str();
+  const auto share = between(0, 1, "", "0.5 is the middle of the study");
+  app.add_option("--beta", s.strategy.beta, "height of the lift")->check(share)->capture_default_str();
+  app.add_option("--gamma", s.strategy.gamma, "place across the drift")->check(share)->capture_default_str();
+  app.add_option("--kappa", s.strategy.kappa, "tilt in the lift")->check(share)->capture_default_str();
+  app.add_option("--seeds", s.seeds, "number of piles, seeds 1, 2, ...")
+      ->check(between(1, 1000, "", "3 and more for intervals"))
+      ->capture_default_str();
+  app.add_option("--cycles", s.cycles, "cycles per run")
+      ->check(between(1, 1000, "", "1 to 30"))
+      ->capture_default_str();
+  app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
+      ->check(CLI::IsMember({"lindmark2016", "machine"}))
+      ->capture_default_str();
+  app.add_option("--moves", s.moves, "of an operator, beside the plan")
+      ->check(CLI::IsMember({"none", "skilled"}))
+      ->capture_default_str();
+  app.add_option("--jobs", s.jobs, "runs at a time")
+      ->check(between(1, 256, "", "no more than there are cores"))
+      ->capture_default_str();
+  add_json_flag(app, s.json);
+  return run_command(app, argc, argv, [&] {
+    if (s.values.empty()) s.values = usual_values(s.variable);
+    if (s.variable != "alpha" && *std::max_element(s.values.begin(), s.values.end()) > 1)
+      throw std::invalid_argument("--values: " + s.variable + " is 0 to 1");
+    return show(as_json(s, sweep(s)), s.json, print_table);
+  });
+}
