@@ -48,11 +48,11 @@ std::vector<StudyOption> loading_options() {
            "what drive, boom and bucket are set to: for the 12 s cycles of Lindmark (2016), or what the "
            "machine can do",
            "lindmark2016",
-           {"lindmark2016", "machine"}},
+           {engine::loading::speed_names.begin(), engine::loading::speed_names.end()}},
           {"operator",
            "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
            "plan",
-           {"plan", "skilled"}},
+           {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
           {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000}};
 }
 
@@ -62,11 +62,8 @@ Scenario loading_scenario(const RunContext& run) {
                           : engine::loading::lh621_in_a_drift();
   if (second_of(run, "solver", "scene", "lindmark2016"))
     scenario.world = engine::loading::lindmark2016_solver();
-  scenario.executor.speeds = second_of(run, "speeds", "lindmark2016", "machine")
-                                 ? engine::loading::machine_speeds()
-                                 : engine::loading::lindmark2016_speeds();
-  if (second_of(run, "operator", "plan", "skilled"))
-    scenario.executor.moves = engine::loading::skilled_operator();
+  scenario.executor.speeds = engine::loading::speeds_named(chosen(run, "speeds"));
+  scenario.executor.moves = engine::loading::operator_named(chosen(run, "operator"));
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
   scenario.cycles = std::stoi(chosen(run, "cycles"));
   scenario.pile_file = run.shared / "pile.h5";

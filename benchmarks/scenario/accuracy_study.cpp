@@ -7,6 +7,7 @@
 #include "each_seed.hpp"
 #include "estimate.hpp"
 #include "force_windows.hpp"
+#include "loading_flags.hpp"
 #include "setting.hpp"
 
 /// Accuracy against cost: how far step, substeps and iterations are from a converged run of the same pile.

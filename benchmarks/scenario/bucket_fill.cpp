@@ -6,10 +6,10 @@
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <optional>
 
-#include "command.hpp"
 #include "cycle_run.hpp"
 #include "each_seed.hpp"
 #include "estimate.hpp"
+#include "loading_flags.hpp"
 #include "setting.hpp"
 
 /// How much a bucket loads, over wanted fill and piles: the first thing to look at after a change of machine,
@@ -34,8 +34,8 @@ constexpr const char* about =
     "                                                        and solved as loosely as there";
 
 struct Settings {
-  std::string piles, materials = "calibrated", speeds = "lindmark2016", curl = "hinge", lift = "surface",
-                     moves = "none", setting;
+  std::string piles, materials = "calibrated", curl = "hinge", lift = "surface", setting;
+  OperationFlags operation;
   std::vector<double> alphas = {0.3, 1.0, 1.6};
   Strategy strategy = {.alpha = 1, .beta = 0.4, .gamma = 0.5, .kappa = 0.5};
   std::optional<double> rolling, spinning, steel_friction, rock_friction, mass;
@@ -66,8 +66,7 @@ Scenario scenario_of(const Settings& s) {
   if (s.mass) scenario.pile.mass = 1e3 * *s.mass;
   if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
   if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
-  if (s.speeds == "machine") scenario.executor.speeds = machine_speeds();
-  if (s.moves == "skilled") scenario.executor.moves = skilled_operator();
+  s.operation.apply(scenario.executor);
   return scenario;
 }
 
@@ -182,10 +181,10 @@ nlohmann::json described(const Settings& s) {
               {"gamma", s.strategy.gamma},
               {"kappa", s.strategy.kappa},
               {"cycles", s.cycles},
-              {"speeds", s.speeds},
+              {"speeds", s.operation.speeds},
               {"curl", s.curl},
               {"lift", s.lift},
-              {"moves", s.moves},
+              {"operator", s.operation.operated},
               {"solved", in_words(benchmarks::described(scenario.world)) + (s.cold ? ", cold" : "")}});
   return out;
 }
@@ -220,12 +219,12 @@ void print_table(const nlohmann::json& j) {
   std::printf(
       "%s: rolling %g (steel %g), spinning %g, friction %g (steel %g); beta %g, gamma %g, kappa %g; %s "
       "speeds, "
-      "curl about the %s, lift by the %s, operator's moves: %s\nsolved with %s\n",
+      "curl about the %s, lift by the %s, operator: %s\nsolved with %s\n",
       of.at("materials").get<std::string>().c_str(), number(of, "rolling"), number(of, "steel_rolling"),
       number(of, "spinning"), number(of, "rock_friction"), number(of, "steel_friction"), number(of, "beta"),
       number(of, "gamma"), number(of, "kappa"), of.at("speeds").get<std::string>().c_str(),
       of.at("curl").get<std::string>().c_str(), of.at("lift").get<std::string>().c_str(),
-      of.at("moves").get<std::string>().c_str(), of.at("solved").get<std::string>().c_str());
+      of.at("operator").get<std::string>().c_str(), of.at("solved").get<std::string>().c_str());
   for (const nlohmann::json& r : j.at("rows"))
     if (const int failed = r.at("failed").get<int>())
       std::printf("alpha %g: %d of %d runs failed and are left out\n", number(r, "alpha"), failed,
@@ -274,15 +273,7 @@ int main(int argc, char** argv) {
   app.add_option("--rock-friction", s.rock_friction, "friction of rock on rock [1]")->check(coefficient);
   app.add_option("--steel-friction", s.steel_friction, "friction of rock on steel [1]")->check(coefficient);
   app.add_option("--mass", s.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
-  app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
-      ->check(CLI::IsMember({"lindmark2016", "machine"}))
-      ->capture_default_str();
-  app.add_option(
-         "--moves", s.moves,
-         "what an operator does beside following the plan: none, or skilled: pulses of lift and curl when "
-         "the drive is held up, thrust while the bucket curls")
-      ->check(CLI::IsMember({"none", "skilled"}))
-      ->capture_default_str();
+  add_operation_flags(app, s.operation);
   app.add_option("--curl", s.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")
       ->check(CLI::IsMember({"hinge", "tip"}))
@@ -294,9 +285,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"surface", "slope"}))
       ->capture_default_str();
   app.add_option(
-      "--setting", s.setting,
-      "how cycles are solved: STEPxSUBSTEPSxITERATIONS with the step in ms, +BUDGET for iteration budget "
-      "(default: the study's; piles are always poured with that)");
+         "--setting", s.setting,
+         "how cycles are solved: STEPxSUBSTEPSxITERATIONS with the step in ms, +BUDGET for iteration budget "
+         "(default: the study's; piles are always poured with that)")
+      ->check(taken_by(setting_of));
   app.add_flag("--cold", s.cold, "begin each step's solve from nothing");
   app.add_option("--jobs", s.jobs, "piles at a time")
       ->check(between(1, 256, "", "no more than there are cores"))

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <drawpoint/engine/loading/mine_materials.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -116,12 +115,6 @@ void add_material_flags(CLI::App& app, MaterialFlags& flags) {
   app.add_option("--spinning", flags.spinning, "spinning resistance of the rocks [1]")
       ->check(between(0, 2, "", "0 is usual"))
       ->capture_default_str();
-}
-
-void take_mine_materials(const CLI::App& app, MaterialFlags& flags) {
-  const engine::Material rock = engine::loading::calibrated_materials().rock_rock;
-  if (app.count("--rolling") == 0) flags.rolling = rock.rolling;
-  if (app.count("--spinning") == 0) flags.spinning = rock.spinning;
 }
 
 engine::WorldOptions world_options(const EngineFlags& flags) {

@@ -49,8 +49,6 @@ struct MaterialFlags {
 
 /// --rolling and --spinning; the defaults are what `flags` holds.
 void add_material_flags(CLI::App& app, MaterialFlags& flags);
-/// Once parsed: those that were not given become the rocks' in the loading case.
-void take_mine_materials(const CLI::App& app, MaterialFlags& flags);
 
 /// The options as they go into the results.
 nlohmann::json described(const engine::WorldOptions& options);

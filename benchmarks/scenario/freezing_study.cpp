@@ -7,6 +7,7 @@
 #include "cycle_run.hpp"
 #include "estimate.hpp"
 #include "freezing_cost.hpp"
+#include "loading_flags.hpp"
 #include "setting.hpp"
 
 /// What freezing changes: cost beside rocks that move, force on a blade, load of a bucket. See --help.
@@ -170,6 +171,7 @@ int main(int argc, char** argv) {
       ->check(between(1, 10'000, "", "2 and more give intervals"))
       ->capture_default_str();
   app.add_option("--setting", s.setting, "step and work of blade and cycle")
+      ->check(taken_by(setting_of))
       ->capture_default_str()
       ->excludes(cost);
   app.add_option("--repeats", s.repeats, "of the cost; the least counts")

@@ -62,10 +62,12 @@ nlohmann::json run(const Settings& s) {
   Progress progress;
   long steps = 0;
   const double start = processor_seconds();
-  const LoadingLog log = simulate(scenario, pile, {[&](const auto& report) {
-                                    times.add(report);
-                                    progress.show("steps", static_cast<int>(++steps), s.cycles * 1300);
-                                  }});
+  SimulationHooks hooks;
+  hooks.on_step = [&](const auto& report) {
+    times.add(report);
+    progress.show("steps", static_cast<int>(++steps), s.cycles * 1300);
+  };
+  const LoadingLog log = simulate(scenario, pile, hooks);
   const double spent = processor_seconds() - start;
   if (!log.completed) throw std::runtime_error(log.message);
   const double cycles = static_cast<double>(log.cycles.size()), simulated = log.cycles.back().t_end;
@@ -127,7 +129,8 @@ int main(int argc, char** argv) {
       ->check(between(1, 256, "", "at most the machine's cores"))
       ->capture_default_str();
   app.add_option("--setting", s.setting,
-                 "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)");
+                 "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)")
+      ->check(taken_by(setting_of));
   add_json_flag(app, s.json);
   return run_command(app, argc, argv, [&] { return show(run(s), s.json, print); });
 }

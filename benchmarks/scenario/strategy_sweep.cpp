@@ -6,10 +6,10 @@
 #include <drawpoint/engine/loading/run_measures.hpp>
 #include <functional>
 
-#include "command.hpp"
 #include "cycle_run.hpp"
 #include "each_seed.hpp"
 #include "estimate.hpp"
+#include "loading_flags.hpp"
 
 /// What one variable of the strategy does to the responses, the others held. See --help.
 using namespace drawpoint;
@@ -33,7 +33,8 @@ constexpr const char* about =
     "that stalled, distance of the tip from its plan [m], energy per tonne [kJ/t], cycle [s].";
 
 struct Settings {
-  std::string piles, variable = "alpha", speeds = "lindmark2016", moves = "none";
+  std::string piles, variable = "alpha";
+  OperationFlags operation;
   std::vector<double> values;
   Strategy strategy;
   int seeds = 3, cycles = 5, jobs = 1;
@@ -74,12 +75,19 @@ std::vector<double> usual_values(const std::string& variable) {
   return values;
 }
 
+// The flag's own range is that of alpha, the widest.
+void check_values(const Settings& s) {
+  for (const double value : s.values)
+    if (s.variable != "alpha" && value > 1)
+      throw std::invalid_argument("--values: " + s.variable + " is " + nlohmann::json(value).dump() +
+                                  "; allowed: 0 to 1");
+}
+
 Scenario scenario_of(const Settings& s) {
   Scenario scenario = lh621_in_a_drift();
   scenario.cycles = s.cycles;
   scenario.strategy = s.strategy;
-  if (s.speeds == "machine") scenario.executor.speeds = machine_speeds();
-  if (s.moves == "skilled") scenario.executor.moves = skilled_operator();
+  s.operation.apply(scenario.executor);
   return scenario;
 }
 
@@ -121,11 +129,16 @@ std::vector<std::vector<Row>> sweep(const Settings& s) {
 }
 
 nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Row>>& rows) {
-  nlohmann::json out{{"variable", s.variable},    {"seeds", s.seeds},
-                     {"cycles", s.cycles},        {"speeds", s.speeds},
-                     {"moves", s.moves},          {"alpha", s.strategy.alpha},
-                     {"beta", s.strategy.beta},   {"gamma", s.strategy.gamma},
-                     {"kappa", s.strategy.kappa}, {"rows", nlohmann::json::array()}};
+  nlohmann::json out{{"variable", s.variable},
+                     {"seeds", s.seeds},
+                     {"cycles", s.cycles},
+                     {"speeds", s.operation.speeds},
+                     {"operator", s.operation.operated},
+                     {"alpha", s.strategy.alpha},
+                     {"beta", s.strategy.beta},
+                     {"gamma", s.strategy.gamma},
+                     {"kappa", s.strategy.kappa},
+                     {"rows", nlohmann::json::array()}};
   out[s.variable] = "varied";
   for (std::size_t v = 0; v < rows.size(); ++v) {
     nlohmann::json row{{"value", s.values[v]}};
@@ -159,9 +172,9 @@ std::string held(const nlohmann::json& j) {
 }
 
 void print_table(const nlohmann::json& j) {
-  std::printf("%s varied; %s; %s speeds, operator's moves: %s; %d piles, %d cycles a run\n%8s",
+  std::printf("%s varied; %s; %s speeds, operator: %s; %d piles, %d cycles a run\n%8s",
               j.at("variable").get<std::string>().c_str(), held(j).c_str(),
-              j.at("speeds").get<std::string>().c_str(), j.at("moves").get<std::string>().c_str(),
+              j.at("speeds").get<std::string>().c_str(), j.at("operator").get<std::string>().c_str(),
               j.at("seeds").get<int>(), j.at("cycles").get<int>(),
               j.at("variable").get<std::string>().c_str());
   for (const Measure& m : measures()) std::printf(" %16s", m.title);
@@ -207,20 +220,14 @@ int main(int argc, char** argv) {
   app.add_option("--cycles", s.cycles, "cycles per run")
       ->check(between(1, 1000, "", "1 to 30"))
       ->capture_default_str();
-  app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
-      ->check(CLI::IsMember({"lindmark2016", "machine"}))
-      ->capture_default_str();
-  app.add_option("--moves", s.moves, "of an operator, beside the plan")
-      ->check(CLI::IsMember({"none", "skilled"}))
-      ->capture_default_str();
+  add_operation_flags(app, s.operation);
   app.add_option("--jobs", s.jobs, "runs at a time")
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
   add_json_flag(app, s.json);
   return run_command(app, argc, argv, [&] {
     if (s.values.empty()) s.values = usual_values(s.variable);
-    if (s.variable != "alpha" && *std::max_element(s.values.begin(), s.values.end()) > 1)
-      throw std::invalid_argument("--values: " + s.variable + " is 0 to 1");
+    check_values(s);
     return show(as_json(s, sweep(s)), s.json, print_table);
   });
 }

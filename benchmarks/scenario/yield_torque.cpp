@@ -33,7 +33,7 @@ struct Settings {
 
 nlohmann::json run(const Settings& s) {
   Scenario scenario = lh621_in_a_drift();
-  if (s.speeds == "machine") scenario.executor.speeds = machine_speeds();
+  scenario.executor.speeds = speeds_named(s.speeds);
   if (!s.setting.empty()) scenario.world = with(scenario.world, setting_of(s.setting));
   nlohmann::json out{{"rock_m", s.rock},
                      {"lowpass_hz", s.lowpass},
@@ -80,10 +80,11 @@ int main(int argc, char** argv) {
       ->check(between(0, 1e4, "Hz", "20 is what joint_damage takes"))
       ->capture_default_str();
   app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
-      ->check(CLI::IsMember({"lindmark2016", "machine"}))
+      ->check(CLI::IsMember(std::vector<std::string>(speed_names.begin(), speed_names.end())))
       ->capture_default_str();
   app.add_option("--setting", s.setting,
-                 "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)");
+                 "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)")
+      ->check(taken_by(setting_of));
   add_json_flag(app, s.json);
   return run_command(app, argc, argv, [&] { return show(run(s), s.json, print); });
 }

@@ -10,7 +10,8 @@ using namespace drawpoint::test;
 /// The commands of benchmarks/scenario, run as scripts run them, on scenes that take seconds at most.
 namespace {
 
-const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY, fill = BUCKET_FILL;
+const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY, fill = BUCKET_FILL,
+                  sweep = STRATEGY_SWEEP;
 const std::string tiny = pile + " --rocks 40 --settle 60 --steps 20 --dig 20 --json";
 
 using ScenarioCommands = StudyTest;
@@ -161,6 +162,9 @@ TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
   refused(pile + " --rolling -1", "--rolling: \"-1\"", "0 to 2");
   refused(fill + " --piles x --materials gravel", "gravel", "calibrated,lindmark2016");
   refused(fill + " --seeds 1", "--piles", "--help");
+  refused(sweep + " --piles x --vary delta", "delta", "alpha,beta,gamma,kappa");
+  refused(sweep + " --piles x --vary beta --values 0.5,2", "beta is 2", "0 to 1");
+  refused(study + " --windows x --length 9", "--length: \"9\"", "0.05 to 5 s");
   refused(table + " --ratio 0", "--ratio: \"0\"", "0.001 to 1e+06");
   refused(study + " --settings 10x16x1,20x1x1", "\"20x1x1\"", "0.01 to 10 ms");
   refused(study + " --settings 10x16", "\"10x16\"", "STEPxSUBSTEPSxITERATIONS");

@@ -75,7 +75,7 @@ TEST(LoadingScenario, AnUnknownValueIsRefusedWithTheValuesThereAre) {
     FAIL() << "fast was taken";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "studies::loading_scenario: option \"speeds\" is \"fast\"; choose lindmark2016 or machine");
+                 "loading::speeds_named: there are no speeds \"fast\"; choose lindmark2016 or machine");
   }
   EXPECT_THROW(loading_scenario({.log = "", .shared = ""}), std::invalid_argument);
 }

@@ -81,6 +81,13 @@ SpeedPreset lindmark2016_speeds() {
           .limits = {.drive = 4.5, .boom = 0.60, .tilt = 1.20}};
 }
 
+SpeedPreset speeds_named(const std::string& name) {
+  if (name == "lindmark2016") return lindmark2016_speeds();
+  if (name == "machine") return machine_speeds();
+  throw std::invalid_argument("loading::speeds_named: there are no speeds \"" + name +
+                              "\"; choose lindmark2016 or machine");
+}
+
 Executor::Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options)
     : plan_(plan), arm_(arm), options_(options), pulses_(options.moves) {
   if (!plan.feasible)

@@ -44,6 +44,9 @@ struct SpeedPreset {
 SpeedPreset machine_speeds();
 /// Fast enough for the 12 s cycles that Lindmark (2016) reports; 2-3 times what the machine can do.
 SpeedPreset lindmark2016_speeds();
+/// By name. Throws std::invalid_argument with the names there are.
+SpeedPreset speeds_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> speed_names = {"lindmark2016", "machine"};
 
 struct ExecutorOptions {
   SpeedPreset speeds = machine_speeds();

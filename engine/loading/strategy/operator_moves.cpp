@@ -18,6 +18,13 @@ void require_move(bool good, const char* name, double value, const char* allowed
 
 OperatorMoves skilled_operator() { return {.most_pulses = 4, .press = true, .crowd = 0.5}; }
 
+OperatorMoves operator_named(const std::string& name) {
+  if (name == "plan") return {};
+  if (name == "skilled") return skilled_operator();
+  throw std::invalid_argument("loading::operator_named: there is no operator \"" + name +
+                              "\"; choose plan or skilled");
+}
+
 void check(const OperatorMoves& m) {
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
   const auto not_negative = [](double value) { return value >= 0 && std::isfinite(value); };

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <drawpoint/engine/loading/strategy/kinematics.hpp>
+#include <string>
+#include <string_view>
 
 /// What an operator does at the pile beside following a plan.
 ///
@@ -27,6 +30,9 @@ struct OperatorMoves {
 
 /// All three: four pulses, pressing, crowding at 0.5 m/s.
 OperatorMoves skilled_operator();
+/// "plan": none; "skilled": skilled_operator(). Throws std::invalid_argument with the names.
+OperatorMoves operator_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> operator_names = {"plan", "skilled"};
 
 /// Throws std::invalid_argument naming the value and what is allowed.
 void check(const OperatorMoves& moves);

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "loading_flags.hpp"
+
+#include <drawpoint/engine/loading/mine_materials.hpp>
+#include <vector>
+
+namespace drawpoint::benchmarks {
+
+void OperationFlags::apply(engine::loading::ExecutorOptions& options) const {
+  options.speeds = engine::loading::speeds_named(speeds);
+  options.moves = engine::loading::operator_named(operated);
+}
+
+void add_operation_flags(CLI::App& app, OperationFlags& flags) {
+  using engine::loading::operator_names, engine::loading::speed_names;
+  app.add_option("--speeds", flags.speeds, "preset of the actuators' speeds")
+      ->check(CLI::IsMember(std::vector<std::string>(speed_names.begin(), speed_names.end())))
+      ->capture_default_str();
+  app.add_option("--operator", flags.operated,
+                 "what is done beside the plan: nothing, or skilled: pulses of lift and curl when the drive "
+                 "is held up, "
+                 "pressing in the lift, thrust while the bucket curls")
+      ->check(CLI::IsMember(std::vector<std::string>(operator_names.begin(), operator_names.end())))
+      ->capture_default_str();
+}
+
+void take_mine_materials(const CLI::App& app, MaterialFlags& flags) {
+  const engine::Material rock = engine::loading::calibrated_materials().rock_rock;
+  if (app.count("--rolling") == 0) flags.rolling = rock.rolling;
+  if (app.count("--spinning") == 0) flags.spinning = rock.spinning;
+}
+
+}  // namespace drawpoint::benchmarks

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/engine/loading/strategy/executor.hpp>
+#include <string>
+
+#include "command.hpp"
+
+/// Flags that the commands of the loading case share, beside those of command.hpp.
+namespace drawpoint::benchmarks {
+
+/// How the loader is driven, by the names of engine/loading/strategy.
+struct OperationFlags {
+  std::string speeds = "lindmark2016", operated = "plan";
+
+  void apply(engine::loading::ExecutorOptions& options) const;
+};
+
+/// --speeds and --operator.
+void add_operation_flags(CLI::App& app, OperationFlags& flags);
+
+/// Once parsed: those that were not given become the rocks' in the loading case.
+void take_mine_materials(const CLI::App& app, MaterialFlags& flags);
+
+}  // namespace drawpoint::benchmarks
