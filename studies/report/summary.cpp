@@ -125,16 +125,33 @@ std::string balanced_sentence(const ReportInput& input) {
          ".";
 }
 
-/// Which variable matters most for each response.
-std::string driver_sentence(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
+bool is_poor(const ReportInput& input, std::size_t response) {
+  return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
+}
+
+/// "alpha for production, beta for spill", of the responses whose surrogates are good enough to say so.
+std::string drivers(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
   std::string text;
   for (std::size_t j = 0; j < influence.size(); ++j) {
     Eigen::Index k = 0;
-    if (influence[j].maxCoeff(&k) <= 0.0) continue;
+    if (is_poor(input, j) || influence[j].maxCoeff(&k) <= 0.0) continue;
     text += (text.empty() ? "" : ", ") + pretty(input.problem.variables[static_cast<std::size_t>(k)].name) +
             " for " + pretty(input.problem.responses[j].name);
   }
-  return text.empty() ? "" : "The variable that matters most is " + text + ".";
+  return text;
+}
+
+/// Which variable matters most for each response. A poor surrogate takes noise for influence.
+std::string driver_sentence(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
+  const std::string told = drivers(input, influence);
+  std::string poor;
+  for (std::size_t j = 0; j < influence.size(); ++j)
+    if (is_poor(input, j)) poor += (poor.empty() ? "" : ", ") + pretty(input.problem.responses[j].name);
+  std::string text = told.empty() ? "" : "The variable that matters most is " + told + ".";
+  if (!poor.empty())
+    text += (text.empty() ? "" : " ") + ("Which variable matters most is not said for " + poor +
+                                         ": a surrogate this poor takes noise for influence.");
+  return text;
 }
 
 json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
@@ -147,8 +164,8 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
     if (chosen.size() > 1) all.push_back(range_sentence(input));
     if (chosen.size() > 1) all.push_back(balanced_sentence(input));
   }
-  const std::string drivers = driver_sentence(input, influence);
-  if (input.problem.variables.size() > 1 && !drivers.empty()) all.push_back(drivers);
+  const std::string driving = driver_sentence(input, influence);
+  if (input.problem.variables.size() > 1 && !driving.empty()) all.push_back(driving);
   return all;
 }
 
@@ -174,7 +191,7 @@ void caution_about_models(const ReportInput& input, json& all) {
     const kriging::Validation& v = input.validations[j];
     const std::string name = pretty(input.problem.responses[j].name);
     if (v.observed.size() == 0) continue;
-    if (v.nrmse > fair_nrmse)
+    if (is_poor(input, j))
       all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
                     "): add runs, or read only its trends.");
     const double within = kriging::score(v, kriging::ErrorFunction::coverage, two_deviations);

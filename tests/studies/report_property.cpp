@@ -172,6 +172,19 @@ TEST_F(Report, FlagsWhatCannotBeTrusted) {
   EXPECT_EQ(data.at("summary").at("trust").at(0).at("grade"), "poor");
 }
 
+// A surrogate that is poor leads nobody: what it has learned of its variables may be noise.
+TEST_F(Report, SaysWhatMattersMostOnlyWhereTheSurrogateCanTell) {
+  ReportInput in = input(2, 2, 8, 6);
+  in.validations[0].nrmse = 0.05;
+  in.validations[1].nrmse = 0.31;
+  const auto sentences = written(in).at("summary").at("sentences");
+  EXPECT_TRUE(mentions(sentences, "matters most is x0 for y0") ||
+              mentions(sentences, "matters most is x1 for y0"))
+      << sentences;
+  EXPECT_TRUE(mentions(sentences, "not said for y1"));
+  EXPECT_FALSE(mentions(sentences, "for y0, x"));
+}
+
 TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
   ReportInput in = input(2, 1, 8, 4);
   in.illustrations = {
