@@ -254,10 +254,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(between(0, 5, "", "0.2 to 2 are studied"))
       ->capture_default_str();
-  const auto share = between(0, 1, "", "0.4 and 0.5 are the middle of the study");
-  app.add_option("--beta", s.strategy.beta, "height of the lift")->check(share)->capture_default_str();
-  app.add_option("--gamma", s.strategy.gamma, "place across the drift")->check(share)->capture_default_str();
-  app.add_option("--kappa", s.strategy.kappa, "tilt in the lift")->check(share)->capture_default_str();
+  add_shares_of_strategy(app, s.strategy);
   app.add_option("--seeds", s.seeds, "number of piles, seeds 1, 2, ...")
       ->check(between(1, 1000, "", "6 and more show the scatter"))
       ->capture_default_str();

@@ -25,6 +25,13 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
       ->capture_default_str();
 }
 
+void add_shares_of_strategy(CLI::App& app, engine::loading::Strategy& strategy) {
+  const auto share = between(0, 1, "", "0.4 and 0.5 are the middle of the study");
+  app.add_option("--beta", strategy.beta, "height of the lift")->check(share)->capture_default_str();
+  app.add_option("--gamma", strategy.gamma, "place across the drift")->check(share)->capture_default_str();
+  app.add_option("--kappa", strategy.kappa, "tilt in the lift")->check(share)->capture_default_str();
+}
+
 void take_mine_materials(const CLI::App& app, MaterialFlags& flags) {
   const engine::Material rock = engine::loading::calibrated_materials().rock_rock;
   if (app.count("--rolling") == 0) flags.rolling = rock.rolling;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/loading/strategy/executor.hpp>
+#include <drawpoint/engine/loading/strategy/planner.hpp>
 #include <string>
 
 #include "command.hpp"
@@ -19,6 +20,9 @@ struct OperationFlags {
 
 /// --speeds and --operator.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
+
+/// --beta, --gamma and --kappa; alpha is each command's own.
+void add_shares_of_strategy(CLI::App& app, engine::loading::Strategy& strategy);
 
 /// Once parsed: those that were not given become the rocks' in the loading case.
 void take_mine_materials(const CLI::App& app, MaterialFlags& flags);

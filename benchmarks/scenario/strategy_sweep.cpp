@@ -210,10 +210,7 @@ int main(int argc, char** argv) {
   app.add_option("--alpha", s.strategy.alpha, "wanted fill")
       ->check(between(0, 5, "", "0.2 to 2 are studied"))
       ->capture_default_str();
-  const auto share = between(0, 1, "", "0.5 is the middle of the study");
-  app.add_option("--beta", s.strategy.beta, "height of the lift")->check(share)->capture_default_str();
-  app.add_option("--gamma", s.strategy.gamma, "place across the drift")->check(share)->capture_default_str();
-  app.add_option("--kappa", s.strategy.kappa, "tilt in the lift")->check(share)->capture_default_str();
+  add_shares_of_strategy(app, s.strategy);
   app.add_option("--seeds", s.seeds, "number of piles, seeds 1, 2, ...")
       ->check(between(1, 1000, "", "3 and more for intervals"))
       ->capture_default_str();
