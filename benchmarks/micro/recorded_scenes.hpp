@@ -13,8 +13,8 @@
 /// stages (drive in, lift) that loads the bucket's hinge most. `bucket_full`: the same cycle when the curl
 /// ends. Both also with `_rolling_0` and `_rolling_0.1`: the default scene of 120 t, about 1750 rocks and 8000
 /// points, with that rolling resistance; and with `_at_lindmark2016_scale` before it: 290 t, about 4200 rocks.
-/// Friction between rocks is 0.9, no spinning resistance; else the calibrated materials. The steps are those of the engine's defaults; the start impulses are what
-/// the step before left. Minutes; at the larger scale some ten.
+/// Friction between rocks is 0.9, no spinning resistance; else the calibrated materials. The steps are those of
+/// the engine's defaults; the start impulses are what the step before left. Minutes; at the larger scale some ten.
 namespace drawpoint::benchmarks {
 
 /// In the order of the help text; empty if this build cannot simulate them.
