@@ -6,6 +6,7 @@
 #include "cycle_run.hpp"
 #include "each_seed.hpp"
 #include "estimate.hpp"
+#include "estimate_json.hpp"
 #include "force_windows.hpp"
 #include "loading_flags.hpp"
 #include "setting.hpp"
@@ -203,15 +204,6 @@ void run_seed(const Subject& subject, int seed, std::vector<Configuration>& all)
 std::vector<double> values(const Configuration& c, std::size_t quantity) {
   std::vector<double> out;
   for (const Sample& sample : c.samples) out.push_back(sample[quantity]);
-  return out;
-}
-
-nlohmann::json as_json(const Estimate& e) {
-  nlohmann::json out{{"mean", e.mean}};
-  if (std::isfinite(e.half_width))
-    out["half_width"] = e.half_width;
-  else
-    out["half_width"] = nullptr;
   return out;
 }
 

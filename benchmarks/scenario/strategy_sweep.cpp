@@ -9,6 +9,7 @@
 #include "cycle_run.hpp"
 #include "each_seed.hpp"
 #include "estimate.hpp"
+#include "estimate_json.hpp"
 #include "loading_flags.hpp"
 
 /// What one variable of the strategy does to the responses, the others held. See --help.
@@ -149,10 +150,7 @@ nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Row>>& r
       std::vector<double> values;
       for (const Row& r : rows[v])
         if (!r.empty()) values.push_back(r[m]);
-      const Estimate e = estimate(values);
-      row[measures()[m].key] = {{"mean", e.mean}};
-      row[measures()[m].key]["half_width"] =
-          std::isfinite(e.half_width) ? nlohmann::json(e.half_width) : nlohmann::json(nullptr);
+      row[measures()[m].key] = as_json(estimate(values));
     }
     out["rows"].push_back(row);
   }
