@@ -47,6 +47,32 @@ struct Scatter {
 
 enum class Over { mean, sum };
 
+/// Of older logs, which do not tell, nothing.
+double number_or_none(const LoadingLog& log, const char* name) {
+  const auto found = log.numbers.find(name);
+  return found == log.numbers.end() ? 0 : found->second;
+}
+
+/// Where the contact solution broke down, over all runs.
+struct Breakdowns {
+  double steps = 0, escaped = 0;  // escaped [kg]
+  int runs = 0;
+
+  void add(const LoadingLog& log) {
+    const double broken = number_or_none(log, "repeated_steps"), lost = number_or_none(log, "escaped_mass");
+    steps += broken;
+    escaped += lost;
+    runs += broken > 0 || lost > 0;
+  }
+  Headline headline() const {
+    char note[128];
+    std::snprintf(note, sizeof note,
+                  "runs in which it did: %.0f steps were done again in parts, %.0f kg of rock left the drift",
+                  steps, escaped);
+    return {"solution_broke_down", "1", static_cast<double>(runs), note};
+  }
+};
+
 /// As the first run's log has it: the pile is the same for all.
 Headline pile_of(const LoadingLog& log) {
   const auto number = [&](const char* name) {
@@ -142,6 +168,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   double fill = 0, most_fill = 0, stalls = 0;
   Scatter production, damage, spill;
   Headline pile;
+  Breakdowns breakdowns;
   std::vector<RunMean> others = measures();
   for (const auto& file : logs) {
     const LoadingLog log = engine::loading::read_log(file);
@@ -153,6 +180,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     production.add(production_by_cycle(log), engine::loading::production(log));
     damage.add(joint_damage_by_cycle(log), joint_damage(log));
     spill.add(rock_spill_by_cycle(log), rock_spill(log));
+    breakdowns.add(log);
     for (RunMean& measure : others) measure.add(log);
   }
   char best[64];
@@ -165,6 +193,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
       noise_of("rock_spill", "1", spill, Over::mean),
       pile};
   for (const RunMean& measure : others) said.push_back(measure.headline());
+  if (breakdowns.runs > 0) said.push_back(breakdowns.headline());
   return said;
 }
 

@@ -44,6 +44,12 @@ std::vector<StudyOption> loading_options() {
            "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m",
            "small",
            {"small", "lindmark2016"}},
+          {"sizes",
+           "of the rocks: 0.3 to 0.8 m as in Lindmark (2016), half of it boulders; with a quarter of the "
+           "mass as 0.2 m; "
+           "or broken well, 0.2 to 0.5 m. Finer rock costs three and four times as much",
+           "mine",
+           {engine::granular::size_names.begin(), engine::granular::size_names.end()}},
           {"speeds",
            "what drive, boom and bucket are set to: for the 12 s cycles of Lindmark (2016), or what the "
            "machine can do",
@@ -60,6 +66,8 @@ Scenario loading_scenario(const RunContext& run) {
   Scenario scenario = second_of(run, "scene", "small", "lindmark2016")
                           ? engine::loading::lh621_at_lindmark2016_scale()
                           : engine::loading::lh621_in_a_drift();
+  scenario = engine::loading::with_pile_of(scenario, scenario.pile.mass,
+                                           engine::granular::sizes_named(chosen(run, "sizes")));
   if (second_of(run, "solver", "scene", "lindmark2016"))
     scenario.world = engine::loading::lindmark2016_solver();
   scenario.executor.speeds = engine::loading::speeds_named(chosen(run, "speeds"));

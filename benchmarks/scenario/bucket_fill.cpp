@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <drawpoint/engine/loading/pile_shape.hpp>
+#include <filesystem>
 #include <optional>
 
 #include "cycle_run.hpp"
@@ -34,11 +35,12 @@ constexpr const char* about =
     "                                                        and solved as loosely as there";
 
 struct Settings {
-  std::string piles, materials = "calibrated", curl = "hinge", lift = "surface", setting;
+  std::string piles, logs, materials = "calibrated", curl = "hinge", lift = "surface", setting;
   OperationFlags operation;
+  PileFlags pile;
   std::vector<double> alphas = {0.3, 1.0, 1.6};
   Strategy strategy = {.alpha = 1, .beta = 0.4, .gamma = 0.5, .kappa = 0.5};
-  std::optional<double> rolling, spinning, steel_friction, rock_friction, mass;
+  std::optional<double> rolling, spinning, steel_friction, rock_friction;
   int seeds = 6, cycles = 1, jobs = 1;
   bool cold = false, json = false;
 };
@@ -63,7 +65,7 @@ Scenario scenario_of(const Settings& s) {
   scenario.materials = with_resistance(scenario.materials, s.rolling, s.spinning);
   if (s.steel_friction) scenario.materials.rock_steel.friction = *s.steel_friction;
   if (s.rock_friction) scenario.materials.rock_rock.friction = *s.rock_friction;
-  if (s.mass) scenario.pile.mass = 1e3 * *s.mass;
+  s.pile.apply(scenario);
   if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
   if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
   s.operation.apply(scenario.executor);
@@ -74,6 +76,15 @@ Scenario scenario_of(const Settings& s) {
 void solve_as_told(Scenario& scenario, const Settings& s) {
   if (!s.setting.empty()) scenario.world = with(scenario.world, setting_of(s.setting));
   if (s.cold) scenario.world.warm_start = 0;
+}
+
+// Empty: none is kept.
+std::filesystem::path log_file(const Settings& s, int seed, double alpha) {
+  if (s.logs.empty()) return {};
+  std::filesystem::create_directories(s.logs);
+  char name[64];
+  std::snprintf(name, sizeof name, "alpha_%g_seed_%d.h5", alpha, seed);
+  return std::filesystem::path(s.logs) / name;
 }
 
 Result result_of(const LoadingLog& log) {
@@ -113,6 +124,7 @@ Study study(const Settings& s) {
     for (std::size_t a = 0; a < s.alphas.size(); ++a) {
       scenario.strategy.alpha = s.alphas[a];
       scenario.seed = static_cast<std::uint64_t>(seed);
+      scenario.log_file = log_file(s, seed, s.alphas[a]);
       out.results[a][k] = result_of(simulate(scenario, pile));
       const Result& result = out.results[a][k];
       if (result.failure.empty())
@@ -180,6 +192,7 @@ nlohmann::json described(const Settings& s) {
               {"beta", s.strategy.beta},
               {"gamma", s.strategy.gamma},
               {"kappa", s.strategy.kappa},
+              {"sizes", s.pile.sizes},
               {"cycles", s.cycles},
               {"speeds", s.operation.speeds},
               {"curl", s.curl},
@@ -217,14 +230,16 @@ void print_table(const nlohmann::json& j) {
               number(pile, "angle_most_deg"));
   const nlohmann::json& of = j.at("scenario");
   std::printf(
-      "%s: rolling %g (steel %g), spinning %g, friction %g (steel %g); beta %g, gamma %g, kappa %g; %s "
+      "%s: rocks %s, rolling %g (steel %g), spinning %g, friction %g (steel %g); beta %g, gamma %g, kappa "
+      "%g; %s "
       "speeds, "
       "curl about the %s, lift by the %s, operator: %s\nsolved with %s\n",
-      of.at("materials").get<std::string>().c_str(), number(of, "rolling"), number(of, "steel_rolling"),
-      number(of, "spinning"), number(of, "rock_friction"), number(of, "steel_friction"), number(of, "beta"),
-      number(of, "gamma"), number(of, "kappa"), of.at("speeds").get<std::string>().c_str(),
-      of.at("curl").get<std::string>().c_str(), of.at("lift").get<std::string>().c_str(),
-      of.at("operator").get<std::string>().c_str(), of.at("solved").get<std::string>().c_str());
+      of.at("materials").get<std::string>().c_str(), of.at("sizes").get<std::string>().c_str(),
+      number(of, "rolling"), number(of, "steel_rolling"), number(of, "spinning"), number(of, "rock_friction"),
+      number(of, "steel_friction"), number(of, "beta"), number(of, "gamma"), number(of, "kappa"),
+      of.at("speeds").get<std::string>().c_str(), of.at("curl").get<std::string>().c_str(),
+      of.at("lift").get<std::string>().c_str(), of.at("operator").get<std::string>().c_str(),
+      of.at("solved").get<std::string>().c_str());
   for (const nlohmann::json& r : j.at("rows"))
     if (const int failed = r.at("failed").get<int>())
       std::printf("alpha %g: %d of %d runs failed and are left out\n", number(r, "alpha"), failed,
@@ -250,6 +265,7 @@ int main(int argc, char** argv) {
   CLI::App app(about, "bucket_fill");
   const std::vector<std::string> names(material_names.begin(), material_names.end());
   app.add_option("--piles", s.piles, "FOLDER of the piles; made when missing")->required();
+  app.add_option("--logs", s.logs, "FOLDER for the log of each run (HDF5)");
   app.add_option("--alphas", s.alphas, "wanted fills, with commas between")
       ->delimiter(',')
       ->check(between(0, 5, "", "0.2 to 2 are studied"))
@@ -269,7 +285,7 @@ int main(int argc, char** argv) {
   app.add_option("--spinning", s.spinning, "spinning resistance of the rocks [1]")->check(coefficient);
   app.add_option("--rock-friction", s.rock_friction, "friction of rock on rock [1]")->check(coefficient);
   app.add_option("--steel-friction", s.steel_friction, "friction of rock on steel [1]")->check(coefficient);
-  app.add_option("--mass", s.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
+  add_pile_flags(app, s.pile);
   add_operation_flags(app, s.operation);
   app.add_option("--curl", s.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")

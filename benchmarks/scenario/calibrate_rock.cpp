@@ -58,15 +58,23 @@ struct Settings {
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void on_interrupt(int) { interrupted = 1; }
 
-engine::granular::SizeDistribution sizes_named(const std::string& text) {
-  if (text == "mine") return engine::granular::blasted_ore;
-  return engine::granular::single_size(std::stod(text));
+bool is_size_name(const std::string& text) {
+  const auto& names = engine::granular::size_names;
+  return std::find(names.begin(), names.end(), text) != names.end();
+}
+
+engine::granular::SizeDistribution sizes_of(const std::string& text) {
+  return is_size_name(text) ? engine::granular::sizes_named(text)
+                            : engine::granular::single_size(std::stod(text));
 }
 
 std::string wrong_sizes(const std::string& text) {
-  if (text == "mine") return "";
+  if (is_size_name(text)) return "";
   std::string copy = text;  // a validator may change what it checks
-  return between(0.05, 5, "m", "or choose mine, 0.3 to 0.8 m by mass")(copy);
+  return between(
+      0.05, 5, "m",
+      "or choose mine (0.3 to 0.8 m by mass), mine_with_fines (from 0.2 m) or well_broken (0.2 to 0.5 m)")(
+      copy);
 }
 
 struct Row {
@@ -82,7 +90,7 @@ RockSample sample_of(const Settings& s, const Row& row) {
   sample.contact.rolling = row.rolling;
   sample.contact.spinning = s.spinning;
   sample.density = s.density;
-  sample.sizes = sizes_named(s.sizes);
+  sample.sizes = sizes_of(s.sizes);
   return sample;
 }
 
@@ -240,7 +248,8 @@ int main(int argc, char** argv) {
   app.add_option("--spinning", s.spinning, "spinning resistance [1]")
       ->check(between(0, 2, "", "0 is usual"))
       ->capture_default_str();
-  app.add_option("--sizes", s.sizes, "longest dimension of all rocks [m], or mine")
+  app.add_option("--sizes", s.sizes,
+                 "longest dimension of all rocks [m], or mine, mine_with_fines or well_broken")
       ->check(wrong_sizes)
       ->capture_default_str();
   app.add_option("--density", s.density, "of the solid rock [kg/m3]")

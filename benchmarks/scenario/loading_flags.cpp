@@ -25,6 +25,21 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
       ->capture_default_str();
 }
 
+void PileFlags::apply(engine::loading::Scenario& scenario) const {
+  scenario = engine::loading::with_pile_of(scenario, mass ? 1e3 * *mass : scenario.pile.mass,
+                                           engine::granular::sizes_named(sizes));
+}
+
+void add_pile_flags(CLI::App& app, PileFlags& flags) {
+  using engine::granular::size_names;
+  app.add_option("--mass", flags.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
+  app.add_option("--sizes", flags.sizes,
+                 "of the rocks: 0.3 to 0.8 m; with a quarter of the mass as 0.2 m, at three times the cost; "
+                 "0.2 to 0.5 m, at four times")
+      ->check(CLI::IsMember(std::vector<std::string>(size_names.begin(), size_names.end())))
+      ->capture_default_str();
+}
+
 void add_shares_of_strategy(CLI::App& app, engine::loading::Strategy& strategy) {
   const auto share = between(0, 1, "", "0.4 and 0.5 are the middle of the study");
   app.add_option("--beta", strategy.beta, "height of the lift")->check(share)->capture_default_str();

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/strategy/executor.hpp>
-#include <drawpoint/engine/loading/strategy/planner.hpp>
+#include <drawpoint/engine/loading/scenario.hpp>
+#include <optional>
 #include <string>
 
 #include "command.hpp"
@@ -20,6 +20,17 @@ struct OperationFlags {
 
 /// --speeds and --operator.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
+
+/// What lies in the drift; what is not given is the scene's.
+struct PileFlags {
+  std::optional<double> mass;  ///< [t]
+  std::string sizes = "mine";
+
+  void apply(engine::loading::Scenario& scenario) const;
+};
+
+/// --mass and --sizes.
+void add_pile_flags(CLI::App& app, PileFlags& flags);
 
 /// --beta, --gamma and --kappa; alpha is each command's own.
 void add_shares_of_strategy(CLI::App& app, engine::loading::Strategy& strategy);

@@ -36,6 +36,7 @@ constexpr const char* about =
 struct Settings {
   std::string piles, variable = "alpha";
   OperationFlags operation;
+  PileFlags pile;
   std::vector<double> values;
   Strategy strategy;
   int seeds = 3, cycles = 5, jobs = 1;
@@ -89,6 +90,7 @@ Scenario scenario_of(const Settings& s) {
   scenario.cycles = s.cycles;
   scenario.strategy = s.strategy;
   s.operation.apply(scenario.executor);
+  s.pile.apply(scenario);
   return scenario;
 }
 
@@ -135,6 +137,8 @@ nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Row>>& r
                      {"cycles", s.cycles},
                      {"speeds", s.operation.speeds},
                      {"operator", s.operation.operated},
+                     {"pile_kg", scenario_of(s).pile.mass},
+                     {"sizes", s.pile.sizes},
                      {"alpha", s.strategy.alpha},
                      {"beta", s.strategy.beta},
                      {"gamma", s.strategy.gamma},
@@ -170,10 +174,11 @@ std::string held(const nlohmann::json& j) {
 }
 
 void print_table(const nlohmann::json& j) {
-  std::printf("%s varied; %s; %s speeds, operator: %s; %d piles, %d cycles a run\n%8s",
+  std::printf("%s varied; %s; %s speeds, operator: %s; %d piles of %.0f t (%s), %d cycles a run\n%8s",
               j.at("variable").get<std::string>().c_str(), held(j).c_str(),
               j.at("speeds").get<std::string>().c_str(), j.at("operator").get<std::string>().c_str(),
-              j.at("seeds").get<int>(), j.at("cycles").get<int>(),
+              j.at("seeds").get<int>(), j.at("pile_kg").get<double>() / 1e3,
+              j.at("sizes").get<std::string>().c_str(), j.at("cycles").get<int>(),
               j.at("variable").get<std::string>().c_str());
   for (const Measure& m : measures()) std::printf(" %16s", m.title);
   std::printf(" %7s\n", "failed");
@@ -216,6 +221,7 @@ int main(int argc, char** argv) {
       ->check(between(1, 1000, "", "1 to 30"))
       ->capture_default_str();
   add_operation_flags(app, s.operation);
+  add_pile_flags(app, s.pile);
   app.add_option("--jobs", s.jobs, "runs at a time")
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();

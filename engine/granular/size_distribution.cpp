@@ -53,12 +53,25 @@ double mean_unit_volume() {
 
 }  // namespace
 
+SizeDistribution sizes_named(const std::string& name) {
+  if (name == size_names[0]) return blasted_ore;
+  if (name == size_names[1]) return blasted_ore_with_fines;
+  if (name == size_names[2]) return well_broken_ore;
+  throw std::invalid_argument("granular::sizes_named: \"" + name +
+                              "\"; choose mine, mine_with_fines or well_broken");
+}
+
+double rocks_per_mass(const SizeDistribution& sizes) {
+  double sum = 0;
+  for (const SizeClass& size : sizes) sum += size.mass_share / cubed(size.length);
+  return sum;
+}
+
 std::array<double, 4> number_shares(const SizeDistribution& sizes) {
   std::array<double, 4> shares{};
-  double sum = 0;
+  const double all = rocks_per_mass(sizes);
   for (std::size_t i = 0; i < sizes.size(); ++i)
-    sum += shares[i] = sizes[i].mass_share / cubed(sizes[i].length);
-  for (double& share : shares) share /= sum;
+    shares[i] = sizes[i].mass_share / cubed(sizes[i].length) / all;
   return shares;
 }
 

@@ -16,6 +16,8 @@ constexpr double stand_time = 0.6;  // for the tyres to take the weight before t
 constexpr double room_under_roof =
     0.3;  // over the heaped bucket: rocks stand out of it, tyres run over rocks [m]
 constexpr int trouble_interval = 50;  // steps between checks of the whole state
+constexpr int parts_of_broken_step = 10;
+constexpr double most_escaped = 0.01;  // of the pile's mass; more than that is no stray rock
 
 class LoadingRun {
  public:
@@ -35,6 +37,8 @@ class LoadingRun {
     for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = attempt(cycle);
     log_.completed = fine;
     log_.numbers["cleared_mass"] = cleared_;
+    log_.numbers["escaped_mass"] = escaped_;
+    log_.numbers["repeated_steps"] = static_cast<double>(repeated_);
     log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
     log_.numbers["most_iterations_per_substep"] =
         engine::most_iterations(scenario_.world.solver, most_points_);
@@ -50,6 +54,8 @@ class LoadingRun {
   Plan plan(CycleRecord& record) const;
   bool execute(int cycle, CycleRecord& record);
   bool step(const std::function<void(const engine::StepReport&)>& record = {});
+  engine::StepReport advance();
+  bool look_for_trouble();
   bool refill();
   bool wait_for_rest();
   bool fail(const std::string& message) {
@@ -69,7 +75,8 @@ class LoadingRun {
   SceneRecorder scene_;
   LoadingLog log_;
   double cleared_ = 0;
-  long steps_ = 0;
+  double escaped_ = 0;  // mass [kg]
+  long steps_ = 0, repeated_ = 0;
   std::size_t most_points_ = 0;
   std::vector<bool> in_front_before_;  // by rock, before the machine first came
 };
@@ -164,15 +171,38 @@ Plan LoadingRun::plan(CycleRecord& record) const {
   return plan;
 }
 
+// A step that breaks down, which leaves the world as it was, is done again in parts.
+engine::StepReport LoadingRun::advance() {
+  engine::World& world = site_.world();
+  try {
+    return world.step();
+  } catch (const engine::SolutionBroken&) {
+    if (world.options().freezing.on) throw;  // its rules count steps
+  }
+  ++repeated_;
+  engine::StepReport report;
+  for (int part = 0; part < parts_of_broken_step; ++part)
+    report = world.step(world.options().step / parts_of_broken_step);
+  return report;
+}
+
+bool LoadingRun::look_for_trouble() {
+  escaped_ += site_.remove_escaped();
+  if (escaped_ > most_escaped * site_.initial_mass())
+    return fail(std::to_string(escaped_) +
+                " kg of rock left the drift by t = " + std::to_string(site_.world().time()) +
+                " s: the contact solution broke down; use a smaller step or more iterations");
+  const std::string trouble = site_.trouble();
+  return trouble.empty() || fail(trouble);
+}
+
 // One step of the world; `record` sees its report before the state is checked.
 bool LoadingRun::step(const std::function<void(const engine::StepReport&)>& record) {
-  const engine::StepReport report = site_.world().step();
+  const engine::StepReport report = advance();
   if (hooks_.on_step) hooks_.on_step(report);
   most_points_ = std::max(most_points_, static_cast<std::size_t>(report.points));
   if (record) record(report);
-  if (++steps_ % trouble_interval != 0) return true;
-  const std::string trouble = site_.trouble();
-  return trouble.empty() || fail(trouble);
+  return ++steps_ % trouble_interval != 0 || look_for_trouble();
 }
 
 bool LoadingRun::refill() {

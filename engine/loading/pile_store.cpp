@@ -29,6 +29,15 @@ void add_material(std::string& provenance, const std::string& pair, const engine
   add_number(provenance, pair + "_law", static_cast<int>(m.law));
 }
 
+// Files of before sizes could be chosen name none, and were poured with these.
+void add_sizes(std::string& provenance, const granular::SizeDistribution& sizes) {
+  if (sizes == granular::blasted_ore) return;
+  for (const granular::SizeClass& size : sizes) {
+    add_number(provenance, "size_length", size.length);
+    add_number(provenance, "size_share", size.mass_share);
+  }
+}
+
 double pile_height(const engine::World& world) {
   double top = 0;
   for (const engine::Rock& rock : world.rocks())
@@ -50,6 +59,7 @@ std::string pile_provenance(const Scenario& s) {
   add_number(provenance, "wall_roughness", d.wall_roughness);
   add_number(provenance, "mass", s.pile.mass);
   add_number(provenance, "density", s.pile.density);
+  add_sizes(provenance, s.pile.sizes);
   add_number(provenance, "max_height", s.pile.max_height);
   provenance += "seed=" + std::to_string(s.pile.seed) + " ";
   const granular::EmitterOptions emitter = emitter_of(d);
@@ -99,7 +109,8 @@ SettledPile pour_pile(const Scenario& scenario, const std::function<void(double)
   engine::World world(options, material_table(scenario.materials));
   add_drift(world, scenario.drift);
   const granular::RockLibrary library(scenario.pile.density, static_cast<int>(SurfaceKind::rock));
-  granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed);
+  granular::Emitter emitter(emitter_of(scenario.drift), scenario.pile.density, scenario.pile.seed,
+                            scenario.pile.sizes);
   const auto step_world = [&] {
     const engine::StepReport report = world.step();
     if (on_step) on_step(report);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,16 @@ Scenario lh621_at_lindmark2016_scale() {
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
   s.world.solver.iteration_budget *= 2;  // as many iterations for each of its points as the smaller scene has
+  return s;
+}
+
+Scenario with_pile_of(Scenario s, double mass, const granular::SizeDistribution& sizes) {
+  const double rocks =
+      mass * granular::rocks_per_mass(sizes) / (s.pile.mass * granular::rocks_per_mass(s.pile.sizes));
+  s.world.solver.iteration_budget =
+      std::llround(rocks * static_cast<double>(s.world.solver.iteration_budget));
+  s.pile.mass = mass;
+  s.pile.sizes = sizes;
   return s;
 }
 

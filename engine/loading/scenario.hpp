@@ -16,8 +16,9 @@
 namespace drawpoint::engine::loading {
 
 struct PileOptions {
-  double mass = 120e3;     ///< heaped up in the pre-simulation [kg]
-  double density = 4500;   ///< of the rock [kg/m³]
+  double mass = 120e3;    ///< heaped up in the pre-simulation [kg]
+  double density = 4500;  ///< of the rock [kg/m³]
+  granular::SizeDistribution sizes = granular::blasted_ore;
   double max_height = 8;   ///< pouring stops when the pile reaches it [m]
   std::uint64_t seed = 1;  ///< of the pouring; one pile serves all runs of a study
   /// SolverOptions::tolerance while pouring, in place of Scenario::world's: a pile is poured once, so it is solved
@@ -55,6 +56,10 @@ Scenario lh621_in_a_drift();
 
 /// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
 Scenario lh621_at_lindmark2016_scale();
+
+/// The scene with a pile of another mass [kg] or of other sizes. Its iteration budget goes with the number of rocks, so
+/// that every contact point gets as many iterations as in the scene.
+Scenario with_pile_of(Scenario scenario, double mass, const granular::SizeDistribution& sizes);
 
 /// As loosely as Lindmark (2016) solves contacts: 150 iterations of a step of 1/60 s that remember nothing of the step
 /// before. Rocks then give way, which the source's coefficients need to be loaded at all. The iteration itself is ours,

@@ -26,7 +26,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
       world_(scenario.world, material_table(scenario.materials)),
       driver_(lhd_, machine_),
       library_(scenario.pile.density, static_cast<int>(SurfaceKind::rock)),
-      emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed) {
+      emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed, scenario.pile.sizes) {
   add_drift(world_, drift_);
   driver_.place(0, 0);
   add_machine(world_, lhd_, machine_);
@@ -92,20 +92,28 @@ double Site::missing_mass() const { return initial_mass_ - granular::present_mas
 
 bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_mass()).empty(); }
 
-std::string Site::trouble() const {
+double Site::remove_escaped() {
+  double escaped = 0;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
     const engine::Rock& rock = world_.rocks()[k];
-    if (!rock.present) continue;
     const Eigen::Vector3d& p = rock.pose.translation();
     const bool inside = p.z() > -0.5 && std::abs(p.y()) < drift_.width && p.x() < drift_.length + 1 &&
                         p.z() < 3 * drift_.raise_height;
-    if (!p.allFinite() || !rock.velocity.allFinite() || !inside)
-      return "rock " + std::to_string(k) + " left the drift at t = " + std::to_string(world_.time()) +
-             " s: the contact solution broke down; use a smaller step or more iterations";
+    if (!rock.present || inside || !p.allFinite()) continue;
+    escaped += rock.body.mass;
+    world_.remove_rock(static_cast<int>(k));
   }
-  if (!driver_.read().front_axle.allFinite())
-    return "the machine's position is not finite at t = " + std::to_string(world_.time()) +
-           " s; use a smaller step";
+  return escaped;
+}
+
+std::string Site::trouble() const {
+  const std::string when = " not finite at t = " + std::to_string(world_.time()) + " s; use a smaller step";
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
+    const engine::Rock& rock = world_.rocks()[k];
+    if (rock.present && !(rock.pose.matrix().allFinite() && rock.velocity.allFinite()))
+      return "rock " + std::to_string(k) + " is" + when;
+  }
+  if (!driver_.read().front_axle.allFinite()) return "the machine's position is" + when;
   return {};
 }
 

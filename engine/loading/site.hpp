@@ -42,7 +42,9 @@ class Site {
   double missing_mass() const;  ///< [kg]; at most 0 when the drift holds what it held at the start
 
   double initial_mass() const { return initial_mass_; }
-  /// Empty, or what is wrong with the state: a value that is not finite, a rock outside the drift.
+  /// Takes away rocks that lie outside the drift; returns their mass [kg].
+  double remove_escaped();
+  /// Empty, or which value of the state is not finite.
   std::string trouble() const;
 
  private:

@@ -104,6 +104,19 @@ TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
   }
 }
 
+// Only where it happened: one run of two with three such steps and 50 kg.
+TEST_F(LoadingHeadlines, TellWhereTheSolutionBrokeDown) {
+  const LoadingLog fine = log_of({cycle(0, 4e3, 0, StageEnd::goal)});
+  LoadingLog broken = fine;
+  EXPECT_FALSE(told({fine}).contains("solution_broke_down"));
+  broken.numbers["repeated_steps"] = 3;
+  broken.numbers["escaped_mass"] = 50;
+  const Headline headline = told({fine, broken}).at("solution_broke_down");
+  EXPECT_EQ(headline.value, 1);
+  EXPECT_NE(headline.note.find("3 steps"), std::string::npos) << headline.note;
+  EXPECT_NE(headline.note.find("50 kg"), std::string::npos) << headline.note;
+}
+
 TEST_F(LoadingHeadlines, FillStallsAndNoiseComeFirst) {
   write_log(place_ / "run.h5", log_of({cycle(0, 4e3, 0, StageEnd::goal)}));
   const auto said = loading_headlines({place_ / "run.h5"});

@@ -62,6 +62,19 @@ TEST(LoadingScenario, SpeedsAndOperatorGoTogetherOrAlone) {
   EXPECT_EQ(with({{"operator", "skilled"}}).executor.speeds.lift, loading::lindmark2016_speeds().lift);
 }
 
+TEST(LoadingScenario, FinerRockIsSolvedAsFarAsTheScenes) {
+  using namespace engine::granular;
+  const loading::Scenario s = with({{"sizes", "mine_with_fines"}}), scene = with({});
+  EXPECT_EQ(s.pile.sizes, blasted_ore_with_fines);
+  EXPECT_EQ(s.pile.mass, scene.pile.mass);
+  const auto budget = static_cast<double>(s.world.solver.iteration_budget);
+  EXPECT_NEAR(budget / scene.world.solver.iteration_budget,
+              rocks_per_mass(blasted_ore_with_fines) / rocks_per_mass(blasted_ore), 1e-4)
+      << "a half iteration of rounding is 1.25e-5 of the budget";
+  EXPECT_EQ(with({{"sizes", "mine_with_fines"}, {"solver", "lindmark2016"}}).world.solver.iteration_budget,
+            0);
+}
+
 TEST(LoadingScenario, EveryValueThatIsOfferedMakesAScenario) {
   EXPECT_NO_THROW(check(loading_options()));
   for (const StudyOption& option : loading_options())

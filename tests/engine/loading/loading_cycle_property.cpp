@@ -88,6 +88,50 @@ TEST(LoadingCycle, LooksAheadWithoutATrace) {
     EXPECT_EQ(log.signals.column(column), cycle_log().signals.column(column)) << column;
 }
 
+// A broken step leaves the world as it was, so its ten parts lead to the same time: as many samples at the same
+// times, and the same bits up to there.
+TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
+  int solves = 0;
+  constexpr int broken = 300;
+  SimulationHooks hooks;
+  hooks.before_solve = [&](const ContactProblem&) {
+    if (++solves == broken) throw SolutionBroken("a blow too hard");
+  };
+  const LoadingLog log = simulate(small_case(), hooks);
+  ASSERT_TRUE(log.completed) << log.message;
+  EXPECT_EQ(log.numbers.at("repeated_steps"), 1);
+  EXPECT_EQ(cycle_log().numbers.at("repeated_steps"), 0);
+  const std::vector<double> time = log.signals.column("time"), usual = cycle_log().signals.column("time");
+  const std::vector<double> tip = log.signals.column("tip_x"),
+                            usual_tip = cycle_log().signals.column("tip_x");
+  constexpr std::size_t before = broken - 100;  // steps of standing are not logged
+  ASSERT_GT(time.size(), before);
+  for (std::size_t k = 0; k < before; ++k) {
+    EXPECT_NEAR(time[k], usual[k], 1e-9);
+    if (usual[k] < (broken - 2) * small_case().world.step) EXPECT_EQ(tip[k], usual_tip[k]) << k;
+  }
+  EXPECT_GT(log.cycles[0].loaded_mass, 0);
+}
+
+// One rock under the floor, beside the lane that the machine clears, is taken away and counted; a tenth of the pile there is failure.
+TEST(LoadingCycle, RockThatLeftTheDriftIsCounted) {
+  const Scenario scenario = small_case();
+  SettledPile pile = prepared_pile(scenario);
+  const granular::PlacedRock stray{{0, 0.4}, Eigen::Isometry3d(Eigen::Translation3d(5, 2.6, -3))};
+  const double mass = granular::RockLibrary(scenario.pile.density).body(stray.spec).mass;
+  pile.rocks.push_back(stray);
+  const LoadingLog log = simulate(scenario, pile);
+  ASSERT_TRUE(log.completed) << log.message;
+  EXPECT_EQ(log.numbers.at("escaped_mass"), mass);
+  for (int k = 1; k < 30; ++k) {
+    pile.rocks.push_back(stray);
+    pile.rocks.back().pose.translation().x() = 2.0 + 0.5 * k;
+  }
+  const LoadingLog leaking = simulate(scenario, pile);
+  EXPECT_FALSE(leaking.completed);
+  EXPECT_NE(leaking.message.find("left the drift"), std::string::npos) << leaking.message;
+}
+
 TEST(LoadingCycle, LogNamesTheMoves) {
   const LoadingLog& log = cycle_log();
   const OperatorMoves moves = small_case().executor.moves;

@@ -135,6 +135,7 @@ TEST(SettledPile, BelongsToItsSetting) {
       {"reuse angle", [](Scenario& s) { s.world.contacts.reuse_angle *= 2; }},
       {"hysteresis", [](Scenario& s) { s.world.contacts.hysteresis *= 2; }},
       {"narrow", [](Scenario& s) { s.world.contacts.narrow = NarrowMethod::fcl_libccd; }},
+      {"sizes", [](Scenario& s) { s.pile.sizes = granular::blasted_ore_with_fines; }},
       {"step", [](Scenario& s) { s.world.step *= 0.5; }},
       {"method", [](Scenario& s) { s.world.solver.method = Method::sequential; }},
       {"freezing", [](Scenario& s) { s.world.freezing.on = !s.world.freezing.on; }},
