@@ -148,8 +148,9 @@ std::vector<RunMean> measures() {
   };
   return {{{"cycle_time", "s", 0, "from the start of stage 1 to the end of stage 4"},
            mean_of(loading::cycle_time)},
-          {{"solid_fill", "1", 0, "volume of the loaded rocks over the struck volume of the bucket"},
-           mean_of(loading::solid_fill)},
+          {{"struck_fill", "1", 0,
+            "of the bucket's struck volume, voids included; loaders in well blasted ore fill 0.8 to 1.1"},
+           mean_of(loading::struck_fill)},
           {{"energy_per_tonne", "kJ/t", 0, "positive work of drive, lift and tilt over what was loaded"},
            energy_and_tonnes},
           {{"tracking_error", "m", 0,

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 
 #include "command.hpp"
 #include "estimate.hpp"
+#include "interrupt.hpp"
 #include "rock_tests.hpp"
 
 /// The calibration of rock: what coefficients give, beside what is published. See --help.
@@ -53,10 +53,6 @@ struct Settings {
   RockTestOptions options;
   bool json = false;
 };
-
-// A signal handler reaches nothing but objects of static storage.
-volatile std::sig_atomic_t interrupted = 0;
-extern "C" void on_interrupt(int) { interrupted = 1; }
 
 bool is_size_name(const std::string& text) {
   const auto& names = engine::granular::size_names;
@@ -107,7 +103,7 @@ RockTestRun run_seed(const Settings& s, const RockTest& test, const Row& row, in
   options.run.seed = static_cast<std::uint64_t>(seed);
   options.run.stop = source.get_token();
   options.run.progress = [&](std::string_view phase, double done) {
-    if (interrupted != 0) source.request_stop();
+    if (interrupted()) source.request_stop();
     progress.show(name_of(row, seed) + ": " + std::string(phase) + " %", static_cast<int>(100 * done), 100);
   };
   return test.run(sample_of(s, row), options);
@@ -212,7 +208,7 @@ void print_table(const RockTest& test, const nlohmann::json& j) {
 }
 
 int run(const Settings& s) {
-  constexpr int failed_exit = 1, interrupted_exit = 130;
+  constexpr int failed_exit = 1;
   const RockTest& test = rock_test_named(s.test);
   const std::vector<Row> rows = run_rows(s, test);
   nlohmann::json out{{"test", s.test},
@@ -224,7 +220,7 @@ int run(const Settings& s) {
                      {"rows", nlohmann::json::array()}};
   for (const Row& row : rows) out["rows"].push_back(row_as_json(test, row));
   const int code = show(out, s.json, [&](const nlohmann::json& j) { print_table(test, j); });
-  if (interrupted != 0) return interrupted_exit;
+  if (interrupted()) return interrupted_exit;
   const auto has_failed = [](const Row& row) { return !row.failed.empty(); };
   return std::any_of(rows.begin(), rows.end(), has_failed) ? failed_exit : code;
 }
@@ -266,7 +262,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   add_engine_flags(app, s.engine);
   add_json_flag(app, s.json);
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  watch_for_interrupt();
   return run_command(app, argc, argv, [&] { return run(s); });
 }

@@ -10,6 +10,7 @@
 #include "each_seed.hpp"
 #include "estimate.hpp"
 #include "estimate_json.hpp"
+#include "interrupt.hpp"
 #include "loading_flags.hpp"
 
 /// What one variable of the strategy does to the responses, the others held. See --help.
@@ -24,14 +25,14 @@ constexpr const char* about =
     "the "
     "piles with\n"
     "95 % intervals (Student's t). Piles are poured when missing and kept in FOLDER. A run that fails is "
-    "left out "
-    "and counted.\n\n"
+    "left out and\n"
+    "counted; after Ctrl-C the runs that are done are printed.\n\n"
     "  strategy_sweep --piles /tmp/piles --vary alpha --values 0.2,0.6,1,1.4,2\n"
     "  strategy_sweep --piles /tmp/piles --vary kappa --alpha 1.4 --cycles 5 --seeds 6 --jobs 2\n\n"
-    "Columns: production [kg/s], joint damage per cycle [s], rock spill, loaded mass over the rated payload, "
-    "share of "
-    "drive-ins\n"
-    "that stalled, distance of the tip from its plan [m], energy per tonne [kJ/t], cycle [s].";
+    "Columns: production [kg/s], joint damage per cycle [s], rock spill, loaded mass over the rated\n"
+    "payload and over what the struck volume holds, share of drive-ins that stalled, distance of the tip "
+    "from\n"
+    "its plan [m], energy per tonne [kJ/t], cycle [s].";
 
 struct Settings {
   std::string piles, variable = "alpha";
@@ -56,6 +57,7 @@ const std::vector<Measure>& measures() {
        [](const LoadingLog& log) { return joint_damage(log) / static_cast<double>(log.cycles.size()); }},
       {"rock_spill", "spill", 3, [](const LoadingLog& log) { return rock_spill(log); }},
       {"fill_factor", "fill", 3, fill_factor},
+      {"struck_fill", "struck", 2, struck_fill},
       {"stall_share", "stalls", 2, stall_share},
       {"tracking_error_m", "tracking", 2, tracking_error},
       {"energy_kj_t", "energy", 0, energy_per_tonne},
@@ -94,21 +96,24 @@ Scenario scenario_of(const Settings& s) {
   return scenario;
 }
 
-using Row = std::vector<double>;  // by measure; empty: the run failed
+struct Run {
+  bool failed = false;
+  std::vector<double> values;  // by measure; empty if it failed or was not made
+};
 
-Row row_of(const LoadingLog& log, const std::string& name) {
-  Row row;
+Run run_of(const LoadingLog& log, const std::string& name) {
   if (!log.completed) {
-    std::fprintf(stderr, "%s failed: %s\n", name.c_str(), log.message.c_str());
-    return row;
+    if (!interrupted()) std::fprintf(stderr, "%s failed: %s\n", name.c_str(), log.message.c_str());
+    return {.failed = !interrupted()};
   }
-  for (const Measure& m : measures()) row.push_back(m.of(log));
-  std::fprintf(stderr, "%s: %.0f kg/s, fill %.2f\n", name.c_str(), row[0], row[3]);
-  return row;
+  Run run;
+  for (const Measure& m : measures()) run.values.push_back(m.of(log));
+  std::fprintf(stderr, "%s: %.0f kg/s, fill %.2f\n", name.c_str(), run.values[0], run.values[3]);
+  return run;
 }
 
-// By value, then by seed.
-std::vector<std::vector<Row>> sweep(const Settings& s) {
+// By value, then by seed. Runs that an interrupt leaves out are not made.
+std::vector<std::vector<Run>> sweep(const Settings& s) {
   const auto seeds = static_cast<std::size_t>(s.seeds);
   std::vector<Scenario> scenarios(seeds);
   std::vector<SettledPile> piles(seeds);
@@ -116,22 +121,40 @@ std::vector<std::vector<Row>> sweep(const Settings& s) {
     const auto k = static_cast<std::size_t>(seed - 1);
     scenarios[k] = with_pile(scenario_of(s), s.piles, seed);
     scenarios[k].seed = static_cast<std::uint64_t>(seed);
-    piles[k] = prepared_pile(scenarios[k]);
+    piles[k] = prepared_pile(scenarios[k], [](double) { end_if_interrupted(); });
   });
-  std::vector<std::vector<Row>> rows(s.values.size(), std::vector<Row>(seeds));
+  SimulationHooks hooks;
+  hooks.on_step = [](const engine::StepReport&) { end_if_interrupted(); };
+  std::vector<std::vector<Run>> runs(s.values.size(), std::vector<Run>(seeds));
   each_seed(static_cast<int>(s.values.size() * seeds), s.jobs, [&](int run) {
+    if (interrupted()) return;
     const std::size_t k = static_cast<std::size_t>(run - 1) % seeds,
                       v = static_cast<std::size_t>(run - 1) / seeds;
     Scenario scenario = scenarios[k];
     varied(scenario.strategy, s.variable) = s.values[v];
     char name[64];
     std::snprintf(name, sizeof name, "%s %g, seed %zu", s.variable.c_str(), s.values[v], k + 1);
-    rows[v][k] = row_of(simulate(scenario, piles[k]), name);
+    runs[v][k] = run_of(simulate(scenario, piles[k], hooks), name);
   });
-  return rows;
+  return runs;
 }
 
-nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Row>>& rows) {
+nlohmann::json row_as_json(double value, const std::vector<Run>& runs) {
+  nlohmann::json row{{"value", value}};
+  int failed = 0, made = 0;
+  for (const Run& run : runs) failed += run.failed, made += !run.values.empty();
+  row["failed"] = failed;
+  row["runs"] = made;
+  for (std::size_t m = 0; m < measures().size(); ++m) {
+    std::vector<double> values;
+    for (const Run& run : runs)
+      if (!run.values.empty()) values.push_back(run.values[m]);
+    row[measures()[m].key] = values.empty() ? nlohmann::json() : as_json(estimate(values));
+  }
+  return row;
+}
+
+nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Run>>& runs) {
   nlohmann::json out{{"variable", s.variable},
                      {"seeds", s.seeds},
                      {"cycles", s.cycles},
@@ -145,20 +168,20 @@ nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Row>>& r
                      {"kappa", s.strategy.kappa},
                      {"rows", nlohmann::json::array()}};
   out[s.variable] = "varied";
-  for (std::size_t v = 0; v < rows.size(); ++v) {
-    nlohmann::json row{{"value", s.values[v]}};
-    int failed = 0;
-    for (const Row& r : rows[v]) failed += r.empty();
-    row["failed"] = failed;
-    for (std::size_t m = 0; m < measures().size(); ++m) {
-      std::vector<double> values;
-      for (const Row& r : rows[v])
-        if (!r.empty()) values.push_back(r[m]);
-      row[measures()[m].key] = as_json(estimate(values));
-    }
-    out["rows"].push_back(row);
-  }
+  for (std::size_t v = 0; v < runs.size(); ++v) out["rows"].push_back(row_as_json(s.values[v], runs[v]));
   return out;
+}
+
+// "-" where no run was made, no interval where there is only one.
+std::string in_words(const nlohmann::json& estimate, int digits) {
+  if (estimate.is_null()) return "-";
+  char text[48];
+  if (estimate.at("half_width").is_null())
+    std::snprintf(text, sizeof text, "%.*f", digits, estimate.at("mean").get<double>());
+  else
+    std::snprintf(text, sizeof text, "%.*f +- %.*f", digits, estimate.at("mean").get<double>(), digits,
+                  estimate.at("half_width").get<double>());
+  return text;
 }
 
 std::string held(const nlohmann::json& j) {
@@ -174,7 +197,7 @@ std::string held(const nlohmann::json& j) {
 }
 
 void print_table(const nlohmann::json& j) {
-  std::printf("%s varied; %s; %s speeds, operator: %s; %d piles of %.0f t (%s), %d cycles a run\n%8s",
+  std::printf("%s varied; %s; %s speeds, operator: %s; %d piles of %.0f t (%s), cycles per run: %d\n%8s",
               j.at("variable").get<std::string>().c_str(), held(j).c_str(),
               j.at("speeds").get<std::string>().c_str(), j.at("operator").get<std::string>().c_str(),
               j.at("seeds").get<int>(), j.at("pile_kg").get<double>() / 1e3,
@@ -184,16 +207,7 @@ void print_table(const nlohmann::json& j) {
   std::printf(" %7s\n", "failed");
   for (const nlohmann::json& row : j.at("rows")) {
     std::printf("%8.3f", row.at("value").get<double>());
-    for (const Measure& m : measures()) {
-      const nlohmann::json& e = row.at(m.key);
-      char text[48];
-      if (e.at("half_width").is_null())
-        std::snprintf(text, sizeof text, "%.*f", m.digits, e.at("mean").get<double>());
-      else
-        std::snprintf(text, sizeof text, "%.*f +- %.*f", m.digits, e.at("mean").get<double>(), m.digits,
-                      e.at("half_width").get<double>());
-      std::printf(" %16s", text);
-    }
+    for (const Measure& m : measures()) std::printf(" %16s", in_words(row.at(m.key), m.digits).c_str());
     std::printf(" %7d\n", row.at("failed").get<int>());
   }
 }
@@ -229,6 +243,8 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     if (s.values.empty()) s.values = usual_values(s.variable);
     check_values(s);
-    return show(as_json(s, sweep(s)), s.json, print_table);
+    watch_for_interrupt();
+    const int code = show(as_json(s, sweep(s)), s.json, print_table);
+    return interrupted() ? interrupted_exit : code;
   });
 }

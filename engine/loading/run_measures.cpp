@@ -166,6 +166,7 @@ std::vector<double> peak_pin_force_by_cycle(const LoadingLog& log, double lowpas
 
 double cycle_time(const LoadingLog& log) { return mean_over_cycles(cycle_time_by_cycle(log)); }
 double solid_fill(const LoadingLog& log) { return mean_over_cycles(solid_fill_by_cycle(log)); }
+double struck_fill(const LoadingLog& log) { return solid_fill(log) / (1 - loose_ore_porosity); }
 double tracking_error(const LoadingLog& log) { return mean_over_cycles(tracking_error_by_cycle(log)); }
 double wheel_slip(const LoadingLog& log) { return mean_over_cycles(wheel_slip_by_cycle(log)); }
 double peak_pin_force(const LoadingLog& log, double lowpass_hz) {

@@ -57,6 +57,7 @@ TEST(RunMeasures, CycleTimeAndSolidFill) {
   EXPECT_DOUBLE_EQ(cycle_time(log), 1);
   EXPECT_DOUBLE_EQ(solid_fill_by_cycle(log)[1], 2000.0 / (4500 * 6));
   EXPECT_DOUBLE_EQ(solid_fill(log), 1500.0 / (4500 * 6));
+  EXPECT_DOUBLE_EQ(struck_fill(log), 1500.0 / (4500 * 6) / 0.59);
 }
 
 // Drive 30 kN m over a radius of 1 m at 1 m/s, lift 20 kN at 0.5 m/s: 40 kJ in the first cycle of 1 s. The
