@@ -104,7 +104,7 @@ struct Run {
 Run run_of(const LoadingLog& log, const std::string& name) {
   if (!log.completed) {
     if (!interrupted()) std::fprintf(stderr, "%s failed: %s\n", name.c_str(), log.message.c_str());
-    return {.failed = !interrupted()};
+    return {.failed = !interrupted(), .values = {}};
   }
   Run run;
   for (const Measure& m : measures()) run.values.push_back(m.of(log));

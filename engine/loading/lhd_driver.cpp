@@ -62,6 +62,15 @@ void LhdDriver::command(const ActuatorRates& rates) {
   machine_.set_motor(lhd_.tilt_motor, speeds[1]);
 }
 
+void LhdDriver::lower_to_floor() {
+  constexpr double time = 0.15;
+  const TipPose tip = read().tip;
+  ActuatorRates rates = within_limits(
+      actuator_rates(arm_, arm_pose(arm_, tip), {.v_z = -tip.z / time, .omega = -tip.phi / time}), {});
+  rates.drive = 0;
+  command(rates);
+}
+
 double LhdDriver::lift_force() const {
   const auto cylinders = lhd_.spec.motors[lhd_.lift_motor].bodies.size();
   return static_cast<double>(cylinders) * machine_.motor_force(lhd_.lift_motor);

@@ -12,7 +12,8 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-constexpr double stand_time = 0.6;  // for the tyres to take the weight before the clock starts [s]
+// For the tyres to take the weight and the bucket to come down to the floor, before the clock starts [s].
+constexpr double stand_time = 1.0;
 constexpr double room_under_roof =
     0.3;  // over the heaped bucket: rocks stand out of it, tyres run over rocks [m]
 constexpr int trouble_interval = 50;  // steps between checks of the whole state
@@ -52,6 +53,7 @@ class LoadingRun {
   bool attempt(int cycle);
   bool run_cycle(int cycle);
   Plan plan(CycleRecord& record) const;
+  bool stand();
   bool execute(int cycle, CycleRecord& record);
   bool step(const std::function<void(const engine::StepReport&)>& record = {});
   engine::StepReport advance();
@@ -115,6 +117,7 @@ void LoadingRun::describe() {
                   {"set_drive_in", s.executor.speeds.drive_in},
                   {"set_lift", s.executor.speeds.lift},
                   {"set_curl", s.executor.speeds.curl},
+                  {"drive_acceleration", s.executor.speeds.limits.drive_acceleration},
                   {"set_back_out", s.executor.speeds.back_out},
                   {"most_pulses", s.executor.moves.most_pulses},
                   {"held_up", s.executor.moves.held_up},
@@ -222,6 +225,14 @@ bool LoadingRun::wait_for_rest() {
   return true;
 }
 
+bool LoadingRun::stand() {
+  for (double t = 0; t < stand_time; t += site_.world().options().step) {
+    site_.driver().lower_to_floor();
+    if (!step()) return false;
+  }
+  return true;
+}
+
 bool LoadingRun::execute(int cycle, CycleRecord& record) {
   Executor executor(record.plan, site_.driver().arm(), scenario_.executor);
   double next_frame = site_.world().time();
@@ -288,8 +299,7 @@ bool LoadingRun::run_cycle(int cycle) {
   record.plan = plan(record);
   if (!record.plan.feasible) return fail("cycle " + std::to_string(cycle) + ": " + record.plan.message);
   cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
-  for (double t = 0; t < stand_time; t += site_.world().options().step)
-    if (!step()) return false;
+  if (!stand()) return false;
   record.t_start = site_.world().time();
   if (!execute(cycle, record)) return false;
   record.t_end = site_.world().time();

@@ -30,6 +30,7 @@ void check(const ExecutorOptions& options) {
   require_positive("speeds.limits.drive [m/s]", speeds.limits.drive);
   require_positive("speeds.limits.boom [rad/s]", speeds.limits.boom);
   require_positive("speeds.limits.tilt [rad/s]", speeds.limits.tilt);
+  require_positive("speeds.limits.drive_acceleration [m/s2]", speeds.limits.drive_acceleration);
   for (double limit : speeds.stage_limit) require_positive("speeds.stage_limit [s]", limit);
   require_positive("slow_window [s]", options.slow_window);
   require(options.slow_share >= 0 && options.slow_share < 1, "slow_share [1]", options.slow_share,
@@ -51,6 +52,12 @@ double slow_for(double before, double dt, double set, double actual, const Execu
   return slow ? before + dt : 0.0;
 }
 
+// The set speed of the drive after one step toward `wanted`: slower at once, faster by `most` [m/s].
+double eased(double before, double wanted, double most) {
+  const double way = std::copysign(1.0, wanted), same_way = std::max(way * before, 0.0);
+  return way * std::min(std::abs(wanted), same_way + most);
+}
+
 }  // namespace
 
 std::string_view name(Stage stage) {
@@ -69,7 +76,7 @@ SpeedPreset machine_speeds() {
           .curl = 0.3,
           .back_out = 2.0,
           .stage_limit = {8, 15, 10, 12},
-          .limits = {.drive = 2.5, .boom = 0.20, .tilt = 0.40}};
+          .limits = {.drive = 2.5, .boom = 0.20, .tilt = 0.40, .drive_acceleration = 1.0}};
 }
 
 SpeedPreset lindmark2016_speeds() {
@@ -78,7 +85,7 @@ SpeedPreset lindmark2016_speeds() {
           .curl = 0.9,
           .back_out = 3.8,
           .stage_limit = {5, 6, 4, 6},
-          .limits = {.drive = 4.5, .boom = 0.60, .tilt = 1.20}};
+          .limits = {.drive = 4.5, .boom = 0.60, .tilt = 1.20, .drive_acceleration = 2.0}};
 }
 
 SpeedPreset speeds_named(const std::string& name) {
@@ -104,9 +111,7 @@ void Executor::start(Stage stage, const Observation& now) {
   goal_ = stage_goal(plan_, number(stage), now.tip, cycle_start_);
 }
 
-void Executor::watch_actuators(const Observation& now) {
-  const double dt = now.time - last_time_;
-  last_time_ = now.time;
+void Executor::watch_actuators(const Observation& now, double dt) {
   const ActuatorRates& least = options_.least_set;
   slow_time_.drive = slow_for(slow_time_.drive, dt, set_.drive, now.actual.drive, options_, least.drive);
   slow_time_.boom = slow_for(slow_time_.boom, dt, set_.boom, now.actual.boom, options_, least.boom);
@@ -206,7 +211,9 @@ ActuatorRates Executor::step(const Observation& now) {
     last_time_ = now.time;
     start(Stage::drive_in, now);
   }
-  watch_actuators(now);
+  const double dt = now.time - last_time_;
+  last_time_ = now.time;
+  watch_actuators(now, dt);
   StageEnd reason = StageEnd::goal;
   while (!finished()) {
     progress_ = loading::progress(goal_, stage_start_, now.tip, options_.progress);
@@ -215,7 +222,10 @@ ActuatorRates Executor::step(const Observation& now) {
     start(after(reason), now);
   }
   if (stage_ == Stage::drive_in) pulses_.step(now.time, slow_time_.drive);
+  const double drive_before = set_.drive;
   set_ = set_speeds(now.tip);
+  if (const double most = options_.speeds.limits.drive_acceleration; std::isfinite(most))
+    set_.drive = eased(drive_before, set_.drive, most * dt);
   return set_;
 }
 

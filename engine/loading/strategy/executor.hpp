@@ -12,7 +12,8 @@
 /// Follows a plan with set speeds for drive, boom and tilt, in four stages: drive in, lift, curl, back out.
 ///
 /// Each step: progress s from the tip; tip velocity from the stage's law; actuator rates by inverse
-/// kinematics; one common factor keeps them within limits. First speeds: stage 1 v_x, constant; stage 2
+/// kinematics; one common factor keeps them within limits; a drive is set to go faster by no more than its acceleration
+/// allows. First speeds: stage 1 v_x, constant; stage 2
 /// straight to its goal in the least time T₀ at which none of drive-in, lift and curl speed is exceeded (v_z
 /// = the lift speed, v_x = v_z / tan θ and ω = κθ v_z / h when the drive-in reached its own), steered: what the
 /// pile keeps back in one direction is made good, and no direction goes beyond its goal (LiftGoal::along_slope: as
@@ -88,7 +89,7 @@ class Executor {
 
  private:
   void start(Stage stage, const Observation& now);
-  void watch_actuators(const Observation& now);
+  void watch_actuators(const Observation& now, double dt);
   bool drive_may_be_stuck() const;
   bool stage_ends(const Observation& now, StageEnd& reason) const;
   Stage after(StageEnd reason) const;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <drawpoint/engine/base/eigen.hpp>
+#include <limits>
 
 /// Planar kinematics of the loader's arm: drive (prismatic), boom hinge F, bucket hinge G, cutting edge K.
 ///
@@ -66,6 +67,8 @@ struct RateLimits {
   double drive = 2.5;  ///< [m/s]
   double boom = 0.20;  ///< [rad/s]
   double tilt = 0.40;  ///< [rad/s]
+  /// How fast a drive may be set to go faster [m/s²], or it rears and lifts the bucket off the floor; the executor keeps it.
+  double drive_acceleration = std::numeric_limits<double>::infinity();
 };
 
 /// All three rates times one factor in (0, 1], the largest that meets the limits: the direction of the path

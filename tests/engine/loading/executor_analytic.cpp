@@ -272,6 +272,7 @@ TEST(Executor, NoHeightNoStageTwo) {
   EXPECT_EQ(run.results[2].stage, Stage::back_out);
 }
 
+// The window begins when the drive, which gains speed, is set to more than the least speed.
 TEST(Executor, AStuckDriveIsSlowAfterTheWindow) {
   const ExecutorOptions options;
   const auto blocked = [](const ActuatorRates& set, double) {
@@ -279,8 +280,27 @@ TEST(Executor, AStuckDriveIsSlowAfterTheWindow) {
   };
   const Drive run = driven(example_plan(), options, blocked);
   EXPECT_EQ(run.results[0].reason, StageEnd::slow_actuator);
-  EXPECT_NEAR(run.results[0].t_end, options.slow_window, 1.5 * h);
+  const double begins = options.least_set.drive / options.speeds.limits.drive_acceleration;
+  EXPECT_NEAR(run.results[0].t_end, begins + options.slow_window, 2.5 * h);
   EXPECT_EQ(run.results[1].stage, Stage::lift);
+}
+
+// From rest to v at a, then on: x = v t − v²/2a, so the drive-in takes x/v + v/2a; ends count to the next step. Slower it
+// gets at once.
+TEST(Executor, TheDriveGainsSpeedNoFasterThanItMay) {
+  ExecutorOptions options = exact_options();
+  options.speeds.limits.drive_acceleration = 0.8;
+  const Plan plan = example_plan();
+  const Drive run = driven(plan, options);
+  ASSERT_TRUE(run.finished);
+  const double v = options.speeds.drive_in, way = 2.0 + plan.depth;
+  EXPECT_NEAR(run.results[0].t_end, way / v + v / 1.6, 1.5 * h);
+  for (std::size_t k = 1; k < run.set.size(); ++k) {
+    const double before = run.set[k - 1].drive, now = run.set[k].drive;
+    const double gain = std::abs(now) - (now * before > 0 ? std::abs(before) : 0);
+    EXPECT_LE(gain, 0.8 * h + 1e-12) << k;
+  }
+  EXPECT_LT(run.set.back().drive, 0.1) << "it has come to back out";
 }
 
 TEST(Executor, ASlowSpellShorterThanTheWindowIsForgiven) {

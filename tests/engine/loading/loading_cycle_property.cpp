@@ -66,6 +66,28 @@ TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
   EXPECT_GT(peak_pin_force(log), 9.81e-3 * log.cycles[0].loaded_mass);  // it carries the load [kN]
 }
 
+// It begins flat on the floor, within the millimetre by which contacts with it may be open or pressed in. Until it comes to
+// the rock the drive gains 2 m/s² and the machine rears: 57 t, 1.3 m up, over a wheelbase of 4.9 m shift 30 kN from front
+// tyres of 4 MN/m to the rear ones, 7.6 mm each and so 3.1 mrad, which lift the edge, 3.85 m before the axle, by 20 mm: a tenth of the
+// thinnest rock. A bucket that stands higher rides over rubble.
+TEST(LoadingCycle, TheBucketComesAlongTheFloor) {
+  const LoadingLog& log = cycle_log();
+  ASSERT_EQ(log.numbers.at("drive_acceleration"), 2);
+  const record::Table& s = log.signals;
+  const std::size_t x = s.index("tip_x"), z = s.index("tip_z"), angle = s.index("bucket_angle");
+  EXPECT_NEAR(s.at(0, z), 0, 1e-3);
+  EXPECT_NEAR(s.at(0, angle), 0, 1e-3);
+  const double pile = log.cycles[0].plan.toe - 0.5;
+  ASSERT_LT(s.at(0, x), pile - 1);
+  double highest = 0, lowest = 0;
+  for (std::size_t k = 0; k < s.rows() && s.at(k, x) < pile; ++k) {
+    highest = std::max(highest, s.at(k, z));
+    lowest = std::min(lowest, s.at(k, z));
+  }
+  EXPECT_LT(highest, 0.020);
+  EXPECT_GT(lowest, -1e-3);
+}
+
 // Looking ahead with another solver, and coming back, changes no bit of the run.
 TEST(LoadingCycle, LooksAheadWithoutATrace) {
   const Scenario scenario = small_case();
@@ -108,7 +130,10 @@ TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
   ASSERT_GT(time.size(), before);
   for (std::size_t k = 0; k < before; ++k) {
     EXPECT_NEAR(time[k], usual[k], 1e-9);
-    if (usual[k] < (broken - 2) * small_case().world.step) EXPECT_EQ(tip[k], usual_tip[k]) << k;
+    const bool whole = usual[k] < (broken - 2) * small_case().world.step;
+    if (whole) {
+      EXPECT_EQ(tip[k], usual_tip[k]) << k;
+    }
   }
   EXPECT_GT(log.cycles[0].loaded_mass, 0);
 }

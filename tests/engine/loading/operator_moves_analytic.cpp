@@ -117,9 +117,11 @@ TEST(OperatorMoves, NoneAreMadeByDefault) {
 TEST(OperatorMoves, PulsesComeBeforeADriveInIsStuck) {
   const OperatorMoves moves = moves_of_the_clock();
   const Cycle cycle = cycle_on(a_plan(1), moves, pile_that_holds);
-  int pulsed = 0;
+  int pulsed = 0, steps = 0;
   for (const Step& step : cycle.of(Stage::drive_in)) {
-    EXPECT_EQ(step.set.drive, machine_speeds().drive_in);
+    const SpeedPreset speeds = machine_speeds();
+    EXPECT_NEAR(step.set.drive, std::min(speeds.drive_in, steps++ * h * speeds.limits.drive_acceleration),
+                1e-12);
     EXPECT_EQ(step.set.boom > 0, step.set.tilt > 0);
     if (step.set.boom == 0) continue;
     EXPECT_EQ(step.set.boom, moves.pulse_rates.boom);
