@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Ctrl-C (SIGINT, SIGTERM) of a command that prints what it has so far: the signal only sets a flag, which the runs
-/// look at.
+/// Ctrl-C (SIGINT, SIGTERM) of a command that prints what it has so far: the signal only sets a flag, which
+/// the runs look at.
 namespace drawpoint::benchmarks {
 
 constexpr int interrupted_exit = 130;  ///< exit code of a command that was interrupted

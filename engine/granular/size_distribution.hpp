@@ -28,13 +28,14 @@ using SizeDistribution = std::array<SizeClass, 4>;
 
 inline constexpr SizeDistribution blasted_ore{{{0.3, 0.2}, {0.4, 0.3}, {0.6, 0.3}, {0.8, 0.2}}};
 
-/// The same with a quarter of its mass below the table's finest, as rocks of 0.2 m; the other three quarters keep the
-/// table's shares, 0.3 and 0.4 m as one class of their mean. Some three times as many rocks per tonne, and as dear a step.
+/// The same with a quarter of its mass below the table's finest, as rocks of 0.2 m; the other three quarters
+/// keep the table's shares, 0.3 and 0.4 m as one class of their mean. Some three times as many rocks per
+/// tonne, and as dear a step.
 inline constexpr SizeDistribution blasted_ore_with_fines{
     {{0.2, 0.25}, {0.35, 0.375}, {0.6, 0.225}, {0.8, 0.15}}};
 
-/// Rock that blasting broke well: nine tenths of the mass at 0.4 m and below, where half of blasted_ore is at 0.6 m and
-/// above. Four times as many rocks per tonne.
+/// Rock that blasting broke well: nine tenths of the mass at 0.4 m and below, where half of blasted_ore is at
+/// 0.6 m and above. Four times as many rocks per tonne.
 inline constexpr SizeDistribution well_broken_ore{{{0.2, 0.35}, {0.3, 0.3}, {0.4, 0.25}, {0.5, 0.1}}};
 
 /// "mine": blasted_ore; "mine_with_fines": blasted_ore_with_fines; "well_broken": well_broken_ore. Throws

@@ -38,8 +38,8 @@ class LhdDriver {
   void place(double x, double y);
   MachineReading read() const;
   void command(const ActuatorRates& rates);
-  /// Commands boom and tilt so that the bucket comes to lie flat with its edge on the floor z = 0, nearer by a factor of
-  /// e in 0.15 s; the drive stands. Call before each step.
+  /// Commands boom and tilt so that the bucket comes to lie flat with its edge on the floor z = 0, nearer by
+  /// a factor of e in 0.15 s; the drive stands. Call before each step.
   void lower_to_floor();
 
   double lift_force() const;    ///< sum of the lift motors in the last step [N] or [N m]

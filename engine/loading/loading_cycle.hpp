@@ -17,12 +17,12 @@
 /// again or the raise is blocked. Rocks that lie where the machine must stand are taken away and logged
 /// (`cleared_mass`).
 ///
-/// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), and a rock that left the drift is
-/// taken away (`escaped_mass`), so that a run of thirty cycles outlives a single blow; more than 1 % of the pile's mass is
-/// failure. Failure is data: a pile without a place to load, or a solution that breaks down, gives a log with
-/// completed = false and a message; the cycles done before are in it. Throws std::invalid_argument for a bad
-/// scenario and std::runtime_error if a file cannot be read or written. Deterministic. Cost: some ms per step
-/// and 1000 rocks.
+/// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), and a rock that
+/// left the drift is taken away (`escaped_mass`), so that a run of thirty cycles outlives a single blow; more
+/// than 1 % of the pile's mass is failure. Failure is data: a pile without a place to load, or a solution
+/// that breaks down, gives a log with completed = false and a message; the cycles done before are in it.
+/// Throws std::invalid_argument for a bad scenario and std::runtime_error if a file cannot be read or
+/// written. Deterministic. Cost: some ms per step and 1000 rocks.
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {

@@ -17,12 +17,13 @@
 /// slip where they turn as set and a drive at its torque limit where they do not. Gaining speed counts. 0 for a
 /// cycle that never drives forward. peak force in the pin: largest magnitude of hinge G's force, low-passed as
 /// the torque is in joint_damage; the bucket's own weight is in it. solid fill: volume of the loaded rocks,
-/// without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with porosity n. struck fill: solid
-/// fill over that, with the porosity of loose_ore_porosity: what a miner calls the fill factor, 0.8 to 1.1 for
-/// loaders in well blasted ore.
+/// without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with porosity n. struck
+/// fill: solid fill over that, with the porosity of loose_ore_porosity: what a miner calls the fill factor,
+/// 0.8 to 1.1 for loaders in well blasted ore.
 namespace drawpoint::engine::loading {
 
-/// Of the default rock in its mine's sizes, poured loosely (docs/decisions/0026-rock-within-its-bounds.md) [1].
+/// Of the default rock in its mine's sizes, poured loosely (docs/decisions/0026-rock-within-its-bounds.md)
+/// [1].
 inline constexpr double loose_ore_porosity = 0.41;
 
 std::vector<double> cycle_time_by_cycle(const LoadingLog& log);        ///< [s]

@@ -57,8 +57,8 @@ Scenario lh621_in_a_drift();
 /// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
 Scenario lh621_at_lindmark2016_scale();
 
-/// The scene with a pile of another mass [kg] or of other sizes. Its iteration budget goes with the number of rocks, so
-/// that every contact point gets as many iterations as in the scene.
+/// The scene with a pile of another mass [kg] or of other sizes. Its iteration budget goes with the number of
+/// rocks, so that every contact point gets as many iterations as in the scene.
 Scenario with_pile_of(Scenario scenario, double mass, const granular::SizeDistribution& sizes);
 
 /// As loosely as Lindmark (2016) solves contacts: 150 iterations of a step of 1/60 s that remember nothing of the step

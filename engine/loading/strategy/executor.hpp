@@ -12,14 +12,14 @@
 /// Follows a plan with set speeds for drive, boom and tilt, in four stages: drive in, lift, curl, back out.
 ///
 /// Each step: progress s from the tip; tip velocity from the stage's law; actuator rates by inverse
-/// kinematics; one common factor keeps them within limits; a drive is set to go faster by no more than its acceleration
-/// allows. First speeds: stage 1 v_x, constant; stage 2
-/// straight to its goal in the least time T₀ at which none of drive-in, lift and curl speed is exceeded (v_z
-/// = the lift speed, v_x = v_z / tan θ and ω = κθ v_z / h when the drive-in reached its own), steered: what the
-/// pile keeps back in one direction is made good, and no direction goes beyond its goal (LiftGoal::along_slope: as
-/// aimed at its start); stage 3 ω; stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose set
-/// speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`. (b) and (c) are
-/// being stuck; the policy says what follows. Stage 2 is left out if h = 0.
+/// kinematics; one common factor keeps them within limits; a drive is set to go faster by no more than its
+/// acceleration allows. First speeds: stage 1 v_x, constant; stage 2 straight to its goal in the least time
+/// T₀ at which none of drive-in, lift and curl speed is exceeded (v_z = the lift speed, v_x = v_z / tan θ and
+/// ω = κθ v_z / h when the drive-in reached its own), steered: what the pile keeps back in one direction is
+/// made good, and no direction goes beyond its goal (LiftGoal::along_slope: as aimed at its start); stage 3
+/// ω; stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose
+/// set speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`. (b) and (c)
+/// are being stuck; the policy says what follows. Stage 2 is left out if h = 0.
 ///
 /// A value type on plain data: knows no simulator, deterministic. World frame, SI units. Source: Lindmark
 /// 2016, section 3.4, algorithm 1.

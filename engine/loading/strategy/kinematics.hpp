@@ -67,7 +67,8 @@ struct RateLimits {
   double drive = 2.5;  ///< [m/s]
   double boom = 0.20;  ///< [rad/s]
   double tilt = 0.40;  ///< [rad/s]
-  /// How fast a drive may be set to go faster [m/s²], or it rears and lifts the bucket off the floor; the executor keeps it.
+  /// How fast a drive may be set to go faster [m/s²], or it rears and lifts the bucket off the floor; the
+  /// executor keeps it.
   double drive_acceleration = std::numeric_limits<double>::infinity();
 };
 

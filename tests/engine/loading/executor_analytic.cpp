@@ -285,8 +285,8 @@ TEST(Executor, AStuckDriveIsSlowAfterTheWindow) {
   EXPECT_EQ(run.results[1].stage, Stage::lift);
 }
 
-// From rest to v at a, then on: x = v t − v²/2a, so the drive-in takes x/v + v/2a; ends count to the next step. Slower it
-// gets at once.
+// From rest to v at a, then on: x = v t − v²/2a, so the drive-in takes x/v + v/2a; ends count to the next
+// step. Slower it gets at once.
 TEST(Executor, TheDriveGainsSpeedNoFasterThanItMay) {
   ExecutorOptions options = exact_options();
   options.speeds.limits.drive_acceleration = 0.8;

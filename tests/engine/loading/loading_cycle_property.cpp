@@ -66,10 +66,11 @@ TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
   EXPECT_GT(peak_pin_force(log), 9.81e-3 * log.cycles[0].loaded_mass);  // it carries the load [kN]
 }
 
-// It begins flat on the floor, within the millimetre by which contacts with it may be open or pressed in. Until it comes to
-// the rock the drive gains 2 m/s² and the machine rears: 57 t, 1.3 m up, over a wheelbase of 4.9 m shift 30 kN from front
-// tyres of 4 MN/m to the rear ones, 7.6 mm each and so 3.1 mrad, which lift the edge, 3.85 m before the axle, by 20 mm: a tenth of the
-// thinnest rock. A bucket that stands higher rides over rubble.
+// It begins flat on the floor, within the millimetre by which contacts with it may be open or pressed in.
+// Until it comes to the rock the drive gains 2 m/s² and the machine rears: 57 t, 1.3 m up, over a wheelbase
+// of 4.9 m shift 30 kN from front tyres of 4 MN/m to the rear ones, 7.6 mm each and so 3.1 mrad, which lift
+// the edge, 3.85 m before the axle, by 20 mm: a tenth of the thinnest rock. A bucket that stands higher rides
+// over rubble.
 TEST(LoadingCycle, TheBucketComesAlongTheFloor) {
   const LoadingLog& log = cycle_log();
   ASSERT_EQ(log.numbers.at("drive_acceleration"), 2);
@@ -110,8 +111,8 @@ TEST(LoadingCycle, LooksAheadWithoutATrace) {
     EXPECT_EQ(log.signals.column(column), cycle_log().signals.column(column)) << column;
 }
 
-// A broken step leaves the world as it was, so its ten parts lead to the same time: as many samples at the same
-// times, and the same bits up to there.
+// A broken step leaves the world as it was, so its ten parts lead to the same time: as many samples at the
+// same times, and the same bits up to there.
 TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
   int solves = 0;
   constexpr int broken = 300;
@@ -138,7 +139,8 @@ TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
   EXPECT_GT(log.cycles[0].loaded_mass, 0);
 }
 
-// One rock under the floor, beside the lane that the machine clears, is taken away and counted; a tenth of the pile there is failure.
+// One rock under the floor, beside the lane that the machine clears, is taken away and counted; a tenth of
+// the pile there is failure.
 TEST(LoadingCycle, RockThatLeftTheDriftIsCounted) {
   const Scenario scenario = small_case();
   SettledPile pile = prepared_pile(scenario);
