@@ -47,10 +47,10 @@ struct Scatter {
 
 enum class Over { mean, sum };
 
-/// Of older logs, which do not tell, nothing.
-double number_or_none(const LoadingLog& log, const char* name) {
+/// Older logs lack some.
+double number_or(double otherwise, const LoadingLog& log, const char* name) {
   const auto found = log.numbers.find(name);
-  return found == log.numbers.end() ? 0 : found->second;
+  return found == log.numbers.end() ? otherwise : found->second;
 }
 
 /// Where the contact solution broke down, over all runs.
@@ -59,7 +59,7 @@ struct Breakdowns {
   int runs = 0;
 
   void add(const LoadingLog& log) {
-    const double broken = number_or_none(log, "repeated_steps"), lost = number_or_none(log, "escaped_mass");
+    const double broken = number_or(0, log, "repeated_steps"), lost = number_or(0, log, "escaped_mass");
     steps += broken;
     escaped += lost;
     runs += broken > 0 || lost > 0;
@@ -75,10 +75,7 @@ struct Breakdowns {
 
 /// As the first run's log has it: the pile is the same for all.
 Headline pile_of(const LoadingLog& log) {
-  const auto number = [&](const char* name) {
-    const auto found = log.numbers.find(name);
-    return found == log.numbers.end() ? std::nan("") : found->second;
-  };
+  const auto number = [&](const char* name) { return number_or(std::nan(""), log, name); };
   char note[96];
   std::snprintf(note, sizeof note, "of the pile's surface before the first cycle; %.0f t, crest %.1f m",
                 number("pile_mass") / 1e3, number("pile_crest"));

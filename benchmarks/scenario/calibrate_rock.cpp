@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "estimate.hpp"
+#include "estimate_json.hpp"
 #include "interrupt.hpp"
 #include "rock_tests.hpp"
 
@@ -166,17 +167,6 @@ nlohmann::json published(const RockTest& test) {
   return out;
 }
 
-std::string plus_minus(const nlohmann::json& e, int digits) {
-  if (e.at("mean").is_null()) return "-";
-  char text[64];
-  if (e.at("standard_error").is_null())
-    std::snprintf(text, sizeof text, "%.*f", digits, e.at("mean").get<double>());
-  else
-    std::snprintf(text, sizeof text, "%.*f +- %.*f", digits, e.at("mean").get<double>(), digits,
-                  e.at("standard_error").get<double>());
-  return text;
-}
-
 // "35 to 42", "at least 35"
 std::string range_of(const MeasuredQuantity& q) {
   char text[64];
@@ -198,7 +188,8 @@ void print_table(const RockTest& test, const nlohmann::json& j) {
                 row.at("seeds").get<int>(), row.at("rocks").get<int>(),
                 row.at("moving").get<int>() > 0 ? "*" : " ");
     for (const MeasuredQuantity& q : test.quantities)
-      std::printf(" %17s", plus_minus(row.at(q.key), q.digits).c_str());
+      std::printf(" %17s",
+                  plus_minus(row.at(q.key).at("mean"), row.at(q.key).at("standard_error"), q.digits).c_str());
     if (!row.at("failed").empty()) std::printf("  failed: seeds %s", row.at("failed").dump().c_str());
     std::printf("\n");
   }

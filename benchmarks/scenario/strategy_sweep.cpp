@@ -149,7 +149,8 @@ nlohmann::json row_as_json(double value, const std::vector<Run>& runs) {
     std::vector<double> values;
     for (const Run& run : runs)
       if (!run.values.empty()) values.push_back(run.values[m]);
-    row[measures()[m].key] = values.empty() ? nlohmann::json() : as_json(estimate(values));
+    row[measures()[m].key] = values.empty() ? nlohmann::json{{"mean", nullptr}, {"half_width", nullptr}}
+                                            : as_json(estimate(values));
   }
   return row;
 }
@@ -170,18 +171,6 @@ nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Run>>& r
   out[s.variable] = "varied";
   for (std::size_t v = 0; v < runs.size(); ++v) out["rows"].push_back(row_as_json(s.values[v], runs[v]));
   return out;
-}
-
-// "-" where no run was made, no interval where there is only one.
-std::string in_words(const nlohmann::json& estimate, int digits) {
-  if (estimate.is_null()) return "-";
-  char text[48];
-  if (estimate.at("half_width").is_null())
-    std::snprintf(text, sizeof text, "%.*f", digits, estimate.at("mean").get<double>());
-  else
-    std::snprintf(text, sizeof text, "%.*f +- %.*f", digits, estimate.at("mean").get<double>(), digits,
-                  estimate.at("half_width").get<double>());
-  return text;
 }
 
 std::string held(const nlohmann::json& j) {
@@ -207,7 +196,9 @@ void print_table(const nlohmann::json& j) {
   std::printf(" %7s\n", "failed");
   for (const nlohmann::json& row : j.at("rows")) {
     std::printf("%8.3f", row.at("value").get<double>());
-    for (const Measure& m : measures()) std::printf(" %16s", in_words(row.at(m.key), m.digits).c_str());
+    for (const Measure& m : measures())
+      std::printf(" %16s",
+                  plus_minus(row.at(m.key).at("mean"), row.at(m.key).at("half_width"), m.digits).c_str());
     std::printf(" %7d\n", row.at("failed").get<int>());
   }
 }

@@ -18,7 +18,7 @@
 /// (`cleared_mass`).
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), and a rock that
-/// left the drift is taken away (`escaped_mass`), so that a run of thirty cycles outlives a single blow; more
+/// left the drift is taken away (`escaped_mass`), so that a run of thirty cycles outlives a single one; more
 /// than 1 % of the pile's mass is failure. Failure is data: a pile without a place to load, or a solution
 /// that breaks down, gives a log with completed = false and a message; the cycles done before are in it.
 /// Throws std::invalid_argument for a bad scenario and std::runtime_error if a file cannot be read or

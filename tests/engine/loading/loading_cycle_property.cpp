@@ -118,7 +118,7 @@ TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
   constexpr int broken = 300;
   SimulationHooks hooks;
   hooks.before_solve = [&](const ContactProblem&) {
-    if (++solves == broken) throw SolutionBroken("a blow too hard");
+    if (++solves == broken) throw SolutionBroken("a velocity is not finite");
   };
   const LoadingLog log = simulate(small_case(), hooks);
   ASSERT_TRUE(log.completed) << log.message;
