@@ -15,9 +15,9 @@ namespace {
 
 using engine::loading::CycleRecord;
 using engine::loading::LoadingLog;
+using engine::loading::values_per_pose;
 using nlohmann::json;
 
-constexpr int values_per_pose = 7;
 constexpr double picture_interval = 0.5;  // of the replay [s]; keeps the page light
 
 // Three decimals: millimetres, and the text of a number stays short.
@@ -105,7 +105,7 @@ json poses_of(const engine::loading::SceneFrame& frame) {
       continue;
     }
     json pose = json::array();
-    for (int k = 0; k < values_per_pose; ++k) pose.push_back(rounded(frame.poses[b + k]));
+    for (std::size_t k = 0; k < values_per_pose; ++k) pose.push_back(rounded(frame.poses[b + k]));
     poses.push_back(pose);
   }
   return poses;

@@ -70,7 +70,7 @@ Scenario loading_scenario(const RunContext& run) {
                                            engine::granular::sizes_named(chosen(run, "sizes")));
   if (second_of(run, "solver", "scene", "lindmark2016"))
     scenario.world = engine::loading::lindmark2016_solver();
-  scenario.executor.speeds = engine::loading::speeds_named(chosen(run, "speeds"));
+  scenario = engine::loading::with_speeds(scenario, chosen(run, "speeds"));
   scenario.executor.moves = engine::loading::operator_named(chosen(run, "operator"));
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
   scenario.cycles = std::stoi(chosen(run, "cycles"));

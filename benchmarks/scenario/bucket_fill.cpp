@@ -68,7 +68,7 @@ Scenario scenario_of(const Settings& s) {
   s.pile.apply(scenario);
   if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
   if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
-  s.operation.apply(scenario.executor);
+  s.operation.apply(scenario);
   return scenario;
 }
 

@@ -7,14 +7,16 @@
 
 namespace drawpoint::benchmarks {
 
-void OperationFlags::apply(engine::loading::ExecutorOptions& options) const {
-  options.speeds = engine::loading::speeds_named(speeds);
-  options.moves = engine::loading::operator_named(operated);
+void OperationFlags::apply(engine::loading::Scenario& scenario) const {
+  scenario = engine::loading::with_speeds(scenario, speeds);
+  scenario.executor.moves = engine::loading::operator_named(operated);
 }
 
 void add_operation_flags(CLI::App& app, OperationFlags& flags) {
   using engine::loading::operator_names, engine::loading::speed_names;
-  app.add_option("--speeds", flags.speeds, "preset of the actuators' speeds")
+  app.add_option("--speeds", flags.speeds,
+                 "preset of the actuators' speeds: for cycles of 12 s as in Lindmark (2016), or what the "
+                 "machine can do, with its engine")
       ->check(CLI::IsMember(std::vector<std::string>(speed_names.begin(), speed_names.end())))
       ->capture_default_str();
   app.add_option("--operator", flags.operated,

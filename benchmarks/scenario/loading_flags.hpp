@@ -15,7 +15,7 @@ namespace drawpoint::benchmarks {
 struct OperationFlags {
   std::string speeds = "lindmark2016", operated = "plan";
 
-  void apply(engine::loading::ExecutorOptions& options) const;
+  void apply(engine::loading::Scenario& scenario) const;
 };
 
 /// --speeds and --operator.

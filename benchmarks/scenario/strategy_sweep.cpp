@@ -91,7 +91,7 @@ Scenario scenario_of(const Settings& s) {
   Scenario scenario = lh621_in_a_drift();
   scenario.cycles = s.cycles;
   scenario.strategy = s.strategy;
-  s.operation.apply(scenario.executor);
+  s.operation.apply(scenario);
   s.pile.apply(scenario);
   return scenario;
 }

@@ -32,8 +32,7 @@ struct Settings {
 };
 
 nlohmann::json run(const Settings& s) {
-  Scenario scenario = lh621_in_a_drift();
-  scenario.executor.speeds = speeds_named(s.speeds);
+  Scenario scenario = with_speeds(lh621_in_a_drift(), s.speeds);
   if (!s.setting.empty()) scenario.world = with(scenario.world, setting_of(s.setting));
   nlohmann::json out{{"rock_m", s.rock},
                      {"lowpass_hz", s.lowpass},

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
 #include <memory>
@@ -48,9 +49,20 @@ double LhdDriver::rolling_radius(int wheel) const {
   return 0.5 * (lhd_.tyre_radius + machine_.pose(wheel).translation().z());
 }
 
+double LhdDriver::most_wheel_torque() const {
+  double turning = 0;
+  for (int wheel : lhd_.wheels) turning += std::abs(machine_.speed(wheel));
+  const double arm_power =
+      std::max(lift_force() * lift_speed(), 0.0) + std::max(tilt_force() * tilt_speed(), 0.0);
+  return wheel_torque_limit(lhd_.options.drive_line, lhd_.options.wheel_torque, turning, arm_power);
+}
+
 void LhdDriver::command(const ActuatorRates& rates) {
-  for (int k = 0; k < 4; ++k)
+  const double most_torque = most_wheel_torque();
+  for (int k = 0; k < 4; ++k) {
     machine_.set_motor(lhd_.wheel_motors[k], rates.drive / rolling_radius(lhd_.wheels[k]));
+    machine_.limit_motor(lhd_.wheel_motors[k], most_torque);
+  }
   Eigen::VectorXd speeds = Eigen::Vector2d(rates.boom, rates.tilt);
   if (lhd_.options.arm_drive == ArmDrive::cylinders) {
     const std::vector<int> outside = {lhd_.rear, lhd_.wheels[0], lhd_.wheels[1], lhd_.wheels[2],

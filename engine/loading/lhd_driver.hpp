@@ -31,12 +31,17 @@ void add_machine(engine::World& world, const Lhd& lhd, machine::Machine& machine
 
 class LhdDriver {
  public:
+  /// For the tyres to take the weight after place(), and the bucket to come down by lower_to_floor() [s].
+  static constexpr double stand_time = 1.0;
+
   LhdDriver(const Lhd& lhd, machine::Machine& machine);
 
   /// Stands the machine at rest in its reference pose with the front axle line at (x, y), heading +x, on its
   /// tyres.
   void place(double x, double y);
   MachineReading read() const;
+  /// Set speeds for the next step, and what the engine has for the wheels: by their turning now and what the
+  /// arm took in the last step, so call it before each.
   void command(const ActuatorRates& rates);
   /// Commands boom and tilt so that the bucket comes to lie flat with its edge on the floor z = 0, nearer by
   /// a factor of e in 0.15 s; the drive stands. Call before each step.
@@ -55,6 +60,7 @@ class LhdDriver {
 
  private:
   double rolling_radius(int wheel) const;
+  double most_wheel_torque() const;
 
   const Lhd& lhd_;
   machine::Machine& machine_;

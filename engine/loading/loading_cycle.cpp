@@ -12,8 +12,6 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-// For the tyres to take the weight and the bucket to come down to the floor, before the clock starts [s].
-constexpr double stand_time = 1.0;
 constexpr double room_under_roof =
     0.3;  // over the heaped bucket: rocks stand out of it, tyres run over rocks [m]
 constexpr int trouble_interval = 50;  // steps between checks of the whole state
@@ -26,7 +24,7 @@ class LoadingRun {
       : scenario_(scenario),
         hooks_(hooks),
         site_(scenario, pile),
-        signals_(site_.lhd()),
+        signals_(site_.lhd(), scenario.log_all_joints),
         scene_(site_, scenario.drift) {
     site_.world().before_solve(hooks.before_solve);
     describe();
@@ -127,6 +125,7 @@ void LoadingRun::describe() {
                   {"press", s.executor.moves.press ? 1.0 : 0.0},
                   {"crowd", s.executor.moves.crowd},
                   {"wheel_torque_limit", s.machine.wheel_torque},
+                  {"engine_power", s.machine.drive_line.engine_power},
                   {"lift_cylinder_limit", s.machine.lift_cylinder_force},
                   {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
   log_.texts = {{"machine", "Sandvik LH621 class"},
@@ -226,7 +225,7 @@ bool LoadingRun::wait_for_rest() {
 }
 
 bool LoadingRun::stand() {
-  for (double t = 0; t < stand_time; t += site_.world().options().step) {
+  for (double t = 0; t < LhdDriver::stand_time; t += site_.world().options().step) {
     site_.driver().lower_to_floor();
     if (!step()) return false;
   }

@@ -12,7 +12,7 @@ using record::Reader;
 using record::Table;
 using record::Writer;
 
-const record::FileKind kind{"drawpoint loading log", 2};
+const record::FileKind kind{"drawpoint loading log", 3};
 
 std::string numbered(const std::string& group, std::size_t k) {
   std::string digits = std::to_string(k);
@@ -172,25 +172,34 @@ void write_bodies(Writer& file, const SceneRecord& scene) {
   file.texts("scene/bodies/name", name);
 }
 
+// Poses body by body and number by number, the frames last: what stands still is a row of equal numbers and takes next
+// to no room in the file.
+std::vector<float> frames_last(const std::vector<SceneFrame>& frames, std::size_t numbers) {
+  std::vector<float> poses(frames.size() * numbers);
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (std::size_t k = 0; k < numbers; ++k) poses[k * frames.size() + f] = frames[f].poses[k];
+  return poses;
+}
+
 void write_frames(Writer& file, const SceneRecord& scene) {
   std::vector<double> t;
   std::vector<std::int32_t> cycle;
   std::vector<std::string> label;
-  std::vector<float> poses;
+  const std::size_t numbers = values_per_pose * scene.bodies.size();
   for (const SceneFrame& frame : scene.frames) {
-    if (frame.poses.size() != 7 * scene.bodies.size())
+    if (frame.poses.size() != numbers)
       contradiction("a scene frame has " + std::to_string(frame.poses.size()) + " pose numbers for " +
                     std::to_string(scene.bodies.size()) + " bodies");
     t.push_back(frame.t);
     cycle.push_back(frame.cycle);
     label.push_back(frame.label);
-    poses.insert(poses.end(), frame.poses.begin(), frame.poses.end());
   }
+  const std::vector<float> poses = frames_last(scene.frames, numbers);
   file.array("scene/frames/t_s", std::span<const double>(t));
   file.array("scene/frames/cycle", std::span<const std::int32_t>(cycle));
   file.texts("scene/frames/label", label);
   file.array("scene/frames/poses", std::span<const float>(poses),
-             {scene.frames.size(), scene.bodies.size(), 7});
+             {scene.bodies.size(), values_per_pose, scene.frames.size()});
 }
 
 void write_scene(Writer& file, const SceneRecord& scene) {
@@ -228,12 +237,12 @@ void read_frames(const Reader& file, SceneRecord& scene) {
   const std::string one_each = std::to_string(t.size()) + ", one per frame";
   require_fit(file, cycle.size() == t.size(), "scene/frames/cycle", one_each);
   require_fit(file, label.size() == t.size(), "scene/frames/label", one_each);
-  require_fit(file, poses.size() == 7 * scene.bodies.size() * t.size(), "scene/frames/poses",
-              "7 numbers per frame and body");
-  const auto width = static_cast<std::ptrdiff_t>(7 * scene.bodies.size());
-  for (std::size_t k = 0; k < t.size(); ++k) {
-    const auto first = poses.begin() + static_cast<std::ptrdiff_t>(k) * width;
-    scene.frames.push_back({t[k], cycle[k], label[k], {first, first + width}});
+  const std::size_t numbers = values_per_pose * scene.bodies.size();
+  require_fit(file, poses.size() == numbers * t.size(), "scene/frames/poses", "7 numbers per body and frame");
+  for (std::size_t f = 0; f < t.size(); ++f) {
+    SceneFrame frame{t[f], cycle[f], label[f], std::vector<float>(numbers)};
+    for (std::size_t k = 0; k < numbers; ++k) frame.poses[k] = poses[k * t.size() + f];
+    scene.frames.push_back(std::move(frame));
   }
 }
 
@@ -276,8 +285,7 @@ LoadingLog read_log(const std::filesystem::path& path) {
   log.completed = file.integer("/", "completed") != 0;
   log.message = file.text("/", "message");
   for (const std::string& name : file.attributes("numbers")) log.numbers[name] = file.number("numbers", name);
-  for (const std::string& name : file.attributes("texts"))
-    log.texts[name == "pile_recipe" ? "pile_provenance" : name] = file.text("texts", name);  // its old name
+  for (const std::string& name : file.attributes("texts")) log.texts[name] = file.text("texts", name);
   log.signals = file.table("signals");
   const std::size_t cycles = file.children("cycles").size();
   for (std::size_t k = 0; k < cycles; ++k) log.cycles.push_back(read_cycle(file, numbered("cycles", k)));

@@ -39,11 +39,15 @@ struct SceneBody {
   std::string name;
 };
 
+inline constexpr std::size_t values_per_pose = 7;
+
 struct SceneFrame {
   double t = 0;  ///< [s]
   int cycle = 0;
   std::string label;
-  std::vector<float> poses;  ///< x y z qw qx qy qz per body; NaN: not shown
+  /// x y z qw qx qy qz per body, to half a millimetre and a quarter of a thousandth; NaN: not shown. In the file: body,
+  /// number, frame.
+  std::vector<float> poses;
 };
 
 struct SceneRecord {

@@ -48,6 +48,12 @@ Scenario with_pile_of(Scenario s, double mass, const granular::SizeDistribution&
   return s;
 }
 
+Scenario with_speeds(Scenario s, const std::string& name) {
+  s.executor.speeds = speeds_named(name);
+  s.machine.drive_line = name == "machine" ? DriveLine{.engine_power = 382e3} : DriveLine{};
+  return s;
+}
+
 engine::WorldOptions lindmark2016_solver() {
   engine::WorldOptions options;
   options.step = 1.0 / 60;
@@ -61,6 +67,7 @@ engine::WorldOptions lindmark2016_solver() {
 void check(const Scenario& s) {
   check(s.strategy);
   check(s.drift);
+  check(s.machine.drive_line);
   require_setting(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
   require_setting(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
   require_setting(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");

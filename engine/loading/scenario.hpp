@@ -11,6 +11,7 @@
 #include <drawpoint/engine/loading/strategy/planner.hpp>
 #include <drawpoint/engine/world/world.hpp>
 #include <filesystem>
+#include <string>
 
 /// Everything that decides a loading simulation. Equal scenarios give equal logs, bit for bit.
 namespace drawpoint::engine::loading {
@@ -43,13 +44,15 @@ struct Scenario {
   LiftGoal lift = LiftGoal::behind_surface;
   engine::WorldOptions world;
   double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
+  /// Signals hold the wrench in every joint of the tree in place of hinge G's alone: a log half as large again.
+  bool log_all_joints = false;
   std::filesystem::path
       pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew
   std::filesystem::path log_file;  ///< run log to write (HDF5); empty: none
 };
 
 /// Speeds are the `lindmark2016` preset, 2-3 times what such a machine's hydraulics deliver, as the 12 s
-/// cycles of Lindmark (2016) demand; set executor.speeds = machine_speeds() for engineering conclusions.
+/// cycles of Lindmark (2016) demand; take with_speeds(scenario, "machine") for engineering conclusions.
 ///
 /// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();
@@ -60,6 +63,10 @@ Scenario lh621_at_lindmark2016_scale();
 /// The scene with a pile of another mass [kg] or of other sizes. Its iteration budget goes with the number of
 /// rocks, so that every contact point gets as many iterations as in the scene.
 Scenario with_pile_of(Scenario scenario, double mass, const granular::SizeDistribution& sizes);
+
+/// The scene with speeds_named(name), and what drives them: the machine's speeds come with its engine of 382 kW, those
+/// of Lindmark (2016) with wheels that have their torque at any speed, as there. Throws std::invalid_argument.
+Scenario with_speeds(Scenario scenario, const std::string& name);
 
 /// As loosely as Lindmark (2016) solves contacts: 150 iterations of a step of 1/60 s that remember nothing of the step
 /// before. Rocks then give way, which the source's coefficients need to be loaded at all. The iteration itself is ours,

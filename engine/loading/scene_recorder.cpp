@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/loading/scene_recorder.h>
+#include <cmath>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <limits>
 
@@ -9,7 +10,6 @@ namespace {
 
 using engine::ConvexPolyhedron;
 
-constexpr int values_per_pose = 7;
 constexpr int wheel_sides = 32;
 const char* rock_colors[] = {"#6b6f76", "#7d7468", "#8a8378", "#5e6066", "#77706a", "#6f7a80"};
 
@@ -24,11 +24,16 @@ ConvexPolyhedron block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) 
       .transformed(Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))));
 }
 
+// A picture needs no more, and a rock that trembles by less is one that stands still: its numbers repeat.
+constexpr double parts_per_metre = 1024, parts_of_unit_quaternion = 2048;
+
+float rounded_to(double value, double parts) { return static_cast<float>(std::round(value * parts) / parts); }
+
 void append_pose(std::vector<float>& poses, const Eigen::Isometry3d& X) {
   const Eigen::Quaterniond q(X.linear());
-  for (double value :
-       {X.translation().x(), X.translation().y(), X.translation().z(), q.w(), q.x(), q.y(), q.z()})
-    poses.push_back(static_cast<float>(value));
+  for (double place : X.translation()) poses.push_back(rounded_to(place, parts_per_metre));
+  for (double value : {q.w(), q.x(), q.y(), q.z()})
+    poses.push_back(rounded_to(value, parts_of_unit_quaternion));
 }
 
 void append_hidden(std::vector<float>& poses) {

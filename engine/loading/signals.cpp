@@ -14,7 +14,7 @@ std::string identifier(std::string name) {
 
 }  // namespace
 
-SignalRecorder::SignalRecorder(const Lhd& lhd) {
+SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints) {
   table_.columns = {
       {"time", "s"},         {"cycle", "1"},         {"stage", "1"},        {"progress", "1"},
       {"tip_x", "m"},        {"tip_y", "m"},         {"tip_z", "m"},        {"bucket_angle", "rad"},
@@ -31,6 +31,7 @@ SignalRecorder::SignalRecorder(const Lhd& lhd) {
   table_.columns.push_back({"overlap", "m"});
   for (std::size_t b = 0; b < lhd.spec.bodies.size(); ++b) {
     if (lhd.spec.bodies[b].joint == machine::JointKind::free) continue;
+    if (!all_joints && static_cast<int>(b) != lhd.bucket) continue;
     joints_.push_back(static_cast<int>(b));
     const std::string joint =
         static_cast<int>(b) == lhd.bucket ? "hinge_G" : identifier(lhd.spec.bodies[b].name) + "_joint";
@@ -73,6 +74,8 @@ void SignalRecorder::append(const Site& site, int cycle, const Executor& executo
     const machine::Wrench w = site.machine().joint_wrench(body);
     for (const Eigen::Vector3d& v : {w.moment, w.force}) row_.insert(row_.end(), v.data(), v.data() + 3);
   }
+  // Time as it is; the rest in single precision, which a file keeps in half the room.
+  for (std::size_t k = 1; k < row_.size(); ++k) row_[k] = static_cast<float>(row_[k]);
   table_.append_row(row_);
 }
 

@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double stand_before_crash = 0.6;  // for the tyres to take the weight [s]
-
 void require_crash(bool good, const char* name, double value, const std::string& allowed) {
   if (!good)
     throw std::invalid_argument("loading::YieldTestOptions: " + std::string(name) + " is " +
@@ -53,16 +51,18 @@ class Crash {
   }
 
   void stand() {
-    driver_.command({});
-    while (world_.time() < stand_before_crash) world_.step();
+    while (world_.time() < LhdDriver::stand_time) {
+      driver_.lower_to_floor();
+      world_.step();
+    }
   }
 
-  /// Until it touches the rock; its speed then [m/s].
-  double drive_in(double speed, double longest) {
-    const double end = world_.time() + longest;
-    while (world_.time() < end) {
+  /// From rest, faster by at most `acceleration` [m/s²], until it touches the rock; its speed then [m/s].
+  double drive_in(double speed, double acceleration, double longest) {
+    const double start = world_.time(), h = world_.options().step;
+    while (world_.time() < start + longest) {
       const double before = driver_.read().actual.drive;
-      step(speed);
+      step(std::min(speed, acceleration * (world_.time() - start + h)));
       if (!touches()) continue;
       touch_ = log_.signals.rows() - 1;
       return before;
@@ -141,10 +141,13 @@ YieldTest yield_test(const Scenario& scenario, const YieldTestOptions& options) 
   const double speed = scenario.executor.speeds.drive_in;
   require_crash(speed > 0 && std::isfinite(speed), "the scenario's speeds.drive_in [m/s]", speed,
                 "a finite value above 0");
+  const double acceleration = scenario.executor.speeds.limits.drive_acceleration;
+  require_crash(acceleration > 0, "the scenario's drive_acceleration [m/s2]", acceleration,
+                "a value above 0");
   Crash crash(scenario, options);
   crash.stand();
   YieldTest test;
-  test.touch_speed = crash.drive_in(speed, 10 + 10 * options.run_up / speed);
+  test.touch_speed = crash.drive_in(speed, acceleration, 10 + 10 * options.run_up / speed);
   crash.go_on(speed, options.after_touch);
   test.time = crash.time();
   const std::vector<Vector3d> torques = crash.torque(options.lowpass_hz);

@@ -16,11 +16,17 @@ namespace {
 constexpr double fastest_motor = 1e3;        // [m/s] or [rad/s]
 constexpr double farthest_coordinate = 1e4;  // [rad] or [m]
 
+std::vector<double> most_forces(const MachineSpec& spec) {
+  std::vector<double> forces;
+  for (const MotorSpec& motor : spec.motors) forces.push_back(motor.max_force);
+  return forces;
+}
+
 }  // namespace
 
 struct Machine::Simbody {
   SimbodyTree tree;
-  std::vector<double> motor_targets, motor_forces, row_starts;
+  std::vector<double> motor_targets, motor_limits, motor_forces, row_starts;
   std::vector<Wrench> extra;  // by add_force, for the next step
   Reactions reactions;        // of the last step
 
@@ -34,6 +40,7 @@ struct Machine::Simbody {
   explicit Simbody(const MachineSpec& spec)
       : tree(spec),
         motor_targets(spec.motors.size()),
+        motor_limits(most_forces(spec)),
         motor_forces(spec.motors.size()),
         row_starts(spec.motors.size() + spec.stops.size()),
         extra(spec.bodies.size()),
@@ -94,8 +101,9 @@ void Machine::Simbody::build_rows() {
   super.rows.clear();
   const std::size_t n_motors = spec.motors.size();
   for (std::size_t m = 0; m < n_motors; ++m) {
-    const MotorSpec& motor = spec.motors[m];
-    super.rows.push_back(motor_row(motor, joint_sum(motor.bodies), motor_targets[m], h, row_starts[m]));
+    const std::vector<int>& bodies = spec.motors[m].bodies;
+    const MotorSetting setting{static_cast<double>(bodies.size()) * motor_targets[m], motor_limits[m]};
+    super.rows.push_back(motor_row(setting, joint_sum(bodies), h, row_starts[m]));
   }
   for (std::size_t s = 0; s < spec.stops.size(); ++s) {
     const StopSpec& stop = spec.stops[s];
@@ -183,6 +191,16 @@ void Machine::set_motor(int motor, double speed) {
                                 std::to_string(fastest_motor) + " either way");
   simbody_->motor_targets.at(motor) = speed;
 }
+
+void Machine::limit_motor(int motor, double force) {
+  const double most = spec().motors.at(motor).max_force;
+  if (!(force >= 0 && force <= most))
+    throw std::invalid_argument("machine::Machine::limit_motor: the limit of motor " + std::to_string(motor) +
+                                " is " + std::to_string(force) + " N or N m; allowed: 0 to " +
+                                std::to_string(most) + ", what its specification says");
+  simbody_->motor_limits[motor] = force;
+}
+
 double Machine::motor_force(int motor) const { return simbody_->motor_forces.at(motor); }
 
 Eigen::MatrixXd Machine::transmission(const std::vector<int>& driven, const std::vector<int>& drivers,
@@ -261,6 +279,7 @@ std::vector<double> Machine::state() const {
   add(view(s.tree.state.getQ()));
   add(view(s.tree.state.getU()));
   add(s.motor_targets);
+  add(s.motor_limits);
   add(s.motor_forces);
   add(s.row_starts);
   for (const std::vector<Wrench>* wrenches : {&s.extra, &s.reactions.joints})
@@ -284,7 +303,7 @@ void Machine::set_state(const std::vector<double>& state) {
   take(q.data(), static_cast<std::size_t>(q.size()));
   take(u.data(), static_cast<std::size_t>(u.size()));
   s.tree.set_motion(q, u);
-  for (std::vector<double>* values : {&s.motor_targets, &s.motor_forces, &s.row_starts})
+  for (std::vector<double>* values : {&s.motor_targets, &s.motor_limits, &s.motor_forces, &s.row_starts})
     take(values->data(), values->size());
   for (std::vector<Wrench>* wrenches : {&s.extra, &s.reactions.joints})
     for (Wrench& w : *wrenches) take(w.moment.data(), 3), take(w.force.data(), 3);

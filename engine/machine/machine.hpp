@@ -51,7 +51,9 @@ class Machine final : public engine::ArticulatedBody {
   Eigen::Vector3d point_velocity(int body, const Eigen::Vector3d& p_M) const;
 
   void set_motor(int motor, double speed);  ///< [rad/s] or [m/s]
-  double motor_force(int motor) const;      ///< mean over the last step [N m] or [N]
+  /// From now on at most this force on each of the motor's joints [N m] or [N], 0 to the specification's.
+  void limit_motor(int motor, double force);
+  double motor_force(int motor) const;  ///< mean over the last step [N m] or [N]
 
   /// How fast the joints `driven` move for unit speed of each of the joints `drivers`, with free bases and
   /// the joints `held` at rest: driven x drivers. The drivers must be as many as the freedoms that are left.
@@ -74,7 +76,7 @@ class Machine final : public engine::ArticulatedBody {
   /// has not moved then.
   void advance(const engine::SuperBodySolution& solution) override;
 
-  /// Coordinates, speeds, set speeds, added forces, and of the last step the row impulses and joint forces.
+  /// Coordinates, speeds, set speeds and limits, added forces, and of the last step the row impulses and joint forces.
   std::vector<double> state() const override;
   void set_state(const std::vector<double>& state) override;
 

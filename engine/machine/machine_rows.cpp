@@ -15,12 +15,12 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate) {
   return low < high ? StopSide{low, 1.0} : StopSide{high, -1.0};
 }
 
-engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
-                               double h, double start) {
-  const double limit = motor.max_force * h;
+engine::SuperBodyRow motor_row(const MotorSetting& motor, const Eigen::RowVectorXd& joints, double h,
+                               double start) {
+  const double limit = motor.limit * h;
   engine::SuperBodyRow row;
   row.jacobian = joints.transpose();
-  row.target = static_cast<double>(motor.bodies.size()) * speed;
+  row.target = motor.speed;
   row.lower = -limit;
   row.upper = limit;
   row.start = start;

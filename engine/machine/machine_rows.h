@@ -7,7 +7,7 @@
 
 /// A machine's own rows in the solve: velocity motors with force limits and joint stops.
 ///
-/// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with |λ| ≤ h · max_force, λ the impulse on each.
+/// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with |λ| ≤ h · force limit, λ the impulse on each.
 /// Stop of k joints: with the distance g left to the nearer end of the stroke (mean over the joints) and the
 /// direction s in which that end pushes, s (J₁ + … + J_k) w⁺ ≥ −k g/h, λ the impulse on each; past the end
 /// (g < 0) it asks for k |g|/5h back, so that an overrun is taken out over some five steps and the load is
@@ -21,10 +21,15 @@ struct StopSide {
 
 StopSide nearer_stop(const StopSpec& stop, double coordinate);
 
+struct MotorSetting {
+  double speed;  ///< summed over the motor's joints [rad/s] or [m/s]
+  double limit;  ///< of the force on each [N m] or [N]
+};
+
 /// `joints`: sum of the rows of N for the motor's or stop's joints; `start`: impulse to start from [N s] or
 /// [N m s].
-engine::SuperBodyRow motor_row(const MotorSpec& motor, const Eigen::RowVectorXd& joints, double speed,
-                               double h, double start);
+engine::SuperBodyRow motor_row(const MotorSetting& motor, const Eigen::RowVectorXd& joints, double h,
+                               double start);
 engine::SuperBodyRow stop_row(const StopSpec& stop, const StopSide& side, const Eigen::RowVectorXd& joints,
                               double h, double start);
 

@@ -189,6 +189,18 @@ TEST(LoadingCycle, SignalsAreFiniteAndWithinTheMotorLimits) {
   EXPECT_LT(largest("hinge_G_torque_y"), 1.0);
 }
 
+// Fifteen joints of the tree have six numbers each; what is logged changes nothing of what happens.
+TEST(LoadingCycle, LogsTheWrenchInEveryJointWhenAsked) {
+  Scenario scenario = small_case();
+  scenario.log_all_joints = true;
+  const LoadingLog log = simulate(scenario);
+  EXPECT_EQ(log.signals.columns.size(), cycle_log().signals.columns.size() + 14 * 6);
+  EXPECT_TRUE(log.signals.has("front_left_wheel_joint_force_z"));
+  EXPECT_FALSE(cycle_log().signals.has("front_left_wheel_joint_force_z"));
+  EXPECT_EQ(joint_damage(log), joint_damage(cycle_log()));
+  EXPECT_EQ(production(log), production(cycle_log()));
+}
+
 TEST(LoadingCycle, SameScenarioSameBits) {
   const LoadingLog again = simulate(small_case());
   EXPECT_EQ(again.signals.values, cycle_log().signals.values);

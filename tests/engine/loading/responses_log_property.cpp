@@ -127,16 +127,6 @@ void expect_same(const CycleRecord& a, const CycleRecord& b) {
   }
 }
 
-TEST(LoadingLog, AnOldNameOfThePilesProvenanceIsRead) {
-  const Folder folder;
-  LoadingLog log = example_log();
-  log.texts["pile_recipe"] = "length 30";
-  write_log(folder.path / "run.h5", log);
-  const LoadingLog back = read_log(folder.path / "run.h5");
-  EXPECT_EQ(back.texts.at("pile_provenance"), "length 30");
-  EXPECT_FALSE(back.texts.count("pile_recipe"));
-}
-
 TEST(LoadingLog, SurvivesTheDisk) {
   const Folder folder;
   const LoadingLog log = example_log();
@@ -221,10 +211,10 @@ struct ForeignLog {
   std::vector<double> opacity{1}, t{0.5}, vertices{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::vector<std::string> color{"#808080"}, name{"boom"}, label{"lift"};
   std::vector<float> poses = std::vector<float>(7);
-  std::vector<std::size_t> extents{1, 1, 7};
+  std::vector<std::size_t> extents{1, 7, 1};
 
   void write(const fs::path& path) const {
-    record::Writer file(path, {"drawpoint loading log", 2});
+    record::Writer file(path, {"drawpoint loading log", 3});
     file.integer("/", "completed", 1);
     file.text("/", "message", "");
     for (const char* group : {"numbers", "texts", "cycles"}) file.group(group);
@@ -253,15 +243,15 @@ TEST(LoadingLog, FramesThatDoNotFitTheBodiesAreRefused) {
   };
   const std::vector<Case> cases{{"scene/frames/poses",
                                  [](ForeignLog& l) {
-                                   l.poses.resize(6), l.extents = {1, 1, 6};
+                                   l.poses.resize(6), l.extents = {1, 6, 1};
                                  }},
                                 {"scene/frames/poses",
                                  [](ForeignLog& l) {
-                                   l.poses.clear(), l.extents = {0, 1, 7};
+                                   l.poses.clear(), l.extents = {0, 7, 1};
                                  }},
                                 {"scene/frames/poses",
                                  [](ForeignLog& l) {
-                                   l.poses.resize(14), l.extents = {2, 1, 7};
+                                   l.poses.resize(14), l.extents = {2, 7, 1};
                                  }},
                                 {"scene/frames/cycle", [](ForeignLog& l) { l.cycle.clear(); }},
                                 {"scene/frames/label", [](ForeignLog& l) { l.label.push_back("more"); }},
@@ -284,7 +274,7 @@ TEST(LoadingLog, CyclesThatDoNotFitAreRefused) {
   const Folder folder;
   const fs::path path = folder.path / "foreign.h5";
   const auto write_cycle = [&](std::size_t corners, const std::vector<std::size_t>& columns, double stage) {
-    record::Writer file(path, {"drawpoint loading log", 2});
+    record::Writer file(path, {"drawpoint loading log", 3});
     file.integer("/", "completed", 1);
     file.text("/", "message", "");
     for (const char* group : {"numbers", "texts", "scene/shapes"}) file.group(group);

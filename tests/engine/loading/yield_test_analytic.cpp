@@ -14,11 +14,7 @@ using namespace drawpoint::engine::loading;
 
 namespace {
 
-Scenario scenario() {
-  Scenario s = lh621_in_a_drift();
-  s.executor.speeds = machine_speeds();
-  return s;
-}
+Scenario scenario() { return with_speeds(lh621_in_a_drift(), "machine"); }
 
 std::string refusal(const YieldTestOptions& options) {
   try {
