@@ -7,7 +7,6 @@
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <exception>
-#include <numeric>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -66,7 +65,7 @@ class LoadingRun {
   PlannerOptions planner_options() const;
   void look_at_pile();
   std::vector<bool> rocks_in_front(const ColumnModel& model) const;
-  void weigh_front(CycleRecord& record) const;
+  void book(CycleRecord& record);
 
   Scenario scenario_;
   SimulationHooks hooks_;
@@ -272,14 +271,24 @@ std::vector<bool> LoadingRun::rocks_in_front(const ColumnModel& model) const {
   return in_front;
 }
 
-void LoadingRun::weigh_front(CycleRecord& record) const {
-  const std::vector<bool> in_front = rocks_in_front(columns(false));
+// What the machine takes with it and what it leaves in front of the pile; on the machine beside the bucket is left, too.
+void LoadingRun::book(CycleRecord& record) {
+  std::vector<bool> in_front = rocks_in_front(columns(false));
+  const Site::Load load = site_.load(in_front);
+  for (int rock : load.in_bucket) {
+    record.loaded_rock_masses.push_back(site_.world().rocks()[static_cast<std::size_t>(rock)].body.mass);
+    in_front[static_cast<std::size_t>(rock)] = false;
+  }
+  record.loaded_mass = site_.mass_of(load.in_bucket);
   for (std::size_t k = 0; k < in_front.size(); ++k) {
-    if (!in_front[k] || site_.in_bucket(static_cast<int>(k))) continue;
+    if (!in_front[k]) continue;
     const double mass = site_.world().rocks()[k].body.mass;
     record.front_mass += mass;
     if (k >= in_front_before_.size() || !in_front_before_[k]) record.spilled_mass += mass;
   }
+  cleared_ += site_.mass_of(load.elsewhere);
+  site_.remove(load.in_bucket);
+  site_.remove(load.elsewhere);
 }
 
 // A diverged state makes the parts below refuse their input; the cycles done before are still worth keeping.
@@ -303,12 +312,7 @@ bool LoadingRun::run_cycle(int cycle) {
   if (!execute(cycle, record)) return false;
   record.t_end = site_.world().time();
   scene_.frame(site_, cycle, "end of cycle");
-
-  record.loaded_rock_masses = site_.bucket_masses();
-  record.loaded_mass =
-      std::accumulate(record.loaded_rock_masses.begin(), record.loaded_rock_masses.end(), 0.0);
-  weigh_front(record);
-  site_.empty_bucket();
+  book(record);
   log_.cycles.push_back(record);
   return cycle == scenario_.cycles || (refill() && wait_for_rest());
 }

@@ -20,7 +20,7 @@ namespace drawpoint::engine::loading {
 
 struct CycleRecord {
   double t_start = 0, t_end = 0;           ///< start of stage 1, end of stage 4 [s]
-  double loaded_mass = 0;                  ///< in the heaped bucket at t_end [kg]
+  double loaded_mass = 0;                  ///< that the bucket carries at t_end, in its heap or on it [kg]
   double front_mass = 0;                   ///< in front of the pile at the end of the cycle [kg]
   double spilled_mass = 0;                 ///< of that, rocks that did not lie there before the run [kg]
   std::vector<double> loaded_rock_masses;  ///< [kg]

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/load_search.h>
+
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/site.hpp>
@@ -51,17 +53,30 @@ bool Site::in_bucket(int rock) const {
   return in_heaped_bucket(lhd_, driver_.in_bucket_frame(world_.rocks()[rock].pose.translation()));
 }
 
-std::vector<double> Site::bucket_masses() const {
-  std::vector<double> masses;
-  for (std::size_t k = 0; k < world_.rocks().size(); ++k)
-    if (world_.rocks()[k].present && in_bucket(static_cast<int>(k)))
-      masses.push_back(world_.rocks()[k].body.mass);
-  return masses;
+Site::Load Site::load(const std::vector<bool>& free_of_pile) const {
+  std::vector<bool> allowed = free_of_pile;
+  std::vector<int> heaped;
+  for (std::size_t k = 0; k < allowed.size(); ++k) {
+    if (!world_.rocks()[k].present || !in_bucket(static_cast<int>(k))) continue;
+    allowed[k] = true;
+    heaped.push_back(static_cast<int>(k));
+  }
+  LoadSearch search(allowed, world_.pair_forces());
+  Load load;
+  for (int rock : heaped) search.take(rock, load.in_bucket);
+  search.take_on(lhd_.bucket, load.in_bucket);
+  for (int part = 0; part < machine_.parts(); ++part) search.take_on(part, load.elsewhere);
+  return load;
 }
 
-void Site::empty_bucket() {
-  for (std::size_t k = 0; k < world_.rocks().size(); ++k)
-    if (world_.rocks()[k].present && in_bucket(static_cast<int>(k))) world_.remove_rock(static_cast<int>(k));
+double Site::mass_of(const std::vector<int>& rocks) const {
+  double sum = 0;
+  for (int rock : rocks) sum += world_.rocks()[static_cast<std::size_t>(rock)].body.mass;
+  return sum;
+}
+
+void Site::remove(const std::vector<int>& rocks) {
+  for (int rock : rocks) world_.remove_rock(rock);
 }
 
 double Site::place_machine(double tip_x, double y, double back) {

@@ -26,10 +26,18 @@ class Site {
   /// Rocks that are present, leaving out those in the bucket if asked.
   std::vector<PosedRock> rocks(bool with_bucket = true) const;
   const std::vector<granular::RockSpec>& specs() const { return specs_; }
-  bool in_bucket(int rock) const;
-  std::vector<double> bucket_masses() const;  ///< of each rock in the heaped bucket [kg]
+  bool in_bucket(int rock) const;  ///< its centre within the heaped bucket
 
-  void empty_bucket();
+  /// What the machine would take away as it stands: `in_bucket` the rocks in the heaped bucket and, of those `free_of_pile` (by
+  /// number), the ones that lie on these or on the bucket, straight or on others, and on nothing that is fixed;
+  /// `elsewhere` the ones that lie so on the rest of it. By the contact forces of the last step.
+  struct Load {
+    std::vector<int> in_bucket, elsewhere;
+  };
+  Load load(const std::vector<bool>& free_of_pile) const;
+
+  double mass_of(const std::vector<int>& rocks) const;  ///< [kg]
+  void remove(const std::vector<int>& rocks);
 
   /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket
   /// clear of rocks lying in its way (at most `back` [m]). Rocks that would still lie inside the machine are
