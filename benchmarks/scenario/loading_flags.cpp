@@ -10,6 +10,7 @@ namespace drawpoint::benchmarks {
 void OperationFlags::apply(engine::loading::Scenario& scenario) const {
   scenario = engine::loading::with_speeds(scenario, speeds);
   scenario.executor.moves = engine::loading::operator_named(operated);
+  if (curl_hold) scenario.executor.moves.curl_hold = *curl_hold;
 }
 
 void add_operation_flags(CLI::App& app, OperationFlags& flags) {
@@ -25,6 +26,9 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
                  "pressing in the lift, thrust while the bucket curls")
       ->check(CLI::IsMember(std::vector<std::string>(operator_names.begin(), operator_names.end())))
       ->capture_default_str();
+  app.add_option("--curl-hold", flags.curl_hold,
+                 "share of the wheels' torque that holds the loader while the bucket curls; 0: they roll")
+      ->check(between(0, 1, "", "leave it out for the operator's"));
 }
 
 void PileFlags::apply(engine::loading::Scenario& scenario) const {

@@ -14,11 +14,12 @@ namespace drawpoint::benchmarks {
 /// How the loader is driven, by the names of engine/loading/strategy.
 struct OperationFlags {
   std::string speeds = "lindmark2016", operated = "plan";
+  std::optional<double> curl_hold;
 
   void apply(engine::loading::Scenario& scenario) const;
 };
 
-/// --speeds and --operator.
+/// --speeds, --operator and --curl-hold.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
 /// What lies in the drift; what is not given is the scene's.

@@ -57,8 +57,8 @@ double LhdDriver::most_wheel_torque() const {
   return wheel_torque_limit(lhd_.options.drive_line, lhd_.options.wheel_torque, turning, arm_power);
 }
 
-void LhdDriver::command(const ActuatorRates& rates) {
-  const double most_torque = most_wheel_torque();
+void LhdDriver::command(const ActuatorRates& rates, double drive_share) {
+  const double most_torque = drive_share * most_wheel_torque();
   for (int k = 0; k < 4; ++k) {
     machine_.set_motor(lhd_.wheel_motors[k], rates.drive / rolling_radius(lhd_.wheels[k]));
     machine_.limit_motor(lhd_.wheel_motors[k], most_torque);

@@ -42,7 +42,8 @@ class LhdDriver {
   MachineReading read() const;
   /// Set speeds for the next step, and what the engine has for the wheels: by their turning now and what the
   /// arm took in the last step, so call it before each.
-  void command(const ActuatorRates& rates);
+  /// `drive_share` of that torque, 0 to 1.
+  void command(const ActuatorRates& rates, double drive_share = 1);
   /// Commands boom and tilt so that the bucket comes to lie flat with its edge on the floor z = 0, nearer by
   /// a factor of e in 0.15 s; the drive stands. Call before each step.
   void lower_to_floor();

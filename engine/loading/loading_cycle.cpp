@@ -123,6 +123,7 @@ void LoadingRun::describe() {
                   {"pulse_tilt", s.executor.moves.pulse_rates.tilt},
                   {"press", s.executor.moves.press ? 1.0 : 0.0},
                   {"crowd", s.executor.moves.crowd},
+                  {"curl_hold", s.executor.moves.curl_hold},
                   {"wheel_torque_limit", s.machine.wheel_torque},
                   {"engine_power", s.machine.drive_line.engine_power},
                   {"lift_cylinder_limit", s.machine.lift_cylinder_force},
@@ -242,7 +243,7 @@ bool LoadingRun::execute(int cycle, CycleRecord& record) {
       next_frame += scenario_.frame_interval;
     }
     if (executor.finished()) break;
-    site_.driver().command(set);
+    site_.driver().command(set, executor.drive_share());
     const auto log_signals = [&](const engine::StepReport& report) {
       signals_.append(site_, cycle, executor, set, report);
     };

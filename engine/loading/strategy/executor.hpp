@@ -81,6 +81,9 @@ class Executor {
   /// Set speeds until the next observation; all zero once finished. The first call starts stage 1.
   ActuatorRates step(const Observation& now);
 
+  /// Of the wheels' torque, what may keep the drive at its set speed [1].
+  double drive_share() const { return stage_ == Stage::curl ? options_.moves.curl_hold : 1; }
+
   Stage stage() const { return stage_; }
   bool finished() const { return stage_ == Stage::finished; }
   double progress() const { return progress_; }                         ///< s of the present stage [1]

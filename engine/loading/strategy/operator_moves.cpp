@@ -37,7 +37,10 @@ void check(const OperatorMoves& m) {
                "a finite value of at least 0");
   require_move(not_negative(m.pulse_rates.tilt), "pulse_rates.tilt [rad/s]", m.pulse_rates.tilt,
                "a finite value of at least 0");
+  require_move(m.curl_hold >= 0 && m.curl_hold <= 1, "curl_hold [1]", m.curl_hold, "0 to 1");
   require_move(not_negative(m.crowd), "crowd [m/s]", m.crowd, "a finite value of at least 0");
+  require_move(m.crowd == 0 || m.curl_hold > 0, "curl_hold [1]", m.curl_hold,
+               "a value above 0, or no crowd: released wheels do not push");
 }
 
 // After a pulse the drive gets `held_up` to show that it moves again.

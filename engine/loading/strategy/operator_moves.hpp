@@ -13,9 +13,11 @@
 /// on pushing. The lift loads the front tyres and loosens the rock over the edge, the curl turns it into the
 /// bucket. Pressing: in the lift a drive that is held up while the arm moves is not stuck, it presses. Crowding: in
 /// the curl the drive pushes at `crowd`, which falls as the curl does, instead of standing still; so rock is pressed
-/// into the bucket while its mouth turns up. Lindmark (2016) has none of the three. Source: how loading is
-/// described by Hemami and Hassani (2009) and Dobson, Marshall and Larsson (2017); the numbers are chosen here
-/// (docs/measurements/loading.md). World frame of kinematics.hpp, SI units.
+/// into the bucket while its mouth turns up. Releasing: with less than all of `curl_hold` the bucket, which swings
+/// forward as it turns up, can push the machine back. Held, with the thrust of the lift still in the wheels, it may
+/// jam, nose down and full, and lose its load in backing out. Lindmark (2016) has none of these. Source: how
+/// loading is described by Hemami and Hassani (2009) and Dobson, Marshall and Larsson (2017); the numbers are chosen
+/// here (docs/measurements/loading.md). World frame of kinematics.hpp, SI units.
 namespace drawpoint::engine::loading {
 
 struct OperatorMoves {
@@ -26,6 +28,9 @@ struct OperatorMoves {
                                0.25};  ///< of boom and tilt in a pulse [rad/s] ≥ 0; the drive keeps its own
   bool press = false;  ///< in the lift, a drive that is held up while the arm moves is not stuck
   double crowd = 0;    ///< [m/s] ≥ 0; of the drive in the curl; 0: it stands (default)
+  /// Of the wheels' torque, what keeps the drive at its speed in the curl [1]. 1: they hold as brakes do (default);
+  /// 0: the pedal is released and they roll.
+  double curl_hold = 1;
 };
 
 /// All three: four pulses, pressing, crowding at 0.5 m/s.

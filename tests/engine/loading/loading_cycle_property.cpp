@@ -168,6 +168,7 @@ TEST(LoadingCycle, LogNamesTheMoves) {
   EXPECT_EQ(log.numbers.at("pulse_tilt"), moves.pulse_rates.tilt);
   EXPECT_EQ(log.numbers.at("press"), moves.press);
   EXPECT_EQ(log.numbers.at("crowd"), moves.crowd);
+  EXPECT_EQ(log.numbers.at("curl_hold"), moves.curl_hold);
 }
 
 // Every signal is finite, the machine's loops hold, and what drives is within its force limits: wheels 4 · 81

@@ -43,6 +43,7 @@ struct Step {
   double time;
   Stage stage;
   ActuatorRates set;
+  double drive_share;
 };
 
 struct Cycle {
@@ -73,7 +74,7 @@ Cycle cycle_on(const Plan& plan, const OperatorMoves& moves, const Plant& plant)
   for (int k = 0; k < 90 * 128 && !executor.finished(); ++k) {
     const TipPose tip = tip_pose(arm, pose);
     const ActuatorRates set = executor.step({.time = k * h, .tip = tip, .actual = actual});
-    cycle.steps.push_back({k * h, executor.stage(), set});
+    cycle.steps.push_back({k * h, executor.stage(), set, executor.drive_share()});
     actual = plant(set, tip, executor.stage());
     pose.q_d += actual.drive * h;
     pose.a += actual.boom * h;
@@ -167,6 +168,15 @@ TEST(OperatorMoves, CrowdingPushesThroughTheCurl) {
   EXPECT_EQ(cycle.result(Stage::curl).reason, StageEnd::goal);
 }
 
+TEST(OperatorMoves, TheDriveIsReleasedInTheCurlOnly) {
+  OperatorMoves moves;
+  for (const double hold : {0.0, 0.4, 1.0}) {
+    moves.curl_hold = hold;
+    for (const Step& step : cycle_on(a_plan(1), moves, pile_that_holds).steps)
+      EXPECT_EQ(step.drive_share, step.stage == Stage::curl ? hold : 1) << name(step.stage);
+  }
+}
+
 TEST(OperatorMoves, RefuseWhatMakesNoSense) {
   const auto message = [](const OperatorMoves& moves) {
     ExecutorOptions options;
@@ -188,5 +198,9 @@ TEST(OperatorMoves, RefuseWhatMakesNoSense) {
       message({.pulse_rates = {.drive = 1}}),
       "loading::OperatorMoves: pulse_rates.drive [m/s] is 1.000000; give 0; the drive keeps the speed of the "
       "drive-in");
+  EXPECT_EQ(message({.curl_hold = 1.5}), "loading::OperatorMoves: curl_hold [1] is 1.500000; give 0 to 1");
+  EXPECT_EQ(message({.crowd = 0.5, .curl_hold = 0}),
+            "loading::OperatorMoves: curl_hold [1] is 0.000000; give a value above 0, or no crowd: released "
+            "wheels do not push");
   EXPECT_EQ(message(skilled_operator()), "");
 }
