@@ -45,7 +45,7 @@ struct SceneFrame {
   double t = 0;  ///< [s]
   int cycle = 0;
   std::string label;
-  /// x y z qw qx qy qz per body, to half a millimetre and a quarter of a thousandth; NaN: not shown. In the file: body,
+  /// x y z qw qx qy qz per body, to a millimetre and half a thousandth; NaN: not shown. In the file: body,
   /// number, frame.
   std::vector<float> poses;
 };

@@ -25,7 +25,7 @@ ConvexPolyhedron block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) 
 }
 
 // A picture needs no more, and a rock that trembles by less is one that stands still: its numbers repeat.
-constexpr double parts_per_metre = 1024, parts_of_unit_quaternion = 2048;
+constexpr double parts_per_metre = 512, parts_of_unit_quaternion = 1024;
 
 float rounded_to(double value, double parts) { return static_cast<float>(std::round(value * parts) / parts); }
 
