@@ -57,7 +57,7 @@ struct Scenario {
 /// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();
 
-/// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles.
+/// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles, two pictures a second.
 Scenario lh621_at_lindmark2016_scale();
 
 /// The scene with a pile of another mass [kg] or of other sizes. Its iteration budget goes with the number of
