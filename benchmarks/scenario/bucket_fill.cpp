@@ -197,7 +197,7 @@ nlohmann::json described(const Settings& s) {
               {"speeds", s.operation.speeds},
               {"curl", s.curl},
               {"lift", s.lift},
-              {"operator", s.operation.operated},
+              {"operator", in_words(s.operation)},
               {"solved", in_words(benchmarks::described(scenario.world)) + (s.cold ? ", cold" : "")}});
   return out;
 }

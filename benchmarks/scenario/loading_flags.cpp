@@ -3,6 +3,7 @@
 #include "loading_flags.hpp"
 
 #include <drawpoint/engine/loading/mine_materials.hpp>
+#include <sstream>
 #include <vector>
 
 namespace drawpoint::benchmarks {
@@ -11,6 +12,13 @@ void OperationFlags::apply(engine::loading::Scenario& scenario) const {
   scenario = engine::loading::with_speeds(scenario, speeds);
   scenario.executor.moves = engine::loading::operator_named(operated);
   if (curl_hold) scenario.executor.moves.curl_hold = *curl_hold;
+}
+
+std::string in_words(const OperationFlags& flags) {
+  std::ostringstream words;
+  words << flags.operated;
+  if (flags.curl_hold) words << ", curl held by " << *flags.curl_hold;
+  return words.str();
 }
 
 void add_operation_flags(CLI::App& app, OperationFlags& flags) {

@@ -19,6 +19,9 @@ struct OperationFlags {
   void apply(engine::loading::Scenario& scenario) const;
 };
 
+/// The operator, and a hold in the curl that was given: "plan, curl held by 0".
+std::string in_words(const OperationFlags& flags);
+
 /// --speeds, --operator and --curl-hold.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 

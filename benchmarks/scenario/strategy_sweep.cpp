@@ -160,7 +160,7 @@ nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Run>>& r
                      {"seeds", s.seeds},
                      {"cycles", s.cycles},
                      {"speeds", s.operation.speeds},
-                     {"operator", s.operation.operated},
+                     {"operator", in_words(s.operation)},
                      {"pile_kg", scenario_of(s).pile.mass},
                      {"sizes", s.pile.sizes},
                      {"alpha", s.strategy.alpha},

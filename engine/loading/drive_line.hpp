@@ -6,9 +6,9 @@
 
 /// What one engine leaves for the wheels of a machine whose arm it moves too.
 ///
-/// Engine, pumps and a torque converter as three numbers: the pumps take what the cylinders do over their efficiency,
-/// the rest reaches the wheels times the converter's and the axles'; near standstill the converter's own
-/// torque is the limit. Simplified: one efficiency for all speeds, no gears (first gear), no inertia of the
+/// Engine, pumps and a torque converter as three numbers: the pumps take what the cylinders do over their
+/// efficiency, the rest reaches the wheels times the converter's and the axles'; near standstill the
+/// converter's own torque is the limit. Simplified: one efficiency for all speeds, no gears (first gear), no inertia of the
 /// engine, and a drive line that brakes no harder than it drives.
 namespace drawpoint::engine::loading {
 
@@ -19,7 +19,7 @@ struct DriveLine {
   double pump_efficiency = 0.85;                ///< flywheel to cylinder [1]
 };
 
-/// Largest torque of each wheel [N m], all alike, as through open differentials: `near_stall` [N m], or less
+/// Largest torque of each wheel [N m], one limit for all: `near_stall` [N m], or less
 /// where the engine's power does not suffice for it. `wheel_speeds`: sum over the wheels of their turning,
 /// without sign [rad/s]; `arm_power`: what the cylinders do [W], below 0 as nothing. At least a thousandth of
 /// `near_stall` is left when the arm takes all.

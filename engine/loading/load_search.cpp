@@ -2,23 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/loading/load_search.h>
 
-#include <utility>
-
 namespace drawpoint::engine::loading {
 
 using engine::Owner;
 
-LoadSearch::LoadSearch(std::vector<bool> allowed, const std::vector<engine::PairForce>& forces)
+LoadSearch::LoadSearch(std::vector<bool> allowed, const std::vector<int>& named,
+                       const std::vector<engine::PairForce>& forces)
     : open_(std::move(allowed)), grounded_(open_.size()), neighbours_(open_.size()) {
+  std::vector<int> touching;
   const auto note = [&](const engine::SurfaceOwner& rock, const engine::SurfaceOwner& other) {
     if (rock.owner != Owner::rock) return;
-    const auto k = static_cast<std::size_t>(rock.index);
     if (other.owner == Owner::rock) {
-      neighbours_[k].push_back(other.index);
+      neighbours_[static_cast<std::size_t>(rock.index)].push_back(other.index);
     } else if (other.owner == Owner::part) {
       part_and_rock_.emplace_back(other.index, rock.index);
     } else {
-      grounded_[k] = true;
+      touching.push_back(rock.index);
     }
   };
   for (const engine::PairForce& pair : forces) {
@@ -26,24 +25,40 @@ LoadSearch::LoadSearch(std::vector<bool> allowed, const std::vector<engine::Pair
     note(pair.a, pair.b);
     note(pair.b, pair.a);
   }
+  ground(touching, named);
+}
+
+void LoadSearch::ground(const std::vector<int>& touching, const std::vector<int>& named) {
+  std::vector<bool> passed(grounded_.size());
+  for (int rock : named) passed[static_cast<std::size_t>(rock)] = true;
+  std::vector<int> found;
+  const auto add = [&](int rock) {
+    const auto k = static_cast<std::size_t>(rock);
+    if (passed[k]) return;
+    passed[k] = grounded_[k] = true;
+    found.push_back(rock);
+  };
+  for (int rock : touching) add(rock);
+  for (std::size_t next = 0; next < found.size(); ++next)
+    for (int other : neighbours_[static_cast<std::size_t>(found[next])]) add(other);
 }
 
 void LoadSearch::take(int rock, std::vector<int>& taken) {
-  const auto add = [&](int k) {
-    if (!open_[static_cast<std::size_t>(k)]) return;
-    open_[static_cast<std::size_t>(k)] = false;
-    taken.push_back(k);
+  const auto add = [&](int other) {
+    const auto k = static_cast<std::size_t>(other);
+    if (!open_[k] || grounded_[k]) return;
+    open_[k] = false;
+    taken.push_back(other);
   };
   std::size_t next = taken.size();
   add(rock);
   for (; next < taken.size(); ++next)
-    for (int other : neighbours_[static_cast<std::size_t>(taken[next])])
-      if (!grounded_[static_cast<std::size_t>(other)]) add(other);
+    for (int other : neighbours_[static_cast<std::size_t>(taken[next])]) add(other);
 }
 
 void LoadSearch::take_on(int part, std::vector<int>& taken) {
   for (const auto& [touching, rock] : part_and_rock_)
-    if (touching == part && !grounded_[static_cast<std::size_t>(rock)]) take(rock, taken);
+    if (touching == part) take(rock, taken);
 }
 
 }  // namespace drawpoint::engine::loading

@@ -272,7 +272,8 @@ std::vector<bool> LoadingRun::rocks_in_front(const ColumnModel& model) const {
   return in_front;
 }
 
-// What the machine takes with it and what it leaves in front of the pile; on the machine beside the bucket is left, too.
+// What the bucket carries, and what is left in front of the pile; what lies elsewhere on the machine counts as
+// left, and is taken away with it.
 void LoadingRun::book(CycleRecord& record) {
   std::vector<bool> in_front = rocks_in_front(columns(false));
   const Site::Load load = site_.load(in_front);

@@ -12,10 +12,10 @@
 /// wait for rest, again.
 ///
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
-/// hauling, dumping and driving are left out. After the cycle the bucket's rocks are taken away and weighed,
+/// hauling, dumping and driving are left out. After the cycle what the bucket carries is taken away and weighed,
 /// spilled rocks stay where they lie, and rocks come down the raise until the drift holds its first mass
-/// again or the raise is blocked. Rocks that lie where the machine must stand are taken away and logged
-/// (`cleared_mass`).
+/// again or the raise is blocked. Rocks that lie on the rest of the machine, or where it must stand, are taken
+/// away and logged (`cleared_mass`).
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), and a rock that
 /// left the drift is taken away (`escaped_mass`), so that a run of thirty cycles outlives a single one; more

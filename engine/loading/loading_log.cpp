@@ -172,8 +172,8 @@ void write_bodies(Writer& file, const SceneRecord& scene) {
   file.texts("scene/bodies/name", name);
 }
 
-// Poses body by body and number by number, the frames last: what stands still is a row of equal numbers and takes next
-// to no room in the file.
+// Poses body by body and number by number, the frames last: what stands still is a row of equal numbers and
+// takes next to no room in the file.
 std::vector<float> frames_last(const std::vector<SceneFrame>& frames, std::size_t numbers) {
   std::vector<float> poses(frames.size() * numbers);
   for (std::size_t f = 0; f < frames.size(); ++f)

@@ -34,7 +34,7 @@ Scenario lh621_at_lindmark2016_scale() {
   s.drift.raise_radius = 3.0;
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
-  s.frame_interval = 0.5;                // thirty cycles in a log of some 17 MB
+  s.frame_interval = 0.5;                // thirty cycles in a log of less than 20 MB
   s.world.solver.iteration_budget *= 2;  // as many iterations for each of its points as the smaller scene has
   return s;
 }

@@ -44,7 +44,7 @@ struct Scenario {
   LiftGoal lift = LiftGoal::behind_surface;
   engine::WorldOptions world;
   double frame_interval = 0.25;  ///< between recorded pictures of the scene [s]
-  /// Signals hold the wrench in every joint of the tree in place of hinge G's alone: a log half as large again.
+  /// Signals hold the wrench in every joint of the tree in place of hinge G's alone.
   bool log_all_joints = false;
   std::filesystem::path
       pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew
@@ -64,8 +64,9 @@ Scenario lh621_at_lindmark2016_scale();
 /// rocks, so that every contact point gets as many iterations as in the scene.
 Scenario with_pile_of(Scenario scenario, double mass, const granular::SizeDistribution& sizes);
 
-/// The scene with speeds_named(name), and what drives them: the machine's speeds come with its engine of 382 kW, those
-/// of Lindmark (2016) with wheels that have their torque at any speed, as there. Throws std::invalid_argument.
+/// The scene with speeds_named(name), and what drives them, in place of its `machine.drive_line`: the machine's
+/// speeds come with its engine of 382 kW, those of Lindmark (2016) with wheels that have their torque at any
+/// speed, as there. Throws std::invalid_argument.
 Scenario with_speeds(Scenario scenario, const std::string& name);
 
 /// As loosely as Lindmark (2016) solves contacts: 150 iterations of a step of 1/60 s that remember nothing of the step

@@ -61,7 +61,7 @@ Site::Load Site::load(const std::vector<bool>& free_of_pile) const {
     allowed[k] = true;
     heaped.push_back(static_cast<int>(k));
   }
-  LoadSearch search(allowed, world_.pair_forces());
+  LoadSearch search(allowed, heaped, world_.pair_forces());
   Load load;
   for (int rock : heaped) search.take(rock, load.in_bucket);
   search.take_on(lhd_.bucket, load.in_bucket);

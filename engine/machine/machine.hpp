@@ -76,7 +76,8 @@ class Machine final : public engine::ArticulatedBody {
   /// has not moved then.
   void advance(const engine::SuperBodySolution& solution) override;
 
-  /// Coordinates, speeds, set speeds and limits, added forces, and of the last step the row impulses and joint forces.
+  /// Coordinates, speeds, set speeds and limits, added forces, and of the last step the row impulses and joint
+  /// forces.
   std::vector<double> state() const override;
   void set_state(const std::vector<double>& state) override;
 

@@ -58,7 +58,7 @@ Handle array_creation(const std::vector<std::size_t>& shape, std::size_t count, 
   const std::vector<hsize_t> chunk = chunk_of(shape);
   H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(list.get());
-  H5Pset_deflate(list.get(), 4);
+  H5Pset_deflate(list.get(), 1);
   return list;
 }
 
