@@ -8,10 +8,12 @@
 #include <drawpoint/engine/loading/lhd_driver.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <drawpoint/engine/world/world.hpp>
+#include <drawpoint/tests/support/yard.hpp>
 #include <limits>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::engine::loading;
+using drawpoint::support::Yard;
 using Eigen::Vector3d;
 
 namespace {
@@ -20,32 +22,16 @@ const Scenario scenario = with_speeds(lh621_in_a_drift(), "machine");
 const DriveLine line = scenario.machine.drive_line;
 constexpr double near_stall = 80e3;
 
-// The machine alone on a floor, its tyres under its weight.
-struct Yard {
-  explicit Yard(const LhdOptions& options)
-      : lhd(sandvik_lh621(options)),
-        machine(lhd.spec),
-        world({}, material_table(calibrated_materials())),
-        driver(lhd, machine) {
-    world.add_static(std::make_shared<const Shape>(HalfSpace{Vector3d::UnitZ(), 0}),
-                     Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
-    driver.place(0, 0);
-    add_machine(world, lhd, machine);
-    for (int k = 0; k < 600; ++k) world.step();  // its bounce has died down
-  }
-  double rolling_radius() const {
-    return 0.5 * (lhd.tyre_radius + machine.pose(lhd.wheels[0]).translation().z());
-  }
-  // With what its wheels' turning adds, I/r² each, I = ½ 1800 kg (1.01 m)².
-  double rolling_mass() const {
-    return 56.8e3 + 4 * 0.5 * 1800 * std::pow(lhd.tyre_radius / rolling_radius(), 2);
-  }
+constexpr double until_still = 6;  // its bounce dies down [s]
 
-  Lhd lhd;
-  machine::Machine machine;
-  World world;
-  LhdDriver driver;
-};
+double rolling_radius(const Yard& yard) {
+  return 0.5 * (yard.lhd.tyre_radius + yard.machine.pose(yard.lhd.wheels[0]).translation().z());
+}
+
+// With what its wheels' turning adds, I/r² each, I = ½ 1800 kg (1.01 m)².
+double rolling_mass(const Yard& yard) {
+  return 56.8e3 + 4 * 0.5 * 1800 * std::pow(yard.lhd.tyre_radius / rolling_radius(yard), 2);
+}
 
 }  // namespace
 
@@ -79,12 +65,13 @@ TEST(DriveLine, RefusesWhatIsNoEngine) {
 // and all 4 kJ are lost by the end of the first second.
 TEST(DriveLine, AcceleratesTheMachineWithItsPower) {
   Yard yard(scenario.machine);
+  yard.stand(until_still);
   const Lhd& lhd = yard.lhd;
   machine::Machine& machine = yard.machine;
   World& world = yard.world;
 
   const double power = line.wheel_efficiency * line.engine_power;
-  const double radius = yard.rolling_radius(), mass = yard.rolling_mass();
+  const double radius = rolling_radius(yard), mass = rolling_mass(yard);
   const double thrust = 4 * lhd.options.wheel_torque / radius;
   const double knee = power / thrust, knee_time = knee * mass / thrust;
   const auto turning = [&] {
@@ -116,6 +103,7 @@ TEST(DriveLine, WheelsRollWhenTheDriveIsReleased) {
   const double push = 50e3, h = WorldOptions().step;
   for (const double share : {0.0, 1.0}) {
     Yard yard(scenario.machine);
+    yard.stand(until_still);
     const double start = yard.driver.read().front_axle.x();
     for (int k = 0; k < 50; ++k) {
       yard.driver.command({}, share);
@@ -124,7 +112,7 @@ TEST(DriveLine, WheelsRollWhenTheDriveIsReleased) {
     }
     const MachineReading after = yard.driver.read();
     if (share == 0)
-      EXPECT_NEAR(after.actual.drive, -push * 50 * h / yard.rolling_mass(), 4e-3);
+      EXPECT_NEAR(after.actual.drive, -push * 50 * h / rolling_mass(yard), 4e-3);
     else
       EXPECT_NEAR(after.front_axle.x(), start, 0.025);
   }

@@ -6,51 +6,34 @@
 #include <drawpoint/engine/loading/drift.hpp>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
 #include <drawpoint/engine/world/world.hpp>
+#include <drawpoint/tests/support/yard.hpp>
 #include <numeric>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::engine::loading;
+using drawpoint::support::Yard;
 using Eigen::Vector3d;
 
 namespace {
 
 constexpr double degree = M_PI / 180, g = 9.81;
 
-// The machine alone on a floor.
-struct Yard {
-  explicit Yard(const LhdOptions& options = {})
-      : lhd(sandvik_lh621(options)),
-        machine(lhd.spec),
-        world({}, material_table(calibrated_materials())),
-        driver(lhd, machine) {
-    world.add_static(std::make_shared<const Shape>(HalfSpace{Vector3d::UnitZ(), 0}),
-                     Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
-    driver.place(0, 0);
-    add_machine(world, lhd, machine);
+/// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce to die
+/// down.
+void raise_boom(Yard& yard) {
+  yard.stand(1);
+  yard.driver.command({0, 0.2, 0});
+  yard.stand(1.5);
+  yard.driver.command({});
+  yard.stand(7);
+}
+
+void load_bucket(Yard& yard, double force, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    yard.machine.add_force(yard.lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -force)});
+    yard.world.step();
   }
-  /// Raises the boom off the floor, so that a load on the bucket hangs on the arm, and waits for the bounce
-  /// to die down.
-  void raise_boom() {
-    stand(1);
-    driver.command({0, 0.2, 0});
-    stand(1.5);
-    driver.command({});
-    stand(7);
-  }
-  void load_bucket(double force, int steps) {
-    for (int k = 0; k < steps; ++k) {
-      machine.add_force(lhd.bucket, {Vector3d::Zero(), Vector3d(0, 0, -force)});
-      world.step();
-    }
-  }
-  void stand(double seconds) {
-    for (double t = 0; t < seconds; t += world.options().step) world.step();
-  }
-  Lhd lhd;
-  machine::Machine machine;
-  World world;
-  LhdDriver driver;
-};
+}
 
 }  // namespace
 
@@ -125,14 +108,14 @@ TEST(Lhd, StandsOnItsTyresWithThePublishedAxleLoads) {
 TEST(Lhd, StaticBucketLoadAppearsInHingeGAndInTheMotors) {
   Yard yard;
   const Lhd& lhd = yard.lhd;
-  yard.raise_boom();
+  raise_boom(yard);
   const auto world_force = [&] {
     return Vector3d(yard.machine.pose(lhd.bucket).linear() * yard.machine.joint_wrench(lhd.bucket).force);
   };
   const Vector3d g_empty = world_force();
   const double lift_empty = yard.driver.lift_force(), tilt_empty = yard.driver.tilt_force();
   const double L = 100e3;
-  yard.load_bucket(L, 1400);
+  load_bucket(yard, L, 1400);
   const Vector3d G = yard.machine.point(lhd.bucket, lhd.G), c = yard.machine.pose(lhd.bucket).translation();
   const Vector3d P = yard.machine.point(lhd.link, {1.18, 0, 0.63}),
                  H = yard.machine.point(lhd.link, {1.94, 0, 1.07});
@@ -186,11 +169,11 @@ TEST(Lhd, WithHingeMotorsTheTiltTorqueIsTheLoadsMoment) {
   LhdOptions options;
   options.arm_drive = ArmDrive::hinges;
   Yard yard(options);
-  yard.raise_boom();
+  raise_boom(yard);
   const double tilt_empty = yard.driver.tilt_force();
   const double axial_empty = yard.machine.joint_wrench(yard.lhd.bucket).moment.y();
   const double L = 100e3;
-  yard.load_bucket(L, 1400);
+  load_bucket(yard, L, 1400);
   const Vector3d G = yard.machine.point(yard.lhd.bucket, yard.lhd.G);
   const double lever = (yard.machine.pose(yard.lhd.bucket).translation() - G).x();
   EXPECT_NEAR(yard.driver.tilt_force() - tilt_empty, L * lever, 2e-2 * L * lever);
