@@ -71,7 +71,7 @@ json stage_paths(const LoadingLog& log, Rows rows, std::size_t stride) {
 }
 
 json path_panel(const LoadingLog& log, const CycleRecord& cycle) {
-  const Rows rows = rows_of(log, 1);
+  const Rows rows = rows_of(log, cycle.number);
   const std::size_t stride = 4;
   return {{"type", "path"},
           {"title", "Planned and actual path of the cutting edge"},
@@ -121,7 +121,7 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
   int poster = 0;
   double next = -1;
   for (const auto& frame : log.scene.frames) {
-    if (frame.cycle != 1 || frame.t < next) continue;
+    if (frame.cycle != cycle.number || frame.t < next) continue;
     next = frame.t + picture_interval - 1e-6;
     if (frame.label == "curl") poster = static_cast<int>(frames.size());
     frames.push_back(
@@ -150,8 +150,8 @@ json line(const LoadingLog& log, Rows rows, std::size_t stride, const char* sign
   return {{"name", label}, {"x", rounded(t)}, {"y", rounded(y)}};
 }
 
-json forces_panel(const LoadingLog& log) {
-  const Rows rows = rows_of(log, 1);
+json forces_panel(const LoadingLog& log, const CycleRecord& cycle) {
+  const Rows rows = rows_of(log, cycle.number);
   const std::size_t stride = 4;
   const bool cylinders = log.texts.at("arm_drive") == "cylinders";
   return {{"type", "lines"},
@@ -172,13 +172,12 @@ json forces_panel(const LoadingLog& log) {
 
 json cycles_panel(const LoadingLog& log) {
   json rows = json::array();
-  for (std::size_t k = 0; k < log.cycles.size(); ++k) {
-    const CycleRecord& c = log.cycles[k];
+  for (const CycleRecord& c : log.cycles) {
     std::string ends;
     for (const auto& stage : c.stages)
       ends += (ends.empty() ? "" : ", ") + std::string(name(stage.stage)) + ": " +
               std::string(name(stage.reason));
-    rows.push_back({std::to_string(k + 1), fixed(c.t_end - c.t_start, 1), fixed(c.loaded_mass, 0),
+    rows.push_back({std::to_string(c.number), fixed(c.t_end - c.t_start, 1), fixed(c.loaded_mass, 0),
                     fixed(c.spilled_mass, 0), fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
   }
   return {
@@ -216,7 +215,8 @@ json loading_figures(const std::filesystem::path& log_file) {
   const LoadingLog log = engine::loading::read_log(log_file);
   if (log.cycles.empty()) return json::array();
   const CycleRecord& cycle = log.cycles.front();
-  return json::array({path_panel(log, cycle), scene_panel(log, cycle), forces_panel(log), cycles_panel(log)});
+  return json::array(
+      {path_panel(log, cycle), scene_panel(log, cycle), forces_panel(log, cycle), cycles_panel(log)});
 }
 
 }  // namespace drawpoint::studies

@@ -4,7 +4,7 @@
 #include <drawpoint/studies/loading_findings.h>
 #include <drawpoint/studies/loading_front_findings.h>
 #include <drawpoint/studies/loading_runs.h>
-#include <drawpoint/engine/loading/run_measures.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 
 #include <algorithm>
 #include <cmath>

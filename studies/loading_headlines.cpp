@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/loading_headlines.h>
-#include <drawpoint/engine/loading/responses.hpp>
-#include <drawpoint/engine/loading/run_measures.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -55,20 +55,24 @@ double number_or(double otherwise, const LoadingLog& log, const char* name) {
 
 /// Where the contact solution broke down, over all runs.
 struct Breakdowns {
-  double steps = 0, escaped = 0;  // escaped [kg]
+  double steps = 0, escaped = 0, cycles = 0;  // escaped [kg], cycles that were lost
   int runs = 0;
 
   void add(const LoadingLog& log) {
-    const double broken = number_or(0, log, "repeated_steps"), lost = number_or(0, log, "escaped_mass");
+    const double broken = number_or(0, log, "repeated_steps"), strayed = number_or(0, log, "escaped_mass"),
+                 lost = number_or(0, log, "lost_cycles");
     steps += broken;
-    escaped += lost;
-    runs += broken > 0 || lost > 0;
+    escaped += strayed;
+    cycles += lost;
+    runs += broken > 0 || strayed > 0 || lost > 0;
   }
   Headline headline() const {
-    char note[128];
-    std::snprintf(note, sizeof note,
-                  "runs in which it did: %.0f steps were done again in parts, %.0f kg of rock left the drift",
-                  steps, escaped);
+    char note[160];
+    std::snprintf(
+        note, sizeof note,
+        "runs in which it did: %.0f steps were done again in parts, %.0f kg of rock left the drift, %.0f "
+        "cycles were lost",
+        steps, escaped, cycles);
     return {"solution_broke_down", "1", static_cast<double>(runs), note};
   }
 };
@@ -156,7 +160,10 @@ std::vector<RunMean> measures() {
           {{"wheel_slip", "1", 0, "share of the set drive speed that the machine lacks"},
            mean_of(loading::wheel_slip)},
           {{"peak_pin_force", "kN", 0, "in the bucket's pin, low-passed at 20 Hz, mean of the cycles' peaks"},
-           [](const LoadingLog& log) { return Part{loading::peak_pin_force(log)}; }}};
+           [](const LoadingLog& log) { return Part{loading::peak_pin_force(log)}; }},
+          {{"pin_load_range", "kN", 0,
+            "in the worse of the bucket's two pins, the range that does its fatigue damage once per cycle"},
+           [](const LoadingLog& log) { return Part{loading::pin_load_range(log)}; }}};
 }
 
 }  // namespace

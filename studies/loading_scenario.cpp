@@ -19,13 +19,11 @@ const std::string& chosen(const RunContext& run, const std::string& option) {
   return found->second;
 }
 
-/// Whether an option has the second of its two values.
-bool second_of(const RunContext& run, const std::string& option, const char* first, const char* second) {
-  const std::string& value = chosen(run, option);
-  if (value != first && value != second)
-    throw std::invalid_argument("studies::loading_scenario: option \"" + option + "\" is \"" + value +
-                                "\"; choose " + first + " or " + second);
-  return value == second;
+bool solved_loosely(const std::string& solver) {
+  if (solver != "scene" && solver != "lindmark2016")
+    throw std::invalid_argument("studies::loading_scenario: option \"solver\" is \"" + solver +
+                                "\"; choose scene or lindmark2016");
+  return solver == "lindmark2016";
 }
 
 }  // namespace
@@ -43,7 +41,7 @@ std::vector<StudyOption> loading_options() {
           {"scene",
            "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m",
            "small",
-           {"small", "lindmark2016"}},
+           {engine::loading::scene_names.begin(), engine::loading::scene_names.end()}},
           {"sizes",
            "of the rocks: 0.3 to 0.8 m as in Lindmark (2016), half of it boulders; with a quarter of the "
            "mass as 0.2 m; "
@@ -63,13 +61,10 @@ std::vector<StudyOption> loading_options() {
 }
 
 Scenario loading_scenario(const RunContext& run) {
-  Scenario scenario = second_of(run, "scene", "small", "lindmark2016")
-                          ? engine::loading::lh621_at_lindmark2016_scale()
-                          : engine::loading::lh621_in_a_drift();
+  Scenario scenario = engine::loading::scene_named(chosen(run, "scene"));
   scenario = engine::loading::with_pile_of(scenario, scenario.pile.mass,
                                            engine::granular::sizes_named(chosen(run, "sizes")));
-  if (second_of(run, "solver", "scene", "lindmark2016"))
-    scenario.world = engine::loading::lindmark2016_solver();
+  if (solved_loosely(chosen(run, "solver"))) scenario.world = engine::loading::lindmark2016_solver();
   scenario = engine::loading::with_speeds(scenario, chosen(run, "speeds"));
   scenario.executor.moves = engine::loading::operator_named(chosen(run, "operator"));
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));

@@ -58,14 +58,13 @@ struct Result {
 };
 
 Scenario scenario_of(const Settings& s) {
-  Scenario scenario = lh621_in_a_drift();
+  Scenario scenario = s.pile.scenario();
   scenario.cycles = s.cycles;
   scenario.strategy = s.strategy;
   scenario.materials = materials_named(s.materials);
   scenario.materials = with_resistance(scenario.materials, s.rolling, s.spinning);
   if (s.steel_friction) scenario.materials.rock_steel.friction = *s.steel_friction;
   if (s.rock_friction) scenario.materials.rock_rock.friction = *s.rock_friction;
-  s.pile.apply(scenario);
   if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
   if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
   s.operation.apply(scenario);

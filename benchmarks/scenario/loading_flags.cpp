@@ -39,13 +39,18 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
       ->check(between(0, 1, "", "leave it out for the operator's"));
 }
 
-void PileFlags::apply(engine::loading::Scenario& scenario) const {
-  scenario = engine::loading::with_pile_of(scenario, mass ? 1e3 * *mass : scenario.pile.mass,
-                                           engine::granular::sizes_named(sizes));
+engine::loading::Scenario PileFlags::scenario() const {
+  const engine::loading::Scenario named = engine::loading::scene_named(scene);
+  return engine::loading::with_pile_of(named, mass ? 1e3 * *mass : named.pile.mass,
+                                       engine::granular::sizes_named(sizes));
 }
 
 void add_pile_flags(CLI::App& app, PileFlags& flags) {
-  using engine::granular::size_names;
+  using engine::granular::size_names, engine::loading::scene_names;
+  app.add_option("--scene", flags.scene,
+                 "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m")
+      ->check(CLI::IsMember(std::vector<std::string>(scene_names.begin(), scene_names.end())))
+      ->capture_default_str();
   app.add_option("--mass", flags.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
   app.add_option("--sizes", flags.sizes,
                  "of the rocks: 0.3 to 0.8 m; with a quarter of the mass as 0.2 m, at three times the cost; "

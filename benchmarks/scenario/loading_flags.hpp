@@ -25,15 +25,16 @@ std::string in_words(const OperationFlags& flags);
 /// --speeds, --operator and --curl-hold.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
-/// What lies in the drift; what is not given is the scene's.
+/// The drift and what lies in it; what is not given is the scene's.
 struct PileFlags {
+  std::string scene = "small";
   std::optional<double> mass;  ///< [t]
   std::string sizes = "mine";
 
-  void apply(engine::loading::Scenario& scenario) const;
+  engine::loading::Scenario scenario() const;
 };
 
-/// --mass and --sizes.
+/// --scene, --mass and --sizes.
 void add_pile_flags(CLI::App& app, PileFlags& flags);
 
 /// --beta, --gamma and --kappa; alpha is each command's own.

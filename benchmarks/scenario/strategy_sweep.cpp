@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <drawpoint/engine/loading/run_measures.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <functional>
 
 #include "cycle_run.hpp"
@@ -32,7 +32,8 @@ constexpr const char* about =
     "Columns: production [kg/s], joint damage per cycle [s], rock spill, loaded mass over the rated\n"
     "payload and over what the struck volume holds, share of drive-ins that stalled, distance of the tip "
     "from\n"
-    "its plan [m], energy per tonne [kJ/t], cycle [s].";
+    "its plan [m], energy per tonne [kJ/t], range of the bucket's pin load that fatigues as much [kN], cycle "
+    "[s].";
 
 struct Settings {
   std::string piles, variable = "alpha";
@@ -61,6 +62,7 @@ const std::vector<Measure>& measures() {
       {"stall_share", "stalls", 2, stall_share},
       {"tracking_error_m", "tracking", 2, tracking_error},
       {"energy_kj_t", "energy", 0, energy_per_tonne},
+      {"pin_load_range_kn", "pin range", 0, [](const LoadingLog& log) { return pin_load_range(log); }},
       {"cycle_s", "cycle", 1, cycle_time}};
   return all;
 }
@@ -88,11 +90,10 @@ void check_values(const Settings& s) {
 }
 
 Scenario scenario_of(const Settings& s) {
-  Scenario scenario = lh621_in_a_drift();
+  Scenario scenario = s.pile.scenario();
   scenario.cycles = s.cycles;
   scenario.strategy = s.strategy;
   s.operation.apply(scenario);
-  s.pile.apply(scenario);
   return scenario;
 }
 

@@ -57,6 +57,7 @@ class Builder {
     lhd_.tyre_radius = 1.01;
     lhd_.bucket_width = 3.2;
     lhd_.payload = 21e3;
+    lhd_.pin_spacing = 1.2;
     lhd_.bucket_profile = {{3.85, 0}, {2.85, 1.75}, {2.30, 1.58}, {2.14, 1.15}, {2.16, 0.35}, {2.40, 0}};
     lhd_.bucket_volume = heaped_volume(lhd_);
   }
@@ -218,9 +219,9 @@ void Builder::draw_box(int body, const Vector3d& low, const Vector3d& high, bool
 
 void Builder::add_chassis_surfaces() {
   draw_box(lhd_.front, {-2.1, -0.62, 0.55}, {0.55, 0.62, 1.95}, true, "#d9a21b");
-  draw_box(lhd_.rear, {-8.2, -1.45, 0.75}, {-6.0, 1.45, 1.9}, false, "#d9a21b");
-  draw_box(lhd_.rear, {-6.0, -0.62, 0.6}, {-2.6, 0.62, 1.9}, false, "#d9a21b");
-  draw_box(lhd_.rear, {-4.6, 0.62, 1.95}, {-3.2, 1.45, 2.9}, false, "#3a3f47");
+  draw_box(lhd_.rear, {-8.2, -1.45, 0.75}, {-6.0, 1.45, 1.9}, true, "#d9a21b");
+  draw_box(lhd_.rear, {-6.0, -0.62, 0.6}, {-2.6, 0.62, 1.9}, true, "#d9a21b");
+  draw_box(lhd_.rear, {-4.6, 0.62, 1.95}, {-3.2, 1.45, 2.9}, true, "#3a3f47");
   for (int wheel : lhd_.wheels)
     lhd_.surfaces.push_back(
         {wheel, engine::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
@@ -259,8 +260,8 @@ void Builder::add_bucket_surfaces() {
 
 void Builder::add_arm_surfaces() {
   draw_bar(lhd_.boom, F, G, 0.5, 0.45, true, "#e0b040");
-  draw_bar(lhd_.bell_crank, P, Q, 0.3, 0.28, false, "#c58f12");
-  draw_bar(lhd_.link, P, H, 0.25, 0.18, false, "#b07f10");
+  draw_bar(lhd_.bell_crank, P, Q, 0.3, 0.28, true, "#c58f12");
+  draw_bar(lhd_.link, P, H, 0.25, 0.18, true, "#b07f10");
   const auto cylinder = [&](int barrel, int rod, const Vector3d& from, const Vector3d& to) {
     const Vector3d middle = from + 0.62 * (to - from);
     draw_bar(barrel, from, middle, 0.24, 0.24, false, "#4a4e55");

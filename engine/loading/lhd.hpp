@@ -23,8 +23,7 @@
 /// and inertias are estimates too (solid boxes and cylinders); published are payload 21 t, weight, power and
 /// tyre size.
 ///
-/// Bucket, boom, front unit and wheels touch rocks; the rear unit, cylinders, bell-crank and link are only
-/// drawn. Both lift cylinders are one motor and share one stop. Cylinder limits are those of the full piston
+/// All parts touch rocks but the cylinders, which lie between the arm's plates and are only drawn. Both lift cylinders are one motor and share one stop. Cylinder limits are those of the full piston
 /// in both directions; pulling, a real cylinder has only its ring area.
 namespace drawpoint::engine::loading {
 
@@ -67,6 +66,7 @@ struct Lhd {
   double loaded_radius;     ///< axle height under the machine's own weight [m]
   double bucket_width;      ///< [m]
   double bucket_volume;     ///< heaped_volume() [m³]
+  double pin_spacing;       ///< between the two pins that hold the bucket, an estimate [m]
   double payload;           ///< rated [kg]
   std::vector<Eigen::Vector2d>
       bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]

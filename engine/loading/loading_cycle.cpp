@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/run_description.h>
 #include <drawpoint/engine/loading/scene_recorder.h>
 #include <drawpoint/engine/loading/signals.h>
 #include <algorithm>
@@ -15,7 +16,9 @@ constexpr double room_under_roof =
     0.3;  // over the heaped bucket: rocks stand out of it, tyres run over rocks [m]
 constexpr int trouble_interval = 50;  // steps between checks of the whole state
 constexpr int parts_of_broken_step = 10;
-constexpr double most_escaped = 0.01;  // of the pile's mass; more than that is no stray rock
+constexpr double most_escaped = 0.01;   // of the pile's mass; more than that is no stray rock
+constexpr double weighing_time = 1.0;   // that the machine stands before its load is weighed [s]
+constexpr int cycles_per_lost_one = 5;  // a run that loses more cycles than one in five has failed
 
 class LoadingRun {
  public:
@@ -26,14 +29,15 @@ class LoadingRun {
         signals_(site_.lhd(), scenario.log_all_joints),
         scene_(site_, scenario.drift) {
     site_.world().before_solve(hooks.before_solve);
-    describe();
+    describe(scenario_, site_, log_);
     log_.texts["pile_provenance"] = pile.provenance.empty() ? "given by the caller" : pile.provenance;
   }
 
   LoadingLog run() {
-    bool fine = true;
-    for (int cycle = 1; fine && cycle <= scenario_.cycles; ++cycle) fine = attempt(cycle);
-    log_.completed = fine;
+    bool goes_on = true;
+    for (int cycle = 1; goes_on && cycle <= scenario_.cycles; ++cycle) goes_on = attempt(cycle);
+    log_.completed = goes_on;
+    log_.numbers["lost_cycles"] = lost_;
     log_.numbers["cleared_mass"] = cleared_;
     log_.numbers["escaped_mass"] = escaped_;
     log_.numbers["repeated_steps"] = static_cast<double>(repeated_);
@@ -46,12 +50,13 @@ class LoadingRun {
   }
 
  private:
-  void describe();
   bool attempt(int cycle);
-  bool run_cycle(int cycle);
+  bool run_cycle(CycleRecord& record);
+  bool give_up(const CycleRecord& record, const std::string& message);
   Plan plan(CycleRecord& record) const;
   bool stand();
-  bool execute(int cycle, CycleRecord& record);
+  bool execute(CycleRecord& record);
+  bool weigh(CycleRecord& record);
   bool step(const std::function<void(const engine::StepReport&)>& record = {});
   engine::StepReport advance();
   bool look_for_trouble();
@@ -76,65 +81,10 @@ class LoadingRun {
   double cleared_ = 0;
   double escaped_ = 0;  // mass [kg]
   long steps_ = 0, repeated_ = 0;
+  int lost_ = 0;  // cycles
   std::size_t most_points_ = 0;
   std::vector<bool> in_front_before_;  // by rock, before the machine first came
 };
-
-void LoadingRun::describe() {
-  const Scenario& s = scenario_;
-  log_.numbers = {{"alpha", s.strategy.alpha},
-                  {"beta", s.strategy.beta},
-                  {"gamma", s.strategy.gamma},
-                  {"kappa", s.strategy.kappa},
-                  {"cycles", s.cycles},
-                  {"standoff", s.standoff},
-                  {"drift_length", s.drift.length},
-                  {"drift_width", s.drift.width},
-                  {"drift_height", s.drift.height},
-                  {"pile_mass", site_.initial_mass()},
-                  {"rocks", static_cast<double>(site_.world().rocks().size())},
-                  {"density", s.pile.density},
-                  {"payload", site_.lhd().payload},
-                  {"bucket_struck_volume", struck_volume(site_.lhd())},
-                  {"bucket_heaped_volume", heaped_volume(site_.lhd())},
-                  {"tyre_radius", site_.lhd().tyre_radius},
-                  {"rock_friction", s.materials.rock_rock.friction},
-                  {"rock_rolling", s.materials.rock_rock.rolling},
-                  {"rock_spinning", s.materials.rock_rock.spinning},
-                  {"steel_friction", s.materials.rock_steel.friction},
-                  {"steel_rolling", s.materials.rock_steel.rolling},
-                  {"step", s.world.step},
-                  {"substeps", s.world.solver.substeps},
-                  {"iterations", s.world.solver.iterations},
-                  {"iteration_budget", s.world.solver.iteration_budget},
-                  {"tolerance", s.world.solver.tolerance},
-                  {"warm_start", s.world.warm_start},
-                  {"freezing", s.world.freezing.on ? 1.0 : 0.0},
-                  {"freezing_tolerance", s.world.freezing.tolerance},
-                  {"set_drive_in", s.executor.speeds.drive_in},
-                  {"set_lift", s.executor.speeds.lift},
-                  {"set_curl", s.executor.speeds.curl},
-                  {"drive_acceleration", s.executor.speeds.limits.drive_acceleration},
-                  {"set_back_out", s.executor.speeds.back_out},
-                  {"most_pulses", s.executor.moves.most_pulses},
-                  {"held_up", s.executor.moves.held_up},
-                  {"pulse", s.executor.moves.pulse},
-                  {"pulse_boom", s.executor.moves.pulse_rates.boom},
-                  {"pulse_tilt", s.executor.moves.pulse_rates.tilt},
-                  {"press", s.executor.moves.press ? 1.0 : 0.0},
-                  {"crowd", s.executor.moves.crowd},
-                  {"curl_hold", s.executor.moves.curl_hold},
-                  {"wheel_torque_limit", s.machine.wheel_torque},
-                  {"engine_power", s.machine.drive_line.engine_power},
-                  {"lift_cylinder_limit", s.machine.lift_cylinder_force},
-                  {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
-  log_.texts = {{"machine", "Sandvik LH621 class"},
-                {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
-                {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
-                {"seed", std::to_string(s.seed)},
-                {"lift", s.lift == LiftGoal::behind_surface ? "behind surface" : "along slope"},
-                {"version", DRAWPOINT_VERSION}};
-}
 
 ColumnModel LoadingRun::columns(bool with_bucket) const {
   return columns_of(site_.rocks(with_bucket), scenario_, site_.lhd());
@@ -232,21 +182,22 @@ bool LoadingRun::stand() {
   return true;
 }
 
-bool LoadingRun::execute(int cycle, CycleRecord& record) {
+bool LoadingRun::execute(CycleRecord& record) {
   Executor executor(record.plan, site_.driver().arm(), scenario_.executor);
   double next_frame = site_.world().time();
   while (!executor.finished()) {
     const MachineReading reading = site_.driver().read();
     const ActuatorRates set = executor.step({site_.world().time(), reading.tip, reading.actual});
     if (site_.world().time() >= next_frame) {
-      scene_.frame(site_, cycle, std::string(name(executor.stage())));
+      scene_.frame(site_, record.number, std::string(name(executor.stage())));
       next_frame += scenario_.frame_interval;
     }
     if (executor.finished()) break;
     site_.driver().command(set, executor.drive_share());
     const auto log_signals = [&](const engine::StepReport& report) {
-      signals_.append(site_, cycle, executor, set, report);
+      signals_.append(site_, record.number, executor, set, report);
     };
+    if (site_.missing_mass() > 0) site_.refill();
     if (hooks_.look_ahead) hooks_.look_ahead(site_.world());
     if (!step(log_signals)) return false;
   }
@@ -293,30 +244,53 @@ void LoadingRun::book(CycleRecord& record) {
   site_.remove(load.elsewhere);
 }
 
-// A diverged state makes the parts below refuse their input; the cycles done before are still worth keeping.
+// Once it stands, so that what falls off it, or hopped in it, lies still.
+bool LoadingRun::weigh(CycleRecord& record) {
+  for (double t = 0; t < weighing_time; t += site_.world().options().step)
+    if (!step()) return false;
+  scene_.frame(site_, record.number, "end of cycle");
+  book(record);
+  return true;
+}
+
+// Whether the run goes on. A diverged state makes the parts below refuse their input.
 bool LoadingRun::attempt(int cycle) {
+  CycleRecord record;
+  record.number = cycle;
   try {
-    return run_cycle(cycle);
+    return run_cycle(record);
   } catch (const std::exception& error) {
-    return fail("cycle " + std::to_string(cycle) +
-                " broke down at t = " + std::to_string(site_.world().time()) + " s: " + error.what());
+    return give_up(record, "cycle " + std::to_string(cycle) + " broke down at t = " +
+                               std::to_string(site_.world().time()) + " s: " + error.what());
   }
 }
 
-bool LoadingRun::run_cycle(int cycle) {
-  CycleRecord record;
-  if (cycle == 1) look_at_pile();
+// The cycle is lost, not the run: the machine is put back, what it carried falls, the pile comes to rest.
+bool LoadingRun::give_up(const CycleRecord& record, const std::string& message) {
+  ++lost_;
+  log_.texts["lost_cycle_" + std::to_string(record.number)] = message;
+  if (!record.plan.feasible || cycles_per_lost_one * lost_ > scenario_.cycles) return fail(message);
+  try {
+    cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
+    return refill() && wait_for_rest();
+  } catch (const std::exception& error) {
+    return fail(message + "; the pile did not come to rest after it: " + error.what());
+  }
+}
+
+bool LoadingRun::run_cycle(CycleRecord& record) {
+  if (record.number == 1) look_at_pile();
   record.plan = plan(record);
-  if (!record.plan.feasible) return fail("cycle " + std::to_string(cycle) + ": " + record.plan.message);
+  if (!record.plan.feasible)
+    return fail("cycle " + std::to_string(record.number) + ": " + record.plan.message);
   cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
   if (!stand()) return false;
   record.t_start = site_.world().time();
-  if (!execute(cycle, record)) return false;
+  if (!execute(record)) return false;
   record.t_end = site_.world().time();
-  scene_.frame(site_, cycle, "end of cycle");
-  book(record);
+  if (!weigh(record)) return false;
   log_.cycles.push_back(record);
-  return cycle == scenario_.cycles || (refill() && wait_for_rest());
+  return record.number == scenario_.cycles || (refill() && wait_for_rest());
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
-#include <drawpoint/engine/loading/responses.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <functional>
 
@@ -12,15 +12,16 @@
 /// wait for rest, again.
 ///
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
-/// hauling, dumping and driving are left out. After the cycle what the bucket carries is taken away and weighed,
-/// spilled rocks stay where they lie, and rocks come down the raise until the drift holds its first mass
-/// again or the raise is blocked. Rocks that lie on the rest of the machine, or where it must stand, are taken
+/// hauling, dumping and driving are left out. After the cycle the machine stands for a second, what the bucket
+/// carries is weighed and taken away, spilled rocks stay where they lie, and rocks come down the raise until the
+/// drift holds its first mass again or the raise is blocked; then they come during the next cycle. Rocks that lie on the rest of the machine, or where it must stand, are taken
 /// away and logged (`cleared_mass`).
 ///
-/// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), and a rock that
-/// left the drift is taken away (`escaped_mass`), so that a run of thirty cycles outlives a single one; more
-/// than 1 % of the pile's mass is failure. Failure is data: a pile without a place to load, or a solution
-/// that breaks down, gives a log with completed = false and a message; the cycles done before are in it.
+/// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left the
+/// drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost (`lost_cycles`), not the
+/// run; more than 1 % of the pile's mass or one cycle in five is failure. Failure is data: a pile without a place to
+/// load, or a solution that breaks down, gives a log with completed = false and a message; the cycles done before
+/// are in it.
 /// Throws std::invalid_argument for a bad scenario and std::runtime_error if a file cannot be read or
 /// written. Deterministic. Cost: some ms per step and 1000 rocks.
 namespace drawpoint::engine::loading {

@@ -39,6 +39,13 @@ Scenario lh621_at_lindmark2016_scale() {
   return s;
 }
 
+Scenario scene_named(const std::string& name) {
+  if (name == "small") return lh621_in_a_drift();
+  if (name == "lindmark2016") return lh621_at_lindmark2016_scale();
+  throw std::invalid_argument("loading::scene_named: there is no scene \"" + name +
+                              "\"; choose small or lindmark2016");
+}
+
 Scenario with_pile_of(Scenario s, double mass, const granular::SizeDistribution& sizes) {
   const double rocks =
       mass * granular::rocks_per_mass(sizes) / (s.pile.mass * granular::rocks_per_mass(s.pile.sizes));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <drawpoint/engine/granular/pile.hpp>
 #include <drawpoint/engine/loading/drift.hpp>
@@ -12,6 +13,7 @@
 #include <drawpoint/engine/world/world.hpp>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 /// Everything that decides a loading simulation. Equal scenarios give equal logs, bit for bit.
 namespace drawpoint::engine::loading {
@@ -59,6 +61,10 @@ Scenario lh621_in_a_drift();
 
 /// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles, two pictures a second.
 Scenario lh621_at_lindmark2016_scale();
+
+/// By name: "small", "lindmark2016". Throws std::invalid_argument with the names.
+Scenario scene_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> scene_names = {"small", "lindmark2016"};
 
 /// The scene with a pile of another mass [kg] or of other sizes. Its iteration budget goes with the number of
 /// rocks, so that every contact point gets as many iterations as in the scene.

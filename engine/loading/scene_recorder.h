@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/loading/site.hpp>
 #include <map>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/loading/cycle_samples.h>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <drawpoint/engine/loading/log/cycle_samples.hpp>
 #include <drawpoint/engine/loading/yield_test.hpp>
 #include <memory>
 #include <stdexcept>

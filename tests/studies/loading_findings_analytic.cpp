@@ -6,7 +6,7 @@
 
 #include <drawpoint/studies/loading_findings.h>
 #include <gtest/gtest.h>
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/tests/studies/support.hpp>
 #include <drawpoint/tests/support/told.hpp>
 

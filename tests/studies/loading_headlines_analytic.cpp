@@ -5,7 +5,7 @@
 #include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/loading_headlines.h>
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 
 #include <cmath>
 #include <map>

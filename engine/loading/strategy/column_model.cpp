@@ -31,6 +31,7 @@ void check(const ColumnGrid& grid, const ColumnOptions& options) {
   positive("grid.x_max - grid.x_min [m]", grid.x_max - grid.x_min);
   positive("options.bucket_width [m]", options.bucket_width);
   positive("options.bucket_volume [m3]", options.bucket_volume);
+  positive("options.row_pitch [m]", options.row_pitch);
   require_column_option(options.h_tol >= 0, "options.h_tol [m]", options.h_tol, "at least 0");
   require_column_option(options.n_run >= 1, "options.n_run [1]", options.n_run, "at least 1");
   require_column_option(options.side_clearance >= 0, "options.side_clearance [m]", options.side_clearance,
@@ -152,27 +153,55 @@ Strip strip_of(const ColumnModel& model, int j) {
   return strip;
 }
 
-// The row whose first strip is `first`; false if the bucket does not fit there or finds no pile.
-bool make_row(const ColumnModel& model, int first, int strips, Row& row) {
-  row = Row{.first_strip = first, .strips = strips, .y = model.grid.y(first + 0.5 * (strips - 1))};
-  const double reach = std::abs(row.y) + 0.5 * model.options.bucket_width + model.options.side_clearance;
-  int with_pile = 0;
-  for (int j = first; j < first + strips; ++j) {
+// Breadth of the strips that a bucket covers [m].
+double breadth(const ColumnModel& model) {
+  const double cell = model.grid.cell;
+  return cell * std::ceil(model.options.bucket_width / cell - 1e-9);
+}
+
+// Of each strip, the share that a bucket at y covers.
+Eigen::VectorXd covered(const ColumnModel& model, double y) {
+  const double cell = model.grid.cell, reach = 0.5 * (breadth(model) + cell);
+  Eigen::VectorXd shares(model.grid.ny());
+  for (int j = 0; j < model.grid.ny(); ++j) {
+    const double share = (reach - std::abs(model.grid.y(j) - y)) / cell;
+    shares[j] = share > 1e-9 ? std::min(share, 1.0) : 0.0;  // a billionth is round-off
+  }
+  return shares;
+}
+
+// False if the bucket finds no pile there.
+bool make_row(const ColumnModel& model, double y, Row& row) {
+  row = Row{.y = y};
+  const Eigen::VectorXd shares = covered(model, y);
+  double with_pile = 0;
+  for (int j = 0; j < model.grid.ny(); ++j) {
     const Strip& strip = model.strips[j];
     if (!strip.has_pile) continue;
-    ++with_pile;
-    row.front += strip.front;
-    row.volume_centre += strip.volume_centre;
-    row.slope += strip.slope;
+    with_pile += shares[j];
+    row.front += shares[j] * strip.front;
+    row.volume_centre += shares[j] * strip.volume_centre;
+    row.slope += shares[j] * strip.slope;
   }
-  // A millionth of a column forgives the round-off of y.
-  if (with_pile == 0 || reach > model.grid.half_width + 1e-6 * model.grid.cell) return false;
+  if (with_pile == 0) return false;
   row.front /= with_pile;
   row.volume_centre /= with_pile;
   row.slope /= with_pile;
   const std::vector<double> z = contour(model, row);
   row.crest = *std::max_element(z.begin(), z.end());
   return row.slope > 0;
+}
+
+std::vector<Row> rows_of(const ColumnModel& model) {
+  const ColumnOptions& o = model.options;
+  const double strips_end = 0.5 * (model.grid.ny() * model.grid.cell - breadth(model)),
+               walls = model.grid.half_width - 0.5 * o.bucket_width - o.side_clearance;
+  const double places = std::floor(2 * std::min(strips_end, walls) / o.row_pitch + 1e-6);
+  std::vector<Row> rows;
+  Row row;
+  for (int k = 0; k <= places; ++k)
+    if (make_row(model, (k - 0.5 * places) * o.row_pitch, row)) rows.push_back(row);
+  return rows;
 }
 
 }  // namespace
@@ -188,10 +217,7 @@ ColumnModel column_model(const MatrixXd& heights, const ColumnGrid& grid, const 
                                 std::to_string(grid.nx()) + " x " + std::to_string(grid.ny()));
   ColumnModel model{grid, options, heights, pile_body(heights, options.h_tol), {}, {}};
   for (int j = 0; j < grid.ny(); ++j) model.strips.push_back(strip_of(model, j));
-  const int strips = static_cast<int>(std::ceil(options.bucket_width / grid.cell - 1e-9));
-  Row row;
-  for (int first = 0; first + strips <= grid.ny(); ++first)
-    if (make_row(model, first, strips, row)) model.rows.push_back(row);
+  model.rows = rows_of(model);
   return model;
 }
 
@@ -209,7 +235,7 @@ ColumnModel column_model(std::span<const PosedRock> rocks, const ColumnGrid& gri
 }
 
 std::vector<double> contour(const ColumnModel& model, const Row& row) {
-  const Eigen::VectorXd mean = model.body.middleCols(row.first_strip, row.strips).rowwise().mean();
+  const Eigen::VectorXd shares = covered(model, row.y), mean = model.body * (shares / shares.sum());
   return {mean.data(), mean.data() + mean.size()};
 }
 

@@ -21,8 +21,9 @@
 ///   quota V_q = V_b w / w_b; N: least number of columns from the front on with Σ w² H ≥ V_q, or all;
 ///   VC = Σ v x / Σ v over those;   Θ = atan(H_VC / (VC − f)), the chord from the toe to the surface at VC.
 /// The front is a column's edge, not its middle, so that VC − f ≥ w/2 always. A row is a lateral place of the
-/// bucket: the mean over the ⌈w_b/w⌉ strips it covers, of those with pile. Rows nearer than `side_clearance`
-/// to a side wall do not exist.
+/// bucket: the mean over the breadth of ⌈w_b/w⌉ strips around it, each by the share of it that is covered, of those
+/// with pile. Rows lie `row_pitch` apart, as many as there is room for, symmetric about the middle; those nearer
+/// than `side_clearance` to a side wall do not exist.
 ///
 /// Deterministic. Cost: rocks times columns under a rock times faces.
 /// Source: Lindmark 2016, equations 38-40, with the index convention corrected.
@@ -51,6 +52,7 @@ struct ColumnOptions {
   double bucket_width = 3.2;     ///< w_b [m]
   double bucket_volume = 8.0;    ///< V_b [m³]
   double side_clearance = 0.10;  ///< between bucket and side wall [m]
+  double row_pitch = 0.01;       ///< from one place of the bucket to the next [m]; finer than anyone drives
 };
 
 struct Strip {
@@ -64,7 +66,6 @@ struct Strip {
 };
 
 struct Row {
-  int first_strip = 0, strips = 0;
   double y = 0;              ///< middle of the bucket [m]
   double front = 0;          ///< [m]
   double volume_centre = 0;  ///< [m]
@@ -89,7 +90,7 @@ ColumnModel column_model(std::span<const PosedRock> rocks, const ColumnGrid& gri
 ColumnModel column_model(const Eigen::MatrixXd& heights, const ColumnGrid& grid,
                          const ColumnOptions& options = {});
 
-/// Height of the pile body along x, mean over the row's strips: nx values at grid.x(i) [m].
+/// Height of the pile body along x, mean over the row's breadth: nx values at grid.x(i) [m].
 std::vector<double> contour(const ColumnModel& model, const Row& row);
 
 /// Whether a rock with this centre lies in front of the pile: on the vehicle's side of the front of the strip

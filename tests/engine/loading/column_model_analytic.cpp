@@ -24,8 +24,12 @@ Eigen::Isometry3d at(double x, double y, double z) {
 
 const ColumnGrid small{.x_min = 0, .x_max = 10, .half_width = 2, .cell = 0.25};
 // One strip is 0.25 m, the bucket four strips wide; a strip's quota is 1.6 * 0.25 / 1.0 = 0.4 m³.
-const ColumnOptions narrow{
-    .h_tol = 0.1, .n_run = 3, .bucket_width = 1.0, .bucket_volume = 1.6, .side_clearance = 0};
+const ColumnOptions narrow{.h_tol = 0.1,
+                           .n_run = 3,
+                           .bucket_width = 1.0,
+                           .bucket_volume = 1.6,
+                           .side_clearance = 0,
+                           .row_pitch = 0.25};
 
 TEST(ColumnModel, IndicesAndCentres) {
   EXPECT_EQ(small.nx(), 40);
@@ -104,7 +108,6 @@ TEST(ColumnModel, RowsAreMeansOverTheBucketsStrips) {
   heights.block(20, 8, 4, 8).setOnes();  // the left half protrudes by 1 m
   const ColumnModel model = column_model(heights, small, narrow);
   const Row& middle = model.rows[6];  // strips 6 to 9
-  EXPECT_EQ(middle.first_strip, 6);
   EXPECT_DOUBLE_EQ(middle.y, 0);
   EXPECT_DOUBLE_EQ(middle.front, 5.5);
   EXPECT_NEAR(middle.volume_centre, 6.375, 1e-13);
@@ -112,6 +115,23 @@ TEST(ColumnModel, RowsAreMeansOverTheBucketsStrips) {
   EXPECT_DOUBLE_EQ(z[19], 0);
   EXPECT_DOUBLE_EQ(z[20], 0.5);
   EXPECT_DOUBLE_EQ(z[24], 1);
+}
+
+// Between the strips' pitch a row covers shares of them: before a step of the pile's front by 1 m at y = 0 the
+// bucket, 1 m wide, has 0.5 + y of its breadth on the protruding side.
+TEST(ColumnModel, RowsFollowTheBucketContinuously) {
+  Eigen::MatrixXd heights = Eigen::MatrixXd::Zero(small.nx(), small.ny());
+  heights.bottomRows(16).setOnes();
+  heights.block(20, 8, 4, 8).setOnes();
+  ColumnOptions options = narrow;
+  options.row_pitch = 0.01;
+  const ColumnModel model = column_model(heights, small, options);
+  ASSERT_EQ(model.rows.size(), 301u);
+  for (const Row& row : model.rows) {
+    const double share = std::clamp(0.5 + row.y, 0.0, 1.0);
+    EXPECT_NEAR(row.front, 6 - share, 1e-12) << row.y;
+    EXPECT_NEAR(contour(model, row)[20], share, 1e-12) << row.y;
+  }
 }
 
 TEST(ColumnModel, AStripShortOfItsQuotaUsesAllItHas) {
@@ -176,7 +196,7 @@ TEST(ColumnModel, RowsStayClearOfTheSideWalls) {
   const ColumnModel model = column_model(heights, small, options);
   ASSERT_FALSE(model.rows.empty());
   for (const Row& row : model.rows) EXPECT_LE(std::abs(row.y) + 0.5 + 0.3, 2.0 + 1e-9);
-  EXPECT_EQ(model.rows.size(), 9u);  // |y| ≤ 1.2 on a pitch of 0.25: -1.0 to 1.0
+  EXPECT_EQ(model.rows.size(), 10u);  // |y| ≤ 1.2 on a pitch of 0.25: -1.125 to 1.125
   options.bucket_width = 4.2;
   EXPECT_TRUE(column_model(heights, small, options).rows.empty());
 }

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
-#include <drawpoint/engine/loading/responses.hpp>
-#include <drawpoint/engine/loading/run_measures.hpp>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::engine::loading;
@@ -137,6 +137,48 @@ TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
     }
   }
   EXPECT_GT(log.cycles[0].loaded_mass, 0);
+}
+
+// A cycle that breaks down, also in parts, is lost and named; the run goes on with the next, whose signals and record
+// have its number. Its share of the damage is made good by the other four.
+TEST(LoadingCycle, OutlivesACycleThatBreaksDown) {
+  Scenario scenario = small_case();
+  scenario.cycles = 5;
+  int breaks = 0;
+  bool broken = false;
+  SimulationHooks hooks;
+  hooks.look_ahead = [&](World& world) { broken = world.time() > 3 && breaks == 0; };
+  hooks.before_solve = [&](const ContactProblem&) {
+    if (!broken) return;
+    broken = ++breaks < 2;  // the step, and the first of its ten parts
+    throw SolutionBroken("a velocity is not finite");
+  };
+  const LoadingLog log = simulate(scenario, hooks);
+  ASSERT_TRUE(log.completed) << log.message;
+  EXPECT_EQ(breaks, 2);
+  EXPECT_EQ(log.numbers.at("lost_cycles"), 1);
+  EXPECT_NE(log.texts.at("lost_cycle_1").find("not finite"), std::string::npos);
+  ASSERT_EQ(log.cycles.size(), 4u);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(log.cycles[static_cast<std::size_t>(k)].number, k + 2);
+    EXPECT_GT(log.cycles[static_cast<std::size_t>(k)].loaded_mass, 0);
+  }
+  double damage = 0;
+  for (const double of_cycle : joint_damage_by_cycle(log)) damage += of_cycle;
+  EXPECT_DOUBLE_EQ(joint_damage(log), damage * 5 / 4);
+}
+
+// Of a single cycle none may be lost.
+TEST(LoadingCycle, ARunThatLosesTooManyCyclesFails) {
+  SimulationHooks hooks;
+  bool digs = false;
+  hooks.look_ahead = [&](World&) { digs = true; };
+  hooks.before_solve = [&](const ContactProblem&) {
+    if (digs) throw SolutionBroken("a velocity is not finite");
+  };
+  const LoadingLog log = simulate(small_case(), hooks);
+  EXPECT_FALSE(log.completed);
+  EXPECT_NE(log.message.find("cycle 1 broke down"), std::string::npos) << log.message;
 }
 
 // One rock under the floor, beside the lane that the machine clears, is taken away and counted; a tenth of

@@ -151,7 +151,10 @@ TEST(Planner, GammaGoesFromTheWallToTheProtrudingPlace) {
   EXPECT_EQ(place(0), model.rows.front().y);
   EXPECT_EQ(place(1), model.rows.back().y);
   EXPECT_EQ(row_for(0.5, model), static_cast<int>(std::lround(0.5 * (model.rows.size() - 1.0))));
-  EXPECT_LT(place(0.2), place(0.8));
+  // As straight as the place is fine: half a pitch.
+  const double first = model.rows.front().y, breadth = model.rows.back().y - first;
+  for (int k = 0; k <= 100; ++k)
+    EXPECT_NEAR(place(0.01 * k), first + 0.01 * k * breadth, 0.5 * model.options.row_pitch + 1e-12) << k;
 }
 
 TEST(Planner, CornersFollowTheStages) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <numbers>
 #include <stdexcept>
 

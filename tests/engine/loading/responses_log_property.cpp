@@ -6,7 +6,7 @@
 
 #include <cmath>
 #include <cstring>
-#include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <drawpoint/tests/support/told.hpp>
 #include <filesystem>
@@ -214,7 +214,7 @@ struct ForeignLog {
   std::vector<std::size_t> extents{1, 7, 1};
 
   void write(const fs::path& path) const {
-    record::Writer file(path, {"drawpoint loading log", 3});
+    record::Writer file(path, {"drawpoint loading log", 4});
     file.integer("/", "completed", 1);
     file.text("/", "message", "");
     for (const char* group : {"numbers", "texts", "cycles"}) file.group(group);
@@ -274,12 +274,13 @@ TEST(LoadingLog, CyclesThatDoNotFitAreRefused) {
   const Folder folder;
   const fs::path path = folder.path / "foreign.h5";
   const auto write_cycle = [&](std::size_t corners, const std::vector<std::size_t>& columns, double stage) {
-    record::Writer file(path, {"drawpoint loading log", 3});
+    record::Writer file(path, {"drawpoint loading log", 4});
     file.integer("/", "completed", 1);
     file.text("/", "message", "");
     for (const char* group : {"numbers", "texts", "scene/shapes"}) file.group(group);
     file.table("signals", {});
     const std::string cycle = "cycles/0000", plan = cycle + "/plan";
+    file.integer(cycle, "number", 1);
     for (const char* name : {"t_start_s", "t_end_s", "loaded_mass_kg", "front_mass_kg", "spilled_mass_kg"})
       file.number(cycle, name, 1);
     for (const char* name :

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <drawpoint/engine/loading/run_measures.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/tests/support/told.hpp>
 #include <functional>
 #include <map>
@@ -19,20 +19,35 @@ using namespace drawpoint::engine::loading;
 namespace {
 
 constexpr double h = 0.01, round_off = 1e-12;
-constexpr const char* names[] = {
-    "time",       "cycle",        "stage",           "tip_x",           "tip_z",
-    "drive_set",  "drive_speed",  "lift_speed",      "lift_force",      "tilt_speed",
-    "tilt_force", "wheel_torque", "hinge_G_force_x", "hinge_G_force_y", "hinge_G_force_z"};
+constexpr const char* names[] = {"time",
+                                 "cycle",
+                                 "stage",
+                                 "tip_x",
+                                 "tip_z",
+                                 "drive_set",
+                                 "drive_speed",
+                                 "lift_speed",
+                                 "lift_force",
+                                 "tilt_speed",
+                                 "tilt_force",
+                                 "wheel_torque",
+                                 "hinge_G_force_x",
+                                 "hinge_G_force_y",
+                                 "hinge_G_force_z",
+                                 "hinge_G_torque_x",
+                                 "hinge_G_torque_y",
+                                 "hinge_G_torque_z"};
 using Row = std::map<std::string, double>;
 
 // Two cycles of 1 s, from 0 and from 10 s, of 100 samples each; `of` gives the signals at a time within a
 // cycle, those it leaves out are 0.
 LoadingLog log_with(const std::function<Row(double t, int cycle)>& of) {
   LoadingLog log;
-  log.numbers = {{"tyre_radius", 1.0}, {"density", 4500}, {"bucket_struck_volume", 6}};
+  log.numbers = {{"tyre_radius", 1.0}, {"density", 4500}, {"bucket_struck_volume", 6}, {"pin_spacing", 2}};
   for (const char* name : names) log.signals.columns.push_back({name, "1"});
   for (int c = 1; c <= 2; ++c) {
     CycleRecord cycle;
+    cycle.number = c;
     cycle.t_start = 10 * (c - 1);
     cycle.t_end = cycle.t_start + 1;
     cycle.loaded_mass = 1000 * c;
@@ -126,6 +141,56 @@ TEST(RunMeasures, SayWhatIsMissing) {
   log.signals.columns[5].name = "something";
   support::expect_told<std::invalid_argument>([&] { wheel_slip(log); }, {"no column \"drive_set\""});
   support::expect_told<std::invalid_argument>([] { cycle_time(LoadingLog()); }, {"the log has no cycle"});
+}
+
+// One load of 60 kN down and off again is a range of 30 kN in each of two pins; twice in a cycle is 2^(1/m) of it.
+// A torque of 20 kN m about the long axis, over 2 m, adds 10 kN in one pin and takes it from the other.
+TEST(RunMeasures, PinLoadRangeOfKnownHistories) {
+  const PinFatigueOptions raw{.exponent = 3, .lowpass_hz = 0};
+  const auto on_and_off = [](double t, int times) {
+    for (int k = 1; k <= times; ++k)
+      if (std::abs(t - 0.3 * k) < 0.05) return true;
+    return false;
+  };
+  const LoadingLog once = log_with([&](double t, int) {
+    return Row{{"hinge_G_force_z", on_and_off(t, 1) ? -60e3 : 0.0}};
+  });
+  EXPECT_NEAR(pin_load_range(once, raw), 30, 30 * round_off);
+  const LoadingLog twice = log_with([&](double t, int) {
+    return Row{{"hinge_G_force_x", on_and_off(t, 2) ? 60e3 : 0.0}};
+  });
+  EXPECT_NEAR(pin_load_range(twice, raw), 30 * std::cbrt(2.0), 40 * round_off);
+  EXPECT_NEAR(pin_load_range(twice, {.exponent = 5, .lowpass_hz = 0}), 30 * std::pow(2, 0.2), 40 * round_off);
+  const LoadingLog twisted = log_with([&](double t, int cycle) {
+    const double on = on_and_off(t, 1) && cycle == 1 ? 1 : 0;
+    return Row{{"hinge_G_force_z", -60e3 * on}, {"hinge_G_torque_x", 20e3 * on}};
+  });
+  EXPECT_NEAR(pin_load_range(twisted, raw), 40 / std::cbrt(2.0), 40 * round_off);  // in one cycle of two
+}
+
+// A force that turns across the pin: the projections 15° apart find a swing along any direction to 1 − cos 7.5°, and
+// the pin's own direction does not matter.
+TEST(RunMeasures, PinLoadRangeSeesEveryDirection) {
+  for (const double degrees : {0.0, 7.5, 33.0, 90.0, 171.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const LoadingLog log = log_with([&](double t, int) {
+      const double swing = 50e3 * std::sin(2 * std::numbers::pi * t);
+      return Row{{"hinge_G_force_x", swing * std::cos(angle)}, {"hinge_G_force_z", swing * std::sin(angle)}};
+    });
+    const double range = pin_load_range(log, {.exponent = 3, .lowpass_hz = 0});
+    // A half sine up from 0, a whole range of 50 kN per pin, and half back: within one cycle and two halves of it.
+    EXPECT_GT(range, 50 * std::cos(7.5 * std::numbers::pi / 180) * std::cbrt(0.5) * (1 - round_off));
+    EXPECT_LT(range, 50 * std::cbrt(1.5));
+  }
+}
+
+TEST(RunMeasures, PinLoadRangeNamesWhatItLacks) {
+  LoadingLog log = log_with([](double, int) { return Row{}; });
+  EXPECT_EQ(pin_load_range(log), 0);
+  EXPECT_THROW(pin_load_range(log, {.exponent = 0.5}), std::invalid_argument);
+  EXPECT_THROW(pin_load_range(log, {.lowpass_hz = -1}), std::invalid_argument);
+  log.numbers.erase("pin_spacing");
+  EXPECT_THROW(pin_load_range(log), std::invalid_argument);
 }
 
 }  // namespace

@@ -19,10 +19,11 @@
 namespace drawpoint::engine::loading {
 
 struct CycleRecord {
-  double t_start = 0, t_end = 0;           ///< start of stage 1, end of stage 4 [s]
-  double loaded_mass = 0;                  ///< that the bucket carries at t_end, in its heap or on it [kg]
-  double front_mass = 0;                   ///< in front of the pile at the end of the cycle [kg]
-  double spilled_mass = 0;                 ///< of that, rocks that did not lie there before the run [kg]
+  int number = 0;                 ///< from 1; the signals' `cycle`
+  double t_start = 0, t_end = 0;  ///< start of stage 1, end of stage 4 [s]
+  double loaded_mass = 0;         ///< that the bucket carries once it stands, in its heap or on it [kg]
+  double front_mass = 0;          ///< in front of the pile at the end of the cycle [kg]
+  double spilled_mass = 0;        ///< of that, rocks that did not lie there before the run [kg]
   std::vector<double> loaded_rock_masses;  ///< [kg]
   Plan plan;
   std::vector<StageResult> stages;
@@ -60,12 +61,12 @@ struct LoadingLog {
   bool completed = false;
   std::string message;  ///< why not, or empty
   /// The scenario's parameters, and of the run: mass cleared away for the machine and of rock that left the
-  /// drift [kg], steps that had to be done again in parts, the most contact points of a step and the
-  /// iterations per substep that `iteration_budget` left for these.
+  /// drift [kg], cycles that broke down, steps that had to be done again in parts, the most contact points of a step
+  /// and the iterations per substep that `iteration_budget` left for these.
   std::map<std::string, double> numbers;
-  std::map<std::string, std::string> texts;  ///< its choices, versions
+  std::map<std::string, std::string> texts;  ///< its choices, versions, why cycles broke down
   record::Table signals;
-  std::vector<CycleRecord> cycles;
+  std::vector<CycleRecord> cycles;  ///< done, in order; a cycle that broke down has none
   SceneRecord scene;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/loading/cycle_samples.h>
 #include <cmath>
+#include <drawpoint/engine/loading/log/cycle_samples.hpp>
 #include <numbers>
 
 namespace drawpoint::engine::loading {

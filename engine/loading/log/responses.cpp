@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/loading/cycle_samples.h>
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/engine/loading/responses.hpp>
+#include <drawpoint/engine/loading/log/cycle_samples.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <numeric>
 #include <stdexcept>
 
@@ -79,7 +79,10 @@ std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOpt
 double joint_damage(const LoadingLog& log, const DamageOptions& options) {
   const std::vector<double> damage = joint_damage_by_cycle(log, options);
   if (options.sum == DamageSum::per_cycle) return mean(damage);
-  return std::accumulate(damage.begin(), damage.end(), 0.0);
+  const auto lost = log.numbers.find("lost_cycles");
+  const double done = static_cast<double>(damage.size()),
+               all = done + (lost == log.numbers.end() ? 0 : lost->second);
+  return std::accumulate(damage.begin(), damage.end(), 0.0) * (all / done);
 }
 
 std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options) {

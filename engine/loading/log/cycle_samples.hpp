@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/base/eigen.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <optional>
 #include <string>
 

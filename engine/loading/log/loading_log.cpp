@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <stdexcept>
 
@@ -12,7 +12,7 @@ using record::Reader;
 using record::Table;
 using record::Writer;
 
-const record::FileKind kind{"drawpoint loading log", 3};
+const record::FileKind kind{"drawpoint loading log", 4};
 
 std::string numbered(const std::string& group, std::size_t k) {
   std::string digits = std::to_string(k);
@@ -128,6 +128,7 @@ void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycl
   if (cycle.column_heights.size() != nx * ny)
     contradiction(group + " has " + std::to_string(cycle.column_heights.size()) + " column heights for " +
                   std::to_string(nx) + " x " + std::to_string(ny) + " columns");
+  file.integer(group, "number", cycle.number);
   visit_cycle_numbers(cycle, [&](const char* name, double value) { file.number(group, name, value); });
   visit_arrays(cycle, [&](const char* name, const std::vector<double>& values) {
     file.array(group + "/" + name, std::span(values));
@@ -139,6 +140,7 @@ void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycl
 
 CycleRecord read_cycle(const Reader& file, const std::string& group) {
   CycleRecord cycle;
+  cycle.number = static_cast<int>(file.integer(group, "number"));
   visit_cycle_numbers(cycle, [&](const char* name, double& value) { value = file.number(group, name); });
   visit_arrays(cycle, [&](const char* name, std::vector<double>& values) {
     values = file.doubles(group + "/" + name).values;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/loading_log.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <vector>
 
 /// What a run costs and how it goes, beside its responses (responses.hpp): pure functions of the run log, one
@@ -16,7 +16,12 @@
 /// than 0.05 m/s, the share of the set speed that the body lacks; the wheels' own speed is not logged, so it is
 /// slip where they turn as set and a drive at its torque limit where they do not. Gaining speed counts. 0 for a
 /// cycle that never drives forward. peak force in the pin: largest magnitude of hinge G's force, low-passed as
-/// the torque is in joint_damage; the bucket's own weight is in it. solid fill: volume of the loaded rocks,
+/// the torque is in joint_damage; the bucket's own weight is in it. pin load range: what fatigue sees of the bucket's
+/// hinge, unlike joint_damage, which sums the excess of its torque. The hinge is two pins, `pin_spacing` apart, that
+/// share force F and off-axis torque M as two simple supports do (left: F/2 and M_x / spacing, −M_z / spacing); the
+/// history of a pin's force across its axis, in directions of the bucket 15° apart, is counted by rainflow.hpp, cycle
+/// by cycle, and summed by Miner's rule; given is the range that does the same damage once per loading cycle, in the
+/// worse pin and its worst direction. solid fill: volume of the loaded rocks,
 /// without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with porosity n. struck
 /// fill: solid fill over that, with the porosity of loose_ore_porosity: what a miner calls the fill factor,
 /// 0.8 to 1.1 for loaders in well blasted ore.
@@ -34,6 +39,12 @@ std::vector<double> tracking_error_by_cycle(const LoadingLog& log);    ///< [m]
 std::vector<double> wheel_slip_by_cycle(const LoadingLog& log);        ///< [1]
 std::vector<double> peak_pin_force_by_cycle(const LoadingLog& log,
                                             double lowpass_hz = 20);  ///< [kN]; 0: no filter
+
+struct PinFatigueOptions {
+  double exponent = 3;     ///< slope of the S-N line [1]; 3 for welds (EN 1993-1-9), 5 for machined steel
+  double lowpass_hz = 20;  ///< corner [Hz]; 0: no filter
+};
+double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options = {});  ///< [kN]
 
 /// Of the run: means over the cycles.
 double cycle_time(const LoadingLog& log);

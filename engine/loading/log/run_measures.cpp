@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/engine/loading/cycle_samples.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <drawpoint/engine/loading/run_measures.hpp>
+#include <drawpoint/engine/loading/log/cycle_samples.hpp>
+#include <drawpoint/engine/loading/log/rainflow.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -70,6 +72,41 @@ double squared_distance_to_plan(const Eigen::Vector2d& p, const CycleRecord& cyc
     least = std::min(least, squared_distance_to_segment(p, {cycle.planned_x[k], cycle.planned_z[k]},
                                                         {cycle.planned_x[k + 1], cycle.planned_z[k + 1]}));
   return least;
+}
+
+void require_filter(const char* place, double lowpass_hz) {
+  if (!(lowpass_hz >= 0))
+    throw std::invalid_argument("loading::" + std::string(place) + ": lowpass_hz [Hz] is " +
+                                std::to_string(lowpass_hz) + "; give 0 (none) or more");
+}
+
+// Forces of the bucket's two pins across their axis (x, z of the bucket), per cycle and sample.
+using PinForces = std::array<std::vector<std::vector<Eigen::Vector2d>>, 2>;
+
+PinForces pin_forces(const LoadingLog& log, double lowpass_hz) {
+  const double spacing = positive_number(log, "pin_spacing", "m");
+  const CycleSamples samples(log);
+  LowPassedVector force(log, "hinge_G_force", lowpass_hz), torque(log, "hinge_G_torque", lowpass_hz);
+  PinForces forces;
+  for (auto& pin : forces) pin.resize(log.cycles.size());
+  for (std::size_t row = 0; row < samples.rows(); ++row) {
+    const Eigen::Vector3d F = force.next(samples), M = torque.next(samples);
+    const auto cycle = samples.cycle(row);
+    if (!cycle) continue;
+    const Eigen::Vector2d half(F.x() / 2, F.z() / 2), twist(-M.z() / spacing, M.x() / spacing);
+    forces[0][*cycle].emplace_back(half + twist);
+    forces[1][*cycle].emplace_back(half - twist);
+  }
+  return forces;
+}
+
+// Miner's sum of the forces' projections onto a direction [N^exponent].
+double damage_along(const Eigen::Vector2d& direction, const std::vector<Eigen::Vector2d>& forces,
+                    double exponent) {
+  std::vector<double> history;
+  history.reserve(forces.size());
+  for (const Eigen::Vector2d& force : forces) history.push_back(direction.dot(force));
+  return miner_sum(rainflow(history), exponent);
 }
 
 void require_plans(const LoadingLog& log) {
@@ -151,9 +188,7 @@ std::vector<double> wheel_slip_by_cycle(const LoadingLog& log) {
 
 std::vector<double> peak_pin_force_by_cycle(const LoadingLog& log, double lowpass_hz) {
   require_measured_cycles(log);
-  if (!(lowpass_hz >= 0))
-    throw std::invalid_argument("loading::peak_pin_force: lowpass_hz [Hz] is " + std::to_string(lowpass_hz) +
-                                "; give 0 (none) or more");
+  require_filter("peak_pin_force", lowpass_hz);
   const CycleSamples samples(log);
   LowPassedVector force(log, "hinge_G_force", lowpass_hz);
   std::vector<double> peaks(log.cycles.size());
@@ -162,6 +197,26 @@ std::vector<double> peak_pin_force_by_cycle(const LoadingLog& log, double lowpas
     if (const auto cycle = samples.cycle(row)) peaks[*cycle] = std::max(peaks[*cycle], magnitude);
   }
   return peaks;
+}
+
+double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options) {
+  require_measured_cycles(log);
+  require_filter("pin_load_range", options.lowpass_hz);
+  if (!(options.exponent >= 1 && options.exponent <= 20))
+    throw std::invalid_argument("loading::pin_load_range: exponent [1] is " +
+                                std::to_string(options.exponent) + "; give 1 to 20 (3 for welds)");
+  constexpr int directions = 12;  // over half a turn
+  double worst = 0;
+  for (const auto& pin : pin_forces(log, options.lowpass_hz))
+    for (int k = 0; k < directions; ++k) {
+      const double angle = std::numbers::pi * k / directions;
+      double damage = 0;
+      for (const auto& cycle : pin)
+        damage += damage_along({std::cos(angle), std::sin(angle)}, cycle, options.exponent);
+      worst = std::max(worst, damage);
+    }
+  const double per_cycle = worst / static_cast<double>(log.cycles.size());
+  return std::pow(per_cycle, 1 / options.exponent) / 1000;
 }
 
 double cycle_time(const LoadingLog& log) { return mean_over_cycles(cycle_time_by_cycle(log)); }

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/run_description.h>
+
+namespace drawpoint::engine::loading {
+
+void describe(const Scenario& s, const Site& site, LoadingLog& log) {
+  const Lhd& lhd = site.lhd();
+  log.numbers = {{"alpha", s.strategy.alpha},
+                 {"beta", s.strategy.beta},
+                 {"gamma", s.strategy.gamma},
+                 {"kappa", s.strategy.kappa},
+                 {"cycles", s.cycles},
+                 {"standoff", s.standoff},
+                 {"drift_length", s.drift.length},
+                 {"drift_width", s.drift.width},
+                 {"drift_height", s.drift.height},
+                 {"pile_mass", site.initial_mass()},
+                 {"rocks", static_cast<double>(site.world().rocks().size())},
+                 {"density", s.pile.density},
+                 {"payload", lhd.payload},
+                 {"bucket_struck_volume", struck_volume(lhd)},
+                 {"bucket_heaped_volume", heaped_volume(lhd)},
+                 {"pin_spacing", lhd.pin_spacing},
+                 {"tyre_radius", lhd.tyre_radius},
+                 {"rock_friction", s.materials.rock_rock.friction},
+                 {"rock_rolling", s.materials.rock_rock.rolling},
+                 {"rock_spinning", s.materials.rock_rock.spinning},
+                 {"steel_friction", s.materials.rock_steel.friction},
+                 {"steel_rolling", s.materials.rock_steel.rolling},
+                 {"step", s.world.step},
+                 {"substeps", s.world.solver.substeps},
+                 {"iterations", s.world.solver.iterations},
+                 {"iteration_budget", s.world.solver.iteration_budget},
+                 {"tolerance", s.world.solver.tolerance},
+                 {"warm_start", s.world.warm_start},
+                 {"freezing", s.world.freezing.on ? 1.0 : 0.0},
+                 {"freezing_tolerance", s.world.freezing.tolerance},
+                 {"set_drive_in", s.executor.speeds.drive_in},
+                 {"set_lift", s.executor.speeds.lift},
+                 {"set_curl", s.executor.speeds.curl},
+                 {"drive_acceleration", s.executor.speeds.limits.drive_acceleration},
+                 {"set_back_out", s.executor.speeds.back_out},
+                 {"most_pulses", s.executor.moves.most_pulses},
+                 {"held_up", s.executor.moves.held_up},
+                 {"pulse", s.executor.moves.pulse},
+                 {"pulse_boom", s.executor.moves.pulse_rates.boom},
+                 {"pulse_tilt", s.executor.moves.pulse_rates.tilt},
+                 {"press", s.executor.moves.press ? 1.0 : 0.0},
+                 {"crowd", s.executor.moves.crowd},
+                 {"curl_hold", s.executor.moves.curl_hold},
+                 {"wheel_torque_limit", s.machine.wheel_torque},
+                 {"engine_power", s.machine.drive_line.engine_power},
+                 {"lift_cylinder_limit", s.machine.lift_cylinder_force},
+                 {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
+  log.texts = {{"machine", "Sandvik LH621 class"},
+               {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
+               {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
+               {"seed", std::to_string(s.seed)},
+               {"lift", s.lift == LiftGoal::behind_surface ? "behind surface" : "along slope"},
+               {"version", DRAWPOINT_VERSION}};
+}
+
+}  // namespace drawpoint::engine::loading
