@@ -96,6 +96,13 @@ double LhdDriver::wheel_torque() const {
   return sum;
 }
 
+double LhdDriver::wheel_power() const {
+  double sum = 0;
+  for (int k = 0; k < 4; ++k)
+    sum += machine_.motor_force(lhd_.wheel_motors[k]) * machine_.speed(lhd_.wheels[k]);
+  return sum;
+}
+
 double LhdDriver::lift_speed() const {
   return machine_.speed(lhd_.spec.motors[lhd_.lift_motor].bodies.front());
 }

@@ -51,6 +51,7 @@ class LhdDriver {
   double lift_force() const;    ///< sum of the lift motors in the last step [N] or [N m]
   double tilt_force() const;    ///< [N] or [N m]
   double wheel_torque() const;  ///< sum over the wheels [N m]
+  double wheel_power() const;   ///< what their motors give, turning or spinning [W]
   double lift_speed() const;    ///< of the first lift motor's joint [m/s] or [rad/s]
   double tilt_speed() const;
 

@@ -40,6 +40,10 @@ class LoadingRun {
     log_.numbers["lost_cycles"] = lost_;
     log_.numbers["cleared_mass"] = cleared_;
     log_.numbers["escaped_mass"] = escaped_;
+    log_.numbers["emitted_mass"] = site_.emitted_mass();
+    log_.numbers["present_mass"] = site_.present_mass();
+    log_.numbers["largest_overlap"] = largest_overlap_;
+    log_.numbers["largest_loop_error"] = largest_loop_error_;
     log_.numbers["repeated_steps"] = static_cast<double>(repeated_);
     log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
     log_.numbers["most_iterations_per_substep"] =
@@ -83,7 +87,8 @@ class LoadingRun {
   long steps_ = 0, repeated_ = 0;
   int lost_ = 0;  // cycles
   std::size_t most_points_ = 0;
-  std::vector<bool> in_front_before_;  // by rock, before the machine first came
+  double largest_overlap_ = 0, largest_loop_error_ = 0;  // over the cycles [m]
+  std::vector<bool> in_front_before_;                    // by rock, before the machine first came
 };
 
 ColumnModel LoadingRun::columns(bool with_bucket) const {
@@ -196,6 +201,8 @@ bool LoadingRun::execute(CycleRecord& record) {
     site_.driver().command(set, executor.drive_share());
     const auto log_signals = [&](const engine::StepReport& report) {
       signals_.append(site_, record.number, executor, set, report);
+      largest_overlap_ = std::max(largest_overlap_, report.max_overlap);
+      largest_loop_error_ = std::max(largest_loop_error_, site_.machine().loop_error());
     };
     if (site_.missing_mass() > 0) site_.refill();
     if (hooks_.look_ahead) hooks_.look_ahead(site_.world());

@@ -26,6 +26,9 @@ SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints) {
     table_.columns.push_back({std::string(axis) + "_force", cylinders ? "N" : "N m"});
   }
   table_.columns.push_back({"wheel_torque", "N m"});
+  table_.columns.push_back({"wheel_power", "W"});
+  table_.columns.push_back({"machine_energy", "J"});
+  table_.columns.push_back({"rock_energy", "J"});
   table_.columns.push_back({"contacts", "1"});
   table_.columns.push_back({"solver_change", "1"});
   table_.columns.push_back({"overlap", "m"});
@@ -67,6 +70,9 @@ void SignalRecorder::append(const Site& site, int cycle, const Executor& executo
           d.tilt_speed(),
           d.tilt_force(),
           d.wheel_torque(),
+          d.wheel_power(),
+          site.machine_energy(),
+          site.rock_energy(),
           double(report.points),
           report.last_change,
           report.max_overlap};

@@ -37,6 +37,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
     specs_.push_back(rock.spec);
   }
   initial_mass_ = granular::present_mass(world_);
+  initial_rocks_ = specs_.size();
 }
 
 std::vector<PosedRock> Site::rocks(bool with_bucket) const {
@@ -103,7 +104,24 @@ double Site::place_machine(double tip_x, double y, double back) {
   return cleared;
 }
 
-double Site::missing_mass() const { return initial_mass_ - granular::present_mass(world_); }
+double Site::present_mass() const { return granular::present_mass(world_); }
+
+double Site::missing_mass() const { return initial_mass_ - present_mass(); }
+
+double Site::emitted_mass() const {
+  double sum = 0;
+  for (std::size_t k = initial_rocks_; k < world_.rocks().size(); ++k) sum += world_.rocks()[k].body.mass;
+  return sum;
+}
+
+double Site::machine_energy() const { return machine_.energy(world_.options().gravity); }
+
+double Site::rock_energy() const {
+  double energy = world_.kinetic_energy();
+  for (const engine::Rock& rock : world_.rocks())
+    if (rock.present) energy -= rock.body.mass * world_.options().gravity.dot(rock.pose.translation());
+  return energy;
+}
 
 bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_mass()).empty(); }
 

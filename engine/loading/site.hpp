@@ -51,6 +51,10 @@ class Site {
   double missing_mass() const;  ///< [kg]; at most 0 when the drift holds what it held at the start
 
   double initial_mass() const { return initial_mass_; }
+  double present_mass() const;    ///< of the rocks that are in the drift [kg]
+  double emitted_mass() const;    ///< that came down the raise so far [kg]
+  double machine_energy() const;  ///< kinetic and potential, over z = 0 [J]
+  double rock_energy() const;     ///< the same of all rocks that are present [J]
   /// Takes away rocks that lie outside the drift; returns their mass [kg].
   double remove_escaped();
   /// Empty, or which value of the state is not finite.
@@ -66,6 +70,7 @@ class Site {
   granular::Emitter emitter_;
   std::vector<granular::RockSpec> specs_;
   double initial_mass_ = 0;
+  std::size_t initial_rocks_ = 0;
 };
 
 }  // namespace drawpoint::engine::loading
