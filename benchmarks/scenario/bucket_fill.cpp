@@ -10,6 +10,7 @@
 #include "cycle_run.hpp"
 #include "each_seed.hpp"
 #include "estimate.hpp"
+#include "interrupt.hpp"
 #include "loading_flags.hpp"
 #include "setting.hpp"
 
@@ -28,7 +29,8 @@ constexpr const char* about =
     "how many\n"
     "drive-ins and lifts reached their goal before the stuck rule ended them, and the responses (means of "
     "the runs).\n"
-    "Piles are poured with the materials given and kept in FOLDER.\n\n"
+    "Piles are poured with the materials given and kept in FOLDER. After Ctrl-C the runs that are done are "
+    "printed.\n\n"
     "  bucket_fill --piles /tmp/piles                        alpha 0.3, 1 and 1.6 on six piles\n"
     "  bucket_fill --piles /tmp/old --materials lindmark2016 the same with the tables of Lindmark (2016)\n"
     "  bucket_fill --piles /tmp/old --materials lindmark2016 --setting 10x1x150 --cold\n"
@@ -51,6 +53,7 @@ struct Cycle {
   bool drive_in_done = false, lift_done = false;
 };
 
+// Without failure and without cycles: not made.
 struct Result {
   std::string failure;  // why there is nothing else
   std::vector<Cycle> cycles;
@@ -80,7 +83,6 @@ void solve_as_told(Scenario& scenario, const Settings& s) {
 // Empty: none is kept.
 std::filesystem::path log_file(const Settings& s, int seed, double alpha) {
   if (s.logs.empty()) return {};
-  std::filesystem::create_directories(s.logs);
   char name[64];
   std::snprintf(name, sizeof name, "alpha_%g_seed_%d.h5", alpha, seed);
   return std::filesystem::path(s.logs) / name;
@@ -89,7 +91,7 @@ std::filesystem::path log_file(const Settings& s, int seed, double alpha) {
 Result result_of(const LoadingLog& log) {
   Result result;
   if (!log.completed) {
-    result.failure = log.message;
+    if (!interrupted()) result.failure = log.message;
     return result;
   }
   for (const CycleRecord& c : log.cycles)
@@ -106,33 +108,50 @@ Result result_of(const LoadingLog& log) {
   return result;
 }
 
+void tell(int seed, double alpha, const Result& result) {
+  if (!result.failure.empty())
+    std::fprintf(stderr, "seed %d, alpha %g failed: %s\n", seed, alpha, result.failure.c_str());
+  else if (!result.cycles.empty())
+    std::fprintf(stderr, "seed %d, alpha %g: %.0f kg in the first cycle, %.1f kg/s\n", seed, alpha,
+                 result.cycles.front().loaded, result.production);
+}
+
 struct Study {
-  std::vector<PileShape> piles;              // by seed
+  std::vector<PileShape> piles;              // that were poured
   std::vector<std::vector<Result>> results;  // by alpha, by seed
 };
+
+// One pile and its runs, into the place of its seed.
+void run_pile(const Settings& s, int seed, Study& out) {
+  const auto k = static_cast<std::size_t>(seed - 1);
+  Scenario scenario = with_pile(scenario_of(s), s.piles, seed);
+  const SettledPile pile = prepared_pile(scenario, [](double) { end_if_interrupted(); });
+  out.piles[k] = pile_shape(pile, scenario);
+  solve_as_told(scenario, s);
+  SimulationHooks hooks;
+  hooks.on_step = [](const engine::StepReport&) { end_if_interrupted(); };
+  for (std::size_t a = 0; a < s.alphas.size() && !interrupted(); ++a) {
+    scenario.strategy.alpha = s.alphas[a];
+    scenario.seed = static_cast<std::uint64_t>(seed);
+    scenario.log_file = log_file(s, seed, s.alphas[a]);
+    out.results[a][k] = result_of(simulate(scenario, pile, hooks));
+    tell(seed, s.alphas[a], out.results[a][k]);
+  }
+}
 
 Study study(const Settings& s) {
   const auto n = static_cast<std::size_t>(s.seeds);
   Study out{std::vector<PileShape>(n), std::vector(s.alphas.size(), std::vector<Result>(n))};
+  if (!s.logs.empty()) std::filesystem::create_directories(s.logs);  // before anything is poured
   each_seed(s.seeds, s.jobs, [&](int seed) {
-    const auto k = static_cast<std::size_t>(seed - 1);
-    Scenario scenario = with_pile(scenario_of(s), s.piles, seed);
-    const SettledPile pile = prepared_pile(scenario);
-    out.piles[k] = pile_shape(pile, scenario);
-    solve_as_told(scenario, s);
-    for (std::size_t a = 0; a < s.alphas.size(); ++a) {
-      scenario.strategy.alpha = s.alphas[a];
-      scenario.seed = static_cast<std::uint64_t>(seed);
-      scenario.log_file = log_file(s, seed, s.alphas[a]);
-      out.results[a][k] = result_of(simulate(scenario, pile));
-      const Result& result = out.results[a][k];
-      if (result.failure.empty())
-        std::fprintf(stderr, "seed %d, alpha %g: %.0f kg, %.1f kg/s\n", seed, s.alphas[a],
-                     result.cycles.front().loaded, result.production);
-      else
-        std::fprintf(stderr, "seed %d, alpha %g failed: %s\n", seed, s.alphas[a], result.failure.c_str());
+    try {
+      run_pile(s, seed, out);
+    } catch (const std::exception&) {
+      if (!interrupted()) throw;
     }
   });
+  std::erase_if(out.piles, [](const PileShape& pile) { return pile.mass == 0; });
+  if (out.piles.empty()) throw std::runtime_error("interrupted before a pile was poured; nothing is kept");
   return out;
 }
 
@@ -145,7 +164,7 @@ nlohmann::json row(double alpha, const std::vector<Result>& runs) {
   int drive_ins = 0, lifts = 0, failed = 0;
   for (const Result& run : runs) {
     failed += !run.failure.empty();
-    if (!run.failure.empty()) continue;
+    if (run.cycles.empty()) continue;
     for (const Cycle& c : run.cycles) {
       loaded.push_back(c.loaded);
       depth.push_back(c.depth);
@@ -159,6 +178,7 @@ nlohmann::json row(double alpha, const std::vector<Result>& runs) {
     damage.push_back(run.damage);
     spill.push_back(run.spill);
   }
+  if (loaded.empty()) return {{"alpha", alpha}, {"failed", failed}, {"cycles", 0}};
   return {{"alpha", alpha},
           {"failed", failed},
           {"cycles", loaded.size()},
@@ -202,7 +222,8 @@ nlohmann::json described(const Settings& s) {
 }
 
 nlohmann::json as_json(const Settings& s, const Study& study) {
-  nlohmann::json out{{"seeds", s.seeds}, {"scenario", described(s)}, {"rows", nlohmann::json::array()}};
+  nlohmann::json out{
+      {"seeds", study.piles.size()}, {"scenario", described(s)}, {"rows", nlohmann::json::array()}};
   std::vector<double> angle, crest, mass;
   for (const PileShape& p : study.piles) {
     angle.push_back(p.surface.mean * 180 / M_PI);
@@ -247,6 +268,10 @@ void print_table(const nlohmann::json& j) {
               "depth (of) m", "drive-ins", "lifts", "cycle s", "production kg/s", "damage s", "spill");
   for (const nlohmann::json& r : j.at("rows")) {
     const int cycles = r.at("cycles").get<int>();
+    if (cycles == 0) {
+      std::printf("%6.2f no run came to its end\n", number(r, "alpha"));
+      continue;
+    }
     std::printf(
         "%6.2f %6d %6.2f +- %4.2f %6.0f %5.2f (%5.2f) %5d/%-3d %2d/%-3d %7.1f %8.0f +- %4.0f %8.2f %8.3f\n",
         number(r, "alpha"), cycles, number(r, "loaded_kg") / 1e3, number(r, "loaded_deviation_kg") / 1e3,
@@ -306,5 +331,9 @@ int main(int argc, char** argv) {
       ->check(between(1, 256, "", "no more than there are cores"))
       ->capture_default_str();
   add_json_flag(app, s.json);
-  return run_command(app, argc, argv, [&] { return show(as_json(s, study(s)), s.json, print_table); });
+  return run_command(app, argc, argv, [&] {
+    watch_for_interrupt();
+    const int code = show(as_json(s, study(s)), s.json, print_table);
+    return interrupted() ? interrupted_exit : code;
+  });
 }
