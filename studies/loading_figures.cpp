@@ -70,17 +70,19 @@ json stage_paths(const LoadingLog& log, Rows rows, std::size_t stride) {
   return stages;
 }
 
+std::string name_of(const CycleRecord& cycle) { return "Cycle " + std::to_string(cycle.number); }
+
 json path_panel(const LoadingLog& log, const CycleRecord& cycle) {
   const Rows rows = rows_of(log, cycle.number);
   const std::size_t stride = 4;
   return {{"type", "path"},
           {"title", "Planned and actual path of the cutting edge"},
-          {"caption",
-           "First cycle of the run shown, from the side. The pile's contour is the mean over the attacked "
-           "strips before the "
-           "cycle; planned depth " +
-               fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) + " m, slope " +
-               fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
+          {"caption", name_of(cycle) +
+                          " of the run shown, from the side. The pile's contour is the mean over the "
+                          "bucket's breadth before "
+                          "the cycle; planned depth " +
+                          fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) +
+                          " m, slope " + fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
           {"x_label", "along the drift [m]"},
           {"z_label", "height [m]"},
           {"contour", {{"x", rounded(cycle.contour_x)}, {"z", rounded(cycle.contour_z)}}},
@@ -111,7 +113,7 @@ json poses_of(const engine::loading::SceneFrame& frame) {
   return poses;
 }
 
-// The first cycle's frames; the poster shows the bucket as it breaks out.
+// The cycle's frames; the poster shows the bucket as it breaks out.
 json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
   json shapes = json::array(), bodies = json::array(), frames = json::array();
   for (const auto& shape : log.scene.shapes) shapes.push_back(shape_of(shape));
@@ -128,17 +130,18 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
         {{"t", rounded(frame.t - cycle.t_start)}, {"label", frame.label}, {"poses", poses_of(frame)}});
   }
   const double toe = cycle.plan.toe;
-  return {{"type", "scene"},
-          {"title", "The machine in the drift"},
-          {"caption",
-           "First cycle of the run shown: drag to turn, wheel to zoom, play to watch it load. Walls and roof "
-           "are drawn "
+  return {
+      {"type", "scene"},
+      {"title", "The machine in the drift"},
+      {"caption",
+       name_of(cycle) +
+           " of the run shown: drag to turn, wheel to zoom, play to watch it load. Walls and roof are drawn "
            "transparent."},
-          {"shapes", shapes},
-          {"bodies", bodies},
-          {"frames", frames},
-          {"camera", {{"eye", {toe - 3.5, -11.0, 5.5}}, {"target", {toe - 1.2, 0.0, 1.3}}}},
-          {"poster_frame", poster}};
+      {"shapes", shapes},
+      {"bodies", bodies},
+      {"frames", frames},
+      {"camera", {{"eye", {toe - 3.5, -11.0, 5.5}}, {"target", {toe - 1.2, 0.0, 1.3}}}},
+      {"poster_frame", poster}};
 }
 
 json line(const LoadingLog& log, Rows rows, std::size_t stride, const char* signal, const char* label,
@@ -154,20 +157,21 @@ json forces_panel(const LoadingLog& log, const CycleRecord& cycle) {
   const Rows rows = rows_of(log, cycle.number);
   const std::size_t stride = 4;
   const bool cylinders = log.texts.at("arm_drive") == "cylinders";
-  return {{"type", "lines"},
-          {"title", "Drive forces and the torque in hinge G"},
-          {"caption",
-           "First cycle of the run shown. The two torque components twist the bucket on its pin. Damage "
-           "integrates the excess "
-           "of the torque over the yield torque of 145 kN m, low-passed at 20 Hz, relative to it."},
-          {"x_label", "time [s]"},
-          {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
-          {"series",
-           {line(log, rows, stride, "lift_force", "lift", 1e-3),
-            line(log, rows, stride, "tilt_force", "tilt", 1e-3),
-            line(log, rows, stride, "wheel_torque", "wheels, sum [kN m]", 1e-3),
-            line(log, rows, stride, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
-            line(log, rows, stride, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)}}};
+  return {
+      {"type", "lines"},
+      {"title", "Drive forces and the torque in hinge G"},
+      {"caption",
+       name_of(cycle) +
+           " of the run shown. The two torque components twist the bucket on its pin. Damage integrates the "
+           "excess of the torque over the yield torque of 145 kN m, low-passed at 20 Hz, relative to it."},
+      {"x_label", "time [s]"},
+      {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
+      {"series",
+       {line(log, rows, stride, "lift_force", "lift", 1e-3),
+        line(log, rows, stride, "tilt_force", "tilt", 1e-3),
+        line(log, rows, stride, "wheel_torque", "wheels, sum [kN m]", 1e-3),
+        line(log, rows, stride, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
+        line(log, rows, stride, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)}}};
 }
 
 json cycles_panel(const LoadingLog& log) {

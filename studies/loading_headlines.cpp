@@ -29,20 +29,21 @@ std::string percent(double share) {
 /// What the runs tell of one response.
 struct Scatter {
   double squares = 0;  ///< sum of the squared deviations from each run's own mean
-  long freedoms = 0;
-  std::size_t cycles = 0;  ///< of a run
+  long freedoms = 0, runs = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
   void add(const std::vector<double>& by_cycle, double response) {
-    cycles = by_cycle.size();
-    const double n = static_cast<double>(cycles);
+    const double n = static_cast<double>(by_cycle.size());
     double mean = 0;
     for (const double value : by_cycle) mean += value / n;
     for (const double value : by_cycle) squares += (value - mean) * (value - mean);
-    freedoms += static_cast<long>(cycles) - 1;
+    freedoms += static_cast<long>(by_cycle.size()) - 1;
+    ++runs;
     least = std::min(least, response);
     most = std::max(most, response);
   }
+  /// Of a run, in the mean: a run may have lost some.
+  double cycles() const { return static_cast<double>(freedoms + runs) / static_cast<double>(runs); }
 };
 
 enum class Over { mean, sum };
@@ -90,13 +91,13 @@ Headline noise_of(const std::string& response, const std::string& unit, const Sc
   const std::string name = "noise_of_" + response;
   if (s.freedoms == 0)
     return {name, unit, std::nan(""), "runs of one cycle tell no noise; take --cycles 2 or more"};
-  const double n = static_cast<double>(s.cycles),
-               of_cycle = std::sqrt(s.squares / static_cast<double>(s.freedoms)),
+  const double n = s.cycles(), of_cycle = std::sqrt(s.squares / static_cast<double>(s.freedoms)),
                value = over == Over::mean ? of_cycle / std::sqrt(n) : of_cycle * std::sqrt(n);
   const std::string share =
       s.most > s.least ? ", " + percent(value / (s.most - s.least)) + " of the range of the runs" : "";
   return {name, unit, value,
-          "standard error of a run, from the scatter of its " + std::to_string(s.cycles) + " cycles" + share};
+          "standard error of a run, from the scatter of its " + std::to_string(std::lround(n)) + " cycles" +
+              share};
 }
 
 /// Of a run: what is summed over the runs, and what that is shared among.

@@ -123,6 +123,7 @@ struct Study {
 
 // One pile and its runs, into the place of its seed.
 void run_pile(const Settings& s, int seed, Study& out) {
+  if (interrupted()) return;
   const auto k = static_cast<std::size_t>(seed - 1);
   Scenario scenario = with_pile(scenario_of(s), s.piles, seed);
   const SettledPile pile = prepared_pile(scenario, [](double) { end_if_interrupted(); });
@@ -211,6 +212,7 @@ nlohmann::json described(const Settings& s) {
               {"beta", s.strategy.beta},
               {"gamma", s.strategy.gamma},
               {"kappa", s.strategy.kappa},
+              {"scene", s.pile.scene},
               {"sizes", s.pile.sizes},
               {"cycles", s.cycles},
               {"speeds", s.operation.speeds},

@@ -46,7 +46,7 @@ double processor_seconds() {
 }
 
 Scenario scenario_of(const Settings& s) {
-  Scenario scenario = s.scene == "small" ? lh621_in_a_drift() : lh621_at_lindmark2016_scale();
+  Scenario scenario = scene_named(s.scene);
   scenario.cycles = s.cycles;
   scenario.strategy = {1.2, 0.8, 0.8, 0.2};
   scenario.pile_file = s.pile;
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
   CLI::App app(about, "loading_cycle");
   app.add_option("PILE_FILE", s.pile, "where the pile is kept; poured when missing")->required();
   app.add_option("--scene", s.scene, "small (the default scene) or lindmark2016 (full scale)")
-      ->check(CLI::IsMember({"small", "lindmark2016"}))
+      ->check(CLI::IsMember(std::vector<std::string>(scene_names.begin(), scene_names.end())))
       ->capture_default_str();
   app.add_option("--cycles", s.cycles, "of one run, each from the pile that the last one left")
       ->check(between(1, 1000, "", "1 to 5 are usual"))

@@ -55,7 +55,7 @@ const std::vector<Measure>& measures() {
   static const std::vector<Measure> all{
       {"production_kg_s", "production", 0, [](const LoadingLog& log) { return production(log); }},
       {"joint_damage_s", "damage", 2,
-       [](const LoadingLog& log) { return joint_damage(log) / static_cast<double>(log.cycles.size()); }},
+       [](const LoadingLog& log) { return joint_damage(log, {.sum = DamageSum::per_cycle}); }},
       {"rock_spill", "spill", 3, [](const LoadingLog& log) { return rock_spill(log); }},
       {"fill_factor", "fill", 3, fill_factor},
       {"struck_fill", "struck", 2, struck_fill},
@@ -99,15 +99,16 @@ Scenario scenario_of(const Settings& s) {
 
 struct Run {
   bool failed = false;
-  std::vector<double> values;  // by measure; empty if it failed or was not made
+  int lost = 0;                     // cycles
+  std::vector<double> values = {};  // by measure; empty if it failed or was not made
 };
 
 Run run_of(const LoadingLog& log, const std::string& name) {
   if (!log.completed) {
     if (!interrupted()) std::fprintf(stderr, "%s failed: %s\n", name.c_str(), log.message.c_str());
-    return {.failed = !interrupted(), .values = {}};
+    return {.failed = !interrupted()};
   }
-  Run run;
+  Run run{.lost = static_cast<int>(log.numbers.at("lost_cycles"))};
   for (const Measure& m : measures()) run.values.push_back(m.of(log));
   std::fprintf(stderr, "%s: %.0f kg/s, fill %.2f\n", name.c_str(), run.values[0], run.values[3]);
   return run;
@@ -142,9 +143,10 @@ std::vector<std::vector<Run>> sweep(const Settings& s) {
 
 nlohmann::json row_as_json(double value, const std::vector<Run>& runs) {
   nlohmann::json row{{"value", value}};
-  int failed = 0, made = 0;
-  for (const Run& run : runs) failed += run.failed, made += !run.values.empty();
+  int failed = 0, made = 0, lost = 0;
+  for (const Run& run : runs) failed += run.failed, made += !run.values.empty(), lost += run.lost;
   row["failed"] = failed;
+  row["lost_cycles"] = lost;
   row["runs"] = made;
   for (std::size_t m = 0; m < measures().size(); ++m) {
     std::vector<double> values;
@@ -163,6 +165,7 @@ nlohmann::json as_json(const Settings& s, const std::vector<std::vector<Run>>& r
                      {"speeds", s.operation.speeds},
                      {"operator", in_words(s.operation)},
                      {"pile_kg", scenario_of(s).pile.mass},
+                     {"scene", s.pile.scene},
                      {"sizes", s.pile.sizes},
                      {"alpha", s.strategy.alpha},
                      {"beta", s.strategy.beta},
@@ -194,13 +197,13 @@ void print_table(const nlohmann::json& j) {
               j.at("sizes").get<std::string>().c_str(), j.at("cycles").get<int>(),
               j.at("variable").get<std::string>().c_str());
   for (const Measure& m : measures()) std::printf(" %16s", m.title);
-  std::printf(" %7s\n", "failed");
+  std::printf(" %7s %11s\n", "failed", "lost cycles");
   for (const nlohmann::json& row : j.at("rows")) {
     std::printf("%8.3f", row.at("value").get<double>());
     for (const Measure& m : measures())
       std::printf(" %16s",
                   plus_minus(row.at(m.key).at("mean"), row.at(m.key).at("half_width"), m.digits).c_str());
-    std::printf(" %7d\n", row.at("failed").get<int>());
+    std::printf(" %7d %11d\n", row.at("failed").get<int>(), row.at("lost_cycles").get<int>());
   }
 }
 

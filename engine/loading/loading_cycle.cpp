@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/load_booking.h>
 #include <drawpoint/engine/loading/run_description.h>
 #include <drawpoint/engine/loading/scene_recorder.h>
 #include <drawpoint/engine/loading/signals.h>
@@ -35,7 +36,8 @@ class LoadingRun {
 
   LoadingLog run() {
     bool goes_on = true;
-    for (int cycle = 1; goes_on && cycle <= scenario_.cycles; ++cycle) goes_on = attempt(cycle);
+    for (int cycle = 1; goes_on && cycle <= scenario_.cycles; ++cycle)
+      goes_on = attempt(cycle) && (cycle == scenario_.cycles || replenish(cycle));
     log_.completed = goes_on;
     log_.numbers["lost_cycles"] = lost_;
     log_.numbers["cleared_mass"] = cleared_;
@@ -57,6 +59,9 @@ class LoadingRun {
   bool attempt(int cycle);
   bool run_cycle(CycleRecord& record);
   bool give_up(const CycleRecord& record, const std::string& message);
+  bool replenish(int cycle);
+  std::string time() const { return "t = " + std::to_string(site_.world().time()) + " s"; }
+  void call(const std::function<void()>& hook);
   Plan plan(CycleRecord& record) const;
   bool stand();
   bool execute(CycleRecord& record);
@@ -73,8 +78,6 @@ class LoadingRun {
   ColumnModel columns(bool with_bucket) const;
   PlannerOptions planner_options() const;
   void look_at_pile();
-  std::vector<bool> rocks_in_front(const ColumnModel& model) const;
-  void book(CycleRecord& record);
 
   Scenario scenario_;
   SimulationHooks hooks_;
@@ -86,6 +89,7 @@ class LoadingRun {
   double escaped_ = 0;  // mass [kg]
   long steps_ = 0, repeated_ = 0;
   int lost_ = 0;  // cycles
+  bool caller_failed_ = false;
   std::size_t most_points_ = 0;
   double largest_overlap_ = 0, largest_loop_error_ = 0;  // over the cycles [m]
   std::vector<bool> in_front_before_;                    // by rock, before the machine first came
@@ -153,10 +157,17 @@ bool LoadingRun::look_for_trouble() {
   return trouble.empty() || fail(trouble);
 }
 
+// What the caller throws ends the run, and not a cycle alone.
+void LoadingRun::call(const std::function<void()>& hook) {
+  caller_failed_ = true;
+  hook();
+  caller_failed_ = false;
+}
+
 // One step of the world; `record` sees its report before the state is checked.
 bool LoadingRun::step(const std::function<void(const engine::StepReport&)>& record) {
   const engine::StepReport report = advance();
-  if (hooks_.on_step) hooks_.on_step(report);
+  if (hooks_.on_step) call([&] { hooks_.on_step(report); });
   most_points_ = std::max(most_points_, static_cast<std::size_t>(report.points));
   if (record) record(report);
   return ++steps_ % trouble_interval != 0 || look_for_trouble();
@@ -205,7 +216,7 @@ bool LoadingRun::execute(CycleRecord& record) {
       largest_loop_error_ = std::max(largest_loop_error_, site_.machine().loop_error());
     };
     if (site_.missing_mass() > 0) site_.refill();
-    if (hooks_.look_ahead) hooks_.look_ahead(site_.world());
+    if (hooks_.look_ahead) call([&] { hooks_.look_ahead(site_.world()); });
     if (!step(log_signals)) return false;
   }
   site_.driver().command({});
@@ -216,39 +227,11 @@ bool LoadingRun::execute(CycleRecord& record) {
 // As it lies before the machine comes.
 void LoadingRun::look_at_pile() {
   const ColumnModel model = columns(true);
-  in_front_before_ = rocks_in_front(model);
+  in_front_before_ = rocks_in_front(site_, model);
   if (model.rows.empty()) return;
   const SurfaceAngles surface = surface_angles(model);
   log_.numbers["pile_angle_deg"] = surface.mean * 180 / M_PI;
   log_.numbers["pile_crest"] = surface.crest;
-}
-
-std::vector<bool> LoadingRun::rocks_in_front(const ColumnModel& model) const {
-  std::vector<bool> in_front;
-  for (const engine::Rock& rock : site_.world().rocks())
-    in_front.push_back(rock.present && lies_in_front(model, rock.pose.translation()));
-  return in_front;
-}
-
-// What the bucket carries, and what is left in front of the pile; what lies elsewhere on the machine counts as
-// left, and is taken away with it.
-void LoadingRun::book(CycleRecord& record) {
-  std::vector<bool> in_front = rocks_in_front(columns(false));
-  const Site::Load load = site_.load(in_front);
-  for (int rock : load.in_bucket) {
-    record.loaded_rock_masses.push_back(site_.world().rocks()[static_cast<std::size_t>(rock)].body.mass);
-    in_front[static_cast<std::size_t>(rock)] = false;
-  }
-  record.loaded_mass = site_.mass_of(load.in_bucket);
-  for (std::size_t k = 0; k < in_front.size(); ++k) {
-    if (!in_front[k]) continue;
-    const double mass = site_.world().rocks()[k].body.mass;
-    record.front_mass += mass;
-    if (k >= in_front_before_.size() || !in_front_before_[k]) record.spilled_mass += mass;
-  }
-  cleared_ += site_.mass_of(load.elsewhere);
-  site_.remove(load.in_bucket);
-  site_.remove(load.elsewhere);
 }
 
 // Once it stands, so that what falls off it, or hopped in it, lies still.
@@ -256,7 +239,7 @@ bool LoadingRun::weigh(CycleRecord& record) {
   for (double t = 0; t < weighing_time; t += site_.world().options().step)
     if (!step()) return false;
   scene_.frame(site_, record.number, "end of cycle");
-  book(record);
+  cleared_ += book_load(site_, columns(false), in_front_before_, record);
   return true;
 }
 
@@ -267,21 +250,35 @@ bool LoadingRun::attempt(int cycle) {
   try {
     return run_cycle(record);
   } catch (const std::exception& error) {
-    return give_up(record, "cycle " + std::to_string(cycle) + " broke down at t = " +
-                               std::to_string(site_.world().time()) + " s: " + error.what());
+    return give_up(record,
+                   "cycle " + std::to_string(cycle) + " broke down at " + time() + ": " + error.what());
   }
 }
 
-// The cycle is lost, not the run: the machine is put back, what it carried falls, the pile comes to rest.
+// The cycle is lost, not the run: the machine is put back, and what it carried is taken away.
 bool LoadingRun::give_up(const CycleRecord& record, const std::string& message) {
   ++lost_;
   log_.texts["lost_cycle_" + std::to_string(record.number)] = message;
-  if (!record.plan.feasible || cycles_per_lost_one * lost_ > scenario_.cycles) return fail(message);
+  if (caller_failed_ || !record.plan.feasible || cycles_per_lost_one * lost_ > scenario_.cycles)
+    return fail(message);
   try {
-    cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
+    const ColumnModel model = columns(false);
+    CycleRecord unused;
+    const double carried = book_load(site_, model, in_front_before_, unused) + unused.loaded_mass;
+    cleared_ += carried + site_.place_machine(record.plan.corners[0].x, record.plan.y);
+    return true;
+  } catch (const std::exception& error) {
+    return fail(message + "; the machine could not be put back: " + error.what());
+  }
+}
+
+// Rock comes down the raise until the drift holds its first mass again, and comes to rest.
+bool LoadingRun::replenish(int cycle) {
+  try {
     return refill() && wait_for_rest();
   } catch (const std::exception& error) {
-    return fail(message + "; the pile did not come to rest after it: " + error.what());
+    return fail("after cycle " + std::to_string(cycle) + " the pile broke down at " + time() + ": " +
+                error.what());
   }
 }
 
@@ -297,7 +294,7 @@ bool LoadingRun::run_cycle(CycleRecord& record) {
   record.t_end = site_.world().time();
   if (!weigh(record)) return false;
   log_.cycles.push_back(record);
-  return record.number == scenario_.cycles || (refill() && wait_for_rest());
+  return true;
 }
 
 }  // namespace

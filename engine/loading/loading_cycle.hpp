@@ -14,7 +14,7 @@
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
 /// hauling, dumping and driving are left out. After the cycle the machine stands for a second, what the bucket
 /// carries is weighed and taken away, spilled rocks stay where they lie, and rocks come down the raise until the
-/// drift holds its first mass again or the raise is blocked; then they come during the next cycle. Rocks that lie on the rest of the machine, or where it must stand, are taken
+/// drift holds its first mass again or the raise is blocked; what is missing then comes while the machine digs. Rocks that lie on the rest of the machine, or where it must stand, are taken
 /// away and logged (`cleared_mass`).
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left the
@@ -27,7 +27,8 @@
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {
-  std::function<void(const engine::StepReport&)> on_step;  ///< after each step, with where its time went
+  /// After each step, with where its time went. What it or `look_ahead` throws ends the run, with its message.
+  std::function<void(const engine::StepReport&)> on_step;
   engine::World::Observer before_solve;  ///< in each step of the cycles, as World::before_solve
   /// Before each step in which the strategy drives the machine. It may step the world, to look ahead with the speeds that are
   /// set, but must restore it.

@@ -32,8 +32,7 @@ struct PileOptions {
 
 struct Scenario {
   Strategy strategy;
-  std::uint64_t seed =
-      1;  ///< of the rocks that refill the pile between cycles; without effect on a single cycle
+  std::uint64_t seed = 1;  ///< of the rocks that come down the raise where others were loaded or cleared away
   int cycles = 1;
   double standoff = 2.0;  ///< tip to toe at the start [m]
   Drift drift;

@@ -58,12 +58,12 @@ struct SceneRecord {
 };
 
 struct LoadingLog {
-  bool completed = false;
-  std::string message;  ///< why not, or empty
+  bool completed = false;  ///< all cycles were run; some may have broken down (`lost_cycles`)
+  std::string message;     ///< why not, or empty
   /// The scenario's parameters, and of the run: mass at first, present at the end, emitted, cleared away for the machine
   /// and of rock that left the drift [kg], cycles that broke down, steps that had to be done again in parts, the most
   /// contact points of a step and the iterations per substep that `iteration_budget` left for these, and the largest
-  /// overlap and loop error while the machine worked [m].
+  /// overlap of a rock and loop error while the machine worked [m].
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;  ///< its choices, versions, why cycles broke down
   record::Table signals;

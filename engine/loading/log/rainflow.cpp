@@ -20,12 +20,12 @@ std::vector<double> turning_points(std::span<const double> history) {
   return points;
 }
 
-LoadCycle between(double a, double b, double count) { return {std::abs(b - a), (a + b) / 2, count}; }
+CountedRange between(double a, double b, double count) { return {std::abs(b - a), (a + b) / 2, count}; }
 
 }  // namespace
 
-std::vector<LoadCycle> rainflow(std::span<const double> history) {
-  std::vector<LoadCycle> cycles;
+std::vector<CountedRange> rainflow(std::span<const double> history) {
+  std::vector<CountedRange> cycles;
   std::vector<double> open;  // turning points whose ranges wait for a larger one
   for (const double point : turning_points(history)) {
     open.push_back(point);
@@ -44,9 +44,9 @@ std::vector<LoadCycle> rainflow(std::span<const double> history) {
   return cycles;
 }
 
-double miner_sum(std::span<const LoadCycle> cycles, double exponent) {
+double miner_sum(std::span<const CountedRange> ranges, double exponent) {
   double sum = 0;
-  for (const LoadCycle& cycle : cycles) sum += cycle.count * std::pow(cycle.range, exponent);
+  for (const CountedRange& r : ranges) sum += r.count * std::pow(r.range, exponent);
   return sum;
 }
 

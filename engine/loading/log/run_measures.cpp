@@ -80,22 +80,18 @@ void require_filter(const char* place, double lowpass_hz) {
                                 std::to_string(lowpass_hz) + "; give 0 (none) or more");
 }
 
-// Forces of the bucket's two pins across their axis (x, z of the bucket), per cycle and sample.
-using PinForces = std::array<std::vector<std::vector<Eigen::Vector2d>>, 2>;
-
-PinForces pin_forces(const LoadingLog& log, double lowpass_hz) {
+// Forces of the bucket's two pins across their axis (x, z of the bucket), cycle after cycle.
+std::array<std::vector<Eigen::Vector2d>, 2> pin_forces(const LoadingLog& log, double lowpass_hz) {
   const double spacing = positive_number(log, "pin_spacing", "m");
   const CycleSamples samples(log);
   LowPassedVector force(log, "hinge_G_force", lowpass_hz), torque(log, "hinge_G_torque", lowpass_hz);
-  PinForces forces;
-  for (auto& pin : forces) pin.resize(log.cycles.size());
+  std::array<std::vector<Eigen::Vector2d>, 2> forces;
   for (std::size_t row = 0; row < samples.rows(); ++row) {
     const Eigen::Vector3d F = force.next(samples), M = torque.next(samples);
-    const auto cycle = samples.cycle(row);
-    if (!cycle) continue;
+    if (!samples.cycle(row)) continue;
     const Eigen::Vector2d half(F.x() / 2, F.z() / 2), twist(-M.z() / spacing, M.x() / spacing);
-    forces[0][*cycle].emplace_back(half + twist);
-    forces[1][*cycle].emplace_back(half - twist);
+    forces[0].emplace_back(half + twist);
+    forces[1].emplace_back(half - twist);
   }
   return forces;
 }
@@ -210,10 +206,7 @@ double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options) {
   for (const auto& pin : pin_forces(log, options.lowpass_hz))
     for (int k = 0; k < directions; ++k) {
       const double angle = std::numbers::pi * k / directions;
-      double damage = 0;
-      for (const auto& cycle : pin)
-        damage += damage_along({std::cos(angle), std::sin(angle)}, cycle, options.exponent);
-      worst = std::max(worst, damage);
+      worst = std::max(worst, damage_along({std::cos(angle), std::sin(angle)}, pin, options.exponent));
     }
   const double per_cycle = worst / static_cast<double>(log.cycles.size());
   return std::pow(per_cycle, 1 / options.exponent) / 1000;

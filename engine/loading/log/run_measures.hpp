@@ -18,10 +18,10 @@
 /// cycle that never drives forward. peak force in the pin: largest magnitude of hinge G's force, low-passed as
 /// the torque is in joint_damage; the bucket's own weight is in it. pin load range: what fatigue sees of the bucket's
 /// hinge, unlike joint_damage, which sums the excess of its torque. The hinge is two pins, `pin_spacing` apart, that
-/// share force F and off-axis torque M as two simple supports do (left: F/2 and M_x / spacing, −M_z / spacing); the
-/// history of a pin's force across its axis, in directions of the bucket 15° apart, is counted by rainflow.hpp, cycle
-/// by cycle, and summed by Miner's rule; given is the range that does the same damage once per loading cycle, in the
-/// worse pin and its worst direction. solid fill: volume of the loaded rocks,
+/// share force F and off-axis torque M as two simple supports do (left: F/2 and M_x / spacing, −M_z / spacing). The
+/// force across a pin's axis, in directions of the bucket 15° apart, is counted over all cycles by rainflow.hpp and
+/// summed by Miner's rule; given is the range that does the same damage once per loading cycle, in the worse pin and its
+/// worst direction. solid fill: volume of the loaded rocks,
 /// without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with porosity n. struck
 /// fill: solid fill over that, with the porosity of loose_ore_porosity: what a miner calls the fill factor,
 /// 0.8 to 1.1 for loaders in well blasted ore.

@@ -94,8 +94,8 @@ double planned_depth(double height, double slope, double area) {
 int row_for(double gamma, const ColumnModel& model) {
   std::vector<int> order(model.rows.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return model.rows[a].volume_centre > model.rows[b].volume_centre; });
+  const auto nanometres = [&](int row) { return std::llround(1e9 * model.rows[row].volume_centre); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return nanometres(a) > nanometres(b); });
   return order.at(static_cast<std::size_t>(std::lround(gamma * static_cast<double>(order.size() - 1))));
 }
 

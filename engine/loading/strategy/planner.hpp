@@ -15,7 +15,8 @@
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
 /// end and the bucket at κθ, and that from which the bucket curls below the roof. Row: rows sorted by volume centre, nearest to the back wall
-/// first, entry round(γ (n − 1)); they lie a centimetre apart, so γ is as good as continuous. φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark
+/// first, entry round(γ (n − 1)); they lie a centimetre apart,
+/// so the volume centre follows γ continuously, while the place may jump from one side to the other. φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark
 /// (2016) prints h²/θ under the root.
 namespace drawpoint::engine::loading {
 
@@ -50,7 +51,7 @@ struct PlannerOptions {
 /// d [m] for height h ≥ 0 [m], slope θ ≥ 0 [rad] and area A ≥ 0 [m²]; h and θ not both 0 unless A = 0.
 double planned_depth(double height, double slope, double area);
 
-/// Row for γ: index into model.rows. Ties keep the order of y. Needs at least one row.
+/// Row for γ: index into model.rows. Ties, to a nanometre, keep the order of y. Needs at least one row.
 int row_for(double gamma, const ColumnModel& model);
 
 /// Not feasible (with a message) when the model has no row. Throws std::invalid_argument on a bad strategy or

@@ -11,9 +11,9 @@ using namespace drawpoint::engine::loading;
 
 namespace {
 
-std::map<double, double> counts_by_range(const std::vector<LoadCycle>& cycles) {
+std::map<double, double> counts_by_range(const std::vector<CountedRange>& cycles) {
   std::map<double, double> counts;
-  for (const LoadCycle& cycle : cycles) counts[cycle.range] += cycle.count;
+  for (const CountedRange& cycle : cycles) counts[cycle.range] += cycle.count;
   return counts;
 }
 
@@ -40,8 +40,8 @@ TEST(Rainflow, ASineIsItsPeriods) {
   for (int k = 0; k <= periods * samples; ++k)
     sine.push_back(mean + amplitude * std::cos(2 * std::numbers::pi * k / samples));
   double count = 0;
-  const std::vector<LoadCycle> cycles = rainflow(sine);
-  for (const LoadCycle& cycle : cycles) {
+  const std::vector<CountedRange> cycles = rainflow(sine);
+  for (const CountedRange& cycle : cycles) {
     EXPECT_NEAR(cycle.range, 2 * amplitude, 1e-12);
     EXPECT_NEAR(cycle.mean, mean, 1e-12);
     count += cycle.count;
@@ -53,7 +53,7 @@ TEST(Rainflow, ASineIsItsPeriods) {
 // A small ripple on a large swing is counted beside it and does not break it up: what counting of single ranges
 // gets wrong.
 TEST(Rainflow, ARippleLeavesTheSwingWhole) {
-  const std::vector<LoadCycle> cycles = rainflow(std::vector<double>{0, 50, 49, 100, 40, 41, 0});
+  const std::vector<CountedRange> cycles = rainflow(std::vector<double>{0, 50, 49, 100, 40, 41, 0});
   const std::map<double, double> expected{{1, 2}, {100, 1}};
   EXPECT_EQ(counts_by_range(cycles), expected);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/engine/loading/log/energy_balance.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/tests/support/told.hpp>
 #include <functional>
@@ -36,7 +37,10 @@ constexpr const char* names[] = {"time",
                                  "hinge_G_force_z",
                                  "hinge_G_torque_x",
                                  "hinge_G_torque_y",
-                                 "hinge_G_torque_z"};
+                                 "hinge_G_torque_z",
+                                 "wheel_power",
+                                 "machine_energy",
+                                 "rock_energy"};
 using Row = std::map<std::string, double>;
 
 // Two cycles of 1 s, from 0 and from 10 s, of 100 samples each; `of` gives the signals at a time within a
@@ -168,9 +172,26 @@ TEST(RunMeasures, PinLoadRangeOfKnownHistories) {
   EXPECT_NEAR(pin_load_range(twisted, raw), 40 / std::cbrt(2.0), 40 * round_off);  // in one cycle of two
 }
 
-// A force that turns across the pin: the projections 15° apart find a swing along any direction to 1 − cos 7.5°, and
-// the pin's own direction does not matter.
+// Forces F at the pins (0, ±1 m, 0): their sum is the force, Σ y F_z the torque about x, −Σ y F_x that about z. With
+// 60 kN and 20 kN m in both they carry (x, z) = (20, 40) and (40, 20) kN; a wrong sign would make that 40, 40.
+// Directions 15° apart find all but 1 − cos 7.5° of it.
+TEST(RunMeasures, PinsShareForceAndTorqueAsSupportsDo) {
+  const LoadingLog log = log_with([&](double t, int) {
+    const double on = std::abs(t - 0.5) < 0.1 ? 1 : 0;
+    return Row{{"hinge_G_force_x", 60e3 * on},
+               {"hinge_G_force_z", 60e3 * on},
+               {"hinge_G_torque_x", 20e3 * on},
+               {"hinge_G_torque_z", 20e3 * on}};
+  });
+  const double range = pin_load_range(log, {.exponent = 3, .lowpass_hz = 0}), most = std::hypot(20, 40);
+  EXPECT_LE(range, most * (1 + round_off));
+  EXPECT_GE(range, most * std::cos(7.5 * std::numbers::pi / 180));
+}
+
+// A swing along any direction, ±25 kN per pin: over two cycles of one period half a range of 25 kN, one and a half of
+// 50 and half a range of 25. Samples begin at 6 % of the amplitude, which takes 0.3 % off the cube root.
 TEST(RunMeasures, PinLoadRangeSeesEveryDirection) {
+  const double expected = std::cbrt((0.5 * 25 * 25 * 25 * 2 + 1.5 * 50 * 50 * 50) / 2);
   for (const double degrees : {0.0, 7.5, 33.0, 90.0, 171.0}) {
     const double angle = degrees * std::numbers::pi / 180;
     const LoadingLog log = log_with([&](double t, int) {
@@ -178,9 +199,8 @@ TEST(RunMeasures, PinLoadRangeSeesEveryDirection) {
       return Row{{"hinge_G_force_x", swing * std::cos(angle)}, {"hinge_G_force_z", swing * std::sin(angle)}};
     });
     const double range = pin_load_range(log, {.exponent = 3, .lowpass_hz = 0});
-    // A half sine up from 0, a whole range of 50 kN per pin, and half back: within one cycle and two halves of it.
-    EXPECT_GT(range, 50 * std::cos(7.5 * std::numbers::pi / 180) * std::cbrt(0.5) * (1 - round_off));
-    EXPECT_LT(range, 50 * std::cbrt(1.5));
+    EXPECT_GT(range, expected * std::cos(7.5 * std::numbers::pi / 180) * 0.997) << degrees;
+    EXPECT_LT(range, expected * (1 + round_off)) << degrees;
   }
 }
 
@@ -191,6 +211,25 @@ TEST(RunMeasures, PinLoadRangeNamesWhatItLacks) {
   EXPECT_THROW(pin_load_range(log, {.lowpass_hz = -1}), std::invalid_argument);
   log.numbers.erase("pin_spacing");
   EXPECT_THROW(pin_load_range(log), std::invalid_argument);
+}
+
+// 10 kW of the wheels, 2 kN at 1.5 m/s of the lift and 1 kN at -1 m/s of the tilt, which holds back: 12 kW over the 99
+// steps after the first sample. The machine gains 3 kJ/s, the rock 5 kJ/s.
+TEST(EnergyBalance, IsWorkLessWhatMachineAndRockGain) {
+  LoadingLog log = log_with([](double t, int) {
+    return Row{{"lift_force", 2e3},     {"lift_speed", 1.5},   {"tilt_force", 1e3},
+               {"tilt_speed", -1},      {"wheel_power", 10e3}, {"machine_energy", 600e3 + 3e3 * t},
+               {"rock_energy", 5e3 * t}};
+  });
+  for (const EnergyBalance& end : energy_balance_by_cycle(log)) {
+    EXPECT_NEAR(end.work, 12 * 0.99, 12 * round_off);
+    EXPECT_NEAR(end.machine, 3 * 0.99, 600 * round_off);
+    EXPECT_NEAR(end.rock, 5 * 0.99, 5 * round_off);
+    EXPECT_NEAR(end.dissipated, 4 * 0.99, 600 * round_off);
+  }
+  EXPECT_EQ(energy_balances(log).at(1).size(), 100u);
+  log.signals.columns.pop_back();
+  EXPECT_THROW(energy_balances(log), std::exception);
 }
 
 }  // namespace
