@@ -97,24 +97,36 @@ TEST_F(LoadingHeadlines, OneCycleTellsNoNoise) {
 TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
   const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
   EXPECT_DOUBLE_EQ(of.at("cycle_time").value, 10);
-  for (const char* name :
-       {"struck_fill", "energy_per_tonne", "tracking_error", "wheel_slip", "peak_pin_force"}) {
+  for (const char* name : {"struck_fill", "energy_per_tonne", "tracking_error", "wheel_slip",
+                           "peak_pin_force", "pin_load_range"}) {
     EXPECT_TRUE(std::isnan(of.at(name).value)) << name;
     EXPECT_NE(of.at(name).note.find("lack"), std::string::npos) << name;
   }
 }
 
-// Only where it happened: one run of two with three such steps and 50 kg.
+// A run of three cycles and one of a single cycle, which lost two: four cycles in two runs, 2 of a run in the mean.
+// Rates 200, 400 and 600 kg/s scatter by √((200² + 200²) / 2) = 200 about their mean, the single one by nothing.
+TEST_F(LoadingHeadlines, RunsThatLostCyclesTellTheNoiseOfTheirOwn) {
+  const auto of = told({log_of({cycle(0, 2e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal),
+                                cycle(40, 6e3, 0, StageEnd::goal)}),
+                        log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
+  EXPECT_NEAR(of.at("noise_of_production").value, 200 / std::sqrt(2.0), 1e-9);
+  EXPECT_NE(of.at("noise_of_production").note.find("its 2 cycles"), std::string::npos);
+}
+
+// Only where it happened: one run of two with three such steps, 50 kg and two lost cycles.
 TEST_F(LoadingHeadlines, TellWhereTheSolutionBrokeDown) {
   const LoadingLog fine = log_of({cycle(0, 4e3, 0, StageEnd::goal)});
   LoadingLog broken = fine;
   EXPECT_FALSE(told({fine}).contains("solution_broke_down"));
   broken.numbers["repeated_steps"] = 3;
   broken.numbers["escaped_mass"] = 50;
+  broken.numbers["lost_cycles"] = 2;
   const Headline headline = told({fine, broken}).at("solution_broke_down");
   EXPECT_EQ(headline.value, 1);
   EXPECT_NE(headline.note.find("3 steps"), std::string::npos) << headline.note;
   EXPECT_NE(headline.note.find("50 kg"), std::string::npos) << headline.note;
+  EXPECT_NE(headline.note.find("2 cycles were lost"), std::string::npos) << headline.note;
 }
 
 TEST_F(LoadingHeadlines, FillStallsAndNoiseComeFirst) {

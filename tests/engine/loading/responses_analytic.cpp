@@ -129,6 +129,9 @@ TEST(JointDamage, OnlyCyclesCount) {
   DamageOptions options = unfiltered();
   options.sum = DamageSum::per_cycle;
   EXPECT_NEAR(joint_damage(log, options), 0.75, 1e-13);
+  log.numbers["lost_cycles"] = 1;  // of three: the lost one counts with the mean of the others
+  EXPECT_NEAR(joint_damage(log, options), 0.75, 1e-13);
+  EXPECT_NEAR(joint_damage(log, unfiltered()), 3 * 0.75, 1e-13);
 }
 
 TEST(Responses, SayWhatIsMissing) {
