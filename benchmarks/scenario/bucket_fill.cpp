@@ -289,7 +289,6 @@ void print_table(const nlohmann::json& j) {
 int main(int argc, char** argv) {
   Settings s;
   CLI::App app(about, "bucket_fill");
-  const std::vector<std::string> names(material_names.begin(), material_names.end());
   app.add_option("--piles", s.piles, "FOLDER of the piles; made when missing")->required();
   app.add_option("--logs", s.logs, "FOLDER for the log of each run (HDF5)");
   app.add_option("--alphas", s.alphas, "wanted fills, with commas between")
@@ -304,7 +303,7 @@ int main(int argc, char** argv) {
       ->check(between(1, 1000, "", "1 to 30"))
       ->capture_default_str();
   app.add_option("--materials", s.materials, "preset of the coefficients")
-      ->check(CLI::IsMember(names))
+      ->check(one_of(material_names))
       ->capture_default_str();
   const auto coefficient = between(0, 2, "", "leave it out for the preset's");
   app.add_option("--rolling", s.rolling, "rolling resistance of the rocks [1]")->check(coefficient);

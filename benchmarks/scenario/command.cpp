@@ -75,6 +75,10 @@ void add_method_flags(CLI::App& app, EngineFlags& flags) {
       ->capture_default_str();
 }
 
+CLI::Validator one_of(std::span<const std::string_view> names) {
+  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
 std::function<std::string(const std::string&)> taken_by(std::function<void(const std::string&)> parse) {
   return [parse = std::move(parse)](const std::string& text) -> std::string {
     try {

@@ -8,7 +8,9 @@
 #include <drawpoint/tests/support/rock_pile.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 
 /// What the commands of this folder share: the flags that choose the engine's step and solver, checked
 /// numbers, exit codes and progress.
@@ -19,6 +21,9 @@ namespace drawpoint::benchmarks {
 
 /// Accepts numbers from low to high; the error names the value, the range and what to choose.
 CLI::Validator between(double low, double high, const std::string& unit, const std::string& advice);
+
+/// Accepts one of a preset's names; the error lists them.
+CLI::Validator one_of(std::span<const std::string_view> names);
 
 /// For check(): what `parse` throws as std::invalid_argument against a text is the error; what it takes is right.
 std::function<std::string(const std::string&)> taken_by(std::function<void(const std::string&)> parse);

@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
   CLI::App app(about, "loading_cycle");
   app.add_option("PILE_FILE", s.pile, "where the pile is kept; poured when missing")->required();
   app.add_option("--scene", s.scene, "small (the default scene) or lindmark2016 (full scale)")
-      ->check(CLI::IsMember(std::vector<std::string>(scene_names.begin(), scene_names.end())))
+      ->check(one_of(scene_names))
       ->capture_default_str();
   app.add_option("--cycles", s.cycles, "of one run, each from the pile that the last one left")
       ->check(between(1, 1000, "", "1 to 5 are usual"))

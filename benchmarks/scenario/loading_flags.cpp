@@ -26,13 +26,13 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
   app.add_option("--speeds", flags.speeds,
                  "preset of the actuators' speeds: for cycles of 12 s as in Lindmark (2016), or what the "
                  "machine can do, with its engine")
-      ->check(CLI::IsMember(std::vector<std::string>(speed_names.begin(), speed_names.end())))
+      ->check(one_of(speed_names))
       ->capture_default_str();
   app.add_option("--operator", flags.operated,
                  "what is done beside the plan: nothing, or skilled: pulses of lift and curl when the drive "
                  "is held up, "
                  "pressing in the lift, thrust while the bucket curls")
-      ->check(CLI::IsMember(std::vector<std::string>(operator_names.begin(), operator_names.end())))
+      ->check(one_of(operator_names))
       ->capture_default_str();
   app.add_option("--curl-hold", flags.curl_hold,
                  "share of the wheels' torque that holds the loader while the bucket curls; 0: they roll")
@@ -49,13 +49,13 @@ void add_pile_flags(CLI::App& app, PileFlags& flags) {
   using engine::granular::size_names, engine::loading::scene_names;
   app.add_option("--scene", flags.scene,
                  "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m")
-      ->check(CLI::IsMember(std::vector<std::string>(scene_names.begin(), scene_names.end())))
+      ->check(one_of(scene_names))
       ->capture_default_str();
   app.add_option("--mass", flags.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
   app.add_option("--sizes", flags.sizes,
                  "of the rocks: 0.3 to 0.8 m; with a quarter of the mass as 0.2 m, at three times the cost; "
                  "0.2 to 0.5 m, at four times")
-      ->check(CLI::IsMember(std::vector<std::string>(size_names.begin(), size_names.end())))
+      ->check(one_of(size_names))
       ->capture_default_str();
 }
 

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
       ->check(between(0, 1e4, "Hz", "20 is what joint_damage takes"))
       ->capture_default_str();
   app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
-      ->check(CLI::IsMember(std::vector<std::string>(speed_names.begin(), speed_names.end())))
+      ->check(one_of(speed_names))
       ->capture_default_str();
   app.add_option("--setting", s.setting,
                  "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)")

@@ -23,7 +23,8 @@
 /// and inertias are estimates too (solid boxes and cylinders); published are payload 21 t, weight, power and
 /// tyre size.
 ///
-/// All parts touch rocks but the cylinders, which lie between the arm's plates and are only drawn. Both lift cylinders are one motor and share one stop. Cylinder limits are those of the full piston
+/// All parts touch rocks but the cylinders, which lie between the arm's plates and are only drawn.
+/// Both lift cylinders are one motor and share one stop. Cylinder limits are those of the full piston
 /// in both directions; pulling, a real cylinder has only its ring area.
 namespace drawpoint::engine::loading {
 

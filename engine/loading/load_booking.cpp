@@ -20,16 +20,13 @@ double book_load(Site& site, const ColumnModel& model, const std::vector<bool>& 
     record.loaded_rock_masses.push_back(rocks[static_cast<std::size_t>(rock)].body.mass);
     in_front[static_cast<std::size_t>(rock)] = false;
   }
-  record.loaded_mass = site.mass_of(load.in_bucket);
   for (std::size_t k = 0; k < in_front.size(); ++k) {
     if (!in_front[k]) continue;
     record.front_mass += rocks[k].body.mass;
     if (k >= in_front_before.size() || !in_front_before[k]) record.spilled_mass += rocks[k].body.mass;
   }
-  const double elsewhere = site.mass_of(load.elsewhere);
-  site.remove(load.in_bucket);
-  site.remove(load.elsewhere);
-  return elsewhere;
+  record.loaded_mass = site.remove(load.in_bucket);
+  return site.remove(load.elsewhere);
 }
 
 }  // namespace drawpoint::engine::loading

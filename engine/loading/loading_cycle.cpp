@@ -215,7 +215,7 @@ bool LoadingRun::execute(CycleRecord& record) {
       largest_overlap_ = std::max(largest_overlap_, report.max_overlap);
       largest_loop_error_ = std::max(largest_loop_error_, site_.machine().loop_error());
     };
-    if (site_.missing_mass() > 0) site_.refill();
+    site_.refill();
     if (hooks_.look_ahead) call([&] { hooks_.look_ahead(site_.world()); });
     if (!step(log_signals)) return false;
   }
@@ -262,10 +262,9 @@ bool LoadingRun::give_up(const CycleRecord& record, const std::string& message) 
   if (caller_failed_ || !record.plan.feasible || cycles_per_lost_one * lost_ > scenario_.cycles)
     return fail(message);
   try {
-    const ColumnModel model = columns(false);
-    CycleRecord unused;
-    const double carried = book_load(site_, model, in_front_before_, unused) + unused.loaded_mass;
-    cleared_ += carried + site_.place_machine(record.plan.corners[0].x, record.plan.y);
+    const Site::Load load = site_.load(rocks_in_front(site_, columns(false)));
+    cleared_ += site_.remove(load.in_bucket) + site_.remove(load.elsewhere);
+    cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
     return true;
   } catch (const std::exception& error) {
     return fail(message + "; the machine could not be put back: " + error.what());

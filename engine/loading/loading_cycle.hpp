@@ -14,8 +14,8 @@
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
 /// hauling, dumping and driving are left out. After the cycle the machine stands for a second, what the bucket
 /// carries is weighed and taken away, spilled rocks stay where they lie, and rocks come down the raise until the
-/// drift holds its first mass again or the raise is blocked; what is missing then comes while the machine digs. Rocks that lie on the rest of the machine, or where it must stand, are taken
-/// away and logged (`cleared_mass`).
+/// drift holds its first mass again or the raise is blocked; what is missing then comes while the machine digs.
+/// Rocks that lie on the rest of the machine, or where it must stand, are taken away and logged (`cleared_mass`).
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left the
 /// drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost (`lost_cycles`), not the

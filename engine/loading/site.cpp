@@ -70,14 +70,13 @@ Site::Load Site::load(const std::vector<bool>& free_of_pile) const {
   return load;
 }
 
-double Site::mass_of(const std::vector<int>& rocks) const {
-  double sum = 0;
-  for (int rock : rocks) sum += world_.rocks()[static_cast<std::size_t>(rock)].body.mass;
-  return sum;
-}
-
-void Site::remove(const std::vector<int>& rocks) {
-  for (int rock : rocks) world_.remove_rock(rock);
+double Site::remove(const std::vector<int>& rocks) {
+  double mass = 0;
+  for (int rock : rocks) {
+    mass += world_.rocks()[static_cast<std::size_t>(rock)].body.mass;
+    world_.remove_rock(rock);
+  }
+  return mass;
 }
 
 double Site::place_machine(double tip_x, double y, double back) {

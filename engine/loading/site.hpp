@@ -37,8 +37,7 @@ class Site {
   };
   Load load(const std::vector<bool>& free_of_pile) const;
 
-  double mass_of(const std::vector<int>& rocks) const;  ///< [kg]
-  void remove(const std::vector<int>& rocks);
+  double remove(const std::vector<int>& rocks);  ///< returns their mass [kg]
 
   /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket
   /// clear of rocks lying in its way (at most `back` [m]). Rocks that would still lie inside the machine are

@@ -12,8 +12,8 @@
 ///
 /// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the torque in bucket hinge G,
 /// or of its two components across the pin (those twist the bucket; the third is the tilt's own load). Summed
-/// over the cycles of the run; one that broke down counts with the mean of the others. A sample stands for the time since the one before it in the same cycle, a
-/// cycle's first sample for the time to the next. Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each
+/// over the cycles of the run; one that broke down counts with the mean of the others. A sample stands for the
+/// time since the one before it in the same cycle, a cycle's first sample for the time to the next. Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each
 /// component, started anew with each cycle: a rigid impact's peak grows as 1/Δt, and unfiltered it would make
 /// the response a function of the time step.
 ///

@@ -14,10 +14,10 @@
 /// without cancellation, A = α V_b / w_b:
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
-/// end and the bucket at κθ, and that from which the bucket curls below the roof. Row: rows sorted by volume centre, nearest to the back wall
-/// first, entry round(γ (n − 1)); they lie a centimetre apart,
-/// so the volume centre follows γ continuously, while the place may jump from one side to the other. φ = κθ. Source: Lindmark 2016, equations 48-51; (50) corrected, Lindmark
-/// (2016) prints h²/θ under the root.
+/// end and the bucket at κθ, and that from which the bucket curls below the roof. Row: rows sorted by volume
+/// centre, nearest to the back wall first, entry round(γ (n − 1)); they lie a centimetre apart, so the volume
+/// centre follows γ continuously, while the place may jump from one side to the other. φ = κθ. Source: Lindmark
+/// 2016, equations 48-51; (50) corrected, Lindmark (2016) prints h²/θ under the root.
 namespace drawpoint::engine::loading {
 
 /// The four design variables.
