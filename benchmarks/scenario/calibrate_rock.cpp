@@ -31,6 +31,7 @@ constexpr const char* about =
     "Tests:\n"
     "  repose       a heap poured slowly on a rough floor: angle of repose\n"
     "  ledge        the bank that is left on a ledge when the end of a bin is taken away\n"
+    "  tilt         a filled box tilted slowly: angle at which its bed slides\n"
     "  density      loosely filled rough box, its core: bulk density, porosity, swell; porosity of all of "
     "it\n"
     "  shear        direct shear of a large box under --stress: angle of friction at the peak and over the\n"
@@ -221,7 +222,7 @@ int run(const Settings& s) {
 int main(int argc, char** argv) {
   Settings s;
   CLI::App app(about, "calibrate_rock");
-  app.add_option("--test", s.test, "repose, ledge, density, shear or penetration")
+  app.add_option("--test", s.test, "repose, ledge, tilt, density, shear or penetration")
       ->check(taken_by(rock_test_named))
       ->capture_default_str();
   app.add_option("--friction", s.friction, "of rock on rock and rough walls [1], with commas between")

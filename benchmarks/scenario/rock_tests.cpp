@@ -6,6 +6,7 @@
 #include <drawpoint/engine/granular/calibration/direct_shear.hpp>
 #include <drawpoint/engine/granular/calibration/plate_penetration.hpp>
 #include <drawpoint/engine/granular/calibration/repose.hpp>
+#include <drawpoint/engine/granular/calibration/tilting_box.hpp>
 #include <limits>
 #include <stdexcept>
 
@@ -31,6 +32,11 @@ RockTestRun run_repose(const RockSample& sample, const RockTestOptions& o) {
 RockTestRun run_ledge(const RockSample& sample, const RockTestOptions& o) {
   const DrainedBank bank = drained_bank(sample, options_of<DrainedBankOptions>(o));
   return {bank.status, bank.rocks, {bank.angle, bank.crest}};
+}
+
+RockTestRun run_tilt(const RockSample& sample, const RockTestOptions& o) {
+  const TiltResult t = tilting_box(sample, options_of<TiltingBoxOptions>(o));
+  return {t.status, t.rocks, {t.start}};
 }
 
 RockTestRun run_density(const RockSample& sample, const RockTestOptions& o) {
@@ -64,6 +70,11 @@ std::vector<RockTest> made_tests() {
          "the poured heap's and more: iron-ore pellets 41 drained, 26 poured (Lommen et al. 2019, read)"},
         {"crest_m", "crest m", 2}},
        run_ledge},
+      {"tilt",
+       "a filled box tilted by one degree per second until its bed slides",
+       {{"start_deg", "starts deg", 1, 35, std::numeric_limits<double>::infinity(),
+         "at least the poured heap's (recalled)"}},
+       run_tilt},
       {"density",
        "rock filled loosely into a rough box: bulk density, porosity, swell",
        {{"density_t_m3", "density t/m3", 3},
@@ -99,7 +110,7 @@ const RockTest& rock_test_named(const std::string& name) {
   for (const RockTest& test : rock_tests())
     if (test.name == name) return test;
   throw std::invalid_argument("there is no test \"" + name +
-                              "\"; choose repose, ledge, density, shear or penetration");
+                              "\"; choose repose, ledge, tilt, density, shear or penetration");
 }
 
 }  // namespace drawpoint::benchmarks

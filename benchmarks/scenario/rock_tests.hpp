@@ -40,7 +40,7 @@ struct RockTest {
   std::function<RockTestRun(const engine::granular::RockSample&, const RockTestOptions&)> run;
 };
 
-/// repose, ledge, density, shear, penetration.
+/// repose, ledge, tilt, density, shear, penetration.
 const std::vector<RockTest>& rock_tests();
 /// Throws std::invalid_argument with the names there are.
 const RockTest& rock_test_named(const std::string& name);

@@ -172,14 +172,19 @@ void Builder::add_motors() {
     motors.push_back({lhd_.spec.bodies[bodies.front()].name + " motor", bodies, limit});
     return static_cast<int>(motors.size()) - 1;
   };
+  const auto cylinders = [&](const std::vector<int>& rods, const Cylinder& cylinder) {
+    const int index = motor(rods, pushing_force(cylinder, o.hydraulics.pressure));
+    motors.back().max_reverse_force = pulling_force(cylinder, o.hydraulics.pressure);
+    return index;
+  };
   for (int k = 0; k < 4; ++k) lhd_.wheel_motors[k] = motor({lhd_.wheels[k]}, o.wheel_torque);
   if (o.arm_drive == ArmDrive::hinges) {
     lhd_.lift_motor = motor({lhd_.boom}, o.lift_torque);
     lhd_.tilt_motor = motor({lhd_.bucket}, o.tilt_torque);
     return;
   }
-  lhd_.lift_motor = motor({lhd_.lift_rods[0], lhd_.lift_rods[1]}, o.lift_cylinder_force);
-  lhd_.tilt_motor = motor({lhd_.tilt_rod}, o.tilt_cylinder_force);
+  lhd_.lift_motor = cylinders({lhd_.lift_rods[0], lhd_.lift_rods[1]}, o.hydraulics.lift);
+  lhd_.tilt_motor = cylinders({lhd_.tilt_rod}, o.hydraulics.tilt);
 }
 
 // Strokes relative to the reference pose, and the oscillation of the rear unit.

@@ -5,6 +5,7 @@
 #include <array>
 #include <drawpoint/engine/geometry/shape.hpp>
 #include <drawpoint/engine/loading/drive_line.hpp>
+#include <drawpoint/engine/loading/hydraulics.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <string>
@@ -24,24 +25,22 @@
 /// tyre size.
 ///
 /// All parts touch rocks but the cylinders, which lie between the arm's plates and are only drawn.
-/// Both lift cylinders are one motor and share one stop. Cylinder limits are those of the full piston
-/// in both directions; pulling, a real cylinder has only its ring area.
+/// Both lift cylinders are one motor and share one stop.
 namespace drawpoint::engine::loading {
 
 /// What moves the arm.
 enum class ArmDrive {
-  cylinders,  ///< velocity motors on the three cylinders, limited by 28 MPa; the machine's own way (default)
+  cylinders,  ///< velocity motors on the three cylinders, limited by their hydraulics; the machine's (default)
   hinges      ///< velocity motors on the boom and bucket hinges, as Lindmark (2016) has it
 };
 
 struct LhdOptions {
   ArmDrive arm_drive = ArmDrive::cylinders;
-  double lift_cylinder_force = 713e3;  ///< each of two [N]: 180 mm bore at 28 MPa
-  double tilt_cylinder_force = 880e3;  ///< [N]: 200 mm bore at 28 MPa
-  double lift_torque = 1696e3;         ///< [N m] at F, used with ArmDrive::hinges
-  double tilt_torque = 673e3;          ///< [N m] at G, used with ArmDrive::hinges
-  double wheel_torque = 81e3;  ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
-  DriveLine drive_line;        ///< by default no engine: the source's wheel motors know none
+  Hydraulics hydraulics;  ///< of ArmDrive::cylinders; by default any flow: the source's motors know none
+  double lift_torque = 1696e3;  ///< [N m] at F, used with ArmDrive::hinges
+  double tilt_torque = 673e3;   ///< [N m] at G, used with ArmDrive::hinges
+  double wheel_torque = 81e3;   ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
+  DriveLine drive_line;         ///< by default no engine: the source's wheel motors know none
 };
 
 /// A convex piece of one body, for contact and for pictures; in the body's frame.

@@ -69,6 +69,7 @@ void LhdDriver::command(const ActuatorRates& rates, double drive_share) {
                                       lhd_.wheels[3]};
     speeds =
         machine_.transmission({lhd_.lift_rods[0], lhd_.tilt_rod}, {lhd_.boom, lhd_.bucket}, outside) * speeds;
+    speeds *= flow_share(lhd_.options.hydraulics, speeds[0], speeds[1]);
   }
   machine_.set_motor(lhd_.lift_motor, speeds[0]);
   machine_.set_motor(lhd_.tilt_motor, speeds[1]);

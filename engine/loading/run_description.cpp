@@ -51,8 +51,12 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"curl_hold", s.executor.moves.curl_hold},
                  {"wheel_torque_limit", s.machine.wheel_torque},
                  {"engine_power", s.machine.drive_line.engine_power},
-                 {"lift_cylinder_limit", s.machine.lift_cylinder_force},
-                 {"tilt_cylinder_limit", s.machine.tilt_cylinder_force}};
+                 {"hydraulic_pressure", s.machine.hydraulics.pressure},
+                 {"pump_flow", s.machine.hydraulics.pump_flow},
+                 {"lift_bore", s.machine.hydraulics.lift.bore},
+                 {"lift_rod", s.machine.hydraulics.lift.rod},
+                 {"tilt_bore", s.machine.hydraulics.tilt.bore},
+                 {"tilt_rod", s.machine.hydraulics.tilt.rod}};
   log.texts = {{"machine", "Sandvik LH621 class"},
                {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
                {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},

@@ -58,7 +58,9 @@ Scenario with_pile_of(Scenario s, double mass, const granular::SizeDistribution&
 
 Scenario with_speeds(Scenario s, const std::string& name) {
   s.executor.speeds = speeds_named(name);
-  s.machine.drive_line = name == "machine" ? DriveLine{.engine_power = 382e3} : DriveLine{};
+  const bool machine = name == "machine";
+  s.machine.drive_line = machine ? DriveLine{.engine_power = 382e3} : DriveLine{};
+  s.machine.hydraulics = machine ? lh621_hydraulics() : Hydraulics{};
   return s;
 }
 
@@ -76,6 +78,7 @@ void check(const Scenario& s) {
   check(s.strategy);
   check(s.drift);
   check(s.machine.drive_line);
+  check(s.machine.hydraulics);
   require_setting(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
   require_setting(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
   require_setting(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");

@@ -24,8 +24,8 @@ struct PileOptions {
   granular::SizeDistribution sizes = granular::blasted_ore;
   double max_height = 8;   ///< pouring stops when the pile reaches it [m]
   std::uint64_t seed = 1;  ///< of the pouring; one pile serves all runs of a study
-  /// SolverOptions::tolerance while pouring, in place of Scenario::world's: a pile is poured once, so it is solved
-  /// further than the cycles that dig in it.
+  /// SolverOptions::tolerance while pouring, in place of Scenario::world's: a pile is poured once, so it is
+  /// solved further than the cycles that dig in it.
   double tolerance = engine::SolverOptions{}.tolerance;
   granular::RestOptions rest;
 };
@@ -58,7 +58,8 @@ struct Scenario {
 /// The LH621 in a drift 6 m wide with a small pile (120 t, about 1750 rocks, crest 2.5 m), one cycle.
 Scenario lh621_in_a_drift();
 
-/// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles, two pictures a second.
+/// The scale of Lindmark (2016): a drift 7 m wide, 290 t (about 4200 rocks), thirty cycles, two pictures a
+/// second.
 Scenario lh621_at_lindmark2016_scale();
 
 /// By name: "small", "lindmark2016". Throws std::invalid_argument with the names.
@@ -69,14 +70,15 @@ inline constexpr std::array<std::string_view, 2> scene_names = {"small", "lindma
 /// rocks, so that every contact point gets as many iterations as in the scene.
 Scenario with_pile_of(Scenario scenario, double mass, const granular::SizeDistribution& sizes);
 
-/// The scene with speeds_named(name), and what drives them, in place of its `machine.drive_line`: the machine's
-/// speeds come with its engine of 382 kW, those of Lindmark (2016) with wheels that have their torque at any
-/// speed, as there. Throws std::invalid_argument.
+/// The scene with speeds_named(name), and what drives them, in place of its `machine.drive_line` and
+/// `machine.hydraulics`: the machine's speeds come with its engine of 382 kW and its hydraulics, those of
+/// Lindmark (2016) with wheels and cylinders that have their force at any speed, as there. Throws
+/// std::invalid_argument.
 Scenario with_speeds(Scenario scenario, const std::string& name);
 
-/// As loosely as Lindmark (2016) solves contacts: 150 iterations of a step of 1/60 s that remember nothing of the step
-/// before. Rocks then give way, which the source's coefficients need to be loaded at all. The iteration itself is ours,
-/// with momentum: nearer to the solution than 150 plain ones.
+/// As loosely as Lindmark (2016) solves contacts: 150 iterations of a step of 1/60 s that remember nothing of
+/// the step before. Rocks then give way, which the source's coefficients need to be loaded at all. The
+/// iteration itself is ours, with momentum: nearer to the solution than 150 plain ones.
 engine::WorldOptions lindmark2016_solver();
 
 /// Throws std::invalid_argument naming the place, the value and what is allowed.

@@ -18,7 +18,8 @@ constexpr double farthest_coordinate = 1e4;  // [rad] or [m]
 
 std::vector<double> most_forces(const MachineSpec& spec) {
   std::vector<double> forces;
-  for (const MotorSpec& motor : spec.motors) forces.push_back(motor.max_force);
+  for (const MotorSpec& motor : spec.motors)
+    forces.push_back(std::max(motor.max_force, motor.max_reverse_force));
   return forces;
 }
 
@@ -102,7 +103,9 @@ void Machine::Simbody::build_rows() {
   const std::size_t n_motors = spec.motors.size();
   for (std::size_t m = 0; m < n_motors; ++m) {
     const std::vector<int>& bodies = spec.motors[m].bodies;
-    const MotorSetting setting{static_cast<double>(bodies.size()) * motor_targets[m], motor_limits[m]};
+    const MotorSetting setting{static_cast<double>(bodies.size()) * motor_targets[m],
+                               std::min(spec.motors[m].max_force, motor_limits[m]),
+                               std::min(spec.motors[m].max_reverse_force, motor_limits[m])};
     super.rows.push_back(motor_row(setting, joint_sum(bodies), h, row_starts[m]));
   }
   for (std::size_t s = 0; s < spec.stops.size(); ++s) {
@@ -193,7 +196,8 @@ void Machine::set_motor(int motor, double speed) {
 }
 
 void Machine::limit_motor(int motor, double force) {
-  const double most = spec().motors.at(motor).max_force;
+  const MotorSpec& of = spec().motors.at(motor);
+  const double most = std::max(of.max_force, of.max_reverse_force);
   if (!(force >= 0 && force <= most))
     throw std::invalid_argument("machine::Machine::limit_motor: the limit of motor " + std::to_string(motor) +
                                 " is " + std::to_string(force) + " N or N m; allowed: 0 to " +

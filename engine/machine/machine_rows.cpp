@@ -17,12 +17,11 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate) {
 
 engine::SuperBodyRow motor_row(const MotorSetting& motor, const Eigen::RowVectorXd& joints, double h,
                                double start) {
-  const double limit = motor.limit * h;
   engine::SuperBodyRow row;
   row.jacobian = joints.transpose();
   row.target = motor.speed;
-  row.lower = -limit;
-  row.upper = limit;
+  row.lower = -motor.reverse_limit * h;
+  row.upper = motor.limit * h;
   row.start = start;
   return row;
 }

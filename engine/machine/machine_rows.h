@@ -7,7 +7,7 @@
 
 /// A machine's own rows in the solve: velocity motors with force limits and joint stops.
 ///
-/// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with |λ| ≤ h · force limit, λ the impulse on each.
+/// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with −h · reverse limit ≤ λ ≤ h · limit, λ the impulse on each.
 /// Stop of k joints: with the distance g left to the nearer end of the stroke (mean over the joints) and the
 /// direction s in which that end pushes, s (J₁ + … + J_k) w⁺ ≥ −k g/h, λ the impulse on each; past the end
 /// (g < 0) it asks for k |g|/5h back, so that an overrun is taken out over some five steps and the load is
@@ -23,7 +23,8 @@ StopSide nearer_stop(const StopSpec& stop, double coordinate);
 
 struct MotorSetting {
   double speed;  ///< summed over the motor's joints [rad/s] or [m/s]
-  double limit;  ///< of the force on each [N m] or [N]
+  double limit;          ///< of the force on each [N m] or [N]
+  double reverse_limit;  ///< the same, against the joint's direction
 };
 
 /// `joints`: sum of the rows of N for the motor's or stop's joints; `start`: impulse to start from [N s] or

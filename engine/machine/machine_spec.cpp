@@ -67,7 +67,8 @@ void check(const MachineSpec& spec) {
     if (motor.bodies.empty())
       refuse("motor \"" + motor.name + "\": it drives no joint; name at least one body");
     for (int body : motor.bodies) check_joint(spec, body, place + ("motor \"" + motor.name + "\""));
-    if (!(motor.max_force >= 0)) refuse("motor \"" + motor.name + "\": the force limit must not be negative");
+    if (!(motor.max_force >= 0 && motor.max_reverse_force >= 0))
+      refuse("motor \"" + motor.name + "\": the force limit must not be negative");
   }
   for (const auto& stop : spec.stops) {
     if (stop.bodies.empty()) refuse("stop \"" + stop.name + "\": it stops no joint; name at least one body");

@@ -41,12 +41,14 @@ struct LoopPinSpec {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
 };
 
-/// Drives the joints of `bodies` to a set mean speed with one bounded force on each: |F| ≤ max_force [N] or
-/// [N m]. Several joints are cylinders fed in parallel: the same pressure, so the same force, in all.
+/// Drives the joints of `bodies` to a set mean speed with one bounded force on each: −max_reverse_force ≤ F ≤
+/// max_force [N] or [N m], positive along the joint. Several joints are cylinders fed in parallel: the same
+/// pressure, so the same force, in all.
 struct MotorSpec {
   std::string name;
   std::vector<int> bodies;
   double max_force = 0;
+  double max_reverse_force = max_force;
 };
 
 /// Keeps the joint coordinates of `bodies` within [lower, upper], [rad] or [m]. Several joints are ones that

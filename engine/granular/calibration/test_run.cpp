@@ -53,7 +53,8 @@ void TestRun::step(std::string_view phase, double done) {
   if (options_->progress) options_->progress(phase, done);
 }
 
-void TestRun::pour(const RockSample& sample, const EmitterOptions& where, double mass) {
+void TestRun::pour(const RockSample& sample, const EmitterOptions& where, double mass,
+                   const std::function<void()>& each_step) {
   const RockLibrary library(sample.density, rough);
   Emitter emitter(where, sample.density, options_->seed, sample.sizes);
   std::vector<RockSpec> specs;
@@ -61,8 +62,9 @@ void TestRun::pour(const RockSample& sample, const EmitterOptions& where, double
   while (left > 0 && !stopped()) {
     for (const int rock : emitter.emit(*world_, library, specs, left)) left -= world_->rock(rock).body.mass;
     step("pour", 1 - std::max(0.0, left) / mass);
+    if (each_step) each_step();
   }
-  settle();
+  settle(each_step);
 }
 
 void TestRun::settle(const std::function<void()>& each_step) {
@@ -77,12 +79,19 @@ void TestRun::settle(const std::function<void()>& each_step) {
   moving_ = moving_ || watch.timed_out();
 }
 
-void TestRun::go_on(std::string_view phase, double time, const std::function<void()>& each_step) {
+void TestRun::go_until(std::string_view phase, double time, const std::function<bool()>& done) {
   const int steps = static_cast<int>(std::lround(time / world_->options().step));
   for (int k = 0; k < steps && !stopped(); ++k) {
     step(phase, (k + 1.0) / steps);
-    if (each_step) each_step();
+    if (done()) return;
   }
+}
+
+void TestRun::go_on(std::string_view phase, double time, const std::function<void()>& each_step) {
+  go_until(phase, time, [&] {
+    if (each_step) each_step();
+    return false;
+  });
 }
 
 RunStatus TestRun::status() const {

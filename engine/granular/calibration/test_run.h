@@ -34,8 +34,11 @@ class TestRun {
   TestRun(engine::World& world, const RunOptions& options) : world_(&world), options_(&options) {}
 
   /// Lets go `mass` [kg] of the sample over the places of `where` and waits for rest.
-  void pour(const RockSample& sample, const EmitterOptions& where, double mass);
+  void pour(const RockSample& sample, const EmitterOptions& where, double mass,
+            const std::function<void()>& each_step = {});
   void settle(const std::function<void()>& each_step = {});
+  /// Until `done`, asked after every step, for at most `time` [s].
+  void go_until(std::string_view phase, double time, const std::function<bool()>& done);
   /// For the steps that make up `time` [s].
   void go_on(std::string_view phase, double time, const std::function<void()>& each_step = {});
 
