@@ -69,10 +69,9 @@ engine::granular::SizeDistribution sizes_of(const std::string& text) {
 std::string wrong_sizes(const std::string& text) {
   if (is_size_name(text)) return "";
   std::string copy = text;  // a validator may change what it checks
-  return between(
-      0.05, 5, "m",
-      "or choose mine (0.3 to 0.8 m by mass), mine_with_fines (from 0.2 m) or well_broken (0.2 to 0.5 m)")(
-      copy);
+  return between(0.05, 5, "m",
+                 "or choose mine (0.3 to 0.8 m by mass), mine_with_fines (from 0.2 m), mine_with_small_fines "
+                 "(from 0.1 m) or well_broken (0.2 to 0.5 m)")(copy);
 }
 
 struct Row {
@@ -236,8 +235,9 @@ int main(int argc, char** argv) {
   app.add_option("--spinning", s.spinning, "spinning resistance [1]")
       ->check(between(0, 2, "", "0 is usual"))
       ->capture_default_str();
-  app.add_option("--sizes", s.sizes,
-                 "longest dimension of all rocks [m], or mine, mine_with_fines or well_broken")
+  app.add_option(
+         "--sizes", s.sizes,
+         "longest dimension of all rocks [m], or mine, mine_with_fines, mine_with_small_fines or well_broken")
       ->check(wrong_sizes)
       ->capture_default_str();
   app.add_option("--density", s.density, "of the solid rock [kg/m3]")

@@ -56,9 +56,10 @@ double mean_unit_volume() {
 SizeDistribution sizes_named(const std::string& name) {
   if (name == size_names[0]) return blasted_ore;
   if (name == size_names[1]) return blasted_ore_with_fines;
-  if (name == size_names[2]) return well_broken_ore;
+  if (name == size_names[2]) return blasted_ore_with_small_fines;
+  if (name == size_names[3]) return well_broken_ore;
   throw std::invalid_argument("granular::sizes_named: \"" + name +
-                              "\"; choose mine, mine_with_fines or well_broken");
+                              "\"; choose mine, mine_with_fines, mine_with_small_fines or well_broken");
 }
 
 double rocks_per_mass(const SizeDistribution& sizes) {

@@ -27,8 +27,8 @@ class LoadingRun {
       : scenario_(scenario),
         hooks_(hooks),
         site_(scenario, pile),
-        signals_(site_.lhd(), scenario.log_all_joints),
-        scene_(site_, scenario.drift) {
+        signals_(site_.lhd(), scenario.log_all_joints, log_.signals),
+        scene_(site_, scenario.drift, log_.scene) {
     site_.world().before_solve(hooks.before_solve);
     describe(scenario_, site_, log_);
     log_.texts["pile_provenance"] = pile.provenance.empty() ? "given by the caller" : pile.provenance;
@@ -36,27 +36,21 @@ class LoadingRun {
 
   LoadingLog run() {
     bool goes_on = true;
-    for (int cycle = 1; goes_on && cycle <= scenario_.cycles; ++cycle)
-      goes_on = attempt(cycle) && (cycle == scenario_.cycles || replenish(cycle));
+    for (int cycle = 1; goes_on && cycle <= scenario_.cycles; ++cycle) {
+      goes_on = attempt(cycle);
+      if (!goes_on || cycle == scenario_.cycles) break;
+      keep(cycle);
+      goes_on = replenish(cycle);
+    }
     log_.completed = goes_on;
-    log_.numbers["lost_cycles"] = lost_;
-    log_.numbers["cleared_mass"] = cleared_;
-    log_.numbers["escaped_mass"] = escaped_;
-    log_.numbers["emitted_mass"] = site_.emitted_mass();
-    log_.numbers["present_mass"] = site_.present_mass();
-    log_.numbers["largest_overlap"] = largest_overlap_;
-    log_.numbers["largest_loop_error"] = largest_loop_error_;
-    log_.numbers["repeated_steps"] = static_cast<double>(repeated_);
-    log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
-    log_.numbers["most_iterations_per_substep"] =
-        engine::most_iterations(scenario_.world.solver, most_points_);
-    log_.signals = signals_.take();
-    log_.scene = scene_.take();
+    sum_up();
     return std::move(log_);
   }
 
  private:
   bool attempt(int cycle);
+  void keep(int cycle);
+  void sum_up();
   bool run_cycle(CycleRecord& record);
   bool give_up(const CycleRecord& record, const std::string& message);
   bool replenish(int cycle);
@@ -82,9 +76,9 @@ class LoadingRun {
   Scenario scenario_;
   SimulationHooks hooks_;
   Site site_;
-  SignalRecorder signals_;
-  SceneRecorder scene_;
   LoadingLog log_;
+  SignalRecorder signals_;  // into log_
+  SceneRecorder scene_;     // into log_
   double cleared_ = 0;
   double escaped_ = 0;  // mass [kg]
   long steps_ = 0, repeated_ = 0;
@@ -94,6 +88,30 @@ class LoadingRun {
   double largest_overlap_ = 0, largest_loop_error_ = 0;  // over the cycles [m]
   std::vector<bool> in_front_before_;                    // by rock, before the machine first came
 };
+
+void LoadingRun::sum_up() {
+  log_.numbers["lost_cycles"] = lost_;
+  log_.numbers["cleared_mass"] = cleared_;
+  log_.numbers["escaped_mass"] = escaped_;
+  log_.numbers["emitted_mass"] = site_.emitted_mass();
+  log_.numbers["present_mass"] = site_.present_mass();
+  log_.numbers["largest_overlap"] = largest_overlap_;
+  log_.numbers["largest_loop_error"] = largest_loop_error_;
+  log_.numbers["repeated_steps"] = static_cast<double>(repeated_);
+  log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
+  log_.numbers["most_iterations_per_substep"] = engine::most_iterations(scenario_.world.solver, most_points_);
+  scene_.complete();
+}
+
+// A run that is killed leaves the cycles that it had done.
+void LoadingRun::keep(int cycle) {
+  if (scenario_.log_file.empty()) return;
+  sum_up();
+  log_.message = "not finished: written after cycle " + std::to_string(cycle) + " of " +
+                 std::to_string(scenario_.cycles);
+  write_log(scenario_.log_file, log_);
+  log_.message.clear();
+}
 
 ColumnModel LoadingRun::columns(bool with_bucket) const {
   return columns_of(site_.rocks(with_bucket), scenario_, site_.lhd());

@@ -12,26 +12,29 @@
 /// wait for rest, again.
 ///
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
-/// hauling, dumping and driving are left out. After the cycle the machine stands for a second, what the bucket
-/// carries is weighed and taken away, spilled rocks stay where they lie, and rocks come down the raise until the
-/// drift holds its first mass again or the raise is blocked; what is missing then comes while the machine digs.
-/// Rocks that lie on the rest of the machine, or where it must stand, are taken away and logged (`cleared_mass`).
+/// hauling, dumping and driving are left out. After the cycle the machine stands for a second, what the
+/// bucket carries is weighed and taken away, spilled rocks stay where they lie, and rocks come down the raise
+/// until the drift holds its first mass again or the raise is blocked; what is missing then comes while the
+/// machine digs. Rocks that lie on the rest of the machine, or where it must stand, are taken away and logged
+/// (`cleared_mass`).
 ///
-/// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left the
-/// drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost (`lost_cycles`), not the
-/// run; more than 1 % of the pile's mass or one cycle in five is failure. Failure is data: a pile without a place to
-/// load, or a solution that breaks down, gives a log with completed = false and a message; the cycles done before
-/// are in it.
-/// Throws std::invalid_argument for a bad scenario and std::runtime_error if a file cannot be read or
-/// written. Deterministic. Cost: some ms per step and 1000 rocks.
+/// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left
+/// the drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost
+/// (`lost_cycles`), not the run; more than 1 % of the pile's mass or one cycle in five is failure. Failure is
+/// data: a pile without a place to load, or a solution that breaks down, gives a log with completed = false
+/// and a message; the cycles done before are in it. A log file is written whole after every cycle: a run that
+/// is killed leaves the cycles that it had done, completed = false. Throws std::invalid_argument for a bad
+/// scenario and std::runtime_error if a file cannot be read or written. Deterministic. Cost: some ms per step
+/// and 1000 rocks.
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {
-  /// After each step, with where its time went. What it or `look_ahead` throws ends the run, with its message.
+  /// After each step, with where its time went. What it or `look_ahead` throws ends the run, with its
+  /// message.
   std::function<void(const engine::StepReport&)> on_step;
   engine::World::Observer before_solve;  ///< in each step of the cycles, as World::before_solve
-  /// Before each step in which the strategy drives the machine. It may step the world, to look ahead with the speeds that are
-  /// set, but must restore it.
+  /// Before each step in which the strategy drives the machine. It may step the world, to look ahead with the
+  /// speeds that are set, but must restore it.
   std::function<void(engine::World&)> look_ahead;
 };
 

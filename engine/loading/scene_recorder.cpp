@@ -42,7 +42,7 @@ void append_hidden(std::vector<float>& poses) {
 
 }  // namespace
 
-SceneRecorder::SceneRecorder(const Site& site, const Drift& d) {
+SceneRecorder::SceneRecorder(const Site& site, const Drift& d, SceneRecord& scene) : scene_(scene) {
   for (const LhdSurface& s : site.lhd().surfaces) {
     scene_.bodies.push_back(
         {static_cast<int>(scene_.shapes.size()), s.color, 1.0, site.lhd().spec.bodies[s.body].name});
@@ -91,10 +91,9 @@ void SceneRecorder::frame(const Site& site, int cycle, const std::string& label)
   scene_.frames.push_back(std::move(frame));
 }
 
-SceneRecord SceneRecorder::take() {
+void SceneRecorder::complete() {
   for (SceneFrame& frame : scene_.frames)
     while (frame.poses.size() < values_per_pose * scene_.bodies.size()) append_hidden(frame.poses);
-  return std::move(scene_);
 }
 
 }  // namespace drawpoint::engine::loading

@@ -12,15 +12,17 @@ namespace drawpoint::engine::loading {
 
 class SceneRecorder {
  public:
-  SceneRecorder(const Site& site, const Drift& drift);
+  /// Into `scene`, which is to stay.
+  SceneRecorder(const Site& site, const Drift& drift, SceneRecord& scene);
   void frame(const Site& site, int cycle, const std::string& label);
-  SceneRecord take();
+  /// Gives all frames a pose for every body there is; before the scene is written.
+  void complete();
 
  private:
   int shape_of(const granular::RockSpec& spec);
   void add_rocks(const Site& site);
 
-  SceneRecord scene_;
+  SceneRecord& scene_;
   std::map<std::pair<int, double>, int> rock_shapes_;
   std::size_t machine_bodies_ = 0, fixed_bodies_ = 0, rocks_ = 0;
 };

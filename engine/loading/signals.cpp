@@ -14,7 +14,7 @@ std::string identifier(std::string name) {
 
 }  // namespace
 
-SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints) {
+SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints, record::Table& table) : table_(table) {
   table_.columns = {
       {"time", "s"},         {"cycle", "1"},         {"stage", "1"},        {"progress", "1"},
       {"tip_x", "m"},        {"tip_y", "m"},         {"tip_z", "m"},        {"bucket_angle", "rad"},

@@ -15,15 +15,15 @@ namespace drawpoint::engine::loading {
 
 class SignalRecorder {
  public:
-  /// `all_joints`: the wrench of each joint of the tree, in place of hinge G's alone.
-  SignalRecorder(const Lhd& lhd, bool all_joints);
+  /// Into `table`, which is to stay. `all_joints`: the wrench of each joint of the tree, in place of hinge G's
+  /// alone.
+  SignalRecorder(const Lhd& lhd, bool all_joints, record::Table& table);
   /// `progress`: of the present stage; `set`: what the executor asked for.
   void append(const Site& site, int cycle, const Executor& executor, const ActuatorRates& set,
               const engine::StepReport& report);
-  record::Table take() { return std::move(table_); }
 
  private:
-  record::Table table_;
+  record::Table& table_;
   std::vector<int> joints_;  // bodies whose joint wrench is logged
   std::vector<double> row_;
 };

@@ -44,11 +44,12 @@ TEST(RockSampler, KeepsToTheMassQuotaAtEveryMoment) {
   }
 }
 
-// What the header says of each, against the sum by hand: Σ w/L³ is 13.88, 41.3 and 59.6 per m³.
+// What the header says of each, against the sum by hand: Σ w/L³ is 13.88, 41.3, 112.1 and 59.6 per m³.
 TEST(SizeDistribution, FinerRockIsMoreRocks) {
   const double mine = rocks_per_mass(blasted_ore);
   EXPECT_NEAR(mine, 0.2 / 0.027 + 0.3 / 0.064 + 0.3 / 0.216 + 0.2 / 0.512, 1e-12);
   EXPECT_NEAR(rocks_per_mass(sizes_named("mine_with_fines")) / mine, 3.0, 0.05);
+  EXPECT_NEAR(rocks_per_mass(sizes_named("mine_with_small_fines")) / mine, 8.1, 0.05);
   EXPECT_NEAR(rocks_per_mass(sizes_named("well_broken")) / mine, 4.3, 0.05);
 }
 
@@ -58,7 +59,8 @@ TEST(SizeDistribution, AnUnknownNameIsRefusedWithTheNamesThereAre) {
     FAIL() << "sand was taken";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "granular::sizes_named: \"sand\"; choose mine, mine_with_fines or well_broken");
+                 "granular::sizes_named: \"sand\"; choose mine, mine_with_fines, "
+                 "mine_with_small_fines or well_broken");
   }
 }
 

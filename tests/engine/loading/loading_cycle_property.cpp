@@ -234,6 +234,29 @@ TEST(LoadingCycle, ACallerEndsTheRun) {
   EXPECT_NE(log.message.find("enough"), std::string::npos) << log.message;
 }
 
+// The file that is there while the second cycle is made ready is the first cycle's log, whole.
+TEST(LoadingCycle, ARunThatIsKilledLeavesWhatItHadDone) {
+  Scenario scenario = small_case();
+  scenario.cycles = 2;
+  scenario.log_file = std::filesystem::path(testing::TempDir()) / "drawpoint_cycle_killed.h5";
+  std::filesystem::remove(scenario.log_file);
+  SimulationHooks hooks;
+  LoadingLog left;
+  hooks.on_step = [&](const StepReport&) {
+    if (!std::filesystem::exists(scenario.log_file)) return;
+    left = read_log(scenario.log_file);
+    throw std::runtime_error("killed");
+  };
+  EXPECT_FALSE(simulate(scenario, hooks).completed);
+  EXPECT_FALSE(left.completed);
+  EXPECT_EQ(left.message, "not finished: written after cycle 1 of 2");
+  ASSERT_EQ(left.cycles.size(), 1u);
+  EXPECT_EQ(left.cycles[0].loaded_rock_masses, cycle_log().cycles[0].loaded_rock_masses);
+  EXPECT_EQ(left.signals.values, cycle_log().signals.values);
+  EXPECT_EQ(left.scene.frames.size(), cycle_log().scene.frames.size());
+  EXPECT_EQ(left.numbers.at("present_mass"), cycle_log().numbers.at("present_mass"));
+}
+
 // One rock under the floor, beside the lane that the machine clears, is taken away and counted; a tenth of
 // the pile there is failure.
 TEST(LoadingCycle, RockThatLeftTheDriftIsCounted) {
