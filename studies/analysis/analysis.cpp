@@ -6,6 +6,7 @@
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/store/run_logs.h>
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/compare.hpp>
@@ -129,43 +130,61 @@ void warn(ReportInput& input, const std::vector<Run>& runs) {
   }
 }
 
-/// The successful run that is best in the first objective, among those whose log is there; nullptr if there
-/// is none.
-const Run* run_to_show(const std::vector<Run>& runs, const doe::Problem& problem, const Folder& folder) {
+/// Of the runs that are done, those whose log is as they wrote it; what is wrong with others becomes a warning.
+std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder& folder,
+                                      std::vector<std::string>& warnings) {
+  std::vector<const Run*> sound;
+  std::string others;
+  for (const auto& run : runs) {
+    if (run.status != Status::done) continue;
+    const LogState state = log_state(folder, run);
+    if (state == LogState::sound) sound.push_back(&run);
+    if (state == LogState::other)
+      others += (others.empty() ? "" : ", ") + folder.log(run.id).filename().string();
+  }
+  if (!others.empty())
+    warnings.push_back("Logs that are damaged, or not what their run wrote, are left out: " + others +
+                       ". The responses in the store stand; evaluate --run N --log FILE makes a log again.");
+  return sound;
+}
+
+/// Best first in the first objective.
+std::vector<const Run*> runs_to_show(std::vector<const Run*> runs, const doe::Problem& problem) {
   const auto objective =
       std::find_if(problem.responses.begin(), problem.responses.end(),
                    [](const doe::Response& response) { return doe::is_objective(response.goal); });
   const bool none = objective == problem.responses.end();
   const Eigen::Index column = none ? 0 : objective - problem.responses.begin();
   const double sign = none ? -1.0 : doe::sign_of(objective->goal);
-  const Run* best = nullptr;
-  for (const auto& run : runs) {
-    if (run.status != Status::done || !std::filesystem::exists(folder.log(run.id))) continue;
-    if (best == nullptr || sign * run.y[column] < sign * best->y[column]) best = &run;
-  }
-  return best;
+  std::stable_sort(runs.begin(), runs.end(),
+                   [&](const Run* a, const Run* b) { return sign * a->y[column] < sign * b->y[column]; });
+  return runs;
 }
 
-void illustrate(ReportInput& input, const Study& study, const std::vector<Run>& runs, const Folder& folder) {
+/// By the best run that can be shown; a few that cannot become warnings.
+void illustrate(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
+                const Folder& folder) {
+  const int most_attempts = 5;
   input.illustrations = nlohmann::json::array();
-  const Run* run = study.illustrate ? run_to_show(runs, study.problem, folder) : nullptr;
-  if (run == nullptr) return;
-  try {
-    input.illustrations = study.illustrate(folder.log(run->id));
-    input.facts.emplace_back("Run shown", std::to_string(run->id));
-  } catch (const std::exception& e) {
-    input.warnings.push_back("Run " + std::to_string(run->id) + " could not be shown: " + e.what());
+  if (!study.illustrate) return;
+  int attempts = 0;
+  for (const Run* run : runs_to_show(runs, study.problem)) {
+    if (attempts++ == most_attempts) return;
+    try {
+      input.illustrations = study.illustrate(folder.log(run->id));
+      input.facts.emplace_back("Run shown", std::to_string(run->id));
+      return;
+    } catch (const std::exception& e) {
+      input.warnings.push_back("Run " + std::to_string(run->id) + " could not be shown: " + e.what());
+    }
   }
 }
 
-/// Of the runs that are done and whose log is there.
-std::vector<Headline> headlines_of(const Study& study, const std::vector<Run>& runs, const Folder& folder,
-                                   std::vector<std::string>& warnings) {
+std::vector<Headline> headlines_of(const Study& study, const std::vector<const Run*>& runs,
+                                   const Folder& folder, std::vector<std::string>& warnings) {
   if (!study.headlines) return {};
   std::vector<std::filesystem::path> logs;
-  for (const auto& run : runs)
-    if (run.status == Status::done && std::filesystem::exists(folder.log(run.id)))
-      logs.push_back(folder.log(run.id));
+  for (const Run* run : runs) logs.push_back(folder.log(run->id));
   try {
     return study.headlines(logs);
   } catch (const std::exception& e) {
@@ -178,8 +197,11 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
   for (const auto& run : runs) {
-    ++(run.kind == Kind::training ? summary.training : summary.validation);
     if (run.status == Status::failed) ++summary.failed;
+    if (run.status == Status::failed || run.status == Status::done)
+      ++(run.kind == Kind::training ? summary.training : summary.validation);
+    else
+      ++summary.unfinished;
   }
   for (const auto& response : study.problem.responses) {
     summary.nrmse.emplace_back(response.name, std::numeric_limits<double>::quiet_NaN());
@@ -199,7 +221,8 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.problem = study.problem;
   input.training = table_of(runs, study.problem, Kind::training);
   input.validation = table_of(runs, study.problem, Kind::validation);
-  input.headlines = summary.headlines = headlines_of(study, runs, folder, input.warnings);
+  const std::vector<const Run*> logged = runs_with_log(runs, folder, input.warnings);
+  input.headlines = summary.headlines = headlines_of(study, logged, folder, input.warnings);
   std::vector<std::string> chosen;
   try {
     chosen = fit_models(input);
@@ -225,8 +248,8 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   for (std::size_t j = 0; j < chosen.size(); ++j)
     input.facts.emplace_back("Model of " + study.problem.responses[j].name, chosen[j]);
   warn(input, runs);
-  illustrate(input, study, runs, folder);
-  summary.findings = hold_findings(input, study, folder);
+  illustrate(input, study, logged, folder);
+  summary.findings = hold_findings(input, study, logged, folder);
   write_report(folder.report(), input);
   summary.report = std::filesystem::absolute(folder.report()).lexically_normal();
   return summary;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/findings.h>
 
+#include <cstdint>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -14,7 +17,10 @@ Eigen::MatrixXd responses_of(const doe::Evaluations& table) {
   return Y;
 }
 
-StudyResults results_of(const ReportInput& input, const Folder& folder) {
+StudyResults results_of(const ReportInput& input, const std::vector<const Run*>& logged,
+                        const Folder& folder) {
+  std::set<std::int64_t> with_log;
+  for (const Run* run : logged) with_log.insert(run->id);
   StudyResults results{.problem = input.problem,
                        .X = input.training.X(),
                        .Y = responses_of(input.training),
@@ -24,8 +30,7 @@ StudyResults results_of(const ReportInput& input, const Folder& folder) {
                        .nrmse = {}};
   for (const auto& row : input.training.rows) {
     if (row.outcome.failed()) continue;
-    const std::filesystem::path log = folder.log(row.run);
-    results.logs.push_back(std::filesystem::exists(log) ? log : std::filesystem::path());
+    results.logs.push_back(with_log.contains(row.run) ? folder.log(row.run) : std::filesystem::path());
   }
   for (const auto& validation : input.validations) results.nrmse.push_back(validation.nrmse);
   return results;
@@ -33,10 +38,11 @@ StudyResults results_of(const ReportInput& input, const Folder& folder) {
 
 }  // namespace
 
-std::vector<Finding> hold_findings(ReportInput& input, const Study& study, const Folder& folder) {
+std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
+                                   const std::vector<const Run*>& logged, const Folder& folder) {
   if (!study.findings) return {};
   try {
-    return input.findings = study.findings(results_of(input, folder));
+    return input.findings = study.findings(results_of(input, logged, folder));
   } catch (const std::exception& e) {
     input.warnings.push_back(std::string("The findings could not be held against the runs: ") + e.what());
     return {};

@@ -5,14 +5,16 @@
 
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
 #include <vector>
 
 namespace drawpoint::studies {
 
-/// Asks the study with the runs and validations of the report, and puts the answers there. If the study
-/// throws, there are no findings and a warning says why.
-std::vector<Finding> hold_findings(ReportInput& input, const Study& study, const Folder& folder);
+/// Asks the study with the runs and validations of the report, and puts the answers there. `logged`: the runs
+/// whose log may be used. If the study throws, there are no findings and a warning says why.
+std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
+                                   const std::vector<const Run*>& logged, const Folder& folder);
 
 }  // namespace drawpoint::studies

@@ -42,11 +42,10 @@ std::string front_text(const Summary& summary) {
 }  // namespace
 
 std::string json_line(const Summary& summary) {
-  nlohmann::ordered_json line = {{"study", summary.study},
-                                 {"runs", summary.training + summary.validation},
-                                 {"training", summary.training},
-                                 {"validation", summary.validation},
-                                 {"failed", summary.failed}};
+  nlohmann::ordered_json line = {
+      {"study", summary.study},       {"runs", summary.training + summary.validation},
+      {"training", summary.training}, {"validation", summary.validation},
+      {"failed", summary.failed},     {"unfinished", summary.unfinished}};
   line["headlines"] = nlohmann::ordered_json::object();
   for (const Headline& headline : summary.headlines)
     line["headlines"][headline.name] = number_or_null(headline.value);
@@ -71,7 +70,10 @@ std::string json_line(const Summary& summary) {
 std::string text(const Summary& summary) {
   std::string result = summary.study + ": " + std::to_string(summary.training) + " training and " +
                        std::to_string(summary.validation) + " validation runs, " +
-                       std::to_string(summary.failed) + " failed\n";
+                       std::to_string(summary.failed) + " failed";
+  if (summary.unfinished > 0)
+    result += "; " + std::to_string(summary.unfinished) + " are planned, which the command run makes";
+  result += "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) {
     const std::string number =

@@ -16,8 +16,9 @@ namespace drawpoint::studies {
 
 struct Summary {
   std::string study = {};
-  int training = 0, validation = 0;                        ///< runs in the store, failed ones among them
+  int training = 0, validation = 0;                        ///< runs that ended, failed ones among them
   int failed = 0;                                          ///< of both kinds
+  int unfinished = 0;                                      ///< planned, of both kinds
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<Finding> findings = {};                      ///< in the study's order
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
@@ -28,10 +29,10 @@ struct Summary {
   std::string error = {};                                  ///< why there is none
 };
 
-/// {"study", "runs", "training", "validation", "failed", "headlines": {name: number or null}, "findings": {id:
-/// verdict}, "nrmse": {response: number or null}, "front", "certified": number or null, "polishing_gain_percent": number or
-/// null, "report": path or null}, and "not_polished" and "error", which say why, if there is something to
-/// say. `runs` counts the rows of the store's table.
+/// {"study", "runs", "training", "validation", "failed", "unfinished", "headlines": {name: number or null},
+/// "findings": {id: verdict}, "nrmse": {response: number or null}, "front", "certified": number or null,
+/// "polishing_gain_percent": number or null, "report": path or null}, and "not_polished" and "error", which
+/// say why, if there is something to say. `runs` counts those that ended.
 std::string json_line(const Summary& summary);
 
 /// Several lines, each with its end.

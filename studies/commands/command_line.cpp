@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 namespace drawpoint::studies {
@@ -19,9 +22,25 @@ constexpr int failure = 1;
 constexpr int wrong_usage = 2;
 constexpr std::array<const char*, 5> commands = {"run", "status", "report", "evaluate", "prepare"};
 
-/// CLI11 would wrap a negative number around.
-std::string not_negative(const std::string& text) {
-  return text.find('-') == std::string::npos ? "" : "Value " + text + " must not be negative";
+/// CLI11 would wrap a negative number around and cut a large one off.
+std::string seed_complaint(const std::string& text) {
+  doe::Seed seed = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (!text.empty() && end.ec == std::errc() && end.ptr == text.data() + text.size()) return "";
+  return "Value " + text + " is no seed; give a whole number from 0 to " +
+         std::to_string(std::numeric_limits<doe::Seed>::max());
+}
+
+/// CLI::Range lets what is no number through.
+std::string seconds_complaint(const std::string& text) {
+  constexpr double most = 1e9;
+  double seconds = std::numeric_limits<double>::quiet_NaN();
+  if (CLI::detail::lexical_cast(text, seconds) && seconds >= 0 && seconds <= most) return "";
+  return "Value " + text + " is no time; give 0 to 1e9 seconds, 0 for no limit";
+}
+
+std::string folder_complaint(const std::string& text) {
+  return text.empty() ? "an empty name; give the folder of the study" : "";
 }
 
 /// `prog --runs 5` means `prog run --runs 5`.
@@ -48,6 +67,7 @@ std::string joined(int argc, char** argv) {
 
 void add_folder_options(CLI::App& command, Settings& settings) {
   command.add_option("--out", settings.out, "folder of the study: store, run logs, report")
+      ->check(folder_complaint)
       ->capture_default_str();
   command.add_flag("--json", settings.json,
                    "last line of standard output is one JSON object; everything else goes to standard error");
@@ -72,11 +92,11 @@ void add_run_options(CLI::App& command, Settings& settings, const Defaults& defa
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command.add_option("--seed", settings.seed, "study seed, from which all random numbers follow (default 1)")
-      ->check(not_negative);
+      ->check(seed_complaint);
   command
       .add_option("--time-limit", settings.time_limit,
                   "seconds after which a run is stopped and counts as failed; 0: none")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(seconds_complaint)
       ->capture_default_str();
   command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
 }
@@ -126,12 +146,25 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
 }
 
 void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
+  const int most_runs = 1'000'000'000;
   auto* evaluate = app.add_subcommand("evaluate", "make one run in this process and print its responses");
   std::string names;
   for (const auto& variable : study.problem.variables) names += (names.empty() ? "" : ",") + variable.name;
-  evaluate->add_option("--x", parsed.point.x, "the point: " + names)->required()->delimiter(',');
-  evaluate->add_option("--seed", parsed.point.seed, "seed of this run")
-      ->check(not_negative)
+  auto* x = evaluate->add_option("--x", parsed.point.x, "the point: " + names)->delimiter(',');
+  auto* seed = evaluate->add_option("--seed", parsed.point.seed, "seed of this run")
+                   ->check(seed_complaint)
+                   ->capture_default_str();
+  auto* run =
+      evaluate
+          ->add_option("--run", parsed.point.run,
+                       "in place of --x: this run of the study in --out, its point, seed and options, and "
+                       "whether it comes out as stored")
+          ->check(CLI::Range(1, most_runs))
+          ->excludes(x)
+          ->excludes(seed);
+  evaluate->add_option("--out", parsed.point.out, "with --run: folder of the study")
+      ->needs(run)
+      ->check(folder_complaint)
       ->capture_default_str();
   evaluate->add_option("--log", parsed.point.log, "file for the run log (default: not kept)");
   evaluate->add_flag("--json", parsed.point.json, "print one JSON object");
@@ -146,7 +179,7 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
 
 int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
-  parsed.settings.out = std::filesystem::path("results") / study.name;
+  parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   parsed.settings.command = joined(argc, argv);
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, study.name);

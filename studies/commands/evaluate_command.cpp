@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/folder.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -82,9 +84,11 @@ void reply(int descriptor, const doe::Outcome& outcome) {
   }
 }
 
-void print(const doe::Problem& problem, const doe::Outcome& outcome, bool as_json) {
+void print(const doe::Problem& problem, const doe::Outcome& outcome, bool as_json,
+           const std::optional<bool>& as_stored) {
   if (as_json) {
     nlohmann::json line = {{"failed", outcome.failed()}};
+    if (as_stored) line["as_stored"] = *as_stored;
     if (outcome.failed()) line["reason"] = outcome.reason();
     for (Eigen::Index i = 0; i < outcome.values().size(); ++i) {
       line["values"][problem.responses[static_cast<std::size_t>(i)].name] = outcome.values()[i];
@@ -100,13 +104,52 @@ void print(const doe::Problem& problem, const doe::Outcome& outcome, bool as_jso
   }
 }
 
-int hand_over(const Study& study, const PointSettings& settings, const doe::Outcome& outcome) {
+/// `as_stored`: whether a run that was made again came out as before.
+int hand_over(const Study& study, const PointSettings& settings, const doe::Outcome& outcome,
+              const std::optional<bool>& as_stored = {}) {
   if (settings.result_descriptor >= 0) {
     reply(settings.result_descriptor, outcome);
   } else {
-    print(study.problem, outcome, settings.json);
+    print(study.problem, outcome, settings.json, as_stored);
   }
-  return outcome.failed() ? 1 : 0;
+  return outcome.failed() || !as_stored.value_or(true) ? 1 : 0;
+}
+
+/// A run of a study, and what it takes to make it again.
+struct StoredRun {
+  Run run;
+  PointSettings settings;
+};
+
+StoredRun stored_run(const Study& study, const PointSettings& given) {
+  if (!given.options.empty())
+    throw UsageError("--run " + std::to_string(*given.run) + ": its options are the study's; leave out --" +
+                     given.options.begin()->first);
+  const Folder folder{given.out};
+  const Store store = open_store(study, folder);
+  const std::vector<Run> runs = store.runs();
+  if (*given.run > static_cast<std::int64_t>(runs.size()))
+    throw UsageError("--run " + std::to_string(*given.run) + ": the study in " + folder.path.string() +
+                     " has runs 1 to " + std::to_string(runs.size()));
+  StoredRun stored{runs[static_cast<std::size_t>(*given.run) - 1], given};
+  stored.settings.x.assign(stored.run.x.begin(), stored.run.x.end());
+  stored.settings.seed = stored.run.seed;
+  stored.settings.options = store.identity().options;
+  if (stored.settings.shared.empty()) stored.settings.shared = folder.shared();
+  return stored;
+}
+
+/// Empty where nothing is stored yet. Prints the answer.
+std::optional<bool> compare_with_stored(const Run& run, const doe::Outcome& outcome) {
+  const std::string name = "run " + std::to_string(run.id);
+  if (run.status != Status::done && run.status != Status::failed) {
+    std::fprintf(stderr, "%s is planned: nothing is stored to hold this against\n", name.c_str());
+    return {};
+  }
+  const bool same = outcome.failed() ? run.status == Status::failed && outcome.reason() == run.reason
+                                     : run.status == Status::done && outcome.values() == run.y;
+  std::fprintf(stderr, same ? "%s: as stored, bit for bit\n" : "%s: not as stored\n", name.c_str());
+  return same;
 }
 
 /// What a run by hand or the preparation is told.
@@ -128,7 +171,12 @@ fs::path shared_folder(const Study& study, const PointSettings& settings,
 
 }  // namespace
 
-int evaluate_command(const Study& study, const PointSettings& settings) {
+int evaluate_command(const Study& study, const PointSettings& given) {
+  if (!given.run && given.x.empty())
+    throw UsageError("evaluate: give a point with --x, or a run of a study with --run; see evaluate --help");
+  std::optional<StoredRun> stored;
+  if (given.run) stored = stored_run(study, given);
+  const PointSettings& settings = stored ? stored->settings : given;
   const Eigen::VectorXd x = checked_point(study.problem, settings.x);
   keep_private(settings.result_descriptor);
   std::optional<TemporaryFolder> temporary;
@@ -140,7 +188,9 @@ int evaluate_command(const Study& study, const PointSettings& settings) {
   const auto black_box = [&](const Eigen::VectorXd& point, doe::Seed seed) {
     return study.black_box(point, seed, context);
   };
-  return hand_over(study, settings, doe::detail::call(black_box, study.problem, x, settings.seed));
+  const doe::Outcome outcome = doe::detail::call(black_box, study.problem, x, settings.seed);
+  return hand_over(study, settings, outcome,
+                   stored ? compare_with_stored(stored->run, outcome) : std::optional<bool>());
 }
 
 int prepare_command(const Study& study, const PointSettings& settings) {

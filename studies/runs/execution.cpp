@@ -3,6 +3,7 @@
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/progress.h>
+#include <drawpoint/studies/store/run_logs.h>
 
 #include <chrono>
 #include <cstdio>
@@ -64,10 +65,13 @@ doe::Process process_for(const Run& run, const Folder& folder, const OptionValue
 }
 
 /// The log gets its final name before the run counts as done, so that each run that is done has its log.
-void publish_log(const Folder& folder, std::int64_t id) {
+/// Returns its checksum; empty: there is none.
+std::string publish_log(const Folder& folder, std::int64_t id) {
   std::error_code ignored;
-  if (!fs::exists(folder.unfinished_log(id), ignored)) return;
+  if (!fs::exists(folder.unfinished_log(id), ignored)) return "";
+  const std::string checksum = file_checksum(folder.unfinished_log(id));
   fs::rename(folder.unfinished_log(id), folder.log(id));
+  return checksum;
 }
 
 [[noreturn]] void stop_for_full_disk(const Folder& folder) {
@@ -87,11 +91,11 @@ bool store_end(Store& store, const Folder& folder, const doe::ProcessEnd& end) {
     store.mark_planned(end.id);
     stop_for_full_disk(folder);
   }
-  publish_log(folder, end.id);
+  const std::string log = publish_log(folder, end.id);
   if (outcome.failed()) {
-    store.save_failed(end.id, outcome.reason(), end.seconds);
+    store.save_failed(end.id, outcome.reason(), end.seconds, log);
   } else {
-    store.save_done(end.id, outcome.values(), end.seconds);
+    store.save_done(end.id, outcome.values(), end.seconds, log);
   }
   return outcome.failed();
 }

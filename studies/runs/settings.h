@@ -37,6 +37,9 @@ struct Settings {
 
 /// Options of `evaluate`, which runs one point in this process.
 struct PointSettings {
+  std::optional<std::int64_t> run =
+      {};  ///< a run of the study in `out`, whose point, seed and options are taken
+  std::filesystem::path out = {};
   std::vector<double> x = {};  ///< in the order of the problem's variables, natural units
   doe::Seed seed = 1;
   std::filesystem::path log = {};     ///< empty: a temporary file

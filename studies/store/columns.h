@@ -41,8 +41,8 @@ inline std::string claim(std::string name, const std::string& prefix, std::set<s
 }  // namespace detail
 
 inline Columns columns_of(const doe::Problem& problem) {
-  std::set<std::string> taken = {"id",     "kind",   "point",   "replicate", "seed",
-                                 "status", "reason", "seconds", "started",   "finished"};
+  std::set<std::string> taken = {"id",     "kind",    "point",   "replicate", "seed", "status",
+                                 "reason", "seconds", "started", "finished",  "log",  "checksum"};
   Columns columns;
   for (const auto& variable : problem.variables)
     columns.x.push_back(detail::claim(variable.name, "x_", taken));

@@ -35,6 +35,10 @@ std::string stem(std::int64_t id) {
 
 void make_folder(const fs::path& path) {
   std::error_code error;
+  if (fs::is_symlink(path, error) && !fs::exists(path, error))
+    throw std::runtime_error("studies: " + path.string() + " is a link to " +
+                             fs::read_symlink(path, error).string() +
+                             ", which is not there; make that folder, or choose another one with --out");
   fs::create_directories(path, error);
   if (error) refuse(path, error.value());
   if (!fs::is_directory(path, error)) refuse(path, ENOTDIR);

@@ -4,13 +4,17 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <drawpoint/studies/store/columns.h>
+#include <drawpoint/studies/store/row_checksum.h>
 #include <drawpoint/studies/store/store_errors.h>
 #include <drawpoint/doe/problem_json.hpp>
 
+#include <charconv>
 #include <ctime>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 namespace drawpoint::studies {
 namespace {
@@ -20,7 +24,7 @@ using detail::refuse;
 using detail::with_context;
 
 constexpr int application_id = 0x44727770;
-constexpr int schema_version = 2;
+constexpr int schema_version = 3;
 constexpr int lock_patience = 30000;  // [ms] for another program that reads the file
 
 std::string now() {
@@ -42,18 +46,22 @@ std::string create_statement(const Columns& columns) {
       "'validation')), "
       "point INTEGER NOT NULL, replicate INTEGER NOT NULL, seed TEXT NOT NULL, "
       "status TEXT NOT NULL CHECK (status IN ('planned', 'running', 'done', 'failed')), "
-      "reason TEXT, seconds REAL, started TEXT, finished TEXT";
+      "reason TEXT, seconds REAL, started TEXT, finished TEXT, log TEXT, checksum TEXT";
   for (const auto& column : columns.x) text += ", " + column + " REAL NOT NULL";
   for (const auto& column : columns.y) text += ", " + column + " REAL";
   return text + ", UNIQUE (kind, point, replicate))";
 }
 
+void put_in_study(SQLite::Database& database, const std::string& key, const std::string& value) {
+  SQLite::Statement put(database, "INSERT OR REPLACE INTO study (key, value) VALUES (?, ?)");
+  put.bind(1, key);
+  put.bind(2, value);
+  put.exec();
+}
+
 void write_identity(SQLite::Database& database, const Identity& identity) {
   const auto put = [&](const std::string& key, const std::string& value) {
-    SQLite::Statement insert(database, "INSERT INTO study (key, value) VALUES (?, ?)");
-    insert.bind(1, key);
-    insert.bind(2, value);
-    insert.exec();
+    put_in_study(database, key, value);
   };
   put("name", identity.study);
   put("problem", to_json(identity.problem).dump());
@@ -62,6 +70,15 @@ void write_identity(SQLite::Database& database, const Identity& identity) {
   put("corners", identity.corners ? "1" : "0");
   put("options", nlohmann::json(identity.options).dump());
   put("created", now());
+  put("rows", "0");
+}
+
+/// Over all entries but itself, in order of their keys.
+std::string study_checksum(SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT key, value FROM study WHERE key != 'checksum' ORDER BY key");
+  detail::RowText row;
+  while (query.executeStep()) row << query.getColumn(0).getString() << query.getColumn(1).getString();
+  return doe::detail::checksum(row.text());
 }
 
 Status status_from(const std::string& name) {
@@ -69,6 +86,13 @@ Status status_from(const std::string& name) {
     if (name == name_of(status)) return status;
   }
   return Status::planned;
+}
+
+/// 0 for what is no number, which the checksum then shows.
+doe::Seed seed_from(const std::string& text) {
+  doe::Seed seed = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), seed);
+  return end.ec == std::errc() && end.ptr == text.data() + text.size() ? seed : 0;
 }
 
 Eigen::VectorXd numbers(SQLite::Statement& row, int first, std::size_t count) {
@@ -82,8 +106,8 @@ Eigen::VectorXd numbers(SQLite::Statement& row, int first, std::size_t count) {
 
 constexpr const char* fixed_columns =
     "id, kind, point, replicate, seed, status, coalesce(reason, ''), coalesce(seconds, 0), "
-    "coalesce(started, ''), coalesce(finished, '')";
-constexpr int fixed_column_count = 10;
+    "coalesce(started, ''), coalesce(finished, ''), coalesce(log, ''), coalesce(checksum, '')";
+constexpr int fixed_column_count = 12, checksum_column = 11;
 
 /// A row of `SELECT fixed_columns, x..., y...`.
 Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t responses) {
@@ -93,12 +117,13 @@ Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t response
   run.kind = text(1) == name_of(Kind::validation) ? Kind::validation : Kind::training;
   run.point = row.getColumn(2).getInt64();
   run.replicate = row.getColumn(3).getInt();
-  run.seed = std::stoull(text(4));
+  run.seed = seed_from(text(4));
   run.status = status_from(text(5));
   run.reason = text(6);
   run.seconds = row.getColumn(7).getDouble();
   run.started = text(8);
   run.finished = text(9);
+  run.log = text(10);
   run.x = numbers(row, fixed_column_count, dimension);
   run.y = numbers(row, fixed_column_count + static_cast<int>(dimension), responses);
   return run;
@@ -139,6 +164,7 @@ Store Store::create(const fs::path& file, const Identity& identity) {
     database.exec("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL)");
     database.exec(create_statement(columns_of(identity.problem)));
     write_identity(database, identity);
+    put_in_study(database, "checksum", study_checksum(database));
     transaction.commit();
   });
   fs::rename(draft, file);
@@ -175,6 +201,8 @@ void Store::read_identity() {
     if (!query.executeStep()) refuse(file_, "is damaged (no entry \"" + key + "\" in table study)");
     return query.getColumn(0).getString();
   };
+  if (get("checksum") != study_checksum(*database_))
+    refuse(file_, "is damaged (table study does not fit its checksum)");
   try {
     identity_ = {get("name"),
                  doe::problem_from_json(nlohmann::json::parse(get("problem"))),
@@ -192,15 +220,58 @@ void Store::read_identity() {
   y_columns_ = columns.y;
 }
 
+std::vector<std::pair<Run, std::string>> Store::rows(const std::string& condition) const {
+  std::string text = std::string("SELECT ") + fixed_columns;
+  for (const auto& column : x_columns_) text += ", " + column;
+  for (const auto& column : y_columns_) text += ", " + column;
+  SQLite::Statement query(*database_, text + " FROM runs WHERE " + condition + " ORDER BY id");
+  std::vector<std::pair<Run, std::string>> found;
+  while (query.executeStep())
+    found.emplace_back(read_run(query, x_columns_.size(), y_columns_.size()),
+                       query.getColumn(checksum_column).getString());
+  return found;
+}
+
 std::vector<Run> Store::runs() const {
   return with_context(file_, [&] {
-    std::string text = std::string("SELECT ") + fixed_columns;
-    for (const auto& column : x_columns_) text += ", " + column;
-    for (const auto& column : y_columns_) text += ", " + column;
-    SQLite::Statement query(*database_, text + " FROM runs ORDER BY id");
     std::vector<Run> result;
-    while (query.executeStep()) result.push_back(read_run(query, x_columns_.size(), y_columns_.size()));
+    for (auto& [run, checksum] : rows("1")) {
+      const std::string name = std::to_string(result.size() + 1);
+      if (run.id != static_cast<std::int64_t>(result.size()) + 1)
+        refuse(file_, "is damaged (run " + name + " is not there)");
+      if (checksum != detail::row_checksum(run))
+        refuse(file_, "is damaged (run " + name + " does not fit its checksum)");
+      result.push_back(std::move(run));
+    }
+    const std::string kept = database_->execAndGet("SELECT value FROM study WHERE key = 'rows'").getString();
+    if (kept != std::to_string(result.size()))
+      refuse(file_, "is damaged (it holds " + std::to_string(result.size()) + " of " + kept + " runs)");
     return result;
+  });
+}
+
+void Store::seal_rows(const std::string& condition) {
+  SQLite::Statement update(*database_, "UPDATE runs SET checksum = ? WHERE id = ?");
+  for (const auto& [run, ignored] : rows(condition)) {
+    update.reset();
+    update.bind(1, detail::row_checksum(run));
+    update.bind(2, run.id);
+    update.exec();
+  }
+}
+
+void Store::seal_study() {
+  put_in_study(*database_, "rows", database_->execAndGet("SELECT count(*) FROM runs").getString());
+  put_in_study(*database_, "checksum", study_checksum(*database_));
+}
+
+template <class F>
+void Store::change(std::int64_t id, const F& f) {
+  with_context(file_, [&] {
+    SQLite::Transaction transaction(*database_);
+    f();
+    seal_rows("id = " + std::to_string(id));
+    transaction.commit();
   });
 }
 
@@ -224,12 +295,14 @@ void Store::add(const std::vector<Run>& planned) {
       for (int i = 0; i < run.x.size(); ++i) insert.bind(6 + i, run.x[i]);
       insert.exec();
     }
+    seal_rows("checksum IS NULL");
+    seal_study();
     transaction.commit();
   });
 }
 
 void Store::mark_running(std::int64_t id) {
-  with_context(file_, [&] {
+  change(id, [&] {
     SQLite::Statement update(*database_,
                              "UPDATE runs SET status = 'running', reason = NULL, started = ? WHERE id = ?");
     update.bind(1, now());
@@ -239,34 +312,37 @@ void Store::mark_running(std::int64_t id) {
 }
 
 void Store::mark_planned(std::int64_t id) {
-  with_context(file_, [&] {
+  change(id, [&] {
     SQLite::Statement update(*database_, "UPDATE runs SET status = 'planned', started = NULL WHERE id = ?");
     update.bind(1, id);
     update.exec();
   });
 }
 
-void Store::save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds) {
-  std::string text = "UPDATE runs SET status = 'done', reason = NULL, seconds = ?, finished = ?";
+void Store::save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log) {
+  std::string text = "UPDATE runs SET status = 'done', reason = NULL, seconds = ?, finished = ?, log = ?";
   for (const auto& column : y_columns_) text += ", " + column + " = ?";
-  with_context(file_, [&] {
+  change(id, [&] {
     SQLite::Statement update(*database_, text + " WHERE id = ?");
     update.bind(1, seconds);
     update.bind(2, now());
-    for (int i = 0; i < y.size(); ++i) update.bind(3 + i, y[i]);
-    update.bind(3 + static_cast<int>(y.size()), id);
+    update.bind(3, log);
+    for (int i = 0; i < y.size(); ++i) update.bind(4 + i, y[i]);
+    update.bind(4 + static_cast<int>(y.size()), id);
     update.exec();
   });
 }
 
-void Store::save_failed(std::int64_t id, const std::string& reason, double seconds) {
-  with_context(file_, [&] {
+void Store::save_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log) {
+  change(id, [&] {
     SQLite::Statement update(
-        *database_, "UPDATE runs SET status = 'failed', reason = ?, seconds = ?, finished = ? WHERE id = ?");
+        *database_,
+        "UPDATE runs SET status = 'failed', reason = ?, seconds = ?, finished = ?, log = ? WHERE id = ?");
     update.bind(1, reason);
     update.bind(2, seconds);
     update.bind(3, now());
-    update.bind(4, id);
+    update.bind(4, log);
+    update.bind(5, id);
     update.exec();
   });
 }
@@ -274,10 +350,13 @@ void Store::save_failed(std::int64_t id, const std::string& reason, double secon
 void Store::plan_again(bool failed) {
   const std::string which = failed ? "('running', 'failed')" : "('running')";
   with_context(file_, [&] {
+    SQLite::Transaction transaction(*database_);
     database_->exec(
-        "UPDATE runs SET status = 'planned', reason = NULL, seconds = NULL, started = NULL, finished = NULL "
-        "WHERE status IN " +
+        "UPDATE runs SET status = 'planned', reason = NULL, seconds = NULL, started = NULL, finished = NULL, "
+        "log = NULL, checksum = NULL WHERE status IN " +
         which);
+    seal_rows("checksum IS NULL");
+    transaction.commit();
   });
 }
 

@@ -3,16 +3,21 @@
 #pragma once
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
-///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), created
-///     runs               one row per run: id, kind, point, replicate, seed, status, reason, seconds,
-///                        started, finished, then one REAL column for each variable and each response, named
-///                        as in the problem
+///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), created, rows (how
+///                        many runs there are), checksum
+///     runs               one row per run: id (1, 2, ... without a gap), kind, point, replicate, seed, status,
+///                        reason, seconds, started, finished, log, checksum, then one REAL column for each
+///                        variable and each response, named as in the problem
 ///
 /// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.h
 /// names the columns.
 ///
 /// status is planned, running, done or failed; a row stays "running" when the study is killed, until the
 /// next `run`.
+///
+/// `checksum` is over all else in the row (row_checksum.h), and in the table study over all other entries;
+/// `log` is that of the run's log file, empty where it wrote none. What does not fit when it is read is
+/// refused: damage, a row that is gone, a value changed by hand.
 ///
 /// Every change is one transaction, on disk when the call returns. A file that is not a sound store of this
 /// schema is refused and left as it is. All failures throw std::runtime_error that names the file and says
@@ -52,6 +57,7 @@ struct Run {
   std::string reason;
   double seconds = 0.0;
   std::string started, finished;
+  std::string log;  ///< checksum of its log file; empty: it wrote none
 };
 
 class Store {
@@ -69,8 +75,8 @@ class Store {
   void add(const std::vector<Run>& planned);  ///< all or none
   void mark_running(std::int64_t id);
   void mark_planned(std::int64_t id);
-  void save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds);
-  void save_failed(std::int64_t id, const std::string& reason, double seconds);
+  void save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log = {});
+  void save_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log = {});
   /// Runs that were in flight when a process died become planned again; with `failed`, so do the failed ones.
   void plan_again(bool failed);
 
@@ -78,6 +84,12 @@ class Store {
   Store(std::filesystem::path file, std::unique_ptr<SQLite::Database> database);
   void check_format() const;
   void read_identity();
+  /// The rows for which `condition` (SQL) holds, as they are, sound or not, with their checksums.
+  std::vector<std::pair<Run, std::string>> rows(const std::string& condition) const;
+  void seal_rows(const std::string& condition);
+  void seal_study();
+  template <class F>
+  void change(std::int64_t id, const F& f);
 
   std::filesystem::path file_;
   std::unique_ptr<SQLite::Database> database_;

@@ -44,6 +44,11 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " --validation -1" + out(), 2, "--validation");
   expect_refused(study + " --jobs 0" + out(), 2, "--jobs");
   expect_refused(study + " --seed -1" + out(), 2, "--seed");
+  expect_refused(study + " --seed 99999999999999999999" + out(), 2,
+                 "give a whole number from 0 to 18446744073709551615");
+  expect_refused(study + " --time-limit nan" + out(), 2, "--time-limit: Value nan is no time");
+  expect_refused(study + " --out ''", 2, "--out: an empty name");
+  expect_refused(study + " evaluate", 2, "give a point with --x, or a run of a study with --run");
   expect_refused(study + " --sed 1" + out(), 2, "--sed");
   expect_refused(study + " frobnicate", 2,
                  "unknown command \"frobnicate\"; the commands are run, status, report, evaluate");
@@ -145,6 +150,52 @@ TEST_F(BadInput, AnotherStudyInTheFolder) {
   expect_refused(with("changed") + out(), 2, "variable \"y\": upper bound 25.0 there, 30.0 here");
   expect_refused(FORMULA_DEMO + out(), 2, "name \"troubled\" there, \"formula_demo\" here");
   EXPECT_EQ(count("status = 'done'"), 8);
+}
+
+TEST_F(BadInput, ALinkToNothingIsNamed) {
+  std::filesystem::create_symlink("/nowhere/there", dir());
+  expect_refused(study + out(), 1, "is a link to /nowhere/there, which is not there");
+}
+
+// A run is made again from its number: point, seed, options and shared folder are the study's.
+TEST_F(BadInput, ARunIsMadeAgainFromItsNumber) {
+  ASSERT_EQ(run(with("shared") + "--runs 6 --validation 2 --rock waste" + out()).code, 0);
+  const Ended end = run(with("shared") + "evaluate --run 7 --json" + out());
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.json()["as_stored"], true);
+  EXPECT_EQ(end.json()["values"]["cost"].get<double>(),
+            std::stod(query("SELECT printf('%!.17g', cost) FROM runs WHERE id = 7")));
+  const Ended other = run(with("all") + "evaluate --run 7" + out());
+  EXPECT_EQ(other.code, 1);
+  EXPECT_TRUE(contains(other.err, "run 7: not as stored")) << other.err;
+  expect_refused(study + " evaluate --run 9" + out(), 2, "has runs 1 to 8");
+  expect_refused(study + " evaluate --run 1 --rock ore" + out(), 2,
+                 "its options are the study's; leave out --rock");
+}
+
+// Damaged, or exchanged for another run's: the report leaves it out and names it.
+TEST_F(BadInput, ALogThatIsNotItsRunsIsNamed) {
+  ASSERT_EQ(run(with("large") + "--runs 6 --validation 0" + out()).code, 0);
+  const auto page = [&] {
+    EXPECT_EQ(run(study + " report" + out()).code, 0);
+    return contents(dir() / "report.html");
+  };
+  EXPECT_FALSE(contains(page(), "run_0003.h5"));
+  std::ofstream(dir() / "logs" / "run_0003.h5", std::ios::app) << "x";
+  EXPECT_TRUE(contains(page(), "damaged, or not what their run wrote, are left out: run_0003.h5"));
+}
+
+// What is planned does not count as made.
+TEST_F(BadInput, AReportOnAnUnfinishedStudyCountsWhatEnded) {
+  Command command(with("slow") + "--runs 40 --validation 0 --jobs 1" + out(), dir().parent_path());
+  await_done(4);
+  command.send(SIGINT);
+  EXPECT_EQ(command.wait().code, 130);
+  const Ended end = run(study + " report --json" + out());
+  const int done = count("status = 'done'");
+  EXPECT_LT(done, 40);
+  EXPECT_EQ(end.json()["training"], done);
+  EXPECT_EQ(end.json()["unfinished"], 40 - done);
 }
 
 TEST_F(BadInput, AReportNeedsAStudy) {

@@ -54,6 +54,7 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
                   .training = 40,
                   .validation = 10,
                   .failed = 2,
+                  .unfinished = 5,
                   .findings = {{"F1", "it pays", Verdict::not_reproduced, "0.1"}},
                   .nrmse = {{"production", 0.0625}, {"spill", std::nan("")}},
                   .front = 3,
@@ -64,6 +65,8 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   const auto data = nlohmann::json::parse(line);
   EXPECT_EQ(data["runs"], 50);
   EXPECT_EQ(data["failed"], 2);
+  EXPECT_EQ(data["unfinished"], 5);
+  EXPECT_NE(text(summary).find("2 failed; 5 are planned"), std::string::npos);
   EXPECT_EQ(data["findings"]["F1"], "not reproduced");
   EXPECT_EQ(data["nrmse"]["production"], 0.0625);
   EXPECT_TRUE(data["nrmse"]["spill"].is_null());

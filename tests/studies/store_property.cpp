@@ -6,6 +6,9 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <drawpoint/studies/store/columns.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/row_checksum.h>
+#include <drawpoint/studies/store/run_logs.h>
 #include <drawpoint/studies/store/store.h>
 
 #include <cmath>
@@ -136,6 +139,78 @@ TEST_F(StoreTest, RefusesADamagedFile) {
   EXPECT_EQ(test::contents(file_), bytes);
   test::write_file(file_, bytes.substr(0, bytes.size() / 2));
   EXPECT_NE(complaint([&] { Store::open(file_).runs(); }).find("damaged"), std::string::npos);
+}
+
+// Whatever bit of the file flips: it is refused, or what it says is what was stored. 83 is prime to the 8 bits of a
+// byte and to the pages, so bits of all places take part.
+TEST_F(StoreTest, NoFlippedBitIsTakenForData) {
+  std::vector<studies::Run> stored;
+  {
+    Store store = Store::create(file_, test::identity());
+    store.add({planned(1, 0.5, 2.0), planned(2, 0.6, 2.5), planned(3, 0.7, 3.0)});
+    store.save_done(1, Eigen::Vector2d(0.1 + 0.2, 2.0), 0.1, "0123456789abcdef");
+    store.save_failed(2, "stuck", 0.5);
+    stored = store.runs();
+  }
+  const std::string sound = test::contents(file_);
+  int refused = 0;
+  for (std::size_t bit = 0; bit < 8 * sound.size(); bit += 83) {
+    std::string bytes = sound;
+    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+    test::write_file(file_, bytes);
+    try {
+      const Store store = Store::open(file_);
+      const std::vector<studies::Run> runs = store.runs();
+      EXPECT_EQ(store.identity().seed, test::identity().seed) << bit;
+      EXPECT_EQ(difference(store.identity().problem, test::two_by_two()), "") << bit;
+      ASSERT_EQ(runs.size(), stored.size()) << bit;
+      for (std::size_t k = 0; k < runs.size(); ++k)
+        EXPECT_EQ(detail::row_checksum(runs[k]), detail::row_checksum(stored[k])) << bit;
+    } catch (const std::runtime_error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
+TEST_F(StoreTest, RefusesRowsThatAreGoneOrWereChanged) {
+  const auto after = [&](const std::string& sql) {
+    std::filesystem::remove(file_);
+    Store::create(file_, test::identity())
+        .add({planned(1, 0.5, 2.0), planned(2, 0.6, 2.5), planned(3, 0.7, 3.0)});
+    SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec(sql);
+    return complaint([&] { Store::open(file_).runs(); });
+  };
+  const auto says = [&](const std::string& sql, const std::string& words) {
+    const std::string text = after(sql);
+    EXPECT_NE(text.find(words), std::string::npos) << sql << ": " << text;
+    EXPECT_NE(text.find("--out"), std::string::npos) << text;
+  };
+  says("DELETE FROM runs WHERE id = 2", "run 2 is not there");
+  says("DELETE FROM runs WHERE id = 3", "it holds 2 of 3 runs");
+  says("UPDATE runs SET alpha = 99 WHERE id = 2", "run 2 does not fit its checksum");
+  says("UPDATE runs SET seed = 'many' WHERE id = 1", "run 1 does not fit its checksum");
+  says("UPDATE study SET value = '7' WHERE key = 'seed'", "table study does not fit its checksum");
+}
+
+TEST_F(StoreTest, KnowsTheLogThatARunWrote) {
+  const Folder folder{folder_.path()};
+  std::filesystem::create_directories(folder.logs());
+  Store store = Store::create(file_, test::identity());
+  store.add({planned(1, 0.5, 2.0), planned(2, 0.6, 2.5), planned(3, 0.7, 3.0)});
+  for (const int id : {1, 2}) {
+    test::write_file(folder.log(id), "log of run " + std::to_string(id));
+    store.save_done(id, Eigen::Vector2d(1.0, 2.0), 0.1, file_checksum(folder.log(id)));
+  }
+  const auto state = [&](std::size_t k) { return log_state(folder, store.runs()[k]); };
+  EXPECT_EQ(state(0), LogState::sound);
+  EXPECT_EQ(state(2), LogState::none);
+  std::filesystem::copy_file(folder.log(1), folder.log(2), std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(state(1), LogState::other);
+  test::write_file(folder.log(1), "log of run 1, damaged");
+  EXPECT_EQ(state(0), LogState::other);
+  std::filesystem::remove(folder.log(1));
+  EXPECT_EQ(state(0), LogState::none);
 }
 
 TEST_F(StoreTest, RefusesAnotherSchemaVersion) {

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double degree = M_PI / 180;
 constexpr double steepest = 80;        // [deg]
-constexpr double slid = 0.1;           // of a mean length: the way at which the layer counts as sliding
+constexpr double slid = 0.5;           // of a mean length: the way of a layer that slides
 constexpr double share_of_end = 0.85;  // of the fill that the lower end holds back
 constexpr double rib = 0.3;            // height and thickness of the floor's ribs, of a mean length
 constexpr double thickness = 0.5;      // of floor and walls [m]

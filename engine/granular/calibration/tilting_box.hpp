@@ -12,11 +12,12 @@
 /// A box with smooth walls is filled to a little above its lower end, then turned about that end at a steady
 /// rate. Ribs across its floor, a mean length apart, hold the bed, which would slide on a plane as a whole.
 /// The bed slides once half of the rocks of its upper layer (the topmost largest rock, one away from both
-/// ends) have gone down the slope by a tenth of a mean length: single rocks roll long before.
+/// ends) have gone down the slope by half a mean length: single rocks roll, and all of them settle by a
+/// tenth, some five degrees before.
 ///
-/// The way w of a tenth of a length takes time: a layer whose friction is passed gains g ω t per second, so
-/// the start is late by ω (6 w / g ω)^⅓, 1.0 degree at 1 degree per second for rocks of 0.3 m. Half the rate,
-/// 0.6 degree. Cost: 400 rocks of one size take some 6000 steps.
+/// The way w of half a length takes time: a layer whose friction is passed gains g ω t per second, so the
+/// start is late by ω (6 w / g ω)^⅓, 1.7 degrees at 1 degree per second for rocks of 0.3 m. At half the rate
+/// 1.1 degrees. Cost: 400 rocks of one size take some 6000 steps.
 namespace drawpoint::engine::granular {
 
 struct TiltingBoxOptions : RunOptions {
