@@ -101,7 +101,7 @@ constexpr void require_black_box() {
 
 namespace detail {
 
-/// The outcome itself when it has one finite value a response, else the Failure that says what is wrong.
+/// The outcome itself when it has one finite value within its range per response, else the Failure that says what is wrong.
 inline Outcome checked(Outcome outcome, const Problem& problem) {
   if (outcome.failed()) return outcome;
   const Eigen::VectorXd& values = outcome.values();
@@ -109,9 +109,13 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
   if (values.size() != expected)
     return Failure{"returned " + std::to_string(values.size()) + " values where the problem has " +
                    std::to_string(expected) + " responses"};
-  for (Eigen::Index j = 0; j < expected; ++j)
-    if (!std::isfinite(values[j]))
-      return Failure{"response \"" + problem.responses[j].name + "\" is " + number_text(values[j])};
+  for (Eigen::Index j = 0; j < expected; ++j) {
+    const Response& r = problem.responses[j];
+    if (!std::isfinite(values[j])) return Failure{"response \"" + r.name + "\" is " + number_text(values[j])};
+    if (values[j] < r.lower || values[j] > r.upper)
+      return Failure{"response \"" + r.name + "\" is " + with_unit(values[j], r.unit) +
+                     ", outside its range " + number_text(r.lower) + " to " + with_unit(r.upper, r.unit)};
+  }
   return outcome;
 }
 

@@ -10,6 +10,7 @@
 /// one of its named levels. `minimize` and `maximize` make a response an objective, `at_most` and `at_least`
 /// make it a constraint against `limit`, `record` only keeps it.
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -48,17 +49,26 @@ inline Variable categorical_variable(std::string name, std::vector<std::string> 
   return {std::move(name), "1", 0.0, last, VariableKind::categorical, std::move(levels)};
 }
 
-/// One output; `limit` (in `unit`) belongs to at_most and at_least only.
+/// One output; `limit` (in `unit`) belongs to at_most and at_least only. No value lies outside `lower` to
+/// `upper`: a mass is at least 0. A run that says otherwise has failed.
 struct Response {
   std::string name, unit;
   Goal goal = Goal::record;
   double limit = std::numeric_limits<double>::quiet_NaN();
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
 };
 
 struct Problem {
   std::vector<Variable> variables;
   std::vector<Response> responses;
 };
+
+/// A surrogate's prediction as a value that the response can have. Of a normal prediction whose part outside the
+/// range counts as its bound, this is the median, and the same of a quantile.
+inline double within_range(const Response& response, double value) {
+  return std::clamp(value, response.lower, response.upper);
+}
 
 inline bool is_objective(Goal goal) { return goal == Goal::minimize || goal == Goal::maximize; }
 inline bool is_constraint(Goal goal) { return goal == Goal::at_most || goal == Goal::at_least; }
@@ -182,13 +192,19 @@ inline void check_response(const Response& r) {
   if (!is_constraint(r.goal) && !std::isnan(r.limit))
     reject(place + "goal " + goal + " does not use limit " + with_unit(r.limit, r.unit) +
            "; remove the limit or choose at_most or at_least");
+  if (!(r.lower < r.upper))
+    reject(place + "its values lie from " + with_unit(r.lower, r.unit) + " to " + with_unit(r.upper, r.unit) +
+           "; give a lower bound below the upper one, or none");
+  if (r.limit < r.lower || r.limit > r.upper)
+    reject(place + "limit " + with_unit(r.limit, r.unit) + " is outside its values, " +
+           with_unit(r.lower, r.unit) + " to " + with_unit(r.upper, r.unit) + "; give one among them");
 }
 
 }  // namespace detail
 
 /// Throws std::invalid_argument that names the first fault: no variable or response, an empty or repeated
 /// name, a bound that is not finite or not in order, one that its kind does not allow, a constraint without a
-/// limit, a limit without a constraint.
+/// limit, a limit without a constraint or outside the response's range.
 inline void check(const Problem& problem) {
   if (problem.variables.empty()) detail::reject("no variables; name at least one");
   if (problem.responses.empty()) detail::reject("no responses; name at least one");

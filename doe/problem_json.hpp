@@ -33,6 +33,8 @@ inline nlohmann::json to_json(const Problem& problem) {
   for (const Response& r : problem.responses) {
     nlohmann::json entry = {{"name", r.name}, {"unit", r.unit}, {"goal", to_string(r.goal)}};
     if (!std::isnan(r.limit)) entry["limit"] = r.limit;
+    if (std::isfinite(r.lower)) entry["lower"] = r.lower;
+    if (std::isfinite(r.upper)) entry["upper"] = r.upper;
     responses.push_back(std::move(entry));
   }
   return {{"variables", std::move(variables)}, {"responses", std::move(responses)}};
@@ -51,7 +53,9 @@ inline Problem problem_from_json(const nlohmann::json& json) {
     problem.responses.push_back(
         {r.at("name"), r.at("unit"),
          detail::enumerator_of<Goal>(r.at("goal").get<std::string>()).value_or(Goal::record),
-         r.value("limit", std::numeric_limits<double>::quiet_NaN())});
+         r.value("limit", std::numeric_limits<double>::quiet_NaN()),
+         r.value("lower", -std::numeric_limits<double>::infinity()),
+         r.value("upper", std::numeric_limits<double>::infinity())});
   return problem;
 }
 

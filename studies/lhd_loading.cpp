@@ -12,13 +12,14 @@
 
 using namespace drawpoint;
 
-const doe::Problem problem{.variables = {{"alpha", "1", 0.2, 2.0},
-                                         {"beta", "1", 0.0, 1.0},
-                                         {"gamma", "1", 0.0, 1.0},
-                                         {"kappa", "1", 0.0, 1.0}},
-                           .responses = {{"production", "kg/s", doe::Goal::maximize},
-                                         {"joint_damage", "s", doe::Goal::minimize},
-                                         {"rock_spill", "1", doe::Goal::minimize}}};
+const doe::Problem problem{
+    .variables = {{"alpha", "1", 0.2, 2.0},
+                  {"beta", "1", 0.0, 1.0},
+                  {"gamma", "1", 0.0, 1.0},
+                  {"kappa", "1", 0.0, 1.0}},
+    .responses = {{.name = "production", .unit = "kg/s", .goal = doe::Goal::maximize, .lower = 0},
+                  {.name = "joint_damage", .unit = "s", .goal = doe::Goal::minimize, .lower = 0},
+                  {.name = "rock_spill", .unit = "1", .goal = doe::Goal::minimize, .lower = 0}}};
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
   engine::loading::Scenario scenario = studies::loading_scenario(run);

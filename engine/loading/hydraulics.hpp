@@ -27,7 +27,7 @@ struct Hydraulics {
 };
 
 /// An LH621-class machine's: 485 l/min, which lifts in 8 s and lowers in 5.5 s, rods of 100 and 110 mm.
-/// Estimates, as no manufacturer publishes them (a machine of two thirds its size: 7.6 and 4.0 s).
+/// Estimates, as no manufacturer publishes them (the Epiroc ST14, of 14 t: 7.6 and 4.0 s).
 Hydraulics lh621_hydraulics();
 
 double pushing_force(const Cylinder& cylinder, double pressure);  ///< [N]

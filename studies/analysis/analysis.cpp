@@ -130,7 +130,8 @@ void warn(ReportInput& input, const std::vector<Run>& runs) {
   }
 }
 
-/// Of the runs that are done, those whose log is as they wrote it; what is wrong with others becomes a warning.
+/// Of the runs that are done, those whose log is as they wrote it; what is wrong with others becomes a
+/// warning.
 std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder& folder,
                                       std::vector<std::string>& warnings) {
   std::vector<const Run*> sound;
@@ -143,8 +144,9 @@ std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder
       others += (others.empty() ? "" : ", ") + folder.log(run.id).filename().string();
   }
   if (!others.empty())
-    warnings.push_back("Logs that are damaged, or not what their run wrote, are left out: " + others +
-                       ". The responses in the store stand; evaluate --run N --log FILE makes a log again.");
+    warnings.push_back(
+        "Logs that are damaged, or not what their run wrote, are left out: " + others +
+        ". The responses in the store stand; evaluate --run N --log logs/run_000N.h5 makes one again.");
   return sound;
 }
 

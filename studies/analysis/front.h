@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The trade-offs that a study's models predict: NSGA-II searches the means of the models, and
-/// pareto/polished_front.hpp finishes what it finds with their exact gradients.
+/// pareto/polished_front.hpp finishes what it finds with their exact gradients. What a model predicts outside of
+/// a response's range counts as the bound there; points that are then dominated are left out.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
@@ -16,5 +17,8 @@ namespace drawpoint::studies {
 /// search.
 pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
                                doe::Seed seed);
+
+/// Takes what is predicted as values that the responses can have.
+void keep_within_range(pareto::PolishedFront& found, const doe::Problem& problem);
 
 }  // namespace drawpoint::studies

@@ -72,7 +72,7 @@ std::string text(const Summary& summary) {
                        std::to_string(summary.validation) + " validation runs, " +
                        std::to_string(summary.failed) + " failed";
   if (summary.unfinished > 0)
-    result += "; " + std::to_string(summary.unfinished) + " are planned, which the command run makes";
+    result += "; " + std::to_string(summary.unfinished) + " more to be made (command run)";
   result += "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) {

@@ -18,7 +18,7 @@ struct Summary {
   std::string study = {};
   int training = 0, validation = 0;                        ///< runs that ended, failed ones among them
   int failed = 0;                                          ///< of both kinds
-  int unfinished = 0;                                      ///< planned, of both kinds
+  int unfinished = 0;                                      ///< planned or running
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<Finding> findings = {};                      ///< in the study's order
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown

@@ -112,7 +112,7 @@ int hand_over(const Study& study, const PointSettings& settings, const doe::Outc
   } else {
     print(study.problem, outcome, settings.json, as_stored);
   }
-  return outcome.failed() || !as_stored.value_or(true) ? 1 : 0;
+  return as_stored ? !*as_stored : outcome.failed();
 }
 
 /// A run of a study, and what it takes to make it again.
@@ -143,8 +143,12 @@ StoredRun stored_run(const Study& study, const PointSettings& given) {
 std::optional<bool> compare_with_stored(const Run& run, const doe::Outcome& outcome) {
   const std::string name = "run " + std::to_string(run.id);
   if (run.status != Status::done && run.status != Status::failed) {
-    std::fprintf(stderr, "%s is planned: nothing is stored to hold this against\n", name.c_str());
+    std::fprintf(stderr, "%s has not ended yet: nothing is stored to hold this against\n", name.c_str());
     return {};
+  }
+  if (run.status == Status::failed && !outcome.failed()) {
+    std::fprintf(stderr, "%s succeeds here; it is stored as failed: %s\n", name.c_str(), run.reason.c_str());
+    return false;
   }
   const bool same = outcome.failed() ? run.status == Status::failed && outcome.reason() == run.reason
                                      : run.status == Status::done && outcome.values() == run.y;

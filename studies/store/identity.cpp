@@ -15,6 +15,8 @@ bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)
 /// The shortest decimal text that reads back as the same number.
 std::string text_of(double value) { return std::isnan(value) ? "none" : json(value).dump(); }
 
+std::string bound_text(double value) { return std::isfinite(value) ? json(value).dump() : "none"; }
+
 std::string name_of(doe::Goal goal) { return std::string(doe::to_string(goal)); }
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
@@ -43,6 +45,10 @@ std::string between(const doe::Response& there, const doe::Response& here) {
   if (there.goal != here.goal) return changed(subject + "goal", name_of(there.goal), name_of(here.goal));
   if (!same(there.limit, here.limit))
     return changed(subject + "limit", text_of(there.limit), text_of(here.limit));
+  if (there.lower != here.lower)
+    return changed(subject + "least value", bound_text(there.lower), bound_text(here.lower));
+  if (there.upper != here.upper)
+    return changed(subject + "largest value", bound_text(there.upper), bound_text(here.upper));
   return "";
 }
 

@@ -17,7 +17,7 @@ std::string file_checksum(const std::filesystem::path& file);
 enum class LogState {
   none,   ///< the run wrote none, or it is gone
   sound,  ///< as the run wrote it
-  other   ///< damaged, or another run's
+  other   ///< damaged, not readable, or another run's
 };
 
 LogState log_state(const Folder& folder, const Run& run);

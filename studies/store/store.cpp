@@ -201,6 +201,7 @@ void Store::read_identity() {
     if (!query.executeStep()) refuse(file_, "is damaged (no entry \"" + key + "\" in table study)");
     return query.getColumn(0).getString();
   };
+  SQLite::Transaction at_one_time(*database_);
   if (get("checksum") != study_checksum(*database_))
     refuse(file_, "is damaged (table study does not fit its checksum)");
   try {
@@ -234,6 +235,7 @@ std::vector<std::pair<Run, std::string>> Store::rows(const std::string& conditio
 
 std::vector<Run> Store::runs() const {
   return with_context(file_, [&] {
+    SQLite::Transaction at_one_time(*database_);  // another program may be adding rows
     std::vector<Run> result;
     for (auto& [run, checksum] : rows("1")) {
       const std::string name = std::to_string(result.size() + 1);

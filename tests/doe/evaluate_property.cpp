@@ -198,4 +198,14 @@ TEST(Evaluate, AnEmptyDesignGivesAnEmptyTable) {
   EXPECT_EQ(table.y("f0").size(), 0);
 }
 
+TEST(Evaluate, AValueOutsideItsRangeIsAFailure) {
+  const Problem bounded{.variables = {{"x", "m", -1.0, 1.0}},
+                        .responses = {{.name = "load", .unit = "t", .lower = 0, .upper = 20}}};
+  const auto itself = [](const Eigen::VectorXd& x) { return Eigen::VectorXd(x); };
+  const Evaluations table = evaluate(itself, bounded, Eigen::Vector3d(-0.5, 0, 0.5), {});
+  EXPECT_EQ(table.rows[0].outcome.reason(), "response \"load\" is -0.5 t, outside its range 0 to 20 t");
+  EXPECT_FALSE(table.rows[1].outcome.failed());
+  EXPECT_FALSE(table.rows[2].outcome.failed());
+}
+
 }  // namespace

@@ -104,6 +104,30 @@ TEST(Problem, LimitsBelongToConstraints) {
             "at_most or at_least");
 }
 
+TEST(Problem, ResponsesHaveARange) {
+  EXPECT_EQ(fault_after([](Problem& p) { p.responses[0].lower = 0; }), "");
+  EXPECT_EQ(
+      fault_after([](Problem& p) {
+        p.responses[0].lower = 3;
+        p.responses[0].upper = 2;
+      }),
+      "doe::Problem: response \"production\": its values lie from 3 kg/s to 2 kg/s; give a lower bound below "
+      "the upper one, or none");
+  EXPECT_EQ(fault_after([](Problem& p) {
+              p.responses[0].goal = Goal::at_least;
+              p.responses[0].limit = -2;
+              p.responses[0].lower = 0;
+            }),
+            "doe::Problem: response \"production\": limit -2 kg/s is outside its values, 0 kg/s to inf kg/s; "
+            "give one "
+            "among them");
+  const Response spill{.name = "spill", .unit = "1", .lower = 0, .upper = 1};
+  EXPECT_EQ(within_range(spill, -0.1), 0);
+  EXPECT_EQ(within_range(spill, 0.4), 0.4);
+  EXPECT_EQ(within_range(spill, 1.2), 1);
+  EXPECT_EQ(within_range(Response{.name = "any", .unit = "1"}, -7), -7);
+}
+
 TEST(Problem, SignsOfGoalsTurnToLessIsBetter) {
   for (const Goal goal : {Goal::minimize, Goal::at_most}) EXPECT_EQ(sign_of(goal), 1.0);
   for (const Goal goal : {Goal::maximize, Goal::at_least}) EXPECT_EQ(sign_of(goal), -1.0);

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdio>
 #include <drawpoint/tests/house/sources.hpp>
+#include <map>
+#include <regex>
 #include <set>
 
 using namespace drawpoint::house;
@@ -65,6 +67,33 @@ std::vector<std::string> strangers(const std::set<std::string>& entries) {
   return found;
 }
 
+/// Files of tests whose name stands in no CMakeLists.txt beside them: nothing builds them. The validation
+/// suite lists its problems without the ending.
+std::vector<std::string> unlisted_tests(const std::vector<Source>& all,
+                                        const std::map<std::string, std::string>& lists) {
+  static const std::regex test("(.*)/((\\w+)_(analytic|property|statistical|regression|validation))\\.cpp");
+  std::vector<std::string> found;
+  std::smatch part;
+  for (const Source& source : all) {
+    if (!std::regex_match(source.path, part, test)) continue;
+    const std::string name = part[4] == "validation" ? part[3] : part[2];
+    const auto list = lists.find(part[1]);
+    const bool listed = list != lists.end() &&
+                        std::regex_search(list->second, std::regex("\\b" + name + "(_validation)?\\b"));
+    if (!listed) found.push_back(source.path);
+  }
+  return found;
+}
+
+/// By folder.
+std::map<std::string, std::string> lists_of_tests() {
+  std::map<std::string, std::string> lists;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "tests"))
+    if (entry.path().filename() == "CMakeLists.txt")
+      lists[entry.path().parent_path().lexically_relative(root).generic_string()] = read_text(entry.path());
+  return lists;
+}
+
 // What git would put into a clone, at the top; in a tree that git does not know (a release archive), all
 // there is.
 std::set<std::string> top_level() {
@@ -102,7 +131,18 @@ TEST(Layout, TheTopLevelIsFixed) {
   EXPECT_TRUE(strangers(entries).empty()) << "not allowed at the top: " << joined(strangers(entries));
 }
 
+TEST(Layout, EveryFileOfTestsIsBuilt) {
+  const std::vector<Source> all = sources(root, {"tests"});
+  ASSERT_FALSE(all.empty());
+  EXPECT_TRUE(unlisted_tests(all, lists_of_tests()).empty()) << joined(unlisted_tests(all, lists_of_tests()));
+}
+
 TEST(Layout, TheChecksFindWhatIsWrong) {
+  const std::vector<Source> tests = {
+      {"tests/doe/a_analytic.cpp", ""}, {"tests/doe/b_property.cpp", ""}, {"tests/doe/own.cpp", ""}};
+  EXPECT_EQ(unlisted_tests(tests, {{"tests/doe", "STEMS b_property aa_analytic"}}),
+            std::vector<std::string>{"tests/doe/a_analytic.cpp"});
+  EXPECT_EQ(unlisted_tests(tests, {}).size(), 2u);
   EXPECT_EQ(without_licence({{"a.cpp", "int a;\n"}, {"b.cpp", licence_lines}}),
             std::vector<std::string>{"a.cpp"});
   EXPECT_EQ(headers_without_guard({{"a.hpp", licence_lines}, {"b.cpp", licence_lines}}),

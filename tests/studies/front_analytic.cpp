@@ -124,6 +124,31 @@ TEST(Front, NothingGetsWorse) {
   EXPECT_NEAR(after.polishing.gain, 100.0 * (is / was - 1.0), 1e-10);
 }
 
+// Four points of production against spill: two predict less than no spill, of which the better in production stays, with
+// no spill, and dominates the point that it ties with.
+TEST(Front, WhatIsPredictedIsPossible) {
+  const doe::Problem problem{
+      .variables = {{"x", "1", 0, 1}},
+      .responses = {
+          {.name = "mass", .unit = "kg"},
+          {.name = "production", .unit = "kg/s", .goal = doe::Goal::maximize, .lower = 0, .upper = 650},
+          {.name = "spill", .unit = "1", .goal = doe::Goal::minimize, .lower = 0}}};
+  pareto::PolishedFront found;
+  found.front.X = Eigen::Vector4d(0.1, 0.2, 0.3, 0.4);
+  found.front.Y.resize(4, 2);
+  found.front.Y << 400, -0.002, 500, -0.001, 600, 0.01, 700, 0.02;
+  found.front.responses.resize(4, 3);
+  found.front.responses << Eigen::Vector4d(-1, -2, -3, -4), found.front.Y;
+  found.polishing.residual = Eigen::Vector4d(1, 2, 3, 4);
+  keep_within_range(found, problem);
+  EXPECT_EQ(found.front.X, Eigen::Vector3d(0.2, 0.3, 0.4));
+  EXPECT_EQ(found.front.Y.col(0), Eigen::Vector3d(500, 600, 650));
+  EXPECT_EQ(found.front.Y.col(1), Eigen::Vector3d(0, 0.01, 0.02));
+  EXPECT_EQ(found.front.responses.col(0), Eigen::Vector3d(-2, -3, -4));  // without a range
+  EXPECT_EQ(found.front.responses.rightCols(2), found.front.Y);
+  EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(2, 3, 4));
+}
+
 // With a and b moved out of the box the set lies on its face x2 = 0, where the gradients of both point out.
 TEST(Front, PointsEndOnTheBoundThatHoldsThem) {
   const doe::Problem problem = support::unit_problem(3, 2);

@@ -66,7 +66,7 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   EXPECT_EQ(data["runs"], 50);
   EXPECT_EQ(data["failed"], 2);
   EXPECT_EQ(data["unfinished"], 5);
-  EXPECT_NE(text(summary).find("2 failed; 5 are planned"), std::string::npos);
+  EXPECT_NE(text(summary).find("2 failed; 5 more to be made"), std::string::npos);
   EXPECT_EQ(data["findings"]["F1"], "not reproduced");
   EXPECT_EQ(data["nrmse"]["production"], 0.0625);
   EXPECT_TRUE(data["nrmse"]["spill"].is_null());

@@ -152,7 +152,14 @@ TEST(Problems, SurviveTheStoreAsText) {
     EXPECT_EQ(difference(doe::problem_from_json(nlohmann::json::parse(to_json(problem).dump())), problem),
               "");
   }
+  problem.responses[0].lower = 0;
+  const doe::Problem read = doe::problem_from_json(nlohmann::json::parse(to_json(problem).dump()));
+  EXPECT_EQ(difference(read, problem), "");
+  EXPECT_EQ(difference(real, problem).empty(), false);
   doe::Problem other = problem;
+  other.responses[0].upper = 800;
+  EXPECT_EQ(difference(problem, other), "response \"production\": largest value none there, 800.0 here");
+  other = problem;
   other.variables[1].levels[1] = "c";
   EXPECT_EQ(difference(problem, other), "variable \"tool\": levels [\"a\",\"b\"] there, [\"a\",\"c\"] here");
   other = real;

@@ -141,8 +141,8 @@ TEST_F(StoreTest, RefusesADamagedFile) {
   EXPECT_NE(complaint([&] { Store::open(file_).runs(); }).find("damaged"), std::string::npos);
 }
 
-// Whatever bit of the file flips: it is refused, or what it says is what was stored. 83 is prime to the 8 bits of a
-// byte and to the pages, so bits of all places take part.
+// Whatever bit of the file flips: it is refused, or what it says is what was stored. 83 is prime to the 8
+// bits of a byte and to the pages, so bits of all places take part.
 TEST_F(StoreTest, NoFlippedBitIsTakenForData) {
   std::vector<studies::Run> stored;
   {
@@ -211,6 +211,8 @@ TEST_F(StoreTest, KnowsTheLogThatARunWrote) {
   EXPECT_EQ(state(0), LogState::other);
   std::filesystem::remove(folder.log(1));
   EXPECT_EQ(state(0), LogState::none);
+  std::filesystem::create_directory(folder.log(1));
+  EXPECT_EQ(state(0), LogState::other);
 }
 
 TEST_F(StoreTest, RefusesAnotherSchemaVersion) {

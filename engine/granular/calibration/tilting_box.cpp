@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/granular/heap_surface.hpp>
-#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace drawpoint::engine::granular {
 namespace {
@@ -79,6 +79,7 @@ TiltingBox::TiltingBox(const RockSample& sample, const TiltingBoxOptions& o)
       height_(o.height * granular::largest(sample.sizes)),
       mean_length_(granular::mean_length(sample.sizes)),
       largest_(granular::largest(sample.sizes)),
+      rate_(o.rate * degree),
       world_(o.world, calibration_materials(sample.contact)),
       box_(Eigen::Isometry3d::Identity()) {
   world_.attach(&box_);
@@ -96,7 +97,8 @@ TiltingBox::TiltingBox(const RockSample& sample, const TiltingBoxOptions& o)
   for (double side : {-1.0, 1.0}) add_wall(world_, side * Vector3d::UnitY(), width_ / 2, smooth);
 }
 
-void TiltingBox::turn(double rate) { box_.set_velocity(Vector3d::Zero(), {0, rate, 0}); }
+void TiltingBox::turn() { box_.set_velocity(Vector3d::Zero(), {0, rate_, 0}); }
+void TiltingBox::stop() { box_.set_velocity(Vector3d::Zero()); }
 
 double TiltingBox::tilt() const {
   const Vector3d x = box_.pose().linear().col(0);
@@ -110,19 +112,19 @@ void TiltingBox::remove_fallen() {
   }
 }
 
-TiltResult tilt(TiltingBox& box, const TiltingBoxOptions& o) {
+TiltResult tilt(TiltingBox& box, const RunOptions& o) {
   TestRun run(box.world(), o);
   UpperLayer layer(box);
-  TiltResult result{.status = {}, .start = std::numeric_limits<double>::quiet_NaN()};
-  result.rocks = static_cast<int>(box.world().rocks().size());
-  box.turn(o.rate * degree);
-  run.go_until("tilt", steepest / o.rate, [&] {
+  TiltResult result;
+  for (const engine::Rock& rock : box.world().rocks()) result.rocks += rock.present ? 1 : 0;
+  box.turn();
+  run.go_until("tilt", steepest * degree / box.rate(), [&] {
     box.remove_fallen();
     if (layer.way() < slid * box.mean_length()) return false;
     result.start = box.tilt() / degree;
     return true;
   });
-  box.turn(0);
+  box.stop();
   result.status = run.status();
   return result;
 }

@@ -5,7 +5,7 @@
 #include <drawpoint/engine/granular/calibration/rock_sample.hpp>
 #include <drawpoint/engine/world/kinematic_body.hpp>
 #include <drawpoint/engine/world/world.hpp>
-#include <vector>
+#include <limits>
 
 /// The angle at which a bed starts to slide when its box is tilted.
 ///
@@ -15,9 +15,9 @@
 /// ends) have gone down the slope by half a mean length: single rocks roll, and all of them settle by a
 /// tenth, some five degrees before.
 ///
-/// The way w of half a length takes time: a layer whose friction is passed gains g ω t per second, so the
-/// start is late by ω (6 w / g ω)^⅓, 1.7 degrees at 1 degree per second for rocks of 0.3 m. At half the rate
-/// 1.1 degrees. Cost: 400 rocks of one size take some 6000 steps.
+/// The way w of half a length takes time: on a layer of friction tan φ a tilt of ω t beyond φ makes g ω t/cos
+/// φ, so the start is late by ω (6 w cos φ/g ω)^⅓, 1.6 degrees at 1 degree per second for rocks of 0.3 m that
+/// slide at 40. At half the rate 1.0 degree. Cost: 400 rocks of one size take some 6000 steps.
 namespace drawpoint::engine::granular {
 
 struct TiltingBoxOptions : RunOptions {
@@ -29,8 +29,9 @@ struct TiltingBoxOptions : RunOptions {
 
 struct TiltResult {
   RunStatus status = RunStatus::completed;
-  double start = 0;  ///< tilt at which the bed slides [deg]; NaN: not up to 80 degrees
-  int rocks = 0;
+  /// Tilt at which the bed slides [deg]; NaN: not up to 80 degrees, or stopped before.
+  double start = std::numeric_limits<double>::quiet_NaN();
+  int rocks = 0;  ///< in the box before it turns
 };
 
 class TiltingBox {
@@ -47,21 +48,24 @@ class TiltingBox {
   double height() const { return height_; }  ///< to which it is to be filled [m]
   double mean_length() const { return mean_length_; }
   double largest() const { return largest_; }  ///< [m]
+  double rate() const { return rate_; }        ///< of the tilting [rad/s]
 
-  void turn(double rate);  ///< from the next step on [rad/s]
-  double tilt() const;     ///< [rad]
+  void turn();  ///< from the next step on, at the rate of the options
+  void stop();
+  double tilt() const;  ///< [rad]
   /// In the box, from the middle of its lower end's foot: x down the slope, z away from the floor [m].
   Eigen::Vector3d inside(const Eigen::Vector3d& p_W) const { return box_.pose().inverse() * p_W; }
   void remove_fallen();
 
  private:
-  double length_, width_, height_, mean_length_, largest_;
+  double length_, width_, height_, mean_length_, largest_, rate_;
   World world_;
   KinematicBody box_;
 };
 
-/// Of what lies in the box, level: turns it until it slides.
-TiltResult tilt(TiltingBox& box, const TiltingBoxOptions& options);
+/// Of what lies in the box, level: turns it until it slides. Throws std::invalid_argument if no rock lies in
+/// its middle.
+TiltResult tilt(TiltingBox& box, const RunOptions& options);
 
 /// Fills a box and tilts it.
 TiltResult tilting_box(const RockSample& sample, const TiltingBoxOptions& options = {});

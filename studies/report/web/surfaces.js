@@ -16,7 +16,8 @@ export function surfaces(data, chosen) {
   const node = section('surfaces', 'Response surfaces', fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.');
   if (!fitted.length) return node;
   for (const f of fitted) {
-    f.mean = predictor(f.model.surface);
+    const mean = predictor(f.model.surface), {lower = -Infinity, upper = Infinity} = f.response;
+    f.mean = (x) => Math.min(Math.max(mean(x), lower), upper);
     f.range = extent(data.training.rows.filter((r) => r.y).map((r) => r.y[f.j]));
   }
   node.append(influence(data, fitted));

@@ -153,7 +153,10 @@ TEST(PlatePenetration, RefusesWhatIsNoNumber) {
 // so its way is g ω τ³/(6 cos φ) after τ = (θ − φ)/ω, to (ωτ)²/20 = 3e-4 of it. Half a mean length leaves the
 // lower end 2 m away. The way is seen at the end of a step, θ = ω h late at most; semi-implicit steps are
 // ahead by h/τ of the acceleration, 1 % of the way and so a third of it of τ. Contacts' springs: k = 1e10
-// N/m, a tilt of some 1e-5 rad. Together 0.02° + 0.3 % of the 2° and 3° that it is late at 1 and 2 deg/s.
+// N/m, a tilt of some 1e-5 rad. What turning adds, the centrifugal acceleration ω² r and the Coriolis one 2 ω
+// v on the floor's load, are at 2 deg/s 2e-4 and 4e-4 of g with opposite signs, 0.02° each and less together.
+// So a step, ω h = 0.01° and 0.02°, twice for these, and 0.3 % of the 2° and 3° that it is late at 1 and 2
+// deg/s.
 TEST(TiltingBox, ASlabSlidesAtItsAngleOfFriction) {
   for (const double friction : {0.4, 0.8})
     for (const double rate : {1.0, 2.0}) {

@@ -123,3 +123,26 @@ TEST(MachineSpec, RefusesABodyWithoutMass) {
                  "machine::MachineSpec: body \"bob\": mass is 0.000000 kg; give a positive mass");
   }
 }
+
+// What a motor may give in a step of h: its force times h, against the joint's direction its own limit, and
+// less where it is limited from outside.
+TEST(Motor, HasALimitForEachDirection) {
+  auto spec = support::simple_pendulum(1, 1);
+  spec.motors = {{.name = "swing", .bodies = {0}, .max_force = 100, .max_reverse_force = 60}};
+  Machine machine(spec);
+  constexpr double h = 1e-2;
+  const auto expect_limits = [&](double reverse, double forward) {
+    const auto& row = machine.linearise(h, gravity).rows.front();
+    EXPECT_DOUBLE_EQ(row.lower, -h * reverse);
+    EXPECT_DOUBLE_EQ(row.upper, h * forward);
+  };
+  expect_limits(60, 100);
+  machine.limit_motor(0, 80);
+  expect_limits(60, 80);
+  machine.limit_motor(0, 50);
+  expect_limits(50, 50);
+  EXPECT_THROW(machine.limit_motor(0, 101), std::invalid_argument);
+  spec.motors.front().max_reverse_force = -1;
+  EXPECT_THROW(Machine{spec}, std::invalid_argument);
+  EXPECT_EQ(engine::machine::MotorSpec({.name = "both ways", .max_force = 7}).max_reverse_force, 7);
+}
