@@ -22,7 +22,7 @@ struct StopSide {
 StopSide nearer_stop(const StopSpec& stop, double coordinate);
 
 struct MotorSetting {
-  double speed;  ///< summed over the motor's joints [rad/s] or [m/s]
+  double speed;          ///< summed over the motor's joints [rad/s] or [m/s]
   double limit;          ///< of the force on each [N m] or [N]
   double reverse_limit;  ///< the same, against the joint's direction
 };
