@@ -12,6 +12,7 @@
 #include <drawpoint/studies/store/store.h>
 
 #include <cmath>
+#include <thread>
 
 using namespace drawpoint;
 using namespace drawpoint::studies;
@@ -191,6 +192,24 @@ TEST_F(StoreTest, RefusesRowsThatAreGoneOrWereChanged) {
   says("UPDATE runs SET alpha = 99 WHERE id = 2", "run 2 does not fit its checksum");
   says("UPDATE runs SET seed = 'many' WHERE id = 1", "run 1 does not fit its checksum");
   says("UPDATE study SET value = '7' WHERE key = 'seed'", "table study does not fit its checksum");
+}
+
+// `status` may look while `run` adds: what it reads is of one moment, so it is never taken for damage.
+TEST_F(StoreTest, IsReadWhileAnotherAddsRows) {
+  constexpr int rows = 100;
+  Store writer = Store::create(file_, test::identity());
+  std::thread adding([&] {
+    for (int id = 1; id <= rows; ++id) writer.add({planned(id, 0.5, 2.0)});
+  });
+  std::size_t seen = 0;
+  while (seen < rows) {
+    std::size_t now = 0;
+    EXPECT_NO_THROW(now = Store::open(file_).runs().size());
+    if (HasFailure()) break;
+    EXPECT_GE(now, seen);
+    seen = now;
+  }
+  adding.join();
 }
 
 TEST_F(StoreTest, KnowsTheLogThatARunWrote) {
