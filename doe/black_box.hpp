@@ -101,7 +101,8 @@ constexpr void require_black_box() {
 
 namespace detail {
 
-/// The outcome itself when it has one finite value within its range per response, else the Failure that says what is wrong.
+/// The outcome itself when it has one finite value within its range per response, else the Failure that says
+/// what is wrong.
 inline Outcome checked(Outcome outcome, const Problem& problem) {
   if (outcome.failed()) return outcome;
   const Eigen::VectorXd& values = outcome.values();

@@ -79,7 +79,7 @@ void reply(int descriptor, const doe::Outcome& outcome) {
   while (written < text.size()) {
     const ssize_t count = write(descriptor, text.data() + written, text.size() - written);
     if (count < 0)
-      throw std::runtime_error(std::string("studies: cannot hand over the outcome: ") + std::strerror(errno));
+      throw std::runtime_error(std::string("studies: cannot pass on the outcome: ") + std::strerror(errno));
     written += static_cast<std::size_t>(count);
   }
 }
@@ -105,8 +105,8 @@ void print(const doe::Problem& problem, const doe::Outcome& outcome, bool as_jso
 }
 
 /// `as_stored`: whether a run that was made again came out as before.
-int hand_over(const Study& study, const PointSettings& settings, const doe::Outcome& outcome,
-              const std::optional<bool>& as_stored = {}) {
+int pass_on(const Study& study, const PointSettings& settings, const doe::Outcome& outcome,
+            const std::optional<bool>& as_stored = {}) {
   if (settings.result_descriptor >= 0) {
     reply(settings.result_descriptor, outcome);
   } else {
@@ -193,8 +193,8 @@ int evaluate_command(const Study& study, const PointSettings& given) {
     return study.black_box(point, seed, context);
   };
   const doe::Outcome outcome = doe::detail::call(black_box, study.problem, x, settings.seed);
-  return hand_over(study, settings, outcome,
-                   stored ? compare_with_stored(stored->run, outcome) : std::optional<bool>());
+  return pass_on(study, settings, outcome,
+                 stored ? compare_with_stored(stored->run, outcome) : std::optional<bool>());
 }
 
 int prepare_command(const Study& study, const PointSettings& settings) {
@@ -203,7 +203,7 @@ int prepare_command(const Study& study, const PointSettings& settings) {
     if (study.prepare) study.prepare(context_of(study, settings, {}, settings.shared));
     return Eigen::VectorXd(0);
   });
-  return hand_over(study, settings, outcome);
+  return pass_on(study, settings, outcome);
 }
 
 }  // namespace drawpoint::studies

@@ -18,12 +18,6 @@ using Eigen::Vector3d;
 
 [[noreturn]] void refuse_repose(const std::string& what) { throw std::invalid_argument("granular::" + what); }
 
-// Rocks that slid over the edge.
-void remove_fallen(engine::World& world) {
-  for (int k = 0; k < static_cast<int>(world.rocks().size()); ++k)
-    if (world.rocks()[k].present && world.rocks()[k].pose.translation().z() < -1) world.remove_rock(k);
-}
-
 // The ledge ends at x = 0; its back wall and its smooth sides.
 engine::World ledge(const RockSample& sample, const DrainedBankOptions& o, double L) {
   engine::World world(o.world, calibration_materials(sample.contact));

@@ -44,6 +44,11 @@ int add_block(engine::World& world, const Eigen::Vector3d& half, const Eigen::Ve
   return world.add_static(shape_of(engine::box(half)), Eigen::Isometry3d(Eigen::Translation3d(centre)), kind);
 }
 
+void remove_fallen(engine::World& world) {
+  for (int k = 0; k < static_cast<int>(world.rocks().size()); ++k)
+    if (world.rocks()[k].present && world.rocks()[k].pose.translation().z() < -1) world.remove_rock(k);
+}
+
 bool all_finite(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }

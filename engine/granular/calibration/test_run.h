@@ -26,6 +26,9 @@ EmitterOptions over_box(double x, const Eigen::Vector2d& half_lengths, double la
 /// Returns the number of the surface.
 int add_block(engine::World& world, const Eigen::Vector3d& half, const Eigen::Vector3d& centre, int kind);
 
+/// Takes rocks away that slid over an edge and are a metre below it.
+void remove_fallen(engine::World& world);
+
 /// Whether no value is NaN, which std::min lets through, or infinite: such a box is never full.
 bool all_finite(std::initializer_list<double> values);
 

@@ -105,13 +105,6 @@ double TiltingBox::tilt() const {
   return std::atan2(-x.z(), x.x());
 }
 
-void TiltingBox::remove_fallen() {
-  for (int k = 0; k < static_cast<int>(world_.rocks().size()); ++k) {
-    const engine::Rock& rock = world_.rock(k);
-    if (rock.present && rock.pose.translation().z() < -2 * thickness) world_.remove_rock(k);
-  }
-}
-
 TiltResult tilt(TiltingBox& box, const RunOptions& o) {
   TestRun run(box.world(), o);
   UpperLayer layer(box);
@@ -119,7 +112,7 @@ TiltResult tilt(TiltingBox& box, const RunOptions& o) {
   for (const engine::Rock& rock : box.world().rocks()) result.rocks += rock.present ? 1 : 0;
   box.turn();
   run.go_until("tilt", steepest * degree / box.rate(), [&] {
-    box.remove_fallen();
+    remove_fallen(box.world());
     if (layer.way() < slid * box.mean_length()) return false;
     result.start = box.tilt() / degree;
     return true;
@@ -134,7 +127,7 @@ TiltResult tilting_box(const RockSample& sample, const TiltingBoxOptions& o) {
   TestRun run(box.world(), o);
   run.pour(sample, over_box(-box.length() / 2, {0.5 * box.length(), 0.5 * box.width()}, box.largest()),
            loose_solid_share * sample.density * box.length() * box.width() * box.height(),
-           [&] { box.remove_fallen(); });
+           [&] { remove_fallen(box.world()); });
   if (run.stopped()) return {.status = RunStatus::stopped};
   TiltResult result = tilt(box, o);
   if (result.status == RunStatus::completed) result.status = run.status();

@@ -55,7 +55,6 @@ class TiltingBox {
   double tilt() const;  ///< [rad]
   /// In the box, from the middle of its lower end's foot: x down the slope, z away from the floor [m].
   Eigen::Vector3d inside(const Eigen::Vector3d& p_W) const { return box_.pose().inverse() * p_W; }
-  void remove_fallen();
 
  private:
   double length_, width_, height_, mean_length_, largest_, rate_;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::engine::granular;
@@ -29,6 +30,22 @@ PouredHeapOptions small_heap(int threads) {
   o.rocks = 60;
   o.world.threads = threads;
   return o;
+}
+
+/// A test that is asked to stop in one of its phases makes no step more; `run` runs it with the options.
+template <class Run>
+void expect_stops_in(const std::vector<std::string>& phases, RunOptions& options, const Run& run) {
+  for (const std::string& last : phases) {
+    std::stop_source source;
+    options.stop = source.get_token();
+    int after = 0;
+    options.progress = [&](std::string_view phase, double) {
+      if (source.stop_requested()) ++after;
+      if (phase == last) source.request_stop();
+    };
+    EXPECT_EQ(run(), RunStatus::stopped) << last;
+    EXPECT_EQ(after, 0) << last;
+  }
 }
 
 }  // namespace
@@ -124,22 +141,11 @@ TEST(BulkDensity, RefusesABedWithAHoleInIt) {
 TEST(DirectShear, StopsWhenAsked) {
   ShearOptions o;
   o.box = {.length = 4, .width = 2, .height = 2};
-  const std::string phases[] = {"pour", "settle", "shear"};
-  for (const std::string& last : phases) {
-    std::stop_source source;
-    o.stop = source.get_token();
-    int after = 0;
-    o.progress = [&](std::string_view phase, double) {
-      if (source.stop_requested()) ++after;
-      if (phase == last) source.request_stop();
-    };
-    EXPECT_EQ(direct_shear(stones(0.7), o).status, RunStatus::stopped) << last;
-    EXPECT_EQ(after, 0) << last;
-  }
+  expect_stops_in({"pour", "settle", "shear"}, o, [&] { return direct_shear(stones(0.7), o).status; });
 }
 
-// Friction adds to what interlocking holds. Single boxes of this size scatter by some 5° (standard
-// deviation), the difference of means over two by 5°, about a difference of 15° and more.
+// Friction adds to what interlocking holds: three beds of the default size start at 29.5 ± 0.2° with a
+// friction of 0.1 and at 42.9 ± 0.3° with 0.9 (standard errors).
 TEST(TiltingBox, SlidesLaterWithMoreFriction) {
   constexpr int boxes = 2;
   TiltingBoxOptions o;
@@ -160,17 +166,7 @@ TEST(TiltingBox, SlidesLaterWithMoreFriction) {
 TEST(TiltingBox, StopsWhenAsked) {
   TiltingBoxOptions o;
   o.length = o.width = o.height = 3;
-  for (const std::string_view last : {"pour", "settle", "tilt"}) {
-    std::stop_source source;
-    o.stop = source.get_token();
-    int after = 0;
-    o.progress = [&](std::string_view phase, double) {
-      if (source.stop_requested()) ++after;
-      if (phase == last) source.request_stop();
-    };
-    EXPECT_EQ(tilting_box(stones(0.7), o).status, RunStatus::stopped) << last;
-    EXPECT_EQ(after, 0) << last;
-  }
+  expect_stops_in({"pour", "settle", "tilt"}, o, [&] { return tilting_box(stones(0.7), o).status; });
 }
 
 // Rock with little friction still interlocks, and friction adds to it. Six boxes of each (seeds 1 to 6) gave
