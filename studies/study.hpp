@@ -8,7 +8,7 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, status, report and evaluate (docs/studies.md). Every run is a process of
+/// The program has the commands run, confirm, status, report and evaluate (docs/studies.md). Every run is a process of
 /// its own with one thread, so that a crash is one failed run; each finished run is stored before the next
 /// one starts. Equal (x, seed) must give equal outcomes: a run that was lost is simply run again.
 ///
@@ -57,6 +57,7 @@ struct RunContext {
 struct Defaults {
   int runs = 40;        ///< training runs, at least 2
   int validation = 10;  ///< independent validation runs, may be 0
+  int adaptive = 0;     ///< runs chosen by what the training runs show, may be 0
 };
 
 /// Any of f(x), f(x, seed), f(x, seed, context) whose result converts to doe::Outcome, behind one type.

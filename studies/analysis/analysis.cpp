@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/analysis.h>
+#include <drawpoint/studies/analysis/confirmations.h>
 #include <drawpoint/studies/analysis/facts.h>
 #include <drawpoint/studies/analysis/findings.h>
 #include <drawpoint/studies/analysis/front.h>
+#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/studies/report/report.h>
-#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/store/run_logs.h>
-#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/evaluations.hpp>
-#include <drawpoint/kriging/compare.hpp>
-#include <drawpoint/kriging/fit.hpp>
-#include <drawpoint/kriging/validate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,73 +23,6 @@
 
 namespace drawpoint::studies {
 namespace {
-
-doe::Outcome outcome_of(const Run& run) {
-  if (run.status == Status::failed) return doe::Failure{run.reason};
-  return run.y;
-}
-
-/// The finished runs of a kind.
-doe::Evaluations table_of(const std::vector<Run>& runs, const doe::Problem& problem, Kind kind) {
-  doe::Evaluations table{.problem = problem, .rows = {}};
-  for (const auto& run : runs) {
-    if (run.kind != kind || (run.status != Status::done && run.status != Status::failed)) continue;
-    table.rows.push_back({run.id, run.replicate, run.seed, run.x, outcome_of(run), run.seconds});
-  }
-  return table;
-}
-
-/// The ways to fit that are compared: smooth and less smooth responses, without and with a slope. The first
-/// is the default.
-std::vector<kriging::NamedFitter<kriging::Model>> ways_to_fit(const doe::Problem& problem) {
-  std::vector<kriging::NamedFitter<kriging::Model>> ways;
-  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
-    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
-      kriging::FitOptions options;
-      options.threads = 0;
-      options.lower = doe::lower_bounds(problem);
-      options.upper = doe::upper_bounds(problem);
-      options.correlation = correlation;
-      options.trend = trend;
-      const std::string slope = trend == kriging::Trend::linear ? ", linear trend" : "";
-      ways.push_back({std::string(to_string(correlation)) + slope,
-                      [options](const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
-                        return kriging::fit(X, y, options);
-                      }});
-    }
-  }
-  return ways;
-}
-
-/// Fits and validates one model per response, and names the way to fit that was taken: the default, unless
-/// another has a leave-one-out error that is lower by a tenth. Throws
-/// std::invalid_argument if the runs do not allow it.
-std::vector<std::string> fit_models(ReportInput& input) {
-  const kriging::Measure measure{.estimator = kriging::Estimator::leave_one_out,
-                                 .error = kriging::ErrorFunction::rmse};
-  // Smaller gains are mostly chance: without this, choosing made 13 of 48 smooth fits worse and 5 better.
-  const double worth = 0.9;
-  const auto ways = ways_to_fit(input.problem);
-  const Eigen::MatrixXd X = input.training.X();
-  const Eigen::MatrixXd X_new = input.validation.X();
-  std::vector<std::string> chosen;
-  for (const auto& response : input.problem.responses) {
-    const Eigen::VectorXd y = input.training.y(response.name);
-    const auto best = kriging::compare(measure, X, y, ways);
-    const bool better = best.table[best.best].assessment.value < worth * best.table[0].assessment.value;
-    chosen.push_back(better ? best.name() : ways[0].name);
-    input.models.push_back(better ? best.model : ways[0].fitter(X, y));
-    if (X_new.rows() == 0) continue;
-    input.validations.push_back(
-        kriging::validate(input.models.back(), X_new, input.validation.y(response.name)));
-  }
-  return chosen;
-}
-
-bool has_objective(const doe::Problem& problem) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [](const doe::Response& response) { return doe::is_objective(response.goal); });
-}
 
 std::string failure_warning(const doe::Evaluations& training, const doe::Evaluations& validation) {
   std::map<std::string, int> reasons;
@@ -195,13 +126,19 @@ std::vector<Headline> headlines_of(const Study& study, const std::vector<const R
   }
 }
 
+std::map<std::int64_t, std::string> kinds_of(const std::vector<Run>& runs) {
+  std::map<std::int64_t, std::string> kinds;
+  for (const auto& run : runs) kinds[run.id] = name_of(run.kind);
+  return kinds;
+}
+
 Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
   for (const auto& run : runs) {
     if (run.status == Status::failed) ++summary.failed;
     if (run.status == Status::failed || run.status == Status::done)
-      ++(run.kind == Kind::training ? summary.training : summary.validation);
+      ++summary.ended[run.kind];
     else
       ++summary.unfinished;
   }
@@ -221,13 +158,19 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.about = study.about;
   input.command = command;
   input.problem = study.problem;
-  input.training = table_of(runs, study.problem, Kind::training);
-  input.validation = table_of(runs, study.problem, Kind::validation);
+  const Tables tables = tables_of(runs, study.problem);
+  input.training = tables.training;
+  input.validation = tables.validation;
+  input.kinds = kinds_of(runs);
+  input.confirmations = summary.confirmations = check_predictions(runs, study.problem, Kind::confirmation);
   const std::vector<const Run*> logged = runs_with_log(runs, folder, input.warnings);
   input.headlines = summary.headlines = headlines_of(study, logged, folder, input.warnings);
-  std::vector<std::string> chosen;
+  std::vector<std::string> ways;
   try {
-    chosen = fit_models(input);
+    Models fitted = fit_models(tables);
+    input.models = std::move(fitted.models);
+    input.validations = std::move(fitted.validations);
+    ways = std::move(fitted.ways);
   } catch (const std::invalid_argument& e) {
     summary.error = "no models, so no report: " + std::string(e.what());
     const std::string failures = failure_warning(input.training, input.validation);
@@ -236,19 +179,20 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   }
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     summary.nrmse[j].second = input.validations[j].nrmse;
-  if (has_objective(study.problem)) {
-    pareto::PolishedFront found = front_of(input.models, study.problem, store.identity().seed);
-    input.front = std::move(found.front);
-    input.polishing = std::move(found.polishing);
-    if (found.status == pareto::PolishedFrontStatus::not_polished)
-      input.not_polished = std::move(found.message);
-  }
+  PredictedFront predicted = predicted_front(input.models, tables, store.identity().seed);
+  input.front = std::move(predicted.found.front);
+  input.polishing = std::move(predicted.found.polishing);
+  if (predicted.found.status == pareto::PolishedFrontStatus::not_polished)
+    input.not_polished = std::move(predicted.found.message);
+  if (predicted.beside_failed > 0)
+    input.warnings.push_back(std::to_string(predicted.beside_failed) +
+                             " points of the front are left out, because the run nearest to them failed.");
   summary.front = static_cast<int>(input.front.X.rows());
   summary.polishing = input.polishing;
   summary.not_polished = input.not_polished;
-  input.facts = facts(store.identity(), runs);
-  for (std::size_t j = 0; j < chosen.size(); ++j)
-    input.facts.emplace_back("Model of " + study.problem.responses[j].name, chosen[j]);
+  input.facts = facts(store, runs);
+  for (std::size_t j = 0; j < ways.size(); ++j)
+    input.facts.emplace_back("Model of " + study.problem.responses[j].name, ways[j]);
   warn(input, runs);
   illustrate(input, study, logged, folder);
   summary.findings = hold_findings(input, study, logged, folder);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/confirmations.h>
 #include <drawpoint/studies/analysis/facts.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/progress.h>
@@ -61,18 +62,24 @@ std::string time_in_runs(const std::vector<Run>& runs) {
   return duration_text(seconds) + " in all, " + duration_text(seconds / finished) + " per run";
 }
 
-std::string design(const Identity& identity, const std::vector<Run>& runs) {
+std::string design(const Store& store, const std::vector<Run>& runs) {
+  const Identity& identity = store.identity();
   std::string text = std::to_string(count_points(runs, Kind::training)) + " training points, Latin hypercube";
   if (identity.corners) text += " with the corners of the box";
   if (identity.replicates > 1) text += ", " + std::to_string(identity.replicates) + " runs each";
+  if (const int more = count_points(runs, Kind::adaptive); more > 0)
+    text += "; " + std::to_string(more) + " adaptive points, " + store.sampling().criteria + ", " +
+            std::to_string(store.sampling().batch) + " per batch";
+  if (const int more = count_points(runs, Kind::confirmation); more > 0)
+    text += "; " + std::to_string(more) + " points of predicted fronts";
   return text + "; " + std::to_string(count_points(runs, Kind::validation)) + " validation points, uniform";
 }
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> facts(const Identity& identity,
-                                                       const std::vector<Run>& runs) {
-  std::vector<std::pair<std::string, std::string>> all = {{"Design", design(identity, runs)},
+std::vector<std::pair<std::string, std::string>> facts(const Store& store, const std::vector<Run>& runs) {
+  const Identity& identity = store.identity();
+  std::vector<std::pair<std::string, std::string>> all = {{"Design", design(store, runs)},
                                                           {"Seed", std::to_string(identity.seed)}};
   for (const auto& [name, value] : identity.options) all.emplace_back("Option " + name, value);
   all.insert(all.end(),
@@ -81,6 +88,9 @@ std::vector<std::pair<std::string, std::string>> facts(const Identity& identity,
               {"Machine", machine()},
               {"System", system_name()},
               {"Program", std::string("Drawpoint ") + DRAWPOINT_VERSION + ", compiler " + __VERSION__}});
+  const CheckedRuns adaptive = check_predictions(runs, identity.problem, Kind::adaptive);
+  if (!adaptive.runs.empty())
+    all.emplace_back("Adaptive runs, predicted before they were made", text(adaptive));
   return all;
 }
 

@@ -12,7 +12,6 @@
 namespace drawpoint::studies {
 
 /// (label, value) in the order to show.
-std::vector<std::pair<std::string, std::string>> facts(const Identity& identity,
-                                                       const std::vector<Run>& runs);
+std::vector<std::pair<std::string, std::string>> facts(const Store& store, const std::vector<Run>& runs);
 
 }  // namespace drawpoint::studies

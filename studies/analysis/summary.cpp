@@ -27,25 +27,39 @@ std::string headline_text(const Headline& headline) {
   return "  " + headline.name + " " + value + ": " + headline.note + "\n";
 }
 
+/// "40 training, 16 adaptive and 12 validation runs"
+std::string runs_text(const Summary& summary) {
+  std::vector<std::string> parts;
+  for (const auto& [kind, count] : summary.ended)
+    if (count > 0) parts.push_back(std::to_string(count) + " " + name_of(kind));
+  if (parts.empty()) return "no runs";
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text + " runs";
+}
+
 std::string front_text(const Summary& summary) {
-  const pareto::Polishing& polishing = summary.polishing;
-  std::string line =
-      "Pareto front: " + std::to_string(summary.front) + (summary.front == 1 ? " point" : " points");
-  if (!summary.not_polished.empty()) return line + ", not polished: " + summary.not_polished;
-  if (polishing.residual.size() == 0) return line;
-  line += ", " + std::to_string(polishing.certified()) + " certified (KKT residual at most " +
-          doe::detail::number_text(pareto::certified_residual) + ")";
-  if (!std::isfinite(polishing.gain)) return line;
-  return line + "; polishing added " + formatted("%.2f", polishing.gain) + " % of hypervolume";
+  std::string line = "Pareto front: " + std::to_string(summary.front) +
+                     (summary.front == 1 ? " point" : " points") + ", predicted";
+  if (!summary.not_polished.empty()) line += ", not polished (" + summary.not_polished + ")";
+  if (summary.confirmations.runs.empty())
+    return line + "; simulate those that matter with the command confirm";
+  return line + "; simulated: " + text(summary.confirmations);
 }
 
 }  // namespace
 
 std::string json_line(const Summary& summary) {
-  nlohmann::ordered_json line = {
-      {"study", summary.study},       {"runs", summary.training + summary.validation},
-      {"training", summary.training}, {"validation", summary.validation},
-      {"failed", summary.failed},     {"unfinished", summary.unfinished}};
+  nlohmann::ordered_json line = {{"study", summary.study}, {"runs", 0}};
+  for (const Kind kind : all_kinds) {
+    const auto found = summary.ended.find(kind);
+    const int count = found == summary.ended.end() ? 0 : found->second;
+    line[name_of(kind)] = count;
+    line["runs"] = line["runs"].get<int>() + count;
+  }
+  line["failed"] = summary.failed;
+  line["unfinished"] = summary.unfinished;
   line["headlines"] = nlohmann::ordered_json::object();
   for (const Headline& headline : summary.headlines)
     line["headlines"][headline.name] = number_or_null(headline.value);
@@ -56,6 +70,12 @@ std::string json_line(const Summary& summary) {
     line["nrmse"][response] = number_or_null(value);
   }
   line["front"] = summary.front;
+  const CheckedRuns& checked = summary.confirmations;
+  line["confirmed"] = {{"points", checked.runs.size()},
+                       {"values", checked.values},
+                       {"within", checked.within},
+                       {"failed", checked.failed},
+                       {"dominated", checked.dominated}};
   const pareto::Polishing& polishing = summary.polishing;
   line["certified"] = polishing.residual.size() > 0 ? nlohmann::ordered_json(polishing.certified())
                                                     : nlohmann::ordered_json();
@@ -68,9 +88,8 @@ std::string json_line(const Summary& summary) {
 }
 
 std::string text(const Summary& summary) {
-  std::string result = summary.study + ": " + std::to_string(summary.training) + " training and " +
-                       std::to_string(summary.validation) + " validation runs, " +
-                       std::to_string(summary.failed) + " failed";
+  std::string result =
+      summary.study + ": " + runs_text(summary) + ", " + std::to_string(summary.failed) + " failed";
   if (summary.unfinished > 0)
     result += "; " + std::to_string(summary.unfinished) + " more to be made (command run)";
   result += "\n";

@@ -3,11 +3,14 @@
 #pragma once
 /// The result of a study in a few lines: for people, and as the one JSON line that scripts read.
 
+#include <drawpoint/studies/report/checked_runs.h>
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,21 +19,23 @@ namespace drawpoint::studies {
 
 struct Summary {
   std::string study = {};
-  int training = 0, validation = 0;                        ///< runs that ended, failed ones among them
-  int failed = 0;                                          ///< of both kinds
+  std::map<Kind, int> ended = {};                          ///< runs of each kind, failed ones among them
+  int failed = 0;                                          ///< of all kinds
   int unfinished = 0;                                      ///< planned or running
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<Finding> findings = {};                      ///< in the study's order
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   int front = 0;                                           ///< points of the Pareto front
   pareto::Polishing polishing = pareto::Polishing();       ///< of the front; GCC 12 warns where this is {}
+  CheckedRuns confirmations = {};                          ///< points of predicted fronts that were simulated
   std::string not_polished = {};                           ///< why it was not; empty when it was
   std::filesystem::path report = {};                       ///< empty if there is none
   std::string error = {};                                  ///< why there is none
 };
 
-/// {"study", "runs", "training", "validation", "failed", "unfinished", "headlines": {name: number or null},
-/// "findings": {id: verdict}, "nrmse": {response: number or null}, "front", "certified": number or null,
+/// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "unfinished", "headlines":
+/// {name: number or null}, "findings": {id: verdict}, "nrmse": {response: number or null}, "front", "confirmed":
+/// {"points", "values", "within", "failed", "dominated"}, "certified": number or null,
 /// "polishing_gain_percent": number or null, "report": path or null}, and "not_polished" and "error", which
 /// say why, if there is something to say. `runs` counts those that ended.
 std::string json_line(const Summary& summary);

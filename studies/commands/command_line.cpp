@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <CLI/CLI.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
-constexpr std::array<const char*, 5> commands = {"run", "status", "report", "evaluate", "prepare"};
+constexpr std::array<const char*, 6> commands = {"run", "confirm", "status", "report", "evaluate", "prepare"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -43,6 +44,15 @@ std::string folder_complaint(const std::string& text) {
   return text.empty() ? "an empty name; give the folder of the study" : "";
 }
 
+std::string criteria_complaint(const std::string& text) {
+  try {
+    criteria_from(text);
+    return "";
+  } catch (const UsageError& e) {
+    return e.what();
+  }
+}
+
 /// `prog --runs 5` means `prog run --runs 5`.
 std::vector<std::string> with_command(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
@@ -50,7 +60,8 @@ std::vector<std::string> with_command(int argc, char** argv) {
   const bool help = first == "--help" || first == "-h" || first == "--version";
   const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !named) {
-    throw UsageError("unknown command \"" + first + "\"; the commands are run, status, report, evaluate");
+    throw UsageError("unknown command \"" + first +
+                     "\"; the commands are run, confirm, status, report, evaluate");
   }
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
@@ -88,17 +99,71 @@ void add_run_options(CLI::App& command, Settings& settings, const Defaults& defa
       .add_option("--replicates", settings.replicates,
                   "runs per training point, each with its own seed (default 1)")
       ->check(CLI::Range(1, 1000));
+  command.add_option("--seed", settings.seed, "study seed, from which all random numbers follow (default 1)")
+      ->check(seed_complaint);
+}
+
+void add_sampling_options(CLI::App& command, Settings& settings, const Defaults& defaults) {
+  const std::string group = "Adaptive sampling";
+  command
+      .add_option("--adaptive", settings.adaptive,
+                  "further points where the runs so far show that they teach most (default " +
+                      std::to_string(defaults.adaptive) + ", or as many as the folder is to hold)")
+      ->check(CLI::Range(0, 1'000'000))
+      ->group(group);
+  command
+      .add_option("--batch", settings.batch,
+                  "adaptive points chosen together, before the models are fitted again (default 8)")
+      ->check(CLI::Range(1, 100'000))
+      ->group(group);
+  command
+      .add_option("--criteria", settings.criteria,
+                  "who chooses them: NAME=WEIGHT,... of lola_voronoi, voronoi, distance, error, variance, "
+                  "improvement (default lola_voronoi=0.7,error=0.3)")
+      ->check(criteria_complaint)
+      ->group(group);
+  command
+      .add_option("--target", settings.target,
+                  "stop when the NRMSE of every response on the validation runs is at most this; 0: never")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  command.add_option("--hours", settings.hours, "begin no batch later than this after the start")
+      ->check(CLI::Range(0.0, 1e6))
+      ->group(group);
+}
+
+void add_execution_options(CLI::App& command, Settings& settings) {
   command.add_option("--jobs", settings.jobs, "processes at a time")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  command.add_option("--seed", settings.seed, "study seed, from which all random numbers follow (default 1)")
-      ->check(seed_complaint);
   command
       .add_option("--time-limit", settings.time_limit,
                   "seconds after which a run is stopped and counts as failed; 0: none")
       ->check(seconds_complaint)
       ->capture_default_str();
   command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
+}
+
+std::string names_of(const doe::Problem& problem) {
+  std::string names;
+  for (const auto& variable : problem.variables) names += (names.empty() ? "" : ",") + variable.name;
+  return names;
+}
+
+void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe::Problem& problem) {
+  command
+      .add_option("--points", settings.points,
+                  "points of the front per round: the best of each objective, the balanced one, knees, then "
+                  "others far apart")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  command
+      .add_option("--rounds", settings.rounds,
+                  "at most; after each the models are fitted and the front is searched again")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.add_option("--x", settings.x, "a point of your own besides: " + names_of(problem) + "; repeatable")
+      ->delimiter(',');
 }
 
 /// Those that the study declares; what is given goes to `values`.
@@ -135,8 +200,17 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
       app.add_subcommand("run", "make the runs that are missing, then the report (also without a command)");
   add_folder_options(*run, parsed.settings);
   add_run_options(*run, parsed.settings, study.defaults);
+  add_execution_options(*run, parsed.settings);
+  add_sampling_options(*run, parsed.settings, study.defaults);
   add_study_options(*run, study, parsed.settings.options, true);
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
+  auto* confirm = app.add_subcommand(
+      "confirm",
+      "simulate points of the predicted front until prediction and simulation agree, then the report");
+  add_folder_options(*confirm, parsed.settings);
+  add_execution_options(*confirm, parsed.settings);
+  add_confirm_options(*confirm, parsed.settings.confirm, study.problem);
+  confirm->callback([&] { parsed.action = [&] { return confirm_command(study, parsed.settings); }; });
   auto* status = app.add_subcommand("status", "say how many runs are planned, done and failed, and why");
   add_folder_options(*status, parsed.settings);
   status->callback([&] { parsed.action = [&] { return status_command(study, parsed.settings); }; });
@@ -148,9 +222,8 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
 void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   const int most_runs = 1'000'000'000;
   auto* evaluate = app.add_subcommand("evaluate", "make one run in this process and print its responses");
-  std::string names;
-  for (const auto& variable : study.problem.variables) names += (names.empty() ? "" : ",") + variable.name;
-  auto* x = evaluate->add_option("--x", parsed.point.x, "the point: " + names)->delimiter(',');
+  auto* x =
+      evaluate->add_option("--x", parsed.point.x, "the point: " + names_of(study.problem))->delimiter(',');
   auto* seed = evaluate->add_option("--seed", parsed.point.seed, "seed of this run")
                    ->check(seed_complaint)
                    ->capture_default_str();

@@ -10,8 +10,10 @@
 
 namespace drawpoint::studies {
 
-/// Makes the runs that are missing, then the report.
+/// Makes the runs that are missing, adaptive ones among them, then the report.
 int run_command(const Study& study, const Settings& settings);
+/// Simulates points of the predicted front until prediction and simulation agree, then the report.
+int confirm_command(const Study& study, const Settings& settings);
 /// What the output folder holds.
 int status_command(const Study& study, const Settings& settings);
 /// The report again, from the stored runs.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/points.h>
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
@@ -47,23 +48,6 @@ class TemporaryFolder {
  private:
   fs::path path_;
 };
-
-Eigen::VectorXd checked_point(const doe::Problem& problem, const std::vector<double>& x) {
-  const auto& variables = problem.variables;
-  if (x.size() != variables.size()) {
-    std::string names;
-    for (const auto& v : variables) names += (names.empty() ? "" : ", ") + v.name;
-    throw UsageError("--x: got " + std::to_string(x.size()) + " values, need " +
-                     std::to_string(variables.size()) + ": " + names);
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (x[i] >= variables[i].lower && x[i] <= variables[i].upper) continue;
-    throw UsageError("--x: " + variables[i].name + " = " + doe::detail::with_unit(x[i], variables[i].unit) +
-                     " is outside its range " + doe::detail::number_text(variables[i].lower) + " to " +
-                     doe::detail::with_unit(variables[i].upper, variables[i].unit));
-  }
-  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
 
 /// The reply channel belongs to this process alone: a program that the black box starts must not keep it
 /// open.
@@ -181,7 +165,9 @@ int evaluate_command(const Study& study, const PointSettings& given) {
   std::optional<StoredRun> stored;
   if (given.run) stored = stored_run(study, given);
   const PointSettings& settings = stored ? stored->settings : given;
-  const Eigen::VectorXd x = checked_point(study.problem, settings.x);
+  const Eigen::MatrixXd points = checked_points(study.problem, settings.x);
+  if (points.rows() > 1) throw UsageError("--x: got " + std::to_string(points.rows()) + " points; give one");
+  const Eigen::VectorXd x = points.row(0);
   keep_private(settings.result_descriptor);
   std::optional<TemporaryFolder> temporary;
   if (settings.log.empty()) temporary.emplace();

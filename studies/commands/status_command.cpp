@@ -34,7 +34,7 @@ Counts count(const std::vector<Run>& runs) {
 
 std::string as_json(const Store& store, Counts counts) {
   nlohmann::ordered_json line = {{"study", store.identity().study}, {"seed", store.identity().seed}};
-  for (const Kind kind : {Kind::training, Kind::validation}) {
+  for (const Kind kind : all_kinds) {
     for (const Status state : all_states) line[name_of(kind)][name_of(state)] = counts.by_kind[kind][state];
   }
   line["seconds"] = counts.seconds;
@@ -45,9 +45,9 @@ std::string as_json(const Store& store, Counts counts) {
 void print(const Store& store, const Folder& folder, Counts counts) {
   std::printf("study %s in %s, seed %llu\n", store.identity().study.c_str(), folder.path.c_str(),
               static_cast<unsigned long long>(store.identity().seed));
-  std::printf("%-12s%10s%10s%10s%10s\n", "", "planned", "running", "done", "failed");
-  for (const Kind kind : {Kind::training, Kind::validation}) {
-    std::printf("%-12s", name_of(kind).c_str());
+  std::printf("%-13s%10s%10s%10s%10s\n", "", "planned", "running", "done", "failed");
+  for (const Kind kind : all_kinds) {
+    std::printf("%-13s", name_of(kind).c_str());
     for (const Status state : all_states) std::printf("%10d", counts.by_kind[kind][state]);
     std::printf("\n");
   }

@@ -27,11 +27,13 @@ json to_json(const Eigen::MatrixXd& rows) {
   return all;
 }
 
-json to_json(const doe::Evaluations& table) {
+json to_json(const doe::Evaluations& table, const ReportInput& input) {
   json rows = json::array();
   for (const doe::Evaluation& e : table.rows) {
+    const auto kind = input.kinds.find(e.run);
     json y = e.outcome.failed() ? json() : to_json(e.outcome.values());
     rows.push_back({{"run", e.run},
+                    {"kind", kind == input.kinds.end() ? "" : kind->second},
                     {"x", to_json(e.x)},
                     {"y", std::move(y)},
                     {"reason", e.outcome.reason()},
@@ -80,6 +82,21 @@ json to_json(const std::vector<Finding>& findings) {
   json rows = json::array();
   for (const Finding& f : findings) rows.push_back({f.id, f.claim, to_string(f.verdict), f.grounds});
   return rows;
+}
+
+json to_json(const CheckedRuns& checked) {
+  json rows = json::array();
+  for (const CheckedRun& c : checked.runs)
+    rows.push_back({{"run", c.run},
+                    {"x", to_json(c.x)},
+                    {"y", c.outcome.failed() ? json() : to_json(c.outcome.values())},
+                    {"reason", c.outcome.reason()},
+                    {"predicted", to_json(c.predicted)},
+                    {"lower", to_json(c.lower)},
+                    {"upper", to_json(c.upper)},
+                    {"within", c.within},
+                    {"dominated", c.dominated}});
+  return {{"rows", std::move(rows)}, {"text", text(checked)}, {"agree", checked.agree()}};
 }
 
 /// A residual is null where it is unknown.
@@ -182,11 +199,12 @@ json report_data(const ReportInput& input) {
           {"about", input.about},
           {"command", input.command},
           {"problem", to_json(input.problem)},
-          {"training", to_json(input.training)},
-          {"validation", to_json(input.validation)},
+          {"training", to_json(input.training, input)},
+          {"validation", to_json(input.validation, input)},
           {"models", std::move(models)},
           {"validations", std::move(validations)},
           {"front", to_json(input.problem, input.front)},
+          {"confirmations", to_json(input.confirmations)},
           {"polishing", to_json(input.polishing, input.not_polished)},
           {"influence", std::move(shares)},
           {"main_pair", main_pair(input.problem.variables.size(), effects)},

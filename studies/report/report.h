@@ -6,10 +6,11 @@
 /// is built.
 ///
 /// Contents: a summary in words with cautions, findings held against the runs, figures of one simulation,
-/// trade-offs, response surfaces (the surrogates are evaluated in the browser), validation, the runs. Each
+/// trade-offs, what simulation said of predictions, response surfaces (the surrogates are evaluated in the browser), validation, the runs. Each
 /// part copes with what is missing: no validation runs, one response, no objective, no successful run.
 /// studies::Study lists the kinds of figures ("panels") of a simulation.
 
+#include <drawpoint/studies/report/checked_runs.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/model.hpp>
@@ -19,7 +20,9 @@
 #include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -33,9 +36,11 @@ struct ReportInput {
   std::vector<Finding> findings = {};    ///< said next
   doe::Problem problem;
   doe::Evaluations training, validation;
+  std::map<std::int64_t, std::string> kinds = {};  ///< of runs: what the table of runs calls them
   std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
+  CheckedRuns confirmations = {};                ///< points of predicted fronts that were simulated
   pareto::Polishing polishing;                   ///< of the front
   std::string not_polished;                      ///< why it was not; empty when it was
   nlohmann::json illustrations =

@@ -125,6 +125,14 @@ std::string balanced_sentence(const ReportInput& input) {
          ".";
 }
 
+/// What simulation said of predicted fronts; no front is to be believed without.
+std::string confirmation_sentence(const ReportInput& input) {
+  const CheckedRuns& checked = input.confirmations;
+  if (checked.runs.empty())
+    return "None of these points has been simulated: the command confirm does that for those that matter.";
+  return "Of the fronts predicted so far, simulation has checked " + text(checked) + ".";
+}
+
 bool is_poor(const ReportInput& input, std::size_t response) {
   return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
 }
@@ -163,6 +171,7 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
     all.push_back(best_sentence(input, 0, chosen[0]));
     if (chosen.size() > 1) all.push_back(range_sentence(input));
     if (chosen.size() > 1) all.push_back(balanced_sentence(input));
+    all.push_back(confirmation_sentence(input));
   }
   const std::string driving = driver_sentence(input, influence);
   if (input.problem.variables.size() > 1 && !driving.empty()) all.push_back(driving);
@@ -218,6 +227,18 @@ void caution_about_extrapolation(const ReportInput& input, json& all) {
   }
 }
 
+void caution_about_confirmations(const ReportInput& input, json& all) {
+  const CheckedRuns& checked = input.confirmations;
+  if (!checked.agree())
+    all.push_back("The front promised what simulation did not keep: only " + std::to_string(checked.within) +
+                  " of " + std::to_string(checked.values) +
+                  " values lay within their 95 % interval. Read the simulated points, not the front, and add "
+                  "runs.");
+  if (checked.failed > 0)
+    all.push_back(std::to_string(checked.failed) + " of " + counted(checked.runs.size(), "point") +
+                  " of predicted fronts failed when simulated.");
+}
+
 json cautions(const ReportInput& input) {
   json all = input.warnings;
   const std::size_t runs = input.training.rows.size() + input.validation.rows.size();
@@ -233,6 +254,7 @@ json cautions(const ReportInput& input) {
                   ": the errors stated here are rough; use 10 or more.");
   caution_about_models(input, all);
   caution_about_extrapolation(input, all);
+  caution_about_confirmations(input, all);
   return all;
 }
 

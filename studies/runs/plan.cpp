@@ -13,7 +13,14 @@
 namespace drawpoint::studies {
 namespace {
 
-enum class Stream : std::uint64_t { training, validation_points, validation_runs };
+enum class Stream : std::uint64_t {
+  training,
+  validation_points,
+  validation_runs,
+  adaptive_runs,
+  confirmation_runs,
+  choices
+};
 
 /// Seeds for everything but training runs; these take run numbers below 2^62.
 doe::Seed stream_seed(const Identity& identity, Stream stream, std::uint64_t part) {
@@ -22,9 +29,19 @@ doe::Seed stream_seed(const Identity& identity, Stream stream, std::uint64_t par
 }
 
 doe::Seed seed_of(const Identity& identity, Kind kind, std::int64_t point, int replicate) {
-  const doe::Seed study =
-      kind == Kind::training ? identity.seed : stream_seed(identity, Stream::validation_runs, 0);
-  return doe::run_seed(study, static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(replicate));
+  const auto study = [&] {
+    switch (kind) {
+      case Kind::validation:
+        return stream_seed(identity, Stream::validation_runs, 0);
+      case Kind::adaptive:
+        return stream_seed(identity, Stream::adaptive_runs, 0);
+      case Kind::confirmation:
+        return stream_seed(identity, Stream::confirmation_runs, 0);
+      default:
+        return identity.seed;
+    }
+  };
+  return doe::run_seed(study(), static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(replicate));
 }
 
 Eigen::MatrixXd points_of(const std::vector<Run>& runs, Kind kind, Eigen::Index dimension) {
@@ -35,22 +52,33 @@ Eigen::MatrixXd points_of(const std::vector<Run>& runs, Kind kind, Eigen::Index 
   return X;
 }
 
-void append(std::vector<Run>& runs, const Identity& identity, Kind kind, const Eigen::MatrixXd& X,
-            std::pair<std::int64_t, std::int64_t> first_point_and_id) {
-  auto [point, id] = first_point_and_id;
-  const int replicates = kind == Kind::training ? identity.replicates : 1;
-  for (Eigen::Index row = 0; row < X.rows(); ++row, ++point) {
+}  // namespace
+
+std::vector<Run> runs_at(const Identity& identity, const std::vector<Run>& existing, Kind kind,
+                         const PlannedPoints& points) {
+  const int replicates = kind == Kind::validation ? 1 : identity.replicates;
+  std::vector<Run> runs;
+  for (Eigen::Index row = 0; row < points.X.rows(); ++row) {
     for (int replicate = 0; replicate < replicates; ++replicate) {
       Run run;
-      run.id = id++;
+      run.id = static_cast<std::int64_t>(existing.size() + runs.size()) + 1;
       run.kind = kind;
-      run.point = point;
+      run.point = count_points(existing, kind) + row + 1;
       run.replicate = replicate;
-      run.seed = seed_of(identity, kind, point, replicate);
-      run.x = X.row(row);
+      run.seed = seed_of(identity, kind, run.point, replicate);
+      run.x = points.X.row(row);
+      if (points.predicted.rows() > 0) {
+        run.predicted = points.predicted.row(row);
+        run.deviation = points.deviation.row(row);
+      }
       runs.push_back(run);
     }
   }
+  return runs;
+}
+
+doe::Seed seed_of_choice(const Identity& identity, std::size_t runs) {
+  return stream_seed(identity, Stream::choices, runs);
 }
 
 void refuse_to_shrink(int stored, int wanted, const std::string& option, const std::string& what) {
@@ -60,8 +88,6 @@ void refuse_to_shrink(int stored, int wanted, const std::string& option, const s
                    " points, and a study grows but does not shrink; use " + option + " " +
                    std::to_string(stored) + " or more, or choose another folder with --out");
 }
-
-}  // namespace
 
 bool has_corners(const doe::Problem& problem, int runs) {
   const std::size_t dimension = problem.variables.size();
@@ -89,19 +115,21 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
   refuse_to_shrink(trained, runs, "--runs", "training");
   refuse_to_shrink(validated, validation, "--validation", "validation");
   const auto dimension = static_cast<Eigen::Index>(identity.problem.variables.size());
-  std::vector<Run> added;
+  std::vector<Run> all = existing;
+  const auto add = [&](Kind kind, const Eigen::MatrixXd& X) {
+    const std::vector<Run> more = runs_at(identity, all, kind, {.X = X, .predicted = {}, .deviation = {}});
+    all.insert(all.end(), more.begin(), more.end());
+  };
   if (runs > trained) {
-    const auto X = trained == 0
-                       ? first_design(identity, runs)
-                       : further_design(identity, points_of(existing, Kind::training, dimension), runs);
-    append(added, identity, Kind::training, X, {trained + 1, existing.size() + 1});
+    add(Kind::training, trained == 0
+                            ? first_design(identity, runs)
+                            : further_design(identity, points_of(existing, Kind::training, dimension), runs));
   }
   if (validation > validated) {
     const auto seed = stream_seed(identity, Stream::validation_points, static_cast<std::uint64_t>(validated));
-    const auto X = doe::uniform_random(identity.problem, validation - validated, {.seed = seed});
-    append(added, identity, Kind::validation, X, {validated + 1, existing.size() + added.size() + 1});
+    add(Kind::validation, doe::uniform_random(identity.problem, validation - validated, {.seed = seed}));
   }
-  return added;
+  return {all.begin() + static_cast<std::ptrdiff_t>(existing.size()), all.end()};
 }
 
 int count_points(const std::vector<Run>& runs, Kind kind) {

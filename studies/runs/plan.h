@@ -3,10 +3,10 @@
 #pragma once
 /// Which runs a study makes.
 ///
-/// Training points are a Latin hypercube chosen for the distance between its points
+/// The points of the first design (training) are a Latin hypercube chosen for the distance between its points
 /// (doe/optimized_latin_hypercube.hpp), with the 2^d corners of the box in front when there are at least 2^d
-/// points. Validation points are independent and uniform. Each has random numbers of its own, derived from
-/// the study seed.
+/// points. Validation points are independent and uniform. What comes after the first design is chosen elsewhere
+/// (sampling/). Each run has random numbers of its own, derived from the study seed.
 ///
 /// A study grows without losing a run: the store keeps the points, so that a study begun by another version
 /// grows from what it has. New validation points are more of the same. New training points are those of
@@ -36,7 +36,23 @@ Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& 
 std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& existing, int runs,
                              int validation);
 
+/// Points to run, natural units, and what is predicted there: mean and standard deviation of one run.
+struct PlannedPoints {
+  Eigen::MatrixXd X;                     ///< n x d
+  Eigen::MatrixXd predicted, deviation;  ///< n x responses; no rows where nothing is predicted
+};
+
+/// Runs of a kind at these points, their numbers and seeds continuing those of `existing`.
+std::vector<Run> runs_at(const Identity& identity, const std::vector<Run>& existing, Kind kind,
+                         const PlannedPoints& points);
+
+/// Seed for choosing further points when there are `runs` runs.
+doe::Seed seed_of_choice(const Identity& identity, std::size_t runs);
+
 /// Number of design points of a kind.
 int count_points(const std::vector<Run>& runs, Kind kind);
+
+/// Throws UsageError when fewer points are wanted than there are.
+void refuse_to_shrink(int stored, int wanted, const std::string& option, const std::string& what);
 
 }  // namespace drawpoint::studies

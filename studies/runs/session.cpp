@@ -38,6 +38,24 @@ Store new_store(const Study& study, const Folder& folder, const Settings& settin
                                         .options = with_defaults(study.options, settings.options)});
 }
 
+void check_target(double target, int validation) {
+  if (target > 0.0 && validation == 0)
+    throw UsageError(
+        "--target: without a validation run there is no NRMSE to reach; give --validation 10 or more");
+}
+
+/// What is given, else what the folder or the study has. Throws UsageError for what cannot be.
+Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<Run>& existing,
+                     int validation) {
+  kept.points = settings.adaptive.value_or(kept.points);
+  kept.batch = settings.batch.value_or(kept.batch);
+  kept.criteria = settings.criteria.value_or(kept.criteria);
+  kept.target = settings.target.value_or(kept.target);
+  refuse_to_shrink(count_points(existing, Kind::adaptive), kept.points, "--adaptive", "adaptive");
+  check_target(kept.target, validation);
+  return kept;
+}
+
 }  // namespace
 
 Store open_store(const Study& study, const Folder& folder) {
@@ -58,6 +76,10 @@ Store open_store(const Study& study, const Folder& folder) {
   return store;
 }
 
+void check_new_study(const Study& study, const Settings& settings) {
+  check_target(settings.target.value_or(0.0), settings.validation.value_or(study.defaults.validation));
+}
+
 Store plan_study(const Study& study, const Folder& folder, const Settings& settings) {
   const bool found = std::filesystem::exists(folder.store());
   Store store = found ? open_store(study, folder) : new_store(study, folder, settings);
@@ -69,7 +91,11 @@ Store plan_study(const Study& study, const Folder& folder, const Settings& setti
   const int validation = settings.validation.value_or(resumes ? count_points(existing, Kind::validation)
                                                               : study.defaults.validation);
   const auto added = runs_to_add(store.identity(), existing, runs, validation);
+  Sampling kept = store.sampling();
+  if (!resumes) kept.points = study.defaults.adaptive;
+  const Sampling sampling = sampling_of(kept, settings, existing, validation);
   store.plan_again(settings.retry_failed);
+  store.set_sampling(sampling);
   store.add(added);
   return store;
 }

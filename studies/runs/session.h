@@ -14,6 +14,9 @@ namespace drawpoint::studies {
 /// to another study or to another problem, saying what differs.
 Store open_store(const Study& study, const Folder& folder);
 
+/// Throws UsageError for options that do not go together in a new folder: asked before anything is written.
+void check_new_study(const Study& study, const Settings& settings);
+
 /// The store of this study, new if there is none, with all runs that the options ask for planned. Options
 /// that are not given are those of the store. Throws like open_store, and UsageError if seed, replicates or
 /// numbers of points do not fit what is stored.

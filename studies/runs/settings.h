@@ -8,6 +8,7 @@
 #include <drawpoint/studies/options.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,16 +21,29 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Options of the commands that work on an output folder: run, status, report.
+/// Options of `confirm`.
+struct ConfirmSettings {
+  int points = 6;              ///< of the front per round, 1 or more
+  int rounds = 3;              ///< at most, 1 or more
+  std::vector<double> x = {};  ///< points besides those of the front, one after the other, natural units
+};
+
+/// Options of the commands that work on an output folder: run, confirm, status, report.
 struct Settings {
   std::filesystem::path out = {};
   std::optional<int> runs = {};        ///< training points, 2 or more
   std::optional<int> validation = {};  ///< validation points, 0 or more
   std::optional<int> replicates = {};  ///< runs per training point, each with a seed of its own, 1 or more
   std::optional<doe::Seed> seed = {};  ///< study seed
-  OptionValues options = {};           ///< of the study, those given
-  int jobs = 1;                        ///< processes at a time, 1 or more
-  double time_limit = 0.0;             ///< [s] a run may take; 0 means no limit
+  std::optional<int> adaptive = {};    ///< adaptive points, 0 or more
+  std::optional<int> batch = {};       ///< adaptive points chosen together, 1 or more
+  std::optional<std::string> criteria = {};                ///< who chooses them: sampling/criteria.h
+  std::optional<double> target = {};                       ///< NRMSE at which to stop choosing; 0: none
+  double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
+  ConfirmSettings confirm = {};
+  OptionValues options = {};  ///< of the study, those given
+  int jobs = 1;               ///< processes at a time, 1 or more
+  double time_limit = 0.0;    ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;
   bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
   std::string command = {};  ///< the command line as typed, for the report

@@ -16,7 +16,15 @@ namespace drawpoint::studies {
 
 /// Quoted column names in the order of the problem.
 struct Columns {
-  std::vector<std::string> x, y;
+  std::vector<std::string> x, y, predicted, deviation;
+
+  /// All of them, in this order.
+  std::vector<std::string> all() const {
+    std::vector<std::string> names = x;
+    for (const auto* group : {&y, &predicted, &deviation})
+      names.insert(names.end(), group->begin(), group->end());
+    return names;
+  }
 };
 
 namespace detail {
@@ -48,6 +56,10 @@ inline Columns columns_of(const doe::Problem& problem) {
     columns.x.push_back(detail::claim(variable.name, "x_", taken));
   for (const auto& response : problem.responses)
     columns.y.push_back(detail::claim(response.name, "y_", taken));
+  for (const auto& response : problem.responses) {
+    columns.predicted.push_back(detail::claim(response.name + "_predicted", "y_", taken));
+    columns.deviation.push_back(detail::claim(response.name + "_deviation", "y_", taken));
+  }
   return columns;
 }
 

@@ -24,7 +24,7 @@ using detail::refuse;
 using detail::with_context;
 
 constexpr int application_id = 0x44727770;
-constexpr int schema_version = 3;
+constexpr int schema_version = 4;
 constexpr int lock_patience = 30000;  // [ms] for another program that reads the file
 
 std::string now() {
@@ -43,12 +43,14 @@ int pragma(SQLite::Database& database, const std::string& name) {
 std::string create_statement(const Columns& columns) {
   std::string text =
       "CREATE TABLE runs (id INTEGER PRIMARY KEY, kind TEXT NOT NULL CHECK (kind IN ('training', "
-      "'validation')), "
+      "'adaptive', 'confirmation', 'validation')), "
       "point INTEGER NOT NULL, replicate INTEGER NOT NULL, seed TEXT NOT NULL, "
       "status TEXT NOT NULL CHECK (status IN ('planned', 'running', 'done', 'failed')), "
       "reason TEXT, seconds REAL, started TEXT, finished TEXT, log TEXT, checksum TEXT";
   for (const auto& column : columns.x) text += ", " + column + " REAL NOT NULL";
-  for (const auto& column : columns.y) text += ", " + column + " REAL";
+  for (const auto* group : {&columns.y, &columns.predicted, &columns.deviation}) {
+    for (const auto& column : *group) text += ", " + column + " REAL";
+  }
   return text + ", UNIQUE (kind, point, replicate))";
 }
 
@@ -71,6 +73,7 @@ void write_identity(SQLite::Database& database, const Identity& identity) {
   put("options", nlohmann::json(identity.options).dump());
   put("created", now());
   put("rows", "0");
+  put("sampling", to_text(Sampling{}));
 }
 
 /// Over all entries but itself, in order of their keys.
@@ -79,6 +82,13 @@ std::string study_checksum(SQLite::Database& database) {
   detail::RowText row;
   while (query.executeStep()) row << query.getColumn(0).getString() << query.getColumn(1).getString();
   return doe::detail::checksum(row.text());
+}
+
+Kind kind_from(const std::string& name) {
+  for (const Kind kind : all_kinds) {
+    if (name == name_of(kind)) return kind;
+  }
+  return Kind::training;
 }
 
 Status status_from(const std::string& name) {
@@ -109,12 +119,17 @@ constexpr const char* fixed_columns =
     "coalesce(started, ''), coalesce(finished, ''), coalesce(log, ''), coalesce(checksum, '')";
 constexpr int fixed_column_count = 12, checksum_column = 11;
 
-/// A row of `SELECT fixed_columns, x..., y...`.
+/// A row of `SELECT fixed_columns, Columns::all()`.
 Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t responses) {
   const auto text = [&](int column) { return row.getColumn(column).getString(); };
+  int next = fixed_column_count;
+  const auto take = [&](std::size_t count) {
+    next += static_cast<int>(count);
+    return numbers(row, next - static_cast<int>(count), count);
+  };
   Run run;
   run.id = row.getColumn(0).getInt64();
-  run.kind = text(1) == name_of(Kind::validation) ? Kind::validation : Kind::training;
+  run.kind = kind_from(text(1));
   run.point = row.getColumn(2).getInt64();
   run.replicate = row.getColumn(3).getInt();
   run.seed = seed_from(text(4));
@@ -124,14 +139,27 @@ Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t response
   run.started = text(8);
   run.finished = text(9);
   run.log = text(10);
-  run.x = numbers(row, fixed_column_count, dimension);
-  run.y = numbers(row, fixed_column_count + static_cast<int>(dimension), responses);
+  run.x = take(dimension);
+  run.y = take(responses);
+  run.predicted = take(responses);
+  run.deviation = take(responses);
   return run;
 }
 
 }  // namespace
 
-std::string name_of(Kind kind) { return kind == Kind::training ? "training" : "validation"; }
+std::string name_of(Kind kind) {
+  switch (kind) {
+    case Kind::adaptive:
+      return "adaptive";
+    case Kind::confirmation:
+      return "confirmation";
+    case Kind::validation:
+      return "validation";
+    default:
+      return "training";
+  }
+}
 
 std::string name_of(Status status) {
   switch (status) {
@@ -211,24 +239,22 @@ void Store::read_identity() {
                  std::stoi(get("replicates")),
                  get("corners") == "1",
                  nlohmann::json::parse(get("options")).get<OptionValues>()};
+    sampling_ = sampling_from(get("sampling"));
   } catch (const std::logic_error&) {
     refuse(file_, "is damaged (a number in table study is not one)");
   } catch (const nlohmann::json::exception&) {
-    refuse(file_, "is damaged (problem or options in table study are not readable)");
+    refuse(file_, "is damaged (problem, options or sampling in table study are not readable)");
   }
-  const Columns columns = columns_of(identity_.problem);
-  x_columns_ = columns.x;
-  y_columns_ = columns.y;
+  columns_ = columns_of(identity_.problem);
 }
 
 std::vector<std::pair<Run, std::string>> Store::rows(const std::string& condition) const {
   std::string text = std::string("SELECT ") + fixed_columns;
-  for (const auto& column : x_columns_) text += ", " + column;
-  for (const auto& column : y_columns_) text += ", " + column;
+  for (const auto& column : columns_.all()) text += ", " + column;
   SQLite::Statement query(*database_, text + " FROM runs WHERE " + condition + " ORDER BY id");
   std::vector<std::pair<Run, std::string>> found;
   while (query.executeStep())
-    found.emplace_back(read_run(query, x_columns_.size(), y_columns_.size()),
+    found.emplace_back(read_run(query, columns_.x.size(), columns_.y.size()),
                        query.getColumn(checksum_column).getString());
   return found;
 }
@@ -277,24 +303,42 @@ void Store::change(std::int64_t id, const F& f) {
   });
 }
 
+void Store::set_sampling(const Sampling& sampling) {
+  with_context(file_, [&] {
+    SQLite::Transaction transaction(*database_);
+    put_in_study(*database_, "sampling", to_text(sampling));
+    seal_study();
+    transaction.commit();
+  });
+  sampling_ = sampling;
+}
+
 void Store::add(const std::vector<Run>& planned) {
   std::string columns = "id, kind, point, replicate, seed, status";
   std::string marks = "?, ?, ?, ?, ?, 'planned'";
-  for (const auto& column : x_columns_) {
-    columns += ", " + column;
-    marks += ", ?";
+  for (const auto* group : {&columns_.x, &columns_.predicted, &columns_.deviation}) {
+    for (const auto& column : *group) {
+      columns += ", " + column;
+      marks += ", ?";
+    }
   }
   with_context(file_, [&] {
     SQLite::Transaction transaction(*database_);
     SQLite::Statement insert(*database_, "INSERT INTO runs (" + columns + ") VALUES (" + marks + ")");
     for (const auto& run : planned) {
       insert.reset();
+      insert.clearBindings();  // what was not predicted is NULL
       insert.bind(1, run.id);
       insert.bind(2, name_of(run.kind));
       insert.bind(3, run.point);
       insert.bind(4, run.replicate);
       insert.bind(5, std::to_string(run.seed));
-      for (int i = 0; i < run.x.size(); ++i) insert.bind(6 + i, run.x[i]);
+      const auto bind = [&](std::size_t first, const Eigen::VectorXd& values) {
+        for (const double value : values) insert.bind(static_cast<int>(first++), value);
+      };
+      bind(6, run.x);
+      bind(6 + columns_.x.size(), run.predicted);
+      bind(6 + columns_.x.size() + columns_.y.size(), run.deviation);
       insert.exec();
     }
     seal_rows("checksum IS NULL");
@@ -323,7 +367,7 @@ void Store::mark_planned(std::int64_t id) {
 
 void Store::save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log) {
   std::string text = "UPDATE runs SET status = 'done', reason = NULL, seconds = ?, finished = ?, log = ?";
-  for (const auto& column : y_columns_) text += ", " + column + " = ?";
+  for (const auto& column : columns_.y) text += ", " + column + " = ?";
   change(id, [&] {
     SQLite::Statement update(*database_, text + " WHERE id = ?");
     update.bind(1, seconds);

@@ -4,10 +4,11 @@
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
 ///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), created, rows (how
-///                        many runs there are), checksum
+///                        many runs there are), sampling (JSON; the only entry that a user may change), checksum
 ///     runs               one row per run: id (1, 2, ... without a gap), kind, point, replicate, seed, status,
 ///                        reason, seconds, started, finished, log, checksum, then one REAL column for each
-///                        variable and each response, named as in the problem
+///                        variable and each response, named as in the problem, and for each response what was
+///                        predicted of the run before it was made, and the standard deviation of that
 ///
 /// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.h
 /// names the columns.
@@ -23,9 +24,12 @@
 /// schema is refused and left as it is. All failures throw std::runtime_error that names the file and says
 /// what to do.
 
+#include <drawpoint/studies/store/columns.h>
 #include <drawpoint/studies/store/identity.h>
+#include <drawpoint/studies/store/sampling.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -38,7 +42,15 @@ class Database;
 
 namespace drawpoint::studies {
 
-enum class Kind { training, validation };
+/// All but the validation runs are for the models.
+enum class Kind {
+  training,      ///< of the first design
+  adaptive,      ///< chosen by what the runs before it showed
+  confirmation,  ///< a point of a predicted front
+  validation     ///< independent, for judging the models
+};
+inline constexpr std::array all_kinds = {Kind::training, Kind::adaptive, Kind::confirmation,
+                                         Kind::validation};
 enum class Status { planned, running, done, failed };
 
 std::string name_of(Kind kind);
@@ -54,6 +66,9 @@ struct Run {
   Eigen::VectorXd x;
   Status status = Status::planned;
   Eigen::VectorXd y;
+  /// What the models of the runs before it said of this run: mean and standard deviation of each response. NaN
+  /// (or, of a run that is being planned, empty) where nothing was predicted.
+  Eigen::VectorXd predicted, deviation;
   std::string reason;
   double seconds = 0.0;
   std::string started, finished;
@@ -70,8 +85,10 @@ class Store {
   ~Store();
 
   const Identity& identity() const { return identity_; }
+  const Sampling& sampling() const { return sampling_; }
   std::vector<Run> runs() const;  ///< in order of id
 
+  void set_sampling(const Sampling& sampling);
   void add(const std::vector<Run>& planned);  ///< all or none
   void mark_running(std::int64_t id);
   void mark_planned(std::int64_t id);
@@ -94,7 +111,8 @@ class Store {
   std::filesystem::path file_;
   std::unique_ptr<SQLite::Database> database_;
   Identity identity_;
-  std::vector<std::string> x_columns_, y_columns_;  ///< quoted
+  Sampling sampling_;
+  Columns columns_;
 };
 
 }  // namespace drawpoint::studies

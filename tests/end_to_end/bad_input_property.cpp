@@ -50,8 +50,15 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " --out ''", 2, "--out: an empty name");
   expect_refused(study + " evaluate", 2, "give a point with --x, or a run of a study with --run");
   expect_refused(study + " --sed 1" + out(), 2, "--sed");
+  expect_refused(study + " --criteria lola=1" + out(), 2, "\"lola=1\" is no criterion and weight");
+  expect_refused(study + " --target 2" + out(), 2, "--target");
+  expect_refused(study + " --target 0.1 --validation 0" + out(), 2, "give --validation 10 or more");
+  expect_refused(study + " --adaptive -1" + out(), 2, "--adaptive");
+  expect_refused(study + " confirm --points 0" + out(), 2, "--points");
+  expect_refused(study + " confirm --x=0.5,26" + out(), 2, "y = 26 deg is outside its range -5 to 25 deg");
+  expect_refused(study + " confirm" + out(), 1, "there is no study in");
   expect_refused(study + " frobnicate", 2,
-                 "unknown command \"frobnicate\"; the commands are run, status, report, evaluate");
+                 "unknown command \"frobnicate\"; the commands are run, confirm, status, report, evaluate");
   expect_refused(study + " evaluate --x 0.5", 2, "--x: got 1 values, need 2: x, y");
   expect_refused(study + " evaluate --x=0.5,26", 2, "y = 26 deg is outside its range -5 to 25 deg");
   EXPECT_FALSE(std::filesystem::exists(dir()));

@@ -66,6 +66,45 @@ TEST_F(FormulaDemo, TableDoesNotDependOnTheNumberOfJobs) {
   EXPECT_EQ(query(fingerprint), one);
 }
 
+TEST_F(FormulaDemo, AdaptiveRunsDoNotDependOnJobsOrOnStops) {
+  const std::string options = " --runs 20 --validation 5 --batch 4 --criteria error,lola_voronoi=2";
+  const Ended whole = run(demo + options + " --adaptive 12 --jobs 2 --json" + out());
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(whole.json()["adaptive"], 12);
+  EXPECT_TRUE(contains(whole.err, "adaptive points 9 to 12 of 12: 28 runs for the models so far; NRMSE"));
+  EXPECT_EQ(count("kind = 'adaptive' AND status = 'done' AND production_deviation > 0"), 12);
+  EXPECT_EQ(count("kind != 'adaptive' AND production_predicted IS NOT NULL"), 0);
+  const std::string one = query(fingerprint);
+  std::filesystem::remove_all(dir());
+  ASSERT_EQ(run(demo + options + " --adaptive 4 --jobs 1" + out()).code, 0);
+  ASSERT_EQ(run(demo + " --adaptive 12 --hours 0" + out()).code, 0);  // no time: nothing is begun
+  EXPECT_EQ(count("kind = 'adaptive'"), 4);
+  ASSERT_EQ(run(demo + out()).code, 0);  // the folder knows the rest
+  EXPECT_EQ(query(fingerprint), one);
+}
+
+TEST_F(FormulaDemo, ATargetThatIsMetEndsTheSampling) {
+  const Ended study = run(demo + " --runs 30 --validation 10 --adaptive 50 --target 0.9" + out());
+  ASSERT_EQ(study.code, 0) << study.err;
+  EXPECT_TRUE(contains(study.out, "no further adaptive runs, the target is met: 30 runs"));
+  EXPECT_EQ(count("kind = 'adaptive'"), 0);
+}
+
+TEST_F(FormulaDemo, ConfirmSimulatesTheFront) {
+  ASSERT_EQ(run(demo + " --runs 30 --validation 10" + out()).code, 0);
+  const Ended confirmed = run(demo + " confirm --points 5 --rounds 2 --x=1,0.5,0.5,0.5 --json" + out());
+  ASSERT_EQ(confirmed.code, 0) << confirmed.err;
+  const auto line = confirmed.json();
+  const int points = line["confirmed"]["points"].get<int>();
+  EXPECT_TRUE(points == 6 || points == 11) << points;  // one round or two
+  EXPECT_EQ(line["confirmation"], points);
+  EXPECT_EQ(line["confirmed"]["values"], 3 * points);
+  EXPECT_TRUE(contains(confirmed.err, "round 1: 6 points to simulate"));
+  EXPECT_EQ(count("kind = 'confirmation' AND alpha = 1 AND beta = 0.5 AND gamma = 0.5 AND kappa = 0.5"), 1);
+  EXPECT_EQ(count("kind = 'confirmation' AND joint_damage_predicted IS NULL"), 0);
+  EXPECT_TRUE(contains(contents(dir() / "report.html"), "within the stated 95 % interval"));
+}
+
 TEST_F(FormulaDemo, OnePointByHandIsTheRowOfTheTable) {
   ASSERT_EQ(run(demo + " --runs 6 --validation 0" + out()).code, 0);
   const std::string x =

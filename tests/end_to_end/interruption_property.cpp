@@ -58,6 +58,23 @@ TEST_F(Interruption, AKilledStudyGoesOn) {
   expect_resumes(finished());
 }
 
+TEST_F(Interruption, AKilledBatchGoesOnWithTheSamePoints) {
+  const std::string points =
+      "SELECT group_concat(kind || quote(x) || quote(y) || seed || quote(cost_predicted)) FROM runs";
+  const std::string adaptive = slow + " --adaptive 6 --batch 6";
+  ASSERT_EQ(run(adaptive + out()).code, 0);
+  const std::string whole = query(points);
+  std::filesystem::remove_all(dir());
+  Command study(adaptive + out(), place_);
+  await_done(18);  // two of the batch
+  study.send(SIGKILL);
+  study.wait();
+  EXPECT_LT(count("status = 'done'"), 22);
+  ASSERT_EQ(run(slow + out()).code, 0);
+  EXPECT_EQ(count("status = 'done'"), 22);
+  EXPECT_EQ(query(points), whole);
+}
+
 TEST_F(Interruption, OnlyOneProcessWorksInAFolder) {
   Command study(slow + out(), place_);
   await_done(1);

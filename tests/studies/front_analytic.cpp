@@ -150,6 +150,30 @@ TEST(Front, WhatIsPredictedIsPossible) {
 }
 
 // With a and b moved out of the box the set lies on its face x2 = 0, where the gradients of both point out.
+// Of five front points on a line with runs at 0, 0.4 (failed twice), 0.6 (failed once of twice) and 1: those nearest
+// to 0.4 go, those nearest to 0.6 stay.
+TEST(Front, NothingBesideAFailedRunIsRecommended) {
+  const doe::Problem problem{.variables = {{"x", "m", 0, 10}},
+                             .responses = {{"mass", "kg", Goal::maximize}, {"spill", "1", Goal::minimize}}};
+  const auto row = [](double x, bool failed) {
+    doe::Evaluation run{.x = Eigen::VectorXd::Constant(1, x)};
+    run.outcome = failed ? doe::Outcome(doe::Failure{"stuck"}) : doe::Outcome{1.0, 2.0};
+    return run;
+  };
+  const Tables tables{.training = {problem, {row(0, false), row(4, true), row(6, true), row(6, false)}},
+                      .validation = {problem, {row(4, true), row(10, false)}}};
+  pareto::PolishedFront found;
+  found.front.X = (Eigen::VectorXd(5) << 1.9, 2.1, 4.9, 5.1, 9).finished();
+  found.front.Y = found.front.responses = Eigen::MatrixXd::Random(5, 2);
+  found.polishing.residual = Eigen::VectorXd::LinSpaced(5, 1, 5);
+  const Eigen::MatrixXd Y = found.front.Y;
+  EXPECT_EQ(leave_out_failed(found, tables), 2);
+  EXPECT_EQ(found.front.X, Eigen::Vector3d(1.9, 5.1, 9));
+  EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(1, 4, 5));
+  EXPECT_EQ(found.front.Y.row(1), Y.row(3));
+  EXPECT_EQ(leave_out_failed(found, tables), 0);
+}
+
 TEST(Front, PointsEndOnTheBoundThatHoldsThem) {
   const doe::Problem problem = support::unit_problem(3, 2);
   const Eigen::Vector3d shift(0.0, 0.0, -0.7);

@@ -51,8 +51,7 @@ TEST(Progress, ElsewhereThanOnATerminalOneLineAStep) {
 
 TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   Summary summary{.study = "s",
-                  .training = 40,
-                  .validation = 10,
+                  .ended = {{Kind::training, 40}, {Kind::adaptive, 8}, {Kind::validation, 10}},
                   .failed = 2,
                   .unfinished = 5,
                   .findings = {{"F1", "it pays", Verdict::not_reproduced, "0.1"}},
@@ -63,7 +62,11 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   const std::string line = json_line(summary);
   EXPECT_EQ(line.find('\n'), std::string::npos);
   const auto data = nlohmann::json::parse(line);
-  EXPECT_EQ(data["runs"], 50);
+  EXPECT_EQ(data["runs"], 58);
+  EXPECT_EQ(data["adaptive"], 8);
+  EXPECT_EQ(data["confirmation"], 0);
+  EXPECT_EQ(data["confirmed"]["points"], 0);
+  EXPECT_EQ(text(summary).find("s: 40 training, 8 adaptive and 10 validation runs, 2 failed"), 0u);
   EXPECT_EQ(data["failed"], 2);
   EXPECT_EQ(data["unfinished"], 5);
   EXPECT_NE(text(summary).find("2 failed; 5 more to be made"), std::string::npos);
@@ -78,25 +81,27 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   EXPECT_FALSE(data.contains("error"));
 }
 
-TEST(Text, TellsTheCertificateOfTheFront) {
+TEST(Text, SaysWhetherTheFrontWasSimulated) {
   Summary summary{.study = "s", .front = 2, .report = "/r.html"};
   const auto line = [&] {
     const std::string all = text(summary);
     const std::size_t begin = all.find("Pareto front");
     return all.substr(begin, all.find('\n', begin) - begin);
   };
-  EXPECT_EQ(line(), "Pareto front: 2 points");
-  summary.polishing = {.residual = Eigen::Vector2d(1e-9, 0.1), .gain = 0.423};
+  EXPECT_EQ(line(), "Pareto front: 2 points, predicted; simulate those that matter with the command confirm");
+  summary.confirmations = {
+      .runs = {{.run = 7}, {.run = 8}}, .values = 3, .within = 2, .failed = 1, .dominated = 1};
   EXPECT_EQ(line(),
-            "Pareto front: 2 points, 1 certified (KKT residual at most 1e-06); polishing added 0.42 % of "
-            "hypervolume");
-  summary.polishing.gain = std::nan("");
-  EXPECT_EQ(line(), "Pareto front: 2 points, 1 certified (KKT residual at most 1e-06)");
+            "Pareto front: 2 points, predicted; simulated: 2 points, 2 of 3 values within the stated 95 % "
+            "interval, 1 failed, 1 dominated by earlier runs");
+  EXPECT_EQ(nlohmann::json::parse(json_line(summary))["confirmed"],
+            nlohmann::json({{"points", 2}, {"values", 3}, {"within", 2}, {"failed", 1}, {"dominated", 1}}));
 }
 
 TEST(Text, SaysWhyAFrontIsNotPolished) {
   const Summary summary{.study = "s", .front = 2, .not_polished = "six objectives", .report = "/r"};
-  EXPECT_NE(text(summary).find("Pareto front: 2 points, not polished: six objectives\n"), std::string::npos);
+  EXPECT_NE(text(summary).find("Pareto front: 2 points, predicted, not polished (six objectives)"),
+            std::string::npos);
   const auto data = nlohmann::json::parse(json_line(summary));
   EXPECT_TRUE(data["certified"].is_null());
   EXPECT_TRUE(data["polishing_gain_percent"].is_null());
@@ -104,8 +109,8 @@ TEST(Text, SaysWhyAFrontIsNotPolished) {
 }
 
 TEST(JsonLine, WithoutAReportSaysWhy) {
-  const auto data =
-      nlohmann::json::parse(json_line({.study = "s", .training = 2, .failed = 2, .error = "no models"}));
+  const auto data = nlohmann::json::parse(
+      json_line({.study = "s", .ended = {{Kind::training, 2}}, .failed = 2, .error = "no models"}));
   EXPECT_TRUE(data["report"].is_null());
   EXPECT_EQ(data["error"], "no models");
 }

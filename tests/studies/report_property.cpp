@@ -145,6 +145,48 @@ TEST_F(Report, CarriesTheCertificateOfEveryPoint) {
   }
 }
 
+TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
+  ReportInput in = input(2, 2, 8, 0);
+  const auto said = [&](const std::string& part) {
+    return written(in).at("summary").dump().find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(said("None of these points has been simulated"));
+  const Eigen::Vector2d x(0.5, 1.0), mean(2.0, 1.0);
+  in.confirmations = {.runs = {{.run = 9,
+                                .x = x,
+                                .outcome = Eigen::VectorXd(Eigen::Vector2d(2.1, 5.0)),
+                                .predicted = mean,
+                                .lower = mean.array() - 0.2,
+                                .upper = mean.array() + 0.2,
+                                .within = {true, false},
+                                .dominated = true},
+                               {.run = 10,
+                                .x = x,
+                                .outcome = doe::Failure{nasty},
+                                .predicted = mean,
+                                .lower = mean,
+                                .upper = mean,
+                                .within = {false, false}}},
+                      .values = 2,
+                      .within = 1,
+                      .failed = 1,
+                      .dominated = 1};
+  in.kinds = {{1, "adaptive"}};
+  const auto data = written(in);
+  const auto& rows = data.at("confirmations").at("rows");
+  EXPECT_EQ(rows.at(0).at("within"), nlohmann::json({true, false}));
+  EXPECT_EQ(rows.at(0).at("y"), nlohmann::json({2.1, 5.0}));
+  EXPECT_TRUE(rows.at(1).at("y").is_null());
+  EXPECT_EQ(data.at("training").at("rows").at(1).at("kind"), "adaptive");
+  EXPECT_FALSE(said("None of these points"));
+  EXPECT_TRUE(said("1 of 2 values within the stated 95 % interval"));
+  EXPECT_TRUE(said("1 of 2 points of predicted fronts failed"));
+  EXPECT_FALSE(
+      said("promised what simulation did not keep"));  // one miss of two happens in a tenth of all cases
+  in.confirmations.within = 0;
+  EXPECT_TRUE(said("promised what simulation did not keep"));
+}
+
 TEST_F(Report, SaysThatAllRunsFailed) {
   const auto data = written(failed_input());
   EXPECT_TRUE(data.at("models").empty());

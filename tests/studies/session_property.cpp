@@ -51,6 +51,31 @@ TEST_F(SessionTest, NumbersComeFromOptionsThenTheStoreThenTheStudy) {
   EXPECT_EQ(plan_study(sample(), folder_, {}).runs().size(), 12u);
 }
 
+TEST_F(SessionTest, SamplingComesFromOptionsThenTheStoreThenTheStudy) {
+  Study study = sample();
+  study.defaults.adaptive = 5;
+  EXPECT_EQ(plan_study(study, folder_, {}).sampling().points, 5);
+  EXPECT_EQ(plan_study(study, folder_, {.adaptive = 9, .batch = 3}).sampling().points, 9);
+  const Store store = plan_study(study, folder_, {.criteria = "error", .target = 0.1});
+  EXPECT_EQ(store.sampling().points, 9);
+  EXPECT_EQ(store.sampling().batch, 3);
+  EXPECT_EQ(store.sampling().criteria, "error");
+  EXPECT_EQ(store.sampling().target, 0.1);
+  EXPECT_EQ(store.runs().size(), 8u);  // adaptive points are planned when their turn comes
+}
+
+TEST_F(SessionTest, AdaptivePointsDoNotShrinkAndATargetNeedsValidation) {
+  {
+    Store store = plan_study(sample(), folder_, {.validation = 0, .adaptive = 4});
+    const Eigen::MatrixXd X = Eigen::MatrixXd::Constant(3, 2, 0.5);
+    store.add(
+        runs_at(store.identity(), store.runs(), Kind::adaptive, {.X = X, .predicted = {}, .deviation = {}}));
+  }
+  EXPECT_NE(refused(sample(), {.adaptive = 2}).find("--adaptive 3 or more"), std::string::npos);
+  EXPECT_NE(refused(sample(), {.target = 0.1}).find("--validation 10 or more"), std::string::npos);
+  EXPECT_EQ(plan_study(sample(), folder_, {.adaptive = 3}).sampling().points, 3);
+}
+
 TEST_F(SessionTest, DoneRunsStayWhenTheStudyGrows) {
   {
     Store store = plan_study(sample(), folder_, {});

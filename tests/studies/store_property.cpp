@@ -63,6 +63,32 @@ TEST_F(StoreTest, GivesBackEveryBit) {
   EXPECT_EQ(runs[1].reason, "it's \"stuck\"");
 }
 
+TEST_F(StoreTest, KeepsWhatWasPredictedAndHowTheStudyGoesOn) {
+  {
+    Store store = Store::create(file_, test::identity());
+    studies::Run predicted = planned(2, 0.6, 2.5);
+    predicted.kind = Kind::confirmation;
+    predicted.predicted = Eigen::Vector2d(0.1 + 0.2, -1e-300);
+    predicted.deviation = Eigen::Vector2d(0.5, 0.0);
+    store.add({planned(1, 0.5, 2.0), predicted, planned(3, 0.7, 2.0)});
+    store.save_done(2, Eigen::Vector2d(1.0, 2.0), 0.1);
+    store.set_sampling({.points = 40, .batch = 5, .criteria = "error=0.3", .target = 0.1 + 0.2});
+  }
+  const Store store = Store::open(file_);
+  const auto runs = store.runs();
+  EXPECT_EQ(runs[1].kind, Kind::confirmation);
+  EXPECT_EQ(runs[1].predicted, Eigen::Vector2d(0.1 + 0.2, -1e-300));
+  EXPECT_EQ(runs[1].deviation, Eigen::Vector2d(0.5, 0.0));
+  for (const std::size_t k : {0, 2}) {
+    ASSERT_EQ(runs[k].predicted.size(), 2);
+    EXPECT_TRUE(runs[k].predicted.array().isNaN().all() && runs[k].deviation.array().isNaN().all());
+  }
+  EXPECT_EQ(store.sampling().points, 40);
+  EXPECT_EQ(store.sampling().batch, 5);
+  EXPECT_EQ(store.sampling().criteria, "error=0.3");
+  EXPECT_EQ(store.sampling().target, 0.1 + 0.2);
+}
+
 TEST_F(StoreTest, TableIsReadableWithPlainSql) {
   Store store = Store::create(file_, test::identity());
   store.add({planned(1, 0.5, 2.0)});

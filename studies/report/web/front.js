@@ -13,23 +13,38 @@ export function tradeOffs(data, chosen) {
   const node = section('front', objectives.length > 1 ? 'Trade-offs' : 'Best point', lead(data, objectives));
   if (!data.front.X.length) return node;
   if (objectives.length > 1) node.append(projections(data, objectives, chosen));
+  if (data.confirmations.rows.length) node.append(confirmed(data));
   node.append(pointTable(data, objectives, chosen));
   return node;
+}
+
+/// Predicted and simulated, side by side.
+function confirmed(data) {
+  const judged = data.problem.responses.map((response, j) => ({response, j})).filter(({response}) => response.goal !== 'record');
+  const columns = [{title: 'Run', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: number})),
+    ...judged.flatMap(({response}) => [{title: `${labelled(response)}, predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
+  const cell = (r, j) => [`${number(r.predicted[j])} (${number(r.lower[j])} to ${number(r.upper[j])})`,
+    r.y === null ? 'failed' : number(r.y[j]) + (r.within[j] ? '' : ' outside')];
+  const note = (r) => r.y === null ? r.reason : r.dominated ? 'an earlier run was better' : '';
+  const rows = data.confirmations.rows.map((r) => [r.run, ...r.x, ...judged.flatMap(({j}) => cell(r, j)), note(r)]);
+  return el('div', {class: 'block'}, el('h3', {}, 'Confirmed by simulation'),
+    el('p', {class: 'note'}, `Each run was predicted by the models of the runs before it, with the interval that should hold 95 of 100 such runs: ${data.confirmations.text}.`),
+    table(columns, rows, {tall: true}).node);
 }
 
 function lead(data, objectives) {
   if (!objectives.length) return 'The study names no response to minimize or maximize, so there is nothing to search for.';
   if (!data.front.X.length) return 'There is no front: the surrogates could not be fitted or searched.';
-  if (objectives.length === 1) return `The surrogate was searched for the best ${pretty(objectives[0].name)}.${certificate(data.polishing)}`;
-  return `${data.front.X.length} points that the surrogates cannot improve in one objective without losing in another (the Pareto front).${certificate(data.polishing)} All are predictions: confirm a point by simulating it before relying on it.`;
+  if (objectives.length === 1) return `The surrogate was searched for the best ${pretty(objectives[0].name)}.`;
+  return `${data.front.X.length} points that the surrogates cannot improve in one objective without losing in another (the Pareto front). All are predictions${data.confirmations.rows.length ? '; below stand those that were simulated.' : ': simulate a point before relying on it (command confirm).'}`;
 }
 
 /// Which points meet the conditions of an optimum, and what it took. Of the surrogates, so no promise for the simulation.
-function certificate({residual, certified, tolerance, gain, skipped}) {
-  if (skipped) return ` The search was not finished with gradients: ${skipped}.`;
+export function certificate({residual, certified, tolerance, gain, skipped}) {
+  if (skipped) return `The search was not finished with gradients: ${skipped}.`;
   if (!residual.length) return '';
   const added = gain === null ? '' : ` Finishing the search with gradients added ${number(gain, 2)} % of hypervolume.`;
-  return ` ${certified} of ${residual.length} are certified: they meet the first-order conditions of an optimum of the surrogates (KKT residual at most ${tolerance.toExponential(0)}).${added}`;
+  return `${certified} of ${residual.length} are certified: they meet the first-order conditions of an optimum of the surrogates (KKT residual at most ${tolerance.toExponential(0)}).${added}`;
 }
 
 function pairs(count) {
@@ -50,7 +65,7 @@ function projections(data, objectives, chosen) {
   }));
   return figure(el('div', {}, el('div', {class: 'controls'}, select('Colour by', colourings, by, (i) => { by = i; redraw(); })),
     el('div', {class: 'grid'}, shown.map(({box}) => box))),
-    'The front seen from each pair of objectives. Grey dots are simulated training runs, for scale; the diamond is the balanced point, nearest to the best of every objective at once. Click a point to follow it through the report.');
+    'The front seen from each pair of objectives. Grey dots are simulated training runs, for scale; the diamond is the balanced point, nearest to the best of every objective at once; a line leads from what was predicted of a confirmed point to what its simulation gave (square). Click a point to follow it through the report.');
 }
 
 
@@ -75,11 +90,23 @@ function projection(box, data, objectives, [a, b], shade, chosen) {
     {name: 'front', x: column(a), y: column(b), mode: 'markers', marker, customdata: data.front.Y.map((_, i) => i + 1),
       hovertemplate: `point %{customdata}<br>${axisLabel(objectives[a])}: %{x:.4g}<br>${axisLabel(objectives[b])}: %{y:.4g}<extra></extra>`},
   ];
+  traces.push(...confirmations(data, a, b));
   const ring = (i, symbol, line) => ({x: [data.front.Y[i][a]], y: [data.front.Y[i][b]], mode: 'markers', hoverinfo: 'skip',
     marker: {symbol, size: 16, color: line, line: {width: 2.5}}});
   if (data.front.balanced >= 0) traces.push(ring(data.front.balanced, 'diamond-open', colour.ink));
   if (chosen.selected >= 0) traces.push(ring(chosen.selected, 'circle-open', colour.accent));
   draw(box, traces, {showlegend: false, margin: {l: 60, r: 8, t: 12, b: 52}, xaxis: axis(goal(objectives[a])), yaxis: axis(goal(objectives[b]))});
+}
+
+/// From predicted to simulated.
+function confirmations(data, a, b) {
+  const [ja, jb] = [data.front.objectives[a], data.front.objectives[b]];
+  const rows = data.confirmations.rows.filter((r) => r.y);
+  if (!rows.length) return [];
+  const line = (j) => rows.flatMap((r) => [r.predicted[j], r.y[j], null]);
+  return [{x: line(ja), y: line(jb), mode: 'lines', hoverinfo: 'skip', line: {color: colour.ink, width: 1}},
+    {x: rows.map((r) => r.y[ja]), y: rows.map((r) => r.y[jb]), mode: 'markers', text: rows.map((r) => 'run ' + r.run),
+      marker: {symbol: 'square', size: 8, color: colour.ink}, hovertemplate: '%{text}, simulated<br>%{x:.4g}, %{y:.4g}<extra></extra>'}];
 }
 
 const goal = (response) => axisLabel(response) + (response.goal === 'maximize' ? ' →' : ' ←');

@@ -9,7 +9,7 @@ import {axis, draw, plotBox} from './plot.js';
 const mostVariables = 6;
 
 export function runs(data) {
-  const node = section('runs', 'The runs', 'Each point is one simulation. The training runs are spread evenly over the whole box; the validation runs are drawn at random and were kept from the fit.');
+  const node = section('runs', 'The runs', 'Each point is one simulation. The training runs are spread evenly over the whole box; adaptive runs were added where the runs before them showed most to learn, confirmation runs on predicted fronts; all of these make the models. The validation runs are drawn at random and were kept from the fit.');
   node.append(scatterMatrix(data));
   const failed = everyRun(data).filter((r) => r.y === null);
   if (failed.length) node.append(el('div', {class: 'block'}, el('h3', {}, `${failed.length} failed ${failed.length === 1 ? 'run' : 'runs'}`), failures(data, failed)));
@@ -17,7 +17,7 @@ export function runs(data) {
   return node;
 }
 
-const everyRun = (data) => [...data.training.rows.map((r) => ({...r, set: 'training'})), ...data.validation.rows.map((r) => ({...r, set: 'validation'}))];
+const everyRun = (data) => [...data.training.rows.map((r) => ({...r, set: r.kind || 'training'})), ...data.validation.rows.map((r) => ({...r, set: 'validation'}))];
 
 const inputs = (data) => data.problem.variables.map((v) => ({title: labelled(v), format: number}));
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Head of the page and the summary in words. The sentences come ready in the data.
 
+import {certificate} from './front.js';
 import {el, section, table} from './dom.js';
 import {labelled, number} from './format.js';
 
@@ -38,6 +39,8 @@ export function facts(data) {
   const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}],
     responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit))]), {sortable: false});
   const rows = [...data.facts];
+  const search = certificate(data.polishing);
+  if (search) rows.push(['Search for the front', search]);
   if (data.command) rows.unshift(['Command', el('code', {}, data.command)]);
   return section('making', 'How it was made', null, el('div', {class: 'columns'}, inputs.node, outputs.node),
     rows.length ? el('dl', {class: 'facts'}, rows.map(([label, value]) => [el('dt', {}, label), el('dd', {}, value)]).flat()) : null);

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The models of a study: one Kriging model per response, its correlation and trend chosen by leave-one-out
+/// among four, and validated on the validation runs. Failed runs are left out. Deterministic.
+
+#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/compare.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/validate.hpp>
+
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// The ways to fit that are compared: smooth and less smooth responses, without and with a slope. The first
+/// is the default.
+std::vector<kriging::NamedFitter<kriging::Model>> ways_to_fit(const doe::Problem& problem);
+
+struct Models {
+  std::vector<kriging::Model> models;            ///< one per response, in order
+  std::vector<std::string> ways;                 ///< how each was fitted: a name of ways_to_fit
+  std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
+};
+
+/// Takes the default way to fit unless another has a leave-one-out error that is lower by a tenth. Throws
+/// std::invalid_argument if the runs do not allow models.
+Models fit_models(const Tables& tables);
+
+/// The points (n x d) with what the models expect of one run there, its noise included.
+PlannedPoints with_predictions(const std::vector<kriging::Model>& models, const Eigen::MatrixXd& X);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/tables.h>
+
+namespace drawpoint::studies {
+namespace {
+
+doe::Outcome stored_outcome(const Run& run) {
+  if (run.status == Status::failed) return doe::Failure{run.reason};
+  return run.y;
+}
+
+}  // namespace
+
+Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem) {
+  Tables tables{.training = {.problem = problem, .rows = {}}, .validation = {.problem = problem, .rows = {}}};
+  for (const auto& run : runs) {
+    if (run.status != Status::done && run.status != Status::failed) continue;
+    auto& table = run.kind == Kind::validation ? tables.validation : tables.training;
+    table.rows.push_back({run.id, run.replicate, run.seed, run.x, stored_outcome(run), run.seconds});
+  }
+  return tables;
+}
+
+}  // namespace drawpoint::studies

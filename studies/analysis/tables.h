@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Stored runs as the tables that the toolkit takes.
+
+#include <drawpoint/studies/store/store.h>
+#include <drawpoint/doe/evaluations.hpp>
+
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// The runs that ended, failed ones among them, in order of id.
+struct Tables {
+  doe::Evaluations training;    ///< what models are fitted to: all but the validation runs
+  doe::Evaluations validation;  ///< independent of the models
+};
+
+Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem);
+
+}  // namespace drawpoint::studies

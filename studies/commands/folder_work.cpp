@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/analysis.h>
+#include <drawpoint/studies/analysis/summary.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/folder_work.h>
+#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/session.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+std::string resume_message(const Folder& folder) {
+  return "interrupted; every finished run is stored in " + folder.store().string() +
+         "; give the same command again to go on\n";
+}
+
+}  // namespace
+
+int work_in_folder(const Study& study, const Settings& settings,
+                   const std::function<Store(const Folder& folder)>& open,
+                   const std::function<void(Store& store, const Folder& folder)>& work) {
+  const Folder folder{settings.out};
+  if (std::filesystem::exists(folder.store())) open_store(study, folder);  // before anything is written there
+  make_writable(folder);
+  const FolderLock lock(folder);
+  InterruptGuard guard(resume_message(folder));
+  try {
+    Store store = open(folder);
+    work(store, folder);
+    guard.end_at_once();
+    return conclude(study, store, folder, settings);
+  } catch (const Interrupted&) {
+    dprintf(STDERR_FILENO, "%s", resume_message(folder).c_str());
+    return 130;
+  }
+}
+
+int conclude(const Study& study, const Store& store, const Folder& folder, const Settings& settings) {
+  const int messages = message_descriptor(settings);
+  dprintf(messages, "fitting the models and searching for the front ...\n");
+  const Summary summary = analyse(study, store, folder, settings.command);
+  dprintf(messages, "%s", text(summary).c_str());
+  if (!summary.error.empty()) dprintf(STDERR_FILENO, "%s\n", summary.error.c_str());
+  if (settings.json) std::printf("%s\n", json_line(summary).c_str());
+  return summary.error.empty() ? 0 : 1;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the commands that make runs have in common.
+
+#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/study.hpp>
+
+#include <functional>
+
+namespace drawpoint::studies {
+
+/// Opens the store, with the folder locked, has the work done in it, and concludes. A signal ends the work in
+/// good order with exit code 130 and a word on how to go on.
+int work_in_folder(const Study& study, const Settings& settings,
+                   const std::function<Store(const Folder& folder)>& open,
+                   const std::function<void(Store& store, const Folder& folder)>& work);
+
+/// Fits, searches, writes the report and prints the result. Returns the exit code.
+int conclude(const Study& study, const Store& store, const Folder& folder, const Settings& settings);
+
+}  // namespace drawpoint::studies

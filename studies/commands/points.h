@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Points that the user types.
+
+#include <drawpoint/doe/problem.hpp>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// One or more points, one after the other in `x`, as rows. Throws UsageError for a wrong number of values and
+/// for a value out of its range.
+Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/report/checked_runs.h>
+
+#include <cmath>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr double stated = 0.95;
+constexpr double blamed_below = 0.05;
+
+}  // namespace
+
+bool CheckedRuns::agree() const { return chance_of_at_most(within, values) >= blamed_below; }
+
+double chance_of_at_most(int k, int n) {
+  // The misses are few, so the sum runs over them: at least n - k of n, each with probability 1 - stated.
+  double term = std::pow(stated, n), below = 0.0;  // term: probability of exactly i misses
+  for (int i = 0; i < n - k; ++i) {
+    below += term;
+    term *= static_cast<double>(n - i) / (i + 1) * (1.0 - stated) / stated;
+  }
+  return 1.0 - below;
+}
+
+std::string text(const CheckedRuns& checked) {
+  const auto count = checked.runs.size();
+  std::string all = std::to_string(count) + (count == 1 ? " point, " : " points, ") +
+                    std::to_string(checked.within) + " of " + std::to_string(checked.values) +
+                    " values within the stated 95 % interval";
+  if (checked.failed > 0) all += ", " + std::to_string(checked.failed) + " failed";
+  return all + ", " + (checked.dominated == 0 ? "none" : std::to_string(checked.dominated)) +
+         " dominated by earlier runs";
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Adaptive sampling of a study: batches of runs where the runs before them show that they teach most.
+///
+/// A batch is chosen by all that has ended, failed runs included, and planned whole: what is stored decides,
+/// so that a study that was killed goes on with the same points. Each point is planned with what the models
+/// of that moment say of it.
+
+#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/store/store.h>
+
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// The next batch, without a run where all points are made. Requires that no run is planned or running.
+/// Throws UsageError for criteria that there are not, std::invalid_argument for those that the problem does
+/// not allow (improvement without an objective).
+std::vector<Run> next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs,
+                            const std::vector<kriging::Model>& models);
+
+/// Whether the NRMSE of every response on the validation runs is at most the target. False without a target
+/// or without validation runs.
+bool target_met(const Sampling& sampling, const std::vector<kriging::Validation>& validations);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The criteria by which a study chooses its adaptive points, by name: several take turns, each for its share.
+
+#include <drawpoint/doe/criterion.hpp>
+#include <drawpoint/kriging/model.hpp>
+
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// lola_voronoi  where responses bend and where there are holes (doe/lola_voronoi.hpp)
+/// voronoi       holes alone
+/// distance      far from all runs
+/// error         where the ways to fit disagree most, over the responses, each divided by its range
+/// variance      where a model is least certain, likewise
+/// improvement   where the front is expected to gain most hypervolume within the limits
+struct CriterionShare {
+  std::string name;
+  double weight;  ///< above 0; only the ratios matter
+};
+
+/// From "lola_voronoi=0.7,error=0.3"; a name alone has weight 1. Throws UsageError, saying what is allowed.
+std::vector<CriterionShare> criteria_from(const std::string& text);
+
+/// models: one per response, of the runs so far. `seed` is that of LOLA-Voronoi's test points.
+doe::Mix mix_of(const std::vector<CriterionShare>& shares, const std::vector<kriging::Model>& models,
+                doe::Seed seed);
+
+}  // namespace drawpoint::studies
