@@ -4,7 +4,7 @@
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/kriging/fit.hpp>
 
-#include <stdexcept>
+#include <cstdio>
 
 namespace drawpoint::studies {
 
@@ -49,6 +49,16 @@ Models fit_models(const Tables& tables) {
         kriging::validate(fitted.models.back(), X_new, tables.validation.y(response.name)));
   }
   return fitted;
+}
+
+std::string nrmse_text(const Models& fitted, const doe::Problem& problem) {
+  std::string text;
+  for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.3g", fitted.validations[j].nrmse);
+    text += (j == 0 ? "NRMSE " : ", ") + problem.responses[j].name + " " + number;
+  }
+  return text;
 }
 
 PlannedPoints with_predictions(const std::vector<kriging::Model>& models, const Eigen::MatrixXd& X) {

@@ -30,6 +30,9 @@ struct Models {
 /// std::invalid_argument if the runs do not allow models.
 Models fit_models(const Tables& tables);
 
+/// "NRMSE production 0.21, spill 0.09"; empty without validation runs.
+std::string nrmse_text(const Models& fitted, const doe::Problem& problem);
+
 /// The points (n x d) with what the models expect of one run there, its noise included.
 PlannedPoints with_predictions(const std::vector<kriging::Model>& models, const Eigen::MatrixXd& X);
 

@@ -1,61 +1,47 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
 #include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
-#include <stdexcept>
-#include <string>
 
 namespace drawpoint::studies {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// "; NRMSE production 0.21, spill 0.09"
-std::string nrmse_text(const doe::Problem& problem, const std::vector<kriging::Validation>& validations) {
-  std::string text;
-  for (std::size_t j = 0; j < validations.size(); ++j) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.3g", validations[j].nrmse);
-    text += (j == 0 ? "; NRMSE " : ", ") + problem.responses[j].name + " " + number;
-  }
-  return text;
-}
-
-/// Adds a batch of adaptive runs. False when the study has what it wants, or no models to go by.
+/// Plans a batch of adaptive runs. False when the study has what it wants, or no models to go by.
 bool add_batch(Store& store, double seconds_left, int messages) {
   const std::vector<Run> runs = store.runs();
-  const Identity& identity = store.identity();
+  const int wanted = store.sampling().points;
   const int made = count_points(runs, Kind::adaptive);
-  if (made >= store.sampling().points) return false;
-  const Tables tables = tables_of(runs, identity.problem);
-  Models fitted;
-  try {
-    fitted = fit_models(tables);
-  } catch (const std::invalid_argument& e) {
-    dprintf(messages, "no adaptive runs, because there are no models yet: %s\n", e.what());
+  if (made < wanted && seconds_left <= 0.0) {
+    dprintf(messages, "no further adaptive runs, the time is up: %d of %d made\n", made, wanted);
     return false;
   }
-  const std::string so_far = std::to_string(tables.training.rows.size()) + " runs for the models so far" +
-                             nrmse_text(identity.problem, fitted.validations);
-  const bool met = target_met(store.sampling(), fitted.validations);
-  if (met || seconds_left <= 0.0) {
-    dprintf(messages, "no further adaptive runs, %s: %s\n", met ? "the target is met" : "the time is up",
-            so_far.c_str());
-    return false;
+  const Batch batch = next_batch(store.identity(), store.sampling(), runs);
+  const char* what = batch.message.c_str();
+  switch (batch.status) {
+    case BatchStatus::planned:
+      dprintf(messages, "adaptive points %d to %d of %d: %s\n", made + 1,
+              count_points(batch.runs, Kind::adaptive), wanted, what);
+      store.add(batch.runs);
+      return true;
+    case BatchStatus::target_met:
+      dprintf(messages, "no further adaptive runs, the target is met: %s\n", what);
+      return false;
+    case BatchStatus::no_models:
+      dprintf(messages, "no adaptive runs, because there are no models yet: %s\n", what);
+      return false;
+    default:
+      return false;
   }
-  const auto batch = next_batch(identity, store.sampling(), runs, fitted.models);
-  dprintf(messages, "adaptive points %d to %d of %d: %s\n", made + 1, count_points(batch, Kind::adaptive),
-          store.sampling().points, so_far.c_str());
-  store.add(batch);
-  return true;
 }
 
 }  // namespace

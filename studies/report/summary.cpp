@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace drawpoint::studies::detail {
 
@@ -118,11 +120,42 @@ std::string range_sentence(const ReportInput& input) {
   return text + ".";
 }
 
+/// Of the successful confirmations, that with the least largest distance in one variable, as a share of its
+/// range.
+std::pair<const CheckedRun*, double> nearest_confirmation(const ReportInput& input,
+                                                          const Eigen::VectorXd& x) {
+  std::pair<const CheckedRun*, double> nearest{nullptr, std::numeric_limits<double>::infinity()};
+  for (const CheckedRun& checked : input.confirmations.runs) {
+    if (checked.outcome.failed()) continue;
+    double apart = 0.0;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const doe::Variable& v = input.problem.variables[static_cast<std::size_t>(k)];
+      apart = std::max(apart, std::abs(checked.x[k] - x[k]) / (v.upper - v.lower));
+    }
+    if (apart < nearest.second) nearest = {&checked, apart};
+  }
+  return nearest;
+}
+
+/// What the simulation nearest to a point of the front gave.
+std::string nearest_sentence(const ReportInput& input, const Eigen::VectorXd& x) {
+  const auto [run, apart] = nearest_confirmation(input, x);
+  if (!run) return "";
+  std::string values;
+  for (const std::size_t j : objectives(input.problem)) {
+    const doe::Response& r = input.problem.responses[j];
+    values += (values.empty() ? "" : ", ") + pretty(r.name) + " " +
+              number_with_unit(run->outcome.values()[static_cast<Eigen::Index>(j)], r.unit);
+  }
+  return " Of the points simulated to confirm a front, run " + std::to_string(run->run) +
+         " is the nearest to it, within " + percent(apart) + " of each range: it gave " + values + ".";
+}
+
 std::string balanced_sentence(const ReportInput& input) {
   const Eigen::Index row = balanced_point(input.problem, input.front);
   return "A balanced choice, nearest to the best of every objective at once, is " +
          point_text(input.problem, input.front.X.row(row).transpose()) + ": " + values_text(input, row, -1) +
-         ".";
+         "." + nearest_sentence(input, input.front.X.row(row).transpose());
 }
 
 /// What simulation said of predicted fronts; no front is to be believed without.

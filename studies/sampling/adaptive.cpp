@@ -6,18 +6,32 @@
 #include <drawpoint/doe/propose.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace drawpoint::studies {
 
-std::vector<Run> next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs,
-                            const std::vector<kriging::Model>& models) {
+Batch next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs) {
   const int missing = sampling.points - count_points(runs, Kind::adaptive);
   if (missing <= 0) return {};
+  const Tables tables = tables_of(runs, identity.problem);
+  Models fitted;
+  try {
+    fitted = fit_models(tables);
+  } catch (const std::invalid_argument& e) {
+    return {.status = BatchStatus::no_models, .message = e.what()};
+  }
+  const std::string nrmse = nrmse_text(fitted, identity.problem);
+  Batch batch{.status = BatchStatus::target_met,
+              .message = std::to_string(tables.training.rows.size()) + " runs for the models so far" +
+                         (nrmse.empty() ? "" : "; " + nrmse)};
+  if (target_met(sampling, fitted.validations)) return batch;
   const doe::Seed seed = seed_of_choice(identity, runs.size());
-  const Eigen::MatrixXd X = doe::propose(tables_of(runs, identity.problem).training,
-                                         mix_of(criteria_from(sampling.criteria), models, seed),
-                                         {.seed = seed, .batch = std::min(missing, sampling.batch)});
-  return runs_at(identity, runs, Kind::adaptive, with_predictions(models, X));
+  const Eigen::MatrixXd X =
+      doe::propose(tables.training, mix_of(criteria_from(sampling.criteria), fitted.models, seed),
+                   {.seed = seed, .batch = std::min(missing, sampling.batch)});
+  batch.status = BatchStatus::planned;
+  batch.runs = runs_at(identity, runs, Kind::adaptive, with_predictions(fitted.models, X));
+  return batch;
 }
 
 bool target_met(const Sampling& sampling, const std::vector<kriging::Validation>& validations) {

@@ -10,15 +10,27 @@
 #include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/store/store.h>
 
+#include <string>
 #include <vector>
 
 namespace drawpoint::studies {
 
-/// The next batch, without a run where all points are made. Requires that no run is planned or running.
-/// Throws UsageError for criteria that there are not, std::invalid_argument for those that the problem does
-/// not allow (improvement without an objective).
-std::vector<Run> next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs,
-                            const std::vector<kriging::Model>& models);
+enum class BatchStatus {
+  planned,
+  complete,    ///< all points that are wanted are there
+  target_met,  ///< the models are good enough already
+  no_models    ///< the runs do not allow models to go by
+};
+
+struct Batch {
+  BatchStatus status = BatchStatus::complete;
+  std::vector<Run> runs = {};  ///< none but where planned
+  std::string message = {};    ///< what the models are worth, or why there are none; empty when complete
+};
+
+/// Requires that no run is planned or running. Throws UsageError for criteria that there are not,
+/// std::invalid_argument for those that the problem does not allow (improvement without an objective).
+Batch next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs);
 
 /// Whether the NRMSE of every response on the validation runs is at most the target. False without a target
 /// or without validation runs.

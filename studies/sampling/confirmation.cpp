@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/sampling/confirmation.h>
 #include <drawpoint/pareto/knees.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
-#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace drawpoint::studies {
 namespace {
@@ -32,8 +35,7 @@ std::vector<int> rows_that_matter(const pareto::Front& front, const doe::Problem
   return rows;
 }
 
-}  // namespace
-
+/// Whether a row of X (n x d) is the same place as x.
 bool is_among(const Eigen::VectorXd& x, const Eigen::MatrixXd& X, const doe::Problem& problem) {
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     bool same = true;
@@ -45,6 +47,27 @@ bool is_among(const Eigen::VectorXd& x, const Eigen::MatrixXd& X, const doe::Pro
   }
   return false;
 }
+
+Models models_to_confirm(const Tables& tables) {
+  try {
+    return fit_models(tables);
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error("confirm: there are no models whose front could be confirmed: " +
+                             std::string(e.what()) + "; make more runs with the command run");
+  }
+}
+
+Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dimension) {
+  Eigen::MatrixXd X(0, dimension);
+  for (const Run& run : runs) {
+    if (run.kind != Kind::confirmation) continue;
+    X.conservativeResize(X.rows() + 1, Eigen::NoChange);
+    X.bottomRows(1) = run.x.transpose();
+  }
+  return X;
+}
+
+}  // namespace
 
 std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Problem& problem,
                                    const Eigen::MatrixXd& confirmed, int most) {
@@ -73,6 +96,23 @@ std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Proble
   int farthest = 0;
   while (static_cast<int>(chosen.size()) < most && distance.maxCoeff(&farthest) > 0.0) choose(farthest);
   return chosen;
+}
+
+std::vector<Run> confirmation_round(const Identity& identity, const std::vector<Run>& runs,
+                                    const Eigen::MatrixXd& named, int points) {
+  const doe::Problem& problem = identity.problem;
+  const Tables tables = tables_of(runs, problem);
+  const Models fitted = models_to_confirm(tables);
+  const pareto::Front front = predicted_front(fitted.models, tables, identity.seed).found.front;
+  Eigen::MatrixXd known = confirmed_places(runs, static_cast<Eigen::Index>(problem.variables.size()));
+  known.conservativeResize(known.rows() + named.rows(), Eigen::NoChange);
+  known.bottomRows(named.rows()) = named;
+  const std::vector<int> rows = points_to_confirm(front, problem, known, points);
+  Eigen::MatrixXd X(named.rows() + static_cast<Eigen::Index>(rows.size()), known.cols());
+  X.topRows(named.rows()) = named;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    X.row(named.rows() + static_cast<Eigen::Index>(i)) = front.X.row(rows[i]);
+  return runs_at(identity, runs, Kind::confirmation, with_predictions(fitted.models, X));
 }
 
 }  // namespace drawpoint::studies

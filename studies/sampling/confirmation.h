@@ -7,6 +7,7 @@
 /// (pareto/knees.hpp), then the points farthest from those chosen, each objective scaled to its range on the
 /// front. A point whose place has been confirmed already counts as chosen, but is not run again.
 
+#include <drawpoint/studies/store/store.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/pareto/search.hpp>
 
@@ -18,11 +19,14 @@ namespace drawpoint::studies {
 /// Two points are the same strategy when they differ by at most this share of the range in every variable.
 inline constexpr double same_place = 0.02;
 
-/// Whether a row of X (n x d) is the same place as x.
-bool is_among(const Eigen::VectorXd& x, const Eigen::MatrixXd& X, const doe::Problem& problem);
-
 /// Rows of the front, `most` at most; confirmed: k x d, where it was simulated before.
 std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Problem& problem,
                                    const Eigen::MatrixXd& confirmed, int most);
+
+/// The runs of a round: at the points that the user names (k x d), then at those of the front of the present
+/// models, `points` at most, each with what the models say of it. None where nothing is left to confirm. Throws
+/// std::runtime_error if the runs do not allow models.
+std::vector<Run> confirmation_round(const Identity& identity, const std::vector<Run>& runs,
+                                    const Eigen::MatrixXd& named, int points);
 
 }  // namespace drawpoint::studies

@@ -86,9 +86,13 @@ inline const std::vector<Row>& dependency_table() {
        study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis"}),
        {"Eigen", "nlohmann-json"},
        {}},
+      {"studies/sampling/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "sampling"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
       {"studies/commands/",
-       study_rooms({"doe/"}, {"store", "runs", "analysis", "commands"}),
-       {"nlohmann-json"},
+       study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "commands"}),
+       {"Eigen", "nlohmann-json"},
        {"CLI11"}}};
   return table;
 }

@@ -22,13 +22,13 @@ export function tradeOffs(data, chosen) {
 function confirmed(data) {
   const judged = data.problem.responses.map((response, j) => ({response, j})).filter(({response}) => response.goal !== 'record');
   const columns = [{title: 'Run', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: number})),
-    ...judged.flatMap(({response}) => [{title: `${labelled(response)}, predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
-  const cell = (r, j) => [`${number(r.predicted[j])} (${number(r.lower[j])} to ${number(r.upper[j])})`,
+    ...judged.flatMap(({response}) => [{title: `${labelled(response)} predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
+  const cell = (r, j) => [`${number(r.lower[j])} to ${number(r.upper[j])}`,
     r.y === null ? 'failed' : number(r.y[j]) + (r.within[j] ? '' : ' outside')];
   const note = (r) => r.y === null ? r.reason : r.dominated ? 'an earlier run was better' : '';
   const rows = data.confirmations.rows.map((r) => [r.run, ...r.x, ...judged.flatMap(({j}) => cell(r, j)), note(r)]);
   return el('div', {class: 'block'}, el('h3', {}, 'Confirmed by simulation'),
-    el('p', {class: 'note'}, `Each run was predicted by the models of the runs before it, with the interval that should hold 95 of 100 such runs: ${data.confirmations.text}.`),
+    el('p', {class: 'note'}, `Each run was predicted by the models of the runs before it; the interval given should hold 95 of 100 such runs. ${data.confirmations.text}.`),
     table(columns, rows, {tall: true}).node);
 }
 
