@@ -11,7 +11,7 @@ namespace drawpoint::studies {
 struct Sampling {
   int points = 0;  ///< adaptive points in all, 0 or more
   int batch = 8;   ///< points that are chosen together, 1 or more
-  /// Who chooses and how often, as "name=weight" with commas between; sampling/criteria.h knows the names.
+  /// Who chooses and how often, as "name=weight" with commas between; sampling/criteria.h has the names.
   std::string criteria = "lola_voronoi=0.7,error=0.3";
   double target = 0.0;  ///< NRMSE of every response on the validation runs at which to stop; 0: none
 };
