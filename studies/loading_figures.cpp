@@ -3,6 +3,7 @@
 
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 
 #include <algorithm>
@@ -18,6 +19,7 @@ using engine::loading::LoadingLog;
 using engine::loading::values_per_pose;
 using nlohmann::json;
 
+constexpr double yield_torque = engine::loading::DamageOptions{}.tau_y;  // [N m]
 constexpr double picture_interval = 0.5;  // of the replay [s]; keeps the page light
 
 // Three decimals: millimetres, and the text of a number stays short.
@@ -45,17 +47,17 @@ Rows rows_of(const LoadingLog& log, int cycle) {
   return {static_cast<std::size_t>(begin - column.begin()), static_cast<std::size_t>(end - column.begin())};
 }
 
-// Every `stride`-th value of a signal in one cycle.
-std::vector<double> thinned(const LoadingLog& log, const char* name, Rows rows, std::size_t stride) {
+// All values of a signal in one cycle: a line that leaves samples out hides its peaks.
+std::vector<double> samples(const LoadingLog& log, const char* name, Rows rows) {
   const std::size_t column = log.signals.index(name);
   std::vector<double> out;
-  for (std::size_t r = rows.first; r < rows.last; r += stride) out.push_back(log.signals.at(r, column));
+  for (std::size_t r = rows.first; r < rows.last; ++r) out.push_back(log.signals.at(r, column));
   return out;
 }
 
-json stage_paths(const LoadingLog& log, Rows rows, std::size_t stride) {
-  const std::vector<double> stage = thinned(log, "stage", rows, stride),
-                            x = thinned(log, "tip_x", rows, stride), z = thinned(log, "tip_z", rows, stride);
+json stage_paths(const LoadingLog& log, Rows rows) {
+  const std::vector<double> stage = samples(log, "stage", rows), x = samples(log, "tip_x", rows),
+                            z = samples(log, "tip_z", rows);
   json stages = json::array();
   for (int k = 1; k <= 4; ++k) {
     json xs = json::array(), zs = json::array();
@@ -74,23 +76,21 @@ std::string name_of(const CycleRecord& cycle) { return "Cycle " + std::to_string
 
 json path_panel(const LoadingLog& log, const CycleRecord& cycle) {
   const Rows rows = rows_of(log, cycle.number);
-  const std::size_t stride = 4;
-  return {{"type", "path"},
-          {"title", "Planned and actual path of the cutting edge"},
-          {"caption", name_of(cycle) +
-                          " of the run shown, from the side. The pile's contour is the mean over the "
-                          "bucket's breadth before "
-                          "the cycle; planned depth " +
-                          fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) +
-                          " m, slope " + fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
-          {"x_label", "along the drift [m]"},
-          {"z_label", "height [m]"},
-          {"contour", {{"x", rounded(cycle.contour_x)}, {"z", rounded(cycle.contour_z)}}},
-          {"planned", {{"x", rounded(cycle.planned_x)}, {"z", rounded(cycle.planned_z)}}},
-          {"actual",
-           {{"x", rounded(thinned(log, "tip_x", rows, stride))},
-            {"z", rounded(thinned(log, "tip_z", rows, stride))}}},
-          {"stages", stage_paths(log, rows, stride)}};
+  return {
+      {"type", "path"},
+      {"title", "Planned and actual path of the cutting edge"},
+      {"caption", name_of(cycle) +
+                      " of the run shown, from the side. The pile's contour is the mean over the "
+                      "bucket's breadth before "
+                      "the cycle; planned depth " +
+                      fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) +
+                      " m, slope " + fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
+      {"x_label", "along the drift [m]"},
+      {"z_label", "height [m]"},
+      {"contour", {{"x", rounded(cycle.contour_x)}, {"z", rounded(cycle.contour_z)}}},
+      {"planned", {{"x", rounded(cycle.planned_x)}, {"z", rounded(cycle.planned_z)}}},
+      {"actual", {{"x", rounded(samples(log, "tip_x", rows))}, {"z", rounded(samples(log, "tip_z", rows))}}},
+      {"stages", stage_paths(log, rows)}};
 }
 
 json shape_of(const engine::ConvexPolyhedron& shape) {
@@ -144,34 +144,47 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
       {"poster_frame", poster}};
 }
 
-json line(const LoadingLog& log, Rows rows, std::size_t stride, const char* signal, const char* label,
-          double scale) {
-  std::vector<double> t = thinned(log, "time", rows, stride), y = thinned(log, signal, rows, stride);
+json line(const LoadingLog& log, Rows rows, const char* signal, const char* label, double scale) {
+  std::vector<double> t = samples(log, "time", rows), y = samples(log, signal, rows);
   const double start = t.empty() ? 0 : t.front();
   for (double& value : t) value -= start;
   for (double& value : y) value *= scale;
   return {{"name", label}, {"x", rounded(t)}, {"y", rounded(y)}};
 }
 
+// The yield torque in either direction.
+std::vector<json> yield_lines(const LoadingLog& log, Rows rows) {
+  if (rows.first == rows.last) return {};
+  const std::size_t time = log.signals.index("time");
+  const double end = log.signals.at(rows.last - 1, time) - log.signals.at(rows.first, time);
+  std::vector<json> lines;
+  for (const double torque : {yield_torque, -yield_torque})
+    lines.push_back({{"name", torque > 0 ? "yield torque" : "yield torque, other way"},
+                     {"x", rounded({0.0, end})},
+                     {"y", rounded({1e-3 * torque, 1e-3 * torque})}});
+  return lines;
+}
+
 json forces_panel(const LoadingLog& log, const CycleRecord& cycle) {
   const Rows rows = rows_of(log, cycle.number);
-  const std::size_t stride = 4;
   const bool cylinders = log.texts.at("arm_drive") == "cylinders";
+  json series = {line(log, rows, "lift_force", "lift", 1e-3), line(log, rows, "tilt_force", "tilt", 1e-3),
+                 line(log, rows, "wheel_torque", "wheels, sum [kN m]", 1e-3),
+                 line(log, rows, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
+                 line(log, rows, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)};
+  for (const json& yield : yield_lines(log, rows)) series.push_back(yield);
   return {
       {"type", "lines"},
       {"title", "Drive forces and the torque in hinge G"},
       {"caption",
        name_of(cycle) +
            " of the run shown. The two torque components twist the bucket on its pin. Damage integrates the "
-           "excess of the torque over the yield torque of 145 kN m, low-passed at 20 Hz, relative to it."},
+           "excess of the torque over the yield torque of " +
+           fixed(1e-3 * yield_torque, 0) +
+           " kN m, low-passed at 20 Hz, relative to it. Every sample is drawn."},
       {"x_label", "time [s]"},
       {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
-      {"series",
-       {line(log, rows, stride, "lift_force", "lift", 1e-3),
-        line(log, rows, stride, "tilt_force", "tilt", 1e-3),
-        line(log, rows, stride, "wheel_torque", "wheels, sum [kN m]", 1e-3),
-        line(log, rows, stride, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
-        line(log, rows, stride, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)}}};
+      {"series", series}};
 }
 
 json cycles_panel(const LoadingLog& log) {

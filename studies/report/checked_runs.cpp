@@ -8,7 +8,7 @@ namespace drawpoint::studies {
 namespace {
 
 constexpr double stated = 0.95;
-constexpr double blamed_below = 0.05;
+constexpr double blamed_below = 0.10;
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 ///
 /// The stated interval of a prediction is mean ± 1.96 standard deviations of one run, noise included, both ends
 /// within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the models when
-/// chance alone would give so few with a probability below 5 % (binomial). The responses of one run are not
+/// chance alone would give so few with a probability below 10 % (binomial). The responses of one run are not
 /// independent, so that this blames somewhat too often.
 
 #include <drawpoint/doe/outcome.hpp>

@@ -7,6 +7,7 @@ import {axisLabel, colour, labelled, number} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
 
 const mostVariables = 6;
+const bars = 10;
 
 export function runs(data) {
   const node = section('runs', 'The runs', 'Each point is one simulation. The training runs are spread evenly over the whole box; adaptive runs were added where the runs before them showed most to learn, confirmation runs on predicted fronts; all of these make the models. The validation runs are drawn at random and were kept from the fit.');
@@ -68,12 +69,19 @@ function cell(data, shown, row, column, traces, layout) {
   else points(data, shown, row, column, place, traces, id === (d > 1 ? 2 : 0));
 }
 
+/// Percent of the values in each of the equal parts of a variable's range; both bounds belong to a part.
+function shares(values, {lower, upper}) {
+  const counts = new Array(bars).fill(0);
+  for (const value of values) ++counts[Math.min(bars - 1, Math.floor(bars * (value - lower) / (upper - lower)))];
+  return counts.map((count) => 100 * count / values.length);
+}
+
 function histograms(data, k, place, traces, legend) {
   const v = data.problem.variables[k];
-  const bins = {start: v.lower, end: v.upper + 1e-9 * (v.upper - v.lower), size: (v.upper - v.lower) / 10};
+  const middles = Array.from({length: bars}, (_, i) => v.lower + (i + 0.5) / bars * (v.upper - v.lower));
   for (const set of ['training', 'validation']) {
     if (!data[set].rows.length) continue;
-    traces.push({type: 'histogram', name: set, legendgroup: set, showlegend: legend, x: data[set].rows.map((r) => r.x[k]), xbins: bins, histnorm: 'percent', autobinx: false,
+    traces.push({type: 'bar', name: set, legendgroup: set, showlegend: legend, x: middles, y: shares(data[set].rows.map((r) => r.x[k]), v), width: (v.upper - v.lower) / bars,
       marker: {color: colour[set], opacity: set === 'training' ? 0.75 : 0.5}, hovertemplate: set + ' %{y:.0f} %<extra></extra>', ...place});
   }
 }

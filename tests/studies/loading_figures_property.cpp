@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// The figures of one loading run show all that its log has.
+
+#include <drawpoint/tests/studies/support.hpp>
+
+#include <drawpoint/studies/loading_figures.h>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
+namespace {
+
+using engine::loading::CycleRecord;
+using engine::loading::LoadingLog;
+
+constexpr int samples = 101;
+
+/// One cycle of 10 s in which the torque of hinge G peaks at one sample, the 42nd.
+LoadingLog log_with_a_peak() {
+  LoadingLog log;
+  log.completed = true;
+  log.texts["arm_drive"] = "cylinders";
+  for (const char* name : {"time", "cycle", "stage", "tip_x", "tip_z", "lift_force", "tilt_force",
+                           "wheel_torque", "hinge_G_torque_x", "hinge_G_torque_z"})
+    log.signals.columns.push_back({name, "1"});
+  for (int i = 0; i < samples; ++i) {
+    const double peak = i == 41 ? 300e3 : 10e3;
+    log.signals.append_row(
+        std::vector<double>{0.1 * i, 1.0, 1.0 + i / 26, 0.01 * i, 0.0, 0.0, 0.0, 0.0, peak, -peak});
+  }
+  CycleRecord cycle;
+  cycle.number = 1;
+  cycle.t_end = 10.0;
+  log.cycles = {cycle};
+  return log;
+}
+
+TEST(LoadingFigures, DrawEverySampleOfTorqueAndItsYieldLine) {
+  const test::TestFolder place;
+  write_log(place / "run.h5", log_with_a_peak());
+  const auto figures = loading_figures(place / "run.h5");
+  const auto forces =
+      std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f["type"] == "lines"; });
+  ASSERT_NE(forces, figures.end());
+  const auto& series = (*forces)["series"];
+  ASSERT_EQ(series.size(), 7u);
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(series[k]["y"].size(), static_cast<std::size_t>(samples));
+  EXPECT_EQ(series[3]["y"][41], 300.0);
+  EXPECT_EQ(series[4]["y"][41], -300.0);
+  EXPECT_EQ(series[5]["y"], nlohmann::json({145.0, 145.0}));
+  EXPECT_EQ(series[6]["y"], nlohmann::json({-145.0, -145.0}));
+  EXPECT_EQ(series[5]["x"], nlohmann::json({0.0, 10.0}));
+}
+
+TEST(LoadingFigures, ARunWithoutACycleHasNone) {
+  const test::TestFolder place;
+  LoadingLog log = log_with_a_peak();
+  log.cycles.clear();
+  write_log(place / "run.h5", log);
+  EXPECT_TRUE(loading_figures(place / "run.h5").empty());
+}
+
+}  // namespace
