@@ -5,6 +5,7 @@
 #include <drawpoint/kriging/fit.hpp>
 
 #include <cstdio>
+#include <stdexcept>
 
 namespace drawpoint::studies {
 
@@ -49,6 +50,15 @@ Models fit_models(const Tables& tables) {
         kriging::validate(fitted.models.back(), X_new, tables.validation.y(response.name)));
   }
   return fitted;
+}
+
+Models models_or_reason(const Tables& tables) {
+  try {
+    return fit_models(tables);
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error("studies: there are no models: " + std::string(e.what()) +
+                             "; make more runs with the command run");
+  }
 }
 
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem) {

@@ -30,6 +30,9 @@ struct Models {
 /// std::invalid_argument if the runs do not allow models.
 Models fit_models(const Tables& tables);
 
+/// The same, for who cannot go on without: std::runtime_error says what to do.
+Models models_or_reason(const Tables& tables);
+
 /// "NRMSE production 0.21, spill 0.09"; empty without validation runs.
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem);
 

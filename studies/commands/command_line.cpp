@@ -21,7 +21,8 @@ namespace {
 
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
-constexpr std::array<const char*, 6> commands = {"run", "confirm", "status", "report", "evaluate", "prepare"};
+constexpr std::array<const char*, 7> commands = {"run",    "confirm",  "status", "report",
+                                                 "export", "evaluate", "prepare"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -61,7 +62,7 @@ std::vector<std::string> with_command(int argc, char** argv) {
   const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !named) {
     throw UsageError("unknown command \"" + first +
-                     "\"; the commands are run, confirm, status, report, evaluate");
+                     "\"; the commands are run, confirm, status, report, export, evaluate");
   }
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
@@ -166,6 +167,16 @@ void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe
       ->delimiter(',');
 }
 
+void add_export_options(CLI::App& command, ExportSettings& settings) {
+  command.add_option("--what", settings.what, "every run, or the front that the models predict")
+      ->check(CLI::IsMember({"runs", "front"}))
+      ->capture_default_str();
+  command.add_option("--format", settings.format, "comma-separated values, or one JSON object")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->capture_default_str();
+  command.add_option("--file", settings.file, "file to write (default: standard output)");
+}
+
 /// Those that the study declares; what is given goes to `values`.
 void add_study_options(CLI::App& command, const Study& study, OptionValues& values, bool kept) {
   for (const auto& option : study.options) {
@@ -217,6 +228,12 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   auto* report = app.add_subcommand("report", "make the report again from the stored runs");
   add_folder_options(*report, parsed.settings);
   report->callback([&] { parsed.action = [&] { return report_command(study, parsed.settings); }; });
+  auto* exported = app.add_subcommand("export", "write the runs or the front as a table for other programs");
+  exported->add_option("--out", parsed.settings.out, "folder of the study")
+      ->check(folder_complaint)
+      ->capture_default_str();
+  add_export_options(*exported, parsed.settings.exported);
+  exported->callback([&] { parsed.action = [&] { return export_command(study, parsed.settings); }; });
 }
 
 void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {

@@ -18,6 +18,8 @@ int confirm_command(const Study& study, const Settings& settings);
 int status_command(const Study& study, const Settings& settings);
 /// The report again, from the stored runs.
 int report_command(const Study& study, const Settings& settings);
+/// The runs or the front as a table for other programs.
+int export_command(const Study& study, const Settings& settings);
 /// One run in this process.
 int evaluate_command(const Study& study, const PointSettings& settings);
 /// Study::prepare in this process, for `run`.

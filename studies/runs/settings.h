@@ -28,6 +28,13 @@ struct ConfirmSettings {
   std::vector<double> x = {};  ///< points besides those of the front, one after the other, natural units
 };
 
+/// Options of `export`.
+struct ExportSettings {
+  std::string what = "runs";        ///< or front
+  std::string format = "csv";       ///< or json
+  std::filesystem::path file = {};  ///< empty: standard output
+};
+
 /// Options of the commands that work on an output folder: run, confirm, status, report.
 struct Settings {
   std::filesystem::path out = {};
@@ -41,6 +48,7 @@ struct Settings {
   std::optional<double> target = {};                       ///< NRMSE at which to stop choosing; 0: none
   double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
   ConfirmSettings confirm = {};
+  ExportSettings exported = {};
   OptionValues options = {};  ///< of the study, those given
   int jobs = 1;               ///< processes at a time, 1 or more
   double time_limit = 0.0;    ///< [s] a run may take; 0 means no limit

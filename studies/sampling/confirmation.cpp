@@ -7,8 +7,6 @@
 #include <drawpoint/pareto/minimised.hpp>
 
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace drawpoint::studies {
 namespace {
@@ -46,15 +44,6 @@ bool is_among(const Eigen::VectorXd& x, const Eigen::MatrixXd& X, const doe::Pro
     if (same) return true;
   }
   return false;
-}
-
-Models models_to_confirm(const Tables& tables) {
-  try {
-    return fit_models(tables);
-  } catch (const std::invalid_argument& e) {
-    throw std::runtime_error("confirm: there are no models whose front could be confirmed: " +
-                             std::string(e.what()) + "; make more runs with the command run");
-  }
 }
 
 Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dimension) {
@@ -102,7 +91,7 @@ std::vector<Run> confirmation_round(const Identity& identity, const std::vector<
                                     const Eigen::MatrixXd& named, int points) {
   const doe::Problem& problem = identity.problem;
   const Tables tables = tables_of(runs, problem);
-  const Models fitted = models_to_confirm(tables);
+  const Models fitted = models_or_reason(tables);
   const pareto::Front front = predicted_front(fitted.models, tables, identity.seed).found.front;
   Eigen::MatrixXd known = confirmed_places(runs, static_cast<Eigen::Index>(problem.variables.size()));
   known.conservativeResize(known.rows() + named.rows(), Eigen::NoChange);

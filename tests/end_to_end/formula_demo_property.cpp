@@ -105,6 +105,32 @@ TEST_F(FormulaDemo, ConfirmSimulatesTheFront) {
   EXPECT_TRUE(contains(contents(dir() / "report.html"), "within the stated 95 % interval"));
 }
 
+TEST_F(FormulaDemo, ExportsRunsAndFront) {
+  ASSERT_EQ(run(demo + " --runs 20 --validation 0" + out()).code, 0);
+  const std::string file = (place_ / "runs.csv").string();
+  ASSERT_EQ(run(demo + " export --file " + file + out()).code, 0);
+  const std::string csv = contents(file);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 21);
+  EXPECT_EQ(
+      csv.find(
+          "run,kind,point,replicate,seed,status,reason,seconds [s],alpha [1],beta [1],gamma [1],kappa [1],"
+          "production [kg/s],joint_damage [s],rock_spill [1],production_predicted [kg/s],"),
+      0u);
+  const Ended as_json = run(demo + " export --format json" + out());
+  const auto runs = as_json.json();
+  ASSERT_EQ(runs["rows"].size(), 20u);
+  EXPECT_EQ(runs["columns"][12]["name"], "production");
+  SQLite::Database store(database().string());
+  EXPECT_EQ(runs["rows"][3][12].get<double>(),
+            store.execAndGet("SELECT production FROM runs WHERE id = 4").getDouble());
+  EXPECT_EQ(runs["rows"][3][4], query("SELECT seed FROM runs WHERE id = 4"));
+  EXPECT_TRUE(runs["rows"][3][15].is_null());
+  const auto front = run(demo + " export --what front --format json" + out()).json();
+  EXPECT_EQ(static_cast<int>(front["rows"].size()), run(demo + " report --json" + out()).json()["front"]);
+  EXPECT_EQ(front["columns"][4]["unit"], "kg/s");
+  EXPECT_EQ(front["columns"][7]["name"], "production_deviation");
+}
+
 TEST_F(FormulaDemo, OnePointByHandIsTheRowOfTheTable) {
   ASSERT_EQ(run(demo + " --runs 6 --validation 0" + out()).code, 0);
   const std::string x =

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// A study's results as flat tables for other programs.
+
+#include <drawpoint/studies/store/store.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies {
+
+struct ExportColumn {
+  std::string name, unit;  ///< unit "": not a quantity
+};
+
+struct ExportTable {
+  std::vector<ExportColumn> columns;
+  std::vector<std::vector<nlohmann::json>> rows;  ///< numbers, text, or null where there is nothing
+};
+
+/// All runs in order of id: run, kind, point, replicate, seed (text, 64 bits), status, reason, seconds, then the
+/// variables, the responses, and of each response what was predicted and the standard deviation of that.
+ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs);
+
+/// The predicted front of the present models: the variables, the responses, and of each response the standard
+/// deviation of one run. Throws std::runtime_error if the runs do not allow models.
+ExportTable front_table(const Identity& identity, const std::vector<Run>& runs);
+
+/// RFC 4180, the first line being "name [unit]"; every double reads back as the same bits.
+std::string as_csv(const ExportTable& table);
+
+/// {"study", "columns": [{"name", "unit"}], "rows": [[..]..]}
+std::string as_json(const std::string& study, const ExportTable& table);
+
+}  // namespace drawpoint::studies
