@@ -12,7 +12,6 @@
 #include <drawpoint/doe/evaluations.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -41,6 +40,11 @@ std::string failure_warning(const doe::Evaluations& training, const doe::Evaluat
   return text;
 }
 
+bool has_objectives(const doe::Problem& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const doe::Response& response) { return doe::is_objective(response.goal); });
+}
+
 void warn(ReportInput& input, const std::vector<Run>& runs) {
   const std::string failures = failure_warning(input.training, input.validation);
   if (!failures.empty())
@@ -54,8 +58,8 @@ void warn(ReportInput& input, const std::vector<Run>& runs) {
     input.warnings.push_back("Model of " + input.problem.responses[j].name + ": " +
                              input.models[j].message() + ".");
   }
-  if (!input.front.message.empty())
-    input.warnings.push_back("Search for the front: " + input.front.message + ".");
+  if (!input.no_front.empty() && has_objectives(input.problem))
+    input.warnings.push_back("There is no front: " + input.no_front + ".");
   if (input.validation.X().rows() == 0) {
     input.warnings.push_back("Without a validation run, nothing tells how good the models are.");
   }
@@ -153,6 +157,7 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
 Summary analyse(const Study& study, const Store& store, const Folder& folder, const std::string& command) {
   const std::vector<Run> runs = store.runs();
   Summary summary = summary_of(study, runs);
+  summary.adaptive_wanted = store.sampling().points;
   ReportInput input;
   input.study = study.name;
   input.about = study.about;
@@ -162,7 +167,8 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.training = tables.training;
   input.validation = tables.validation;
   input.kinds = kinds_of(runs);
-  input.confirmations = summary.confirmations = check_predictions(runs, study.problem, Kind::confirmation);
+  input.confirmations = summary.confirmations =
+      check_predictions(runs, study.problem, Kind::confirmation, store.sampling().rounds);
   const std::vector<const Run*> logged = runs_with_log(runs, folder, input.warnings);
   input.headlines = summary.headlines = headlines_of(study, logged, folder, input.warnings);
   std::vector<std::string> ways;
@@ -184,9 +190,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.polishing = std::move(predicted.found.polishing);
   if (predicted.found.status == pareto::PolishedFrontStatus::not_polished)
     input.not_polished = std::move(predicted.found.message);
-  if (predicted.beside_failed > 0)
-    input.warnings.push_back(std::to_string(predicted.beside_failed) +
-                             " points of the front are left out, because the run nearest to them failed.");
+  input.no_front = summary.no_front = predicted.missing;
   summary.front = static_cast<int>(input.front.X.rows());
   summary.polishing = input.polishing;
   summary.not_polished = input.not_polished;

@@ -4,83 +4,89 @@
 #include <drawpoint/pareto/dominance.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace drawpoint::studies {
 namespace {
 
 constexpr double two_sided_deviations = 1.959963984540054;  // 95 % of a normal variable
 
-bool counts(const doe::Response& response) { return response.goal != doe::Goal::record; }
-
-bool keeps_limit(const doe::Response& response, double y) {
-  return !doe::is_constraint(response.goal) ||
-         doe::sign_of(response.goal) * y <= doe::sign_of(response.goal) * response.limit;
+bool breaks_limit(const doe::Response& response, double y) {
+  return doe::is_constraint(response.goal) &&
+         doe::sign_of(response.goal) * y > doe::sign_of(response.goal) * response.limit;
 }
 
-/// The objectives of a run, minimised. Empty when it failed or breaks a limit: it then dominates nothing.
+bool keeps_all_limits(const Run& run, const doe::Problem& problem) {
+  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
+    if (breaks_limit(problem.responses[j], run.y[static_cast<Eigen::Index>(j)])) return false;
+  }
+  return true;
+}
+
 Eigen::VectorXd minimised_objectives(const Run& run, const doe::Problem& problem) {
   std::vector<double> values;
-  if (run.status != Status::done) return {};
   for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    const doe::Response& response = problem.responses[j];
-    const double y = run.y[static_cast<Eigen::Index>(j)];
-    if (!keeps_limit(response, y)) return {};
-    if (doe::is_objective(response.goal)) values.push_back(doe::sign_of(response.goal) * y);
+    const doe::Goal goal = problem.responses[j].goal;
+    if (doe::is_objective(goal)) values.push_back(doe::sign_of(goal) * run.y[static_cast<Eigen::Index>(j)]);
   }
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-bool dominated_by_earlier(const Run& run, const std::vector<Run>& runs, const doe::Problem& problem) {
+/// By a run with an id below `before`.
+bool is_dominated(const Run& run, const std::vector<Run>& runs, const doe::Problem& problem,
+                  std::int64_t before) {
   const Eigen::VectorXd own = minimised_objectives(run, problem);
-  return own.size() > 0 && std::any_of(runs.begin(), runs.end(), [&](const Run& other) {
-           if (other.id >= run.id) return false;
-           const Eigen::VectorXd y = minimised_objectives(other, problem);
-           return y.size() > 0 && pareto::dominates(y, own);
-         });
+  return std::any_of(runs.begin(), runs.end(), [&](const Run& other) {
+    return other.id < before && other.status == Status::done && keeps_all_limits(other, problem) &&
+           pareto::dominates(minimised_objectives(other, problem), own);
+  });
 }
 
 CheckedRun checked_run(const Run& run, const doe::Problem& problem) {
-  CheckedRun checked{.run = run.id,
-                     .x = run.x,
-                     .outcome = run.y,
-                     .predicted = run.predicted,
-                     .lower = run.predicted,
-                     .upper = run.predicted,
-                     .within = {}};
-  if (run.status == Status::failed) checked.outcome = doe::Failure{run.reason};
+  CheckedRun checked{.run = run.id, .x = run.x, .outcome = run.y};
+  checked.predicted = checked.lower = checked.upper = run.predicted;
+  const bool done = run.status == Status::done;
+  if (!done) checked.outcome = doe::Failure{run.reason};
   for (Eigen::Index j = 0; j < run.predicted.size(); ++j) {
     const doe::Response& response = problem.responses[static_cast<std::size_t>(j)];
     const double margin = two_sided_deviations * run.deviation[j];
     checked.predicted[j] = doe::within_range(response, run.predicted[j]);
     checked.lower[j] = doe::within_range(response, run.predicted[j] - margin);
     checked.upper[j] = doe::within_range(response, run.predicted[j] + margin);
-    checked.within.push_back(run.status == Status::done && run.y[j] >= checked.lower[j] &&
-                             run.y[j] <= checked.upper[j]);
+    const bool within = done && run.y[j] >= checked.lower[j] && run.y[j] <= checked.upper[j];
+    checked.within.push_back(within);
+    if (!done || response.goal == doe::Goal::record) continue;
+    ++checked.values;
+    checked.held += within;
   }
+  checked.breaks_limit = done && !keeps_all_limits(run, problem);
   return checked;
 }
 
 }  // namespace
 
 CheckedRuns check_predictions(const std::vector<Run>& runs, const doe::Problem& problem, Kind kind,
-                              std::int64_t first) {
+                              const std::vector<ConfirmationRound>& rounds) {
   CheckedRuns all;
+  std::size_t round = 0;
+  int points_of_round = 0;
   for (const Run& run : runs) {
-    const bool ended = run.status == Status::done || run.status == Status::failed;
-    if (run.kind != kind || run.id < first || !ended || !run.predicted.allFinite()) continue;
-    CheckedRun checked = checked_run(run, problem);
-    if (run.status == Status::failed) {
-      ++all.failed;
-    } else {
-      for (std::size_t j = 0; j < checked.within.size(); ++j) {
-        if (!counts(problem.responses[j])) continue;
-        ++all.values;
-        all.within += checked.within[j];
-      }
-      checked.dominated = dominated_by_earlier(run, runs, problem);
-      all.dominated += checked.dominated;
+    if (run.kind != kind || run.replicate != 0) continue;
+    while (round < rounds.size() && rounds[round].first <= run.id) {
+      ++round;
+      points_of_round = 0;
     }
-    all.runs.push_back(std::move(checked));
+    ++points_of_round;
+    const bool ended = run.status == Status::done || run.status == Status::failed;
+    if (!ended || !run.predicted.allFinite()) continue;
+    CheckedRun checked = checked_run(run, problem);
+    checked.round = static_cast<int>(round);
+    if (round > 0) {
+      checked.named = points_of_round <= rounds[round - 1].named;
+      checked.dominated = run.status == Status::done && !checked.named && !checked.breaks_limit &&
+                          is_dominated(run, runs, problem, rounds[round - 1].first);
+    }
+    all.add(std::move(checked));
   }
   return all;
 }

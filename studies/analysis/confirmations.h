@@ -7,13 +7,14 @@
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/doe/problem.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace drawpoint::studies {
 
-/// The runs of a kind that ended and were predicted, from id `first` on.
+/// The runs of a kind that ended and were predicted. Of the replicates of a point the first counts: they share
+/// the error of the models. Which runs dominate is told of confirmations alone, whose `rounds` are in rising
+/// order; points of one round are not compared with each other.
 CheckedRuns check_predictions(const std::vector<Run>& runs, const doe::Problem& problem, Kind kind,
-                              std::int64_t first = 1);
+                              const std::vector<ConfirmationRound>& rounds = {});
 
 }  // namespace drawpoint::studies

@@ -68,8 +68,7 @@ std::string design(const Store& store, const std::vector<Run>& runs) {
   if (identity.corners) text += " with the corners of the box";
   if (identity.replicates > 1) text += ", " + std::to_string(identity.replicates) + " runs each";
   if (const int more = count_points(runs, Kind::adaptive); more > 0)
-    text += "; " + std::to_string(more) + " adaptive points, " + store.sampling().criteria + ", " +
-            std::to_string(store.sampling().batch) + " per batch";
+    text += "; " + std::to_string(more) + " adaptive points, the last by " + store.sampling().criteria;
   if (const int more = count_points(runs, Kind::confirmation); more > 0)
     text += "; " + std::to_string(more) + " points of predicted fronts";
   return text + "; " + std::to_string(count_points(runs, Kind::validation)) + " validation points, uniform";

@@ -1,27 +1,15 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/front.h>
-#include <drawpoint/doe/detail/nearest.hpp>
-#include <drawpoint/doe/detail/unit_box.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <limits>
+#include <span>
 
 namespace drawpoint::studies {
-
-pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
-                               doe::Seed seed) {
-  const kriging::Surrogates means(models);
-  auto found =
-      pareto::polished_front(means, problem, pareto::nsga2(means, problem, {.search = {.seed = seed}}));
-  keep_within_range(found, problem);
-  return found;
-}
-
 namespace {
 
 void keep_rows(pareto::PolishedFront& found, const std::vector<int>& kept) {
@@ -32,51 +20,59 @@ void keep_rows(pareto::PolishedFront& found, const std::vector<int>& kept) {
   if (found.polishing.residual.size() > 0) found.polishing.residual = found.polishing.residual(kept).eval();
 }
 
-/// Places of all runs that ended, and whether every run there failed.
-std::pair<Eigen::MatrixXd, std::vector<bool>> places_of(const Tables& tables) {
-  std::map<std::vector<double>, bool> failed;
-  for (const auto* table : {&tables.training, &tables.validation}) {
-    for (const auto& row : table->rows) {
-      const auto [place, is_new] = failed.emplace(std::vector<double>(row.x.begin(), row.x.end()), true);
-      place->second = place->second && row.outcome.failed();
-    }
-  }
-  std::pair<Eigen::MatrixXd, std::vector<bool>> places;
-  places.first.resize(static_cast<Eigen::Index>(failed.size()),
-                      static_cast<Eigen::Index>(tables.training.problem.variables.size()));
-  for (const auto& [x, all_failed] : failed) {
-    places.first.row(static_cast<Eigen::Index>(places.second.size())) =
-        Eigen::Map<const Eigen::RowVectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-    places.second.push_back(all_failed);
-  }
-  return places;
+Eigen::MatrixXd below(const Eigen::MatrixXd& upper, const Eigen::MatrixXd& lower) {
+  Eigen::MatrixXd both(upper.rows() + lower.rows(), lower.cols());
+  if (upper.rows() > 0) both.topRows(upper.rows()) = upper;
+  both.bottomRows(lower.rows()) = lower;
+  return both;
+}
+
+/// Points that nobody polished: their residuals are unknown.
+void append(pareto::PolishedFront& found, const pareto::Front& searched) {
+  pareto::Front& front = found.front;
+  front.X = below(front.X, searched.X);
+  front.Y = below(front.Y, searched.Y);
+  front.responses = below(front.responses, searched.responses);
+  Eigen::VectorXd& residual = found.polishing.residual;
+  if (residual.size() == 0) return;
+  const Eigen::Index known = residual.size();
+  residual.conservativeResize(front.X.rows());
+  residual.tail(front.X.rows() - known).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
 
-int leave_out_failed(pareto::PolishedFront& found, const Tables& tables) {
-  const doe::Problem& problem = tables.training.problem;
-  const auto [places, failed] = places_of(tables);
-  if (found.front.X.rows() == 0) return 0;
-  const auto nearest = doe::detail::nearest_sites(doe::detail::to_unit_box(found.front.X, problem),
-                                                  doe::detail::to_unit_box(places, problem));
-  std::vector<int> kept;
-  for (std::size_t i = 0; i < nearest.site.size(); ++i) {
-    if (!failed[static_cast<std::size_t>(nearest.site[i])]) kept.push_back(static_cast<int>(i));
+pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
+                               doe::Seed seed, const FailedPlaces& failed) {
+  const kriging::Surrogates means(models);
+  const auto avoiding = [&](const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds) {
+    std::vector<doe::Outcome> outcomes = means(X, seeds);
+    const std::vector<bool> beside = failed.beside(X);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (beside[i]) outcomes[i] = doe::Failure{"the nearest run failed"};
+    }
+    return outcomes;
+  };
+  const pareto::Front searched = pareto::nsga2(avoiding, problem, {.search = {.seed = seed}});
+  auto found = pareto::polished_front(means, problem, searched);
+  if (!failed.empty()) {  // what polishing led into the failures must not push out what it came from
+    leave_out_failed(found, failed);
+    append(found, searched);
   }
-  const auto left_out = static_cast<int>(nearest.site.size() - kept.size());
-  if (left_out > 0) keep_rows(found, kept);
-  return left_out;
+  keep_within_range(found, problem);
+  return found;
 }
 
 PredictedFront predicted_front(const std::vector<kriging::Model>& models, const Tables& tables,
                                doe::Seed seed) {
   const doe::Problem& problem = tables.training.problem;
-  PredictedFront predicted;
   const auto objective = [](const doe::Response& response) { return doe::is_objective(response.goal); };
-  if (std::none_of(problem.responses.begin(), problem.responses.end(), objective)) return predicted;
-  predicted.found = front_of(models, problem, seed);
-  predicted.beside_failed = leave_out_failed(predicted.found, tables);
+  if (std::none_of(problem.responses.begin(), problem.responses.end(), objective))
+    return {.found = {}, .missing = "no response is to be minimized or maximized"};
+  PredictedFront predicted{.found = front_of(models, problem, seed, FailedPlaces(tables))};
+  if (predicted.found.front.X.rows() > 0) return predicted;
+  predicted.missing = predicted.found.front.message;
+  if (predicted.missing.empty()) predicted.missing = "every point found lies beside a failed run";
   return predicted;
 }
 
@@ -91,6 +87,16 @@ void keep_within_range(pareto::PolishedFront& found, const doe::Problem& problem
     if (doe::is_objective(response.goal)) front.Y.col(static_cast<Eigen::Index>(objective++)) = column;
   }
   keep_rows(found, pareto::non_dominated(problem, front.Y));
+}
+
+void leave_out_failed(pareto::PolishedFront& found, const FailedPlaces& failed) {
+  if (failed.empty() || found.front.X.rows() == 0) return;
+  const std::vector<bool> beside = failed.beside(found.front.X);
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    if (!beside[i]) kept.push_back(static_cast<int>(i));
+  }
+  keep_rows(found, kept);
 }
 
 }  // namespace drawpoint::studies

@@ -40,6 +40,7 @@ std::string runs_text(const Summary& summary) {
 }
 
 std::string front_text(const Summary& summary) {
+  if (!summary.no_front.empty()) return "Pareto front: none, because " + summary.no_front;
   std::string line = "Pareto front: " + std::to_string(summary.front) +
                      (summary.front == 1 ? " point" : " points") + ", predicted";
   if (!summary.not_polished.empty()) line += ", not polished (" + summary.not_polished + ")";
@@ -60,6 +61,7 @@ std::string json_line(const Summary& summary) {
   }
   line["failed"] = summary.failed;
   line["unfinished"] = summary.unfinished;
+  line["adaptive_wanted"] = summary.adaptive_wanted;
   line["headlines"] = nlohmann::ordered_json::object();
   for (const Headline& headline : summary.headlines)
     line["headlines"][headline.name] = number_or_null(headline.value);
@@ -75,7 +77,9 @@ std::string json_line(const Summary& summary) {
                        {"values", checked.values},
                        {"within", checked.within},
                        {"failed", checked.failed},
-                       {"dominated", checked.dominated}};
+                       {"dominated", checked.dominated},
+                       {"breaking", checked.breaking},
+                       {"agree", !checked.runs.empty() && checked.last_round().agree()}};
   const pareto::Polishing& polishing = summary.polishing;
   line["certified"] = polishing.residual.size() > 0 ? nlohmann::ordered_json(polishing.certified())
                                                     : nlohmann::ordered_json();
@@ -92,6 +96,11 @@ std::string text(const Summary& summary) {
       summary.study + ": " + runs_text(summary) + ", " + std::to_string(summary.failed) + " failed";
   if (summary.unfinished > 0)
     result += "; " + std::to_string(summary.unfinished) + " more to be made (command run)";
+  const auto adaptive = summary.ended.find(Kind::adaptive);
+  const int made = adaptive == summary.ended.end() ? 0 : adaptive->second;
+  if (made < summary.adaptive_wanted)
+    result += "; " + std::to_string(made) + " adaptive runs, " + std::to_string(summary.adaptive_wanted) +
+              " adaptive points wanted";
   result += "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) {

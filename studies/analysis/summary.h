@@ -25,6 +25,8 @@ struct Summary {
   std::vector<Headline> headlines = {};                    ///< what the study says first
   std::vector<Finding> findings = {};                      ///< in the study's order
   std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
+  int adaptive_wanted = 0;                                 ///< adaptive points in all
+  std::string no_front = {};                               ///< why there is none; empty where there is one
   int front = 0;                                           ///< points of the Pareto front
   pareto::Polishing polishing = pareto::Polishing();       ///< of the front; GCC 12 warns where this is {}
   CheckedRuns confirmations = {};                          ///< points of predicted fronts that were simulated
@@ -33,9 +35,9 @@ struct Summary {
   std::string error = {};                                  ///< why there is none
 };
 
-/// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "unfinished", "headlines":
-/// {name: number or null}, "findings": {id: verdict}, "nrmse": {response: number or null}, "front", "confirmed":
-/// {"points", "values", "within", "failed", "dominated"}, "certified": number or null,
+/// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "unfinished",
+/// "adaptive_wanted", "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response: number or null}, "front", "confirmed":
+/// {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round}, "certified": number or null,
 /// "polishing_gain_percent": number or null, "report": path or null}, and "not_polished" and "error", which
 /// say why, if there is something to say. `runs` counts those that ended.
 std::string json_line(const Summary& summary);

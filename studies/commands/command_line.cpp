@@ -41,6 +41,18 @@ std::string seconds_complaint(const std::string& text) {
   return "Value " + text + " is no time; give 0 to 1e9 seconds, 0 for no limit";
 }
 
+std::string target_complaint(const std::string& text) {
+  double target = std::numeric_limits<double>::quiet_NaN();
+  if (CLI::detail::lexical_cast(text, target) && target >= 0 && target <= 1) return "";
+  return "Value " + text + " is no NRMSE; give 0 to 1, 0 for no target";
+}
+
+std::string hours_complaint(const std::string& text) {
+  double hours = std::numeric_limits<double>::quiet_NaN();
+  if (CLI::detail::lexical_cast(text, hours) && hours >= 0) return "";
+  return "Value " + text + " is no time; give 0 hours or more";
+}
+
 std::string folder_complaint(const std::string& text) {
   return text.empty() ? "an empty name; give the folder of the study" : "";
 }
@@ -108,7 +120,7 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
   const std::string group = "Adaptive sampling";
   command
       .add_option("--adaptive", settings.adaptive,
-                  "further points where the runs so far show that they teach most (default " +
+                  "adaptive points in all, where the runs before them show that they teach most (default " +
                       std::to_string(defaults.adaptive) + ", or as many as the folder is to hold)")
       ->check(CLI::Range(0, 1'000'000))
       ->group(group);
@@ -125,11 +137,14 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
       ->group(group);
   command
       .add_option("--target", settings.target,
-                  "stop when the NRMSE of every response on the validation runs is at most this; 0: never")
-      ->check(CLI::Range(0.0, 1.0))
+                  "stop when the NRMSE of every response on the validation runs is at most this (default 0: "
+                  "never)")
+      ->check(target_complaint)
       ->group(group);
-  command.add_option("--hours", settings.hours, "begin no batch later than this after the start")
-      ->check(CLI::Range(0.0, 1e6))
+  command
+      .add_option("--hours", settings.hours,
+                  "begin no batch later than this after the start (default: no end)")
+      ->check(hours_complaint)
       ->group(group);
 }
 
@@ -160,7 +175,7 @@ void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe
       ->capture_default_str();
   command
       .add_option("--rounds", settings.rounds,
-                  "at most; after each the models are fitted and the front is searched again")
+                  "at most in this command; after each the models are fitted and the front is searched again")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command.add_option("--x", settings.x, "a point of your own besides: " + names_of(problem) + "; repeatable")

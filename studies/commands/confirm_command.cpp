@@ -5,6 +5,7 @@
 #include <drawpoint/studies/commands/folder_work.h>
 #include <drawpoint/studies/commands/points.h>
 #include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/sampling/confirmation.h>
@@ -16,32 +17,70 @@
 namespace drawpoint::studies {
 namespace {
 
-/// Simulates what matters on the front of this moment. False when there was nothing left to do, or what came
-/// out agrees with what was predicted.
-bool confirm_round(Store& store, const Folder& folder, const Settings& settings, int round) {
+Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings& settings) {
+  if (settings.x.empty()) return Eigen::MatrixXd(0, static_cast<Eigen::Index>(problem.variables.size()));
+  return checked_points(problem, settings.x);
+}
+
+/// Plans a round on the front of this moment. False when there is nothing to simulate.
+bool add_round(Store& store, const Settings& settings, int round) {
   const int messages = message_descriptor(settings);
-  const doe::Problem& problem = store.identity().problem;
   const std::vector<Run> runs = store.runs();
-  const bool first = round == 1 && !settings.confirm.x.empty();
-  const Eigen::MatrixXd named = first
-                                    ? checked_points(problem, settings.confirm.x)
-                                    : Eigen::MatrixXd(0, static_cast<Eigen::Index>(problem.variables.size()));
-  const auto added = confirmation_round(store.identity(), runs, named, settings.confirm.points);
-  if (added.empty()) {
-    dprintf(messages, "every point of the front that matters has been simulated\n");
+  dprintf(messages, "fitting the models, choosing points of their front ...\n");
+  RoundPlan plan;
+  {
+    const EndsAtOnce now;
+    plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings.confirm),
+                      settings.confirm.points);
+  }
+  if (plan.runs.empty()) {
+    dprintf(messages, "%s\n", plan.nothing.c_str());
     return false;
   }
-  const int before = count_points(runs, Kind::confirmation);
-  dprintf(messages, "round %d: %d points to simulate\n", round,
-          count_points(added, Kind::confirmation) - before);
-  store.add(added);
+  const int points = count_points(plan.runs, Kind::confirmation) - count_points(runs, Kind::confirmation);
+  dprintf(messages, "round %d: %d %s to simulate\n", round, points, points == 1 ? "point" : "points");
+  Sampling sampling = store.sampling();
+  auto& rounds = sampling.rounds;
+  if (!rounds.empty() && rounds.back().first == plan.round.first)
+    rounds.pop_back();  // died before its runs came
+  rounds.push_back(plan.round);
+  store.set_sampling(sampling);
+  store.add(plan.runs);
+  return true;
+}
+
+/// Whether the last round came out as predicted; says so.
+bool judge_round(const Store& store, int messages, int round) {
+  const CheckedRuns last =
+      check_predictions(store.runs(), store.identity().problem, Kind::confirmation, store.sampling().rounds)
+          .last_round();
+  const char* verdict = "prediction and simulation do not agree";
+  if (last.agree()) verdict = "no more misses than chance explains";
+  if (last.values == 0 && last.failed == 0) verdict = "no objective and no limit to judge by";
+  dprintf(messages, "round %d: %s: %s\n", round, text(last).c_str(), verdict);
+  return last.agree() || (last.failed == 0 && last.values == 0);
+}
+
+bool has_unfinished_round(const std::vector<Run>& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const Run& run) {
+    return run.kind == Kind::confirmation && (run.status == Status::planned || run.status == Status::running);
+  });
+}
+
+/// First what a stopped command left, then rounds.
+void confirm_front(Store& store, const Folder& folder, const Settings& settings) {
+  const int messages = message_descriptor(settings);
+  store.plan_again(settings.retry_failed);
+  bool added = has_unfinished_round(store.runs());
   carry_out_runs(store, folder, settings, messages);
-  const auto checked = check_predictions(store.runs(), problem, Kind::confirmation,
-                                         static_cast<std::int64_t>(runs.size()) + 1);
-  const bool agree = checked.agree() && checked.failed == 0;
-  dprintf(messages, "round %d: %s: %s\n", round, text(checked).c_str(),
-          agree ? "prediction and simulation agree" : "prediction and simulation do not agree yet");
-  return !agree;
+  for (int round = 1; round <= settings.confirm.rounds; ++round, added = false) {
+    if (!added) {
+      if (!add_round(store, settings, round)) return;
+      carry_out_runs(store, folder, settings, messages);
+    }
+    if (judge_round(store, messages, round)) return;
+  }
+  dprintf(messages, "the rounds are spent; give the same command again for more\n");
 }
 
 }  // namespace
@@ -52,16 +91,11 @@ int confirm_command(const Study& study, const Settings& settings) {
   if (settings.confirm.x.empty() && std::none_of(responses.begin(), responses.end(), objective))
     throw UsageError(
         "confirm: no response is minimized or maximized, so there is no front; name points with --x");
-  if (!settings.confirm.x.empty()) checked_points(study.problem, settings.confirm.x);
+  named_points(study.problem, settings.confirm);  // refused before anything is done
   open_store(study, Folder{settings.out});
   return work_in_folder(
       study, settings, [&](const Folder& folder) { return open_store(study, folder); },
-      [&](Store& store, const Folder& folder) {
-        store.plan_again(settings.retry_failed);
-        carry_out_runs(store, folder, settings, message_descriptor(settings));
-        int round = 1;
-        while (round <= settings.confirm.rounds && confirm_round(store, folder, settings, round)) ++round;
-      });
+      [&](Store& store, const Folder& folder) { confirm_front(store, folder, settings); });
 }
 
 }  // namespace drawpoint::studies

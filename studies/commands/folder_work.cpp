@@ -28,11 +28,11 @@ int work_in_folder(const Study& study, const Settings& settings,
   if (std::filesystem::exists(folder.store())) open_store(study, folder);  // before anything is written there
   make_writable(folder);
   const FolderLock lock(folder);
-  InterruptGuard guard(resume_message(folder));
+  const InterruptGuard guard(resume_message(folder));
   try {
     Store store = open(folder);
     work(store, folder);
-    guard.end_at_once();
+    const EndsAtOnce now;
     return conclude(study, store, folder, settings);
   } catch (const Interrupted&) {
     dprintf(STDERR_FILENO, "%s", resume_message(folder).c_str());

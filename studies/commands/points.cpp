@@ -3,6 +3,7 @@
 #include <drawpoint/studies/commands/points.h>
 #include <drawpoint/studies/runs/settings.h>
 
+#include <cmath>
 #include <string>
 
 namespace drawpoint::studies {
@@ -18,7 +19,12 @@ Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<do
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     const doe::Variable& v = variables[i % d];
-    if (x[i] >= v.lower && x[i] <= v.upper) continue;
+    const bool inside = x[i] >= v.lower && x[i] <= v.upper;
+    if (inside && v.kind != doe::VariableKind::real && x[i] != std::floor(x[i]))
+      throw UsageError("--x: " + v.name + " = " + doe::detail::number_text(x[i]) +
+                       " is not whole; give a whole number from " + doe::detail::number_text(v.lower) +
+                       " to " + doe::detail::number_text(v.upper));
+    if (inside) continue;
     throw UsageError("--x: " + v.name + " = " + doe::detail::with_unit(x[i], v.unit) +
                      " is outside its range " + doe::detail::number_text(v.lower) + " to " +
                      doe::detail::with_unit(v.upper, v.unit));

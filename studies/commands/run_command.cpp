@@ -3,9 +3,11 @@
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
 #include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/sampling/adaptive.h>
+#include <drawpoint/studies/sampling/criteria.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -16,6 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
+  const EndsAtOnce now;
+  return next_batch(store.identity(), store.sampling(), runs);
+}
+
 /// Plans a batch of adaptive runs. False when the study has what it wants, or no models to go by.
 bool add_batch(Store& store, double seconds_left, int messages) {
   const std::vector<Run> runs = store.runs();
@@ -25,7 +32,8 @@ bool add_batch(Store& store, double seconds_left, int messages) {
     dprintf(messages, "no further adaptive runs, the time is up: %d of %d made\n", made, wanted);
     return false;
   }
-  const Batch batch = next_batch(store.identity(), store.sampling(), runs);
+  if (made < wanted) dprintf(messages, "fitting the models, choosing adaptive points ...\n");
+  const Batch batch = chosen_batch(store, runs);
   const char* what = batch.message.c_str();
   switch (batch.status) {
     case BatchStatus::planned:
@@ -35,6 +43,9 @@ bool add_batch(Store& store, double seconds_left, int messages) {
       return true;
     case BatchStatus::target_met:
       dprintf(messages, "no further adaptive runs, the target is met: %s\n", what);
+      return false;
+    case BatchStatus::exhausted:
+      dprintf(messages, "no further adaptive runs, %d of %d made: %s\n", made, wanted, what);
       return false;
     case BatchStatus::no_models:
       dprintf(messages, "no adaptive runs, because there are no models yet: %s\n", what);
@@ -51,6 +62,7 @@ int run_command(const Study& study, const Settings& settings) {
   const auto seconds_left = [&] {
     return 3600.0 * settings.hours - std::chrono::duration<double>(Clock::now() - start).count();
   };
+  if (settings.criteria) check_criteria(*settings.criteria, study.problem);
   if (!std::filesystem::exists(Folder{settings.out}.store())) check_new_study(study, settings);
   const int messages = message_descriptor(settings);
   return work_in_folder(

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/progress.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
@@ -20,6 +21,7 @@ struct Counts {
   std::map<Kind, std::map<Status, int>> by_kind;
   std::map<std::string, int> failures;  ///< reason, how often
   double seconds = 0.0;
+  int adaptive_points = 0;
 };
 
 Counts count(const std::vector<Run>& runs) {
@@ -29,6 +31,7 @@ Counts count(const std::vector<Run>& runs) {
     if (run.status == Status::failed) ++counts.failures[run.reason];
     counts.seconds += run.seconds;
   }
+  counts.adaptive_points = count_points(runs, Kind::adaptive);
   return counts;
 }
 
@@ -37,6 +40,7 @@ std::string as_json(const Store& store, Counts counts) {
   for (const Kind kind : all_kinds) {
     for (const Status state : all_states) line[name_of(kind)][name_of(state)] = counts.by_kind[kind][state];
   }
+  line["adaptive_wanted"] = store.sampling().points;
   line["seconds"] = counts.seconds;
   line["failures"] = counts.failures;
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -51,6 +55,8 @@ void print(const Store& store, const Folder& folder, Counts counts) {
     for (const Status state : all_states) std::printf("%10d", counts.by_kind[kind][state]);
     std::printf("\n");
   }
+  if (store.sampling().points > 0)
+    std::printf("adaptive points: %d of %d wanted\n", counts.adaptive_points, store.sampling().points);
   std::printf("time in runs: %s\n", duration_text(counts.seconds).c_str());
   for (const auto& [reason, times] : counts.failures)
     std::printf("failed %d times: %s\n", times, reason.c_str());

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/report/checked_runs.h>
 
 #include <cmath>
+#include <utility>
 
 namespace drawpoint::studies {
 namespace {
@@ -12,7 +13,26 @@ constexpr double blamed_below = 0.10;
 
 }  // namespace
 
-bool CheckedRuns::agree() const { return chance_of_at_most(within, values) >= blamed_below; }
+void CheckedRuns::add(CheckedRun run) {
+  values += run.values;
+  within += run.held;
+  failed += run.outcome.failed();
+  dominated += run.dominated;
+  breaking += run.breaks_limit;
+  runs.push_back(std::move(run));
+}
+
+CheckedRuns CheckedRuns::last_round() const {
+  CheckedRuns last;
+  for (const CheckedRun& run : runs) {
+    if (run.round == runs.back().round) last.add(run);
+  }
+  return last;
+}
+
+bool CheckedRuns::may_be_chance() const { return chance_of_at_most(within, values) >= blamed_below; }
+
+bool CheckedRuns::agree() const { return values > 0 && failed == 0 && may_be_chance(); }
 
 double chance_of_at_most(int k, int n) {
   // The misses are few, so the sum runs over them: at least n - k of n, each with probability 1 - stated.
@@ -30,8 +50,11 @@ std::string text(const CheckedRuns& checked) {
                     std::to_string(checked.within) + " of " + std::to_string(checked.values) +
                     " values within the stated 95 % interval";
   if (checked.failed > 0) all += ", " + std::to_string(checked.failed) + " failed";
-  return all + ", " + (checked.dominated == 0 ? "none" : std::to_string(checked.dominated)) +
-         " dominated by earlier runs";
+  if (checked.breaking > 0)
+    all +=
+        ", " + std::to_string(checked.breaking) + (checked.breaking == 1 ? " breaks" : " break") + " a limit";
+  if (checked.dominated > 0) all += ", " + std::to_string(checked.dominated) + " dominated by earlier runs";
+  return all;
 }
 
 }  // namespace drawpoint::studies

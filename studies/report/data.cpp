@@ -95,8 +95,13 @@ json to_json(const CheckedRuns& checked) {
                     {"lower", to_json(c.lower)},
                     {"upper", to_json(c.upper)},
                     {"within", c.within},
+                    {"round", c.round},
+                    {"named", c.named},
+                    {"breaks_limit", c.breaks_limit},
                     {"dominated", c.dominated}});
-  return {{"rows", std::move(rows)}, {"text", text(checked)}, {"agree", checked.agree()}};
+  return {{"rows", std::move(rows)},
+          {"text", text(checked)},
+          {"agree", checked.runs.empty() || checked.last_round().agree()}};
 }
 
 /// A residual is null where it is unknown.
@@ -108,8 +113,22 @@ json to_json(const pareto::Polishing& polishing, const std::string& not_polished
           {"skipped", not_polished}};
 }
 
-json to_json(const doe::Problem& problem, const pareto::Front& front) {
+/// Half of the 95 % interval of one run at each point of the front, one column per objective; no rows without
+/// models.
+Eigen::MatrixXd margins(const ReportInput& input) {
+  const auto chosen = objectives(input.problem);
+  if (input.models.empty() || input.front.X.rows() == 0) return {};
+  Eigen::MatrixXd all(input.front.X.rows(), static_cast<Eigen::Index>(chosen.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const auto p = input.models[chosen[k]].predict(input.front.X, kriging::Target::observation);
+    all.col(static_cast<Eigen::Index>(k)) = 1.959963984540054 * p.variance.cwiseMax(0.0).cwiseSqrt();
+  }
+  return all;
+}
+
+json to_json(const doe::Problem& problem, const pareto::Front& front, const Eigen::MatrixXd& margin) {
   return {{"objectives", objectives(problem)},
+          {"margin", to_json(margin)},
           {"X", to_json(front.X)},
           {"Y", to_json(front.Y)},
           {"balanced", balanced_point(problem, front)},
@@ -203,7 +222,8 @@ json report_data(const ReportInput& input) {
           {"validation", to_json(input.validation, input)},
           {"models", std::move(models)},
           {"validations", std::move(validations)},
-          {"front", to_json(input.problem, input.front)},
+          {"front", to_json(input.problem, input.front, margins(input))},
+          {"no_front", input.no_front},
           {"confirmations", to_json(input.confirmations)},
           {"polishing", to_json(input.polishing, input.not_polished)},
           {"influence", std::move(shares)},

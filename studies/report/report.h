@@ -6,7 +6,7 @@
 /// is built.
 ///
 /// Contents: a summary in words with cautions, findings held against the runs, figures of one simulation,
-/// trade-offs, what simulation said of predictions, response surfaces (the surrogates are evaluated in the browser), validation, the runs. Each
+/// trade-offs, what simulation said of them, response surfaces (the surrogates are evaluated in the browser), validation, the runs. Each
 /// part copes with what is missing: no validation runs, one response, no objective, no successful run.
 /// studies::Study lists the kinds of figures ("panels") of a simulation.
 
@@ -40,6 +40,7 @@ struct ReportInput {
   std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
+  std::string no_front = {};                     ///< why there is none; empty where there is one
   CheckedRuns confirmations = {};                ///< points of predicted fronts that were simulated
   pareto::Polishing polishing;                   ///< of the front
   std::string not_polished;                      ///< why it was not; empty when it was

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace drawpoint::studies::detail {
@@ -50,6 +51,21 @@ std::string values_text(const ReportInput& input, Eigen::Index row, Eigen::Index
   return text;
 }
 
+/// "24 training, 16 adaptive, ", of the runs that the models know.
+std::string kinds_text(const ReportInput& input, std::size_t training) {
+  std::map<std::string, std::size_t> counts;
+  for (const doe::Evaluation& e : input.training.rows) {
+    const auto kind = input.kinds.find(e.run);
+    if (kind != input.kinds.end() && kind->second != "training") ++counts[kind->second];
+  }
+  std::string text;
+  for (const auto& [kind, count] : counts) {
+    text += std::to_string(count) + " " + kind + ", ";
+    training -= count;
+  }
+  return std::to_string(training) + " training, " + text;
+}
+
 json cards(const ReportInput& input) {
   json all = json::array();
   for (const Headline& h : input.headlines)
@@ -68,12 +84,11 @@ json cards(const ReportInput& input) {
   }
   const std::size_t training = input.training.rows.size(), validation = input.validation.rows.size();
   const int failed = input.training.failed() + input.validation.failed();
-  all.push_back(
-      {{"label", "Simulated runs"},
-       {"value", std::to_string(training + validation)},
-       {"unit", ""},
-       {"note", std::to_string(training) + " training, " + std::to_string(validation) + " validation; " +
-                    (failed == 0 ? "none" : std::to_string(failed)) + " failed"}});
+  all.push_back({{"label", "Simulated runs"},
+                 {"value", std::to_string(training + validation)},
+                 {"unit", ""},
+                 {"note", kinds_text(input, training) + std::to_string(validation) + " validation; " +
+                              (failed == 0 ? "none" : std::to_string(failed)) + " failed"}});
   return all;
 }
 
@@ -127,11 +142,7 @@ std::pair<const CheckedRun*, double> nearest_confirmation(const ReportInput& inp
   std::pair<const CheckedRun*, double> nearest{nullptr, std::numeric_limits<double>::infinity()};
   for (const CheckedRun& checked : input.confirmations.runs) {
     if (checked.outcome.failed()) continue;
-    double apart = 0.0;
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const doe::Variable& v = input.problem.variables[static_cast<std::size_t>(k)];
-      apart = std::max(apart, std::abs(checked.x[k] - x[k]) / (v.upper - v.lower));
-    }
+    const double apart = largest_difference(input.problem, checked.x, x);
     if (apart < nearest.second) nearest = {&checked, apart};
   }
   return nearest;
@@ -262,11 +273,15 @@ void caution_about_extrapolation(const ReportInput& input, json& all) {
 
 void caution_about_confirmations(const ReportInput& input, json& all) {
   const CheckedRuns& checked = input.confirmations;
-  if (!checked.agree())
-    all.push_back("The front promised what simulation did not keep: only " + std::to_string(checked.within) +
-                  " of " + std::to_string(checked.values) +
+  const CheckedRuns last = checked.last_round();
+  if (!last.may_be_chance())
+    all.push_back("The front promised what simulation did not keep: in the last round only " +
+                  std::to_string(last.within) + " of " + std::to_string(last.values) +
                   " values lay within their 95 % interval. Read the simulated points, not the front, and add "
                   "runs.");
+  if (checked.breaking > 0)
+    all.push_back(std::to_string(checked.breaking) + " of " + counted(checked.runs.size(), "point") +
+                  " of predicted fronts broke a limit when simulated.");
   if (checked.failed > 0)
     all.push_back(std::to_string(checked.failed) + " of " + counted(checked.runs.size(), "point") +
                   " of predicted fronts failed when simulated.");
@@ -298,6 +313,15 @@ std::vector<std::size_t> objectives(const doe::Problem& problem) {
   for (std::size_t j = 0; j < problem.responses.size(); ++j)
     if (doe::is_objective(problem.responses[j].goal)) chosen.push_back(j);
   return chosen;
+}
+
+double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  double apart = 0.0;
+  for (Eigen::Index k = 0; k < a.size(); ++k) {
+    const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
+    apart = std::max(apart, std::abs(a[k] - b[k]) / (v.upper - v.lower));
+  }
+  return apart;
 }
 
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front) {

@@ -20,6 +20,9 @@ namespace drawpoint::studies::detail {
 /// front.
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front);
 
+/// Between two points: the largest difference in one variable, as a share of its range.
+double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 /// Places in Problem::responses of the objectives, the order of the front's columns.
 std::vector<std::size_t> objectives(const doe::Problem& problem);
 

@@ -148,6 +148,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
   for (const auto& run : runs) {
     if (run.status == Status::planned) waiting.push_back(&run);
   }
+  if (InterruptGuard::requested()) throw Interrupted{};
   if (waiting.empty()) return;
   doe::ProcessPool pool(settings.jobs);
   Progress progress(message_descriptor, state_of(runs));

@@ -46,11 +46,15 @@ InterruptGuard::~InterruptGuard() {
   for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
 }
 
-void InterruptGuard::end_at_once() {
+bool InterruptGuard::requested() { return requested_ != 0; }
+
+EndsAtOnce::EndsAtOnce() {
   at_once_ = 1;
-  if (requested_ != 0) throw Interrupted{};
+  if (requested_ == 0) return;
+  at_once_ = 0;
+  throw Interrupted{};
 }
 
-bool InterruptGuard::requested() { return requested_ != 0; }
+EndsAtOnce::~EndsAtOnce() { at_once_ = 0; }
 
 }  // namespace drawpoint::studies

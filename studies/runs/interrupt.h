@@ -5,7 +5,8 @@
 ///
 /// While simulations run, the signal only sets a flag: the loop that waits for children sees it, ends them
 /// and leaves in good order. While models are fitted nothing would look at a flag, and nothing can be lost:
-/// there the signal prints the message on how to go on and ends the process. Both end with exit code 130.
+/// there (EndsAtOnce) the signal prints the message on how to go on and ends the process. Both end with exit
+/// code 130.
 
 #include <string>
 
@@ -22,10 +23,17 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// From here on a signal ends the process with the message and exit code 130.
-  void end_at_once();
-
   static bool requested();
+};
+
+/// While it lives, a signal ends the process with the guard's message and exit code 130: for work that looks at
+/// no flag and loses nothing. Throws Interrupted if a signal came before.
+class EndsAtOnce {
+ public:
+  EndsAtOnce();
+  ~EndsAtOnce();
+  EndsAtOnce(const EndsAtOnce&) = delete;
+  EndsAtOnce& operator=(const EndsAtOnce&) = delete;
 };
 
 }  // namespace drawpoint::studies

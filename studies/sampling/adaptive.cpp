@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/failed_places.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/criteria.h>
@@ -28,7 +29,16 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
   const doe::Seed seed = seed_of_choice(identity, runs.size());
   const Eigen::MatrixXd X =
       doe::propose(tables.training, mix_of(criteria_from(sampling.criteria), fitted.models, seed),
-                   {.seed = seed, .batch = std::min(missing, sampling.batch)});
+                   {.seed = seed,
+                    .batch = std::min(missing, sampling.batch),
+                    .allowed = [failed = FailedPlaces(tables)](const Eigen::VectorXd& x) {
+                      return failed.empty() || !failed.beside(x.transpose()).front();
+                    }});
+  if (X.rows() == 0) {
+    batch.status = BatchStatus::exhausted;
+    batch.message = "no place is left where a run would be new and the nearest run did not fail";
+    return batch;
+  }
   batch.status = BatchStatus::planned;
   batch.runs = runs_at(identity, runs, Kind::adaptive, with_predictions(fitted.models, X));
   return batch;

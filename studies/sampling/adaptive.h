@@ -15,10 +15,13 @@
 
 namespace drawpoint::studies {
 
+/// Places beside failures (failed_places.h) are not chosen: the models learn nothing there and would ask for them
+/// for ever.
 enum class BatchStatus {
   planned,
   complete,    ///< all points that are wanted are there
   target_met,  ///< the models are good enough already
+  exhausted,   ///< no place is left: whole variables with few values, or all around failed
   no_models    ///< the runs do not allow models to go by
 };
 

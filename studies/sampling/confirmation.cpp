@@ -33,25 +33,29 @@ std::vector<int> rows_that_matter(const pareto::Front& front, const doe::Problem
   return rows;
 }
 
-/// Whether a row of X (n x d) is the same place as x.
 bool is_among(const Eigen::VectorXd& x, const Eigen::MatrixXd& X, const doe::Problem& problem) {
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
-    bool same = true;
-    for (Eigen::Index j = 0; j < x.size() && same; ++j) {
-      const doe::Variable& v = problem.variables[static_cast<std::size_t>(j)];
-      same = std::abs(X(i, j) - x[j]) <= same_place * (v.upper - v.lower);
-    }
-    if (same) return true;
+    if (detail::largest_difference(problem, X.row(i).transpose(), x) <= same_place) return true;
   }
   return false;
+}
+
+bool is_row(const Eigen::RowVectorXd& x, const Eigen::MatrixXd& X) {
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    if (X.row(i) == x) return true;
+  }
+  return false;
+}
+
+void append_row(Eigen::MatrixXd& X, const Eigen::RowVectorXd& x) {
+  X.conservativeResize(X.rows() + 1, x.size());
+  X.bottomRows(1) = x;
 }
 
 Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dimension) {
   Eigen::MatrixXd X(0, dimension);
   for (const Run& run : runs) {
-    if (run.kind != Kind::confirmation) continue;
-    X.conservativeResize(X.rows() + 1, Eigen::NoChange);
-    X.bottomRows(1) = run.x.transpose();
+    if (run.kind == Kind::confirmation) append_row(X, run.x.transpose());
   }
   return X;
 }
@@ -73,8 +77,7 @@ std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Proble
     cover(row);
     if (is_among(front.X.row(row), taken, problem)) return;
     chosen.push_back(row);
-    taken.conservativeResize(taken.rows() + 1, front.X.cols());
-    taken.bottomRows(1) = front.X.row(row);
+    append_row(taken, front.X.row(row));
   };
   for (Eigen::Index i = 0; i < n; ++i) {
     if (is_among(front.X.row(i), confirmed, problem)) cover(static_cast<int>(i));
@@ -87,21 +90,29 @@ std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Proble
   return chosen;
 }
 
-std::vector<Run> confirmation_round(const Identity& identity, const std::vector<Run>& runs,
-                                    const Eigen::MatrixXd& named, int points) {
+RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, const Eigen::MatrixXd& named,
+                     int points) {
   const doe::Problem& problem = identity.problem;
   const Tables tables = tables_of(runs, problem);
   const Models fitted = models_or_reason(tables);
-  const pareto::Front front = predicted_front(fitted.models, tables, identity.seed).found.front;
-  Eigen::MatrixXd known = confirmed_places(runs, static_cast<Eigen::Index>(problem.variables.size()));
-  known.conservativeResize(known.rows() + named.rows(), Eigen::NoChange);
-  known.bottomRows(named.rows()) = named;
-  const std::vector<int> rows = points_to_confirm(front, problem, known, points);
-  Eigen::MatrixXd X(named.rows() + static_cast<Eigen::Index>(rows.size()), known.cols());
-  X.topRows(named.rows()) = named;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    X.row(named.rows() + static_cast<Eigen::Index>(i)) = front.X.row(rows[i]);
-  return runs_at(identity, runs, Kind::confirmation, with_predictions(fitted.models, X));
+  const PredictedFront predicted = predicted_front(fitted.models, tables, identity.seed);
+  Eigen::MatrixXd X = confirmed_places(runs, static_cast<Eigen::Index>(problem.variables.size()));
+  const Eigen::Index before = X.rows();
+  for (Eigen::Index i = 0; i < named.rows(); ++i) {
+    if (!is_row(named.row(i), X.topRows(before))) append_row(X, named.row(i));
+  }
+  RoundPlan plan{.round = {.first = static_cast<std::int64_t>(runs.size()) + 1,
+                           .named = static_cast<int>(X.rows() - before)}};
+  for (const int row : points_to_confirm(predicted.found.front, problem, X, points))
+    append_row(X, predicted.found.front.X.row(row));
+  if (X.rows() == before) {
+    plan.nothing = predicted.missing.empty() ? "every point of the front that matters has been simulated"
+                                             : "there is no front: " + predicted.missing;
+    return plan;
+  }
+  const Eigen::MatrixXd added = X.bottomRows(X.rows() - before);
+  plan.runs = runs_at(identity, runs, Kind::confirmation, with_predictions(fitted.models, added));
+  return plan;
 }
 
 }  // namespace drawpoint::studies

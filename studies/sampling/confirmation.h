@@ -12,6 +12,7 @@
 #include <drawpoint/pareto/search.hpp>
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -23,10 +24,16 @@ inline constexpr double same_place = 0.02;
 std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Problem& problem,
                                    const Eigen::MatrixXd& confirmed, int most);
 
-/// The runs of a round: at the points that the user names (k x d), then at those of the front of the present
-/// models, `points` at most, each with what the models say of it. None where nothing is left to confirm. Throws
+struct RoundPlan {
+  std::vector<Run> runs = {};
+  ConfirmationRound round = {};
+  std::string nothing = {};  ///< why there are no runs
+};
+
+/// The runs of a round: at the points that the user names (k x d) but for those that are confirmed already, then
+/// at those of the front of the present models, `points` at most, each with what the models say of it. Throws
 /// std::runtime_error if the runs do not allow models.
-std::vector<Run> confirmation_round(const Identity& identity, const std::vector<Run>& runs,
-                                    const Eigen::MatrixXd& named, int points);
+RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, const Eigen::MatrixXd& named,
+                     int points);
 
 }  // namespace drawpoint::studies

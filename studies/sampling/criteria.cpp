@@ -22,7 +22,7 @@ constexpr std::array<const char*, 6> criterion_names = {"lola_voronoi", "voronoi
   std::string names;
   for (const char* name : criterion_names) names += (names.empty() ? "" : ", ") + std::string(name);
   throw UsageError(
-      "--criteria: \"" + part +
+      "\"" + part +
       "\" is no criterion and weight; give NAME=WEIGHT with commas between, weights above 0, of " + names);
 }
 
@@ -100,6 +100,16 @@ std::vector<CriterionShare> criteria_from(const std::string& text) {
   for (std::string part; std::getline(parts, part, ',');) shares.push_back(share_from(part));
   if (shares.empty() || text.back() == ',') refuse_criterion(text);
   return shares;
+}
+
+void check_criteria(const std::string& text, const doe::Problem& problem) {
+  const auto objective = [](const doe::Response& response) { return doe::is_objective(response.goal); };
+  if (std::any_of(problem.responses.begin(), problem.responses.end(), objective)) return;
+  for (const auto& share : criteria_from(text)) {
+    if (share.name == "improvement")
+      throw UsageError(
+          "--criteria: improvement needs a response that is minimized or maximized; take another criterion");
+  }
 }
 
 doe::Mix mix_of(const std::vector<CriterionShare>& shares, const std::vector<kriging::Model>& models,

@@ -25,6 +25,9 @@ struct CriterionShare {
 /// From "lola_voronoi=0.7,error=0.3"; a name alone has weight 1. Throws UsageError, saying what is allowed.
 std::vector<CriterionShare> criteria_from(const std::string& text);
 
+/// Throws UsageError for criteria that the problem does not allow: improvement without an objective.
+void check_criteria(const std::string& text, const doe::Problem& problem);
+
 /// models: one per response, of the runs so far. `seed` is that of LOLA-Voronoi's test points.
 doe::Mix mix_of(const std::vector<CriterionShare>& shares, const std::vector<kriging::Model>& models,
                 doe::Seed seed);

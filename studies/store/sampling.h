@@ -4,19 +4,28 @@
 /// How a study goes on after its first design: kept in the store, so that it resumes without repeating its
 /// options. Unlike the identity it may change from one session to the next.
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace drawpoint::studies {
+
+/// A round of `confirm`: the confirmation runs from one id up to the next round's.
+struct ConfirmationRound {
+  std::int64_t first = 0;  ///< id of its first run
+  int named = 0;           ///< so many of its points, the first ones, were named by the user
+};
 
 struct Sampling {
   int points = 0;  ///< adaptive points in all, 0 or more
   int batch = 8;   ///< points that are chosen together, 1 or more
   /// Who chooses and how often, as "name=weight" with commas between; sampling/criteria.h has the names.
   std::string criteria = "lola_voronoi=0.7,error=0.3";
+  std::vector<ConfirmationRound> rounds = {};  ///< in rising order
   double target = 0.0;  ///< NRMSE of every response on the validation runs at which to stop; 0: none
 };
 
-/// As one JSON object.
+/// As one JSON object. Throws std::invalid_argument for a target that is not finite.
 std::string to_text(const Sampling& sampling);
 /// Throws nlohmann::json::exception for what is not one.
 Sampling sampling_from(const std::string& text);

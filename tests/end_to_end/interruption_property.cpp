@@ -75,6 +75,31 @@ TEST_F(Interruption, AKilledBatchGoesOnWithTheSamePoints) {
   EXPECT_EQ(query(points), whole);
 }
 
+TEST_F(Interruption, AKilledRoundIsFinishedAndJudged) {
+  const std::string points =
+      "SELECT group_concat(kind || quote(x) || quote(y) || quote(cost_predicted)) FROM runs";
+  const std::string confirm = "env TROUBLE=slow " TROUBLED_STUDY " confirm --points 5 --rounds 1 --jobs 2";
+  ASSERT_EQ(run(slow + out()).code, 0);
+  std::filesystem::copy(dir(), place_ / "copy", std::filesystem::copy_options::recursive);
+  const Ended whole = run(confirm + out());
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  const std::string all = query(points);
+  std::filesystem::remove_all(dir());
+  std::filesystem::rename(place_ / "copy", dir());
+  Command command(confirm + out(), place_);
+  await_done(18);  // two of the round
+  command.send(SIGKILL);
+  command.wait();
+  EXPECT_LT(count("status = 'done'"), 21);
+  const Ended rest = run(confirm + out());
+  EXPECT_EQ(query(points), all);
+  const auto verdict = [](const Ended& ended) {
+    const auto at = ended.out.find("round 1: 5 points, ");
+    return ended.out.substr(at, ended.out.find('\n', at) - at);
+  };
+  EXPECT_EQ(verdict(rest), verdict(whole));
+}
+
 TEST_F(Interruption, OnlyOneProcessWorksInAFolder) {
   Command study(slow + out(), place_);
   await_done(1);

@@ -50,6 +50,23 @@ TEST(Confirmation, ChanceIsBinomial) {
   for (const int n : {0, 1, 7, 1000}) EXPECT_EQ(chance_of_at_most(n, n), 1.0);
 }
 
+// A miss of one value happens in 0.05 of all cases, one or more of two in 0.0975, of three in 0.143; two or more of 18
+// in 0.226, three or more in 0.058. A tenth is the line.
+TEST(Confirmation, AgreesUntilMissesAreMoreThanChance) {
+  const auto verdict = [](int held, int values) {
+    CheckedRuns checked;
+    checked.add({.outcome = Eigen::VectorXd(0), .values = values, .held = held});
+    return checked.agree();
+  };
+  EXPECT_TRUE(verdict(1, 1));
+  EXPECT_FALSE(verdict(0, 1));
+  EXPECT_FALSE(verdict(1, 2));
+  EXPECT_TRUE(verdict(2, 3));
+  EXPECT_TRUE(verdict(16, 18));
+  EXPECT_FALSE(verdict(15, 18));
+  EXPECT_FALSE(verdict(0, 0));  // nothing agrees with nothing
+}
+
 TEST(Confirmation, CountsValuesWithinTheirIntervals) {
   const Eigen::Vector2d mean(100.0, 0.2), deviation(10.0, 0.01);
   const std::vector<studies::Run> runs = {
@@ -59,7 +76,7 @@ TEST(Confirmation, CountsValuesWithinTheirIntervals) {
       predicted(done(4, Kind::confirmation, 119.7, 0.1803), mean, deviation),  // 1.97 and 1.97
       predicted(done(5, Kind::confirmation, 105.0, 0.2), mean, deviation),     // runs 2, 3 and 4 were better
       done(6, Kind::confirmation, 0.0, 0.0)};                                  // nothing was predicted
-  const CheckedRuns all = check_predictions(runs, bounded(), Kind::confirmation);
+  const CheckedRuns all = check_predictions(runs, bounded(), Kind::confirmation, {{3, 0}, {5, 0}});
   ASSERT_EQ(all.runs.size(), 3u);
   EXPECT_EQ(all.values, 6);
   EXPECT_EQ(all.within, 4);
@@ -68,8 +85,41 @@ TEST(Confirmation, CountsValuesWithinTheirIntervals) {
   EXPECT_TRUE(all.runs[2].dominated);
   EXPECT_EQ(all.runs[1].within, std::vector<bool>({false, false}));
   EXPECT_NEAR(all.runs[0].upper[0] - 100.0, 19.59963984540054, 1e-12);
-  EXPECT_EQ(check_predictions(runs, bounded(), Kind::confirmation, 5).runs.size(), 1u);
+  EXPECT_EQ(all.runs[1].round, 1);
+  EXPECT_EQ(all.last_round().runs.size(), 1u);
+  EXPECT_EQ(all.last_round().within, 2);
   EXPECT_TRUE(check_predictions(runs, bounded(), Kind::adaptive).runs.empty());
+}
+
+// Four points in one round, the first named by the user: what is better in the same round does not count, nor what breaks
+// the limit of 0.25, and no promise was made of the named one.
+TEST(Confirmation, DominationIsByRunsBeforeTheRound) {
+  const Eigen::Vector2d mean(100.0, 0.2), deviation(10.0, 0.01);
+  const auto confirmed = [&](std::int64_t id, double production, double spill) {
+    return predicted(done(id, Kind::confirmation, production, spill), mean, deviation);
+  };
+  const CheckedRuns all = check_predictions(
+      {done(1, Kind::training, 105.0, 0.2), confirmed(2, 90.0, 0.2), confirmed(3, 110.0, 0.2),
+       confirmed(4, 107.0, 0.2), confirmed(5, 100.0, 0.2), confirmed(6, 104.0, 0.3)},
+      bounded(), Kind::confirmation, {{2, 1}});
+  EXPECT_TRUE(all.runs[0].named);
+  EXPECT_EQ(all.dominated, 1);
+  EXPECT_TRUE(all.runs[3].dominated);
+  EXPECT_EQ(all.breaking, 1);
+  EXPECT_TRUE(all.runs[4].breaks_limit);
+  EXPECT_EQ(text(all),
+            "5 points, 9 of 10 values within the stated 95 % interval, 1 breaks a limit, 1 dominated by "
+            "earlier runs");
+}
+
+// Replicates share the error of the models, so that the first alone counts.
+TEST(Confirmation, APointIsJudgedOnce) {
+  auto first = predicted(done(1, Kind::confirmation, 1.0, 0.1), {1.0, 0.1}, {1.0, 1.0}), second = first;
+  second.id = 2;
+  second.replicate = 1;
+  const CheckedRuns all = check_predictions({first, second}, bounded(), Kind::confirmation, {{1, 0}});
+  EXPECT_EQ(all.runs.size(), 1u);
+  EXPECT_EQ(all.values, 2);
 }
 
 // A surrogate that expects less than nothing means nothing, and is right when nothing comes.
@@ -90,9 +140,7 @@ TEST(Confirmation, FailedRunsAreCountedApart) {
   EXPECT_EQ(all.failed, 1);
   EXPECT_EQ(all.values, 0);
   EXPECT_EQ(all.runs[0].outcome.reason(), "stuck");
-  EXPECT_EQ(text(all),
-            "1 point, 0 of 0 values within the stated 95 % interval, 1 failed, none dominated by "
-            "earlier runs");
+  EXPECT_EQ(text(all), "1 point, 0 of 0 values within the stated 95 % interval, 1 failed");
 }
 
 TEST(Confirmation, RecordedResponsesAreNotHeldAgainstTheFront) {

@@ -149,7 +149,6 @@ TEST(Front, WhatIsPredictedIsPossible) {
   EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(2, 3, 4));
 }
 
-// With a and b moved out of the box the set lies on its face x2 = 0, where the gradients of both point out.
 // Of five front points on a line with runs at 0, 0.4 (failed twice), 0.6 (failed once of twice) and 1: those nearest
 // to 0.4 go, those nearest to 0.6 stay.
 TEST(Front, NothingBesideAFailedRunIsRecommended) {
@@ -167,13 +166,45 @@ TEST(Front, NothingBesideAFailedRunIsRecommended) {
   found.front.Y = found.front.responses = Eigen::MatrixXd::Random(5, 2);
   found.polishing.residual = Eigen::VectorXd::LinSpaced(5, 1, 5);
   const Eigen::MatrixXd Y = found.front.Y;
-  EXPECT_EQ(leave_out_failed(found, tables), 2);
+  leave_out_failed(found, FailedPlaces(tables));
   EXPECT_EQ(found.front.X, Eigen::Vector3d(1.9, 5.1, 9));
   EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(1, 4, 5));
   EXPECT_EQ(found.front.Y.row(1), Y.row(3));
-  EXPECT_EQ(leave_out_failed(found, tables), 0);
+  leave_out_failed(found, FailedPlaces(tables));
+  EXPECT_EQ(found.front.X.rows(), 3);
 }
 
+// |x - a|² and |x - b|² with failures all along the middle of the segment from a to b: the front keeps its two ends
+// and goes around what failed.
+TEST(Front, IsSearchedAroundFailures) {
+  const doe::Problem problem = support::unit_problem(3, 2);
+  const auto models = exact_models(problem, {near_a, near_b});
+  Tables tables{.training = {problem, {}}, .validation = {problem, {}}};
+  const auto place = [&](const Eigen::Vector3d& x, bool failed) {
+    doe::Evaluation run{.x = x};
+    run.outcome = failed ? doe::Outcome(doe::Failure{"stuck"}) : doe::Outcome{1.0, 2.0};
+    tables.training.rows.push_back(run);
+  };
+  place(0.5 * (a + b), true);
+  for (const Eigen::Vector3d& x : {a, b, Eigen::Vector3d(0.5, 0.8, 0.45), Eigen::Vector3d(0.5, 0.1, 0.45)})
+    place(x, false);
+  const PredictedFront predicted = predicted_front(models, tables, 1);
+  ASSERT_GT(predicted.found.front.X.rows(), 20);
+  EXPECT_EQ(predicted.missing, "");
+  int around = 0;
+  for (Eigen::Index i = 0; i < predicted.found.front.X.rows(); ++i) {
+    const Eigen::Vector3d x = predicted.found.front.X.row(i);
+    EXPECT_FALSE(FailedPlaces(tables).beside(x.transpose()).front());
+    around += distance_to_segment(x) > 0.01;
+  }
+  EXPECT_GT(around, 0);
+  for (auto& row : tables.training.rows) row.outcome = doe::Failure{"stuck"};
+  const PredictedFront none = predicted_front(models, tables, 1);
+  EXPECT_EQ(none.found.front.X.rows(), 0);
+  EXPECT_FALSE(none.missing.empty());
+}
+
+// With a and b moved out of the box the set lies on its face x2 = 0, where the gradients of both point out.
 TEST(Front, PointsEndOnTheBoundThatHoldsThem) {
   const doe::Problem problem = support::unit_problem(3, 2);
   const Eigen::Vector3d shift(0.0, 0.0, -0.7);

@@ -64,6 +64,8 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   const auto data = nlohmann::json::parse(line);
   EXPECT_EQ(data["runs"], 58);
   EXPECT_EQ(data["adaptive"], 8);
+  summary.adaptive_wanted = 20;
+  EXPECT_NE(text(summary).find("8 adaptive runs, 20 adaptive points wanted"), std::string::npos);
   EXPECT_EQ(data["confirmation"], 0);
   EXPECT_EQ(data["confirmed"]["points"], 0);
   EXPECT_EQ(text(summary).find("s: 40 training, 8 adaptive and 10 validation runs, 2 failed"), 0u);
@@ -94,8 +96,15 @@ TEST(Text, SaysWhetherTheFrontWasSimulated) {
   EXPECT_EQ(line(),
             "Pareto front: 2 points, predicted; simulated: 2 points, 2 of 3 values within the stated 95 % "
             "interval, 1 failed, 1 dominated by earlier runs");
-  EXPECT_EQ(nlohmann::json::parse(json_line(summary))["confirmed"],
-            nlohmann::json({{"points", 2}, {"values", 3}, {"within", 2}, {"failed", 1}, {"dominated", 1}}));
+  EXPECT_EQ(nlohmann::json::parse(json_line(summary))["confirmed"], nlohmann::json({{"points", 2},
+                                                                                    {"values", 3},
+                                                                                    {"within", 2},
+                                                                                    {"failed", 1},
+                                                                                    {"dominated", 1},
+                                                                                    {"breaking", 0},
+                                                                                    {"agree", false}}));
+  summary.no_front = "the models allow none";
+  EXPECT_EQ(line(), "Pareto front: none, because the models allow none");
 }
 
 TEST(Text, SaysWhyAFrontIsNotPolished) {

@@ -153,14 +153,18 @@ TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
   EXPECT_TRUE(said("None of these points has been simulated"));
   const Eigen::Vector2d x(0.5, 1.0), mean(2.0, 1.0);
   in.confirmations = {.runs = {{.run = 9,
+                                .round = 2,
                                 .x = x,
                                 .outcome = Eigen::VectorXd(Eigen::Vector2d(2.1, 5.0)),
                                 .predicted = mean,
                                 .lower = mean.array() - 0.2,
                                 .upper = mean.array() + 0.2,
                                 .within = {true, false},
+                                .values = 18,
+                                .held = 16,
                                 .dominated = true},
                                {.run = 10,
+                                .round = 2,
                                 .x = x,
                                 .outcome = doe::Failure{nasty},
                                 .predicted = mean,
@@ -171,19 +175,21 @@ TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
                       .within = 16,
                       .failed = 1,
                       .dominated = 1};
-  in.kinds = {{1, "adaptive"}};
+  in.kinds = {{0, "training"}, {1, "adaptive"}};
   const auto data = written(in);
   const auto& rows = data.at("confirmations").at("rows");
   EXPECT_EQ(rows.at(0).at("within"), nlohmann::json({true, false}));
   EXPECT_EQ(rows.at(0).at("y"), nlohmann::json({2.1, 5.0}));
   EXPECT_TRUE(rows.at(1).at("y").is_null());
   EXPECT_EQ(data.at("training").at("rows").at(1).at("kind"), "adaptive");
+  EXPECT_TRUE(said("7 training, 1 adaptive, 0 validation"));
+  EXPECT_EQ(data.at("front").at("margin").size(), 8u);
   EXPECT_FALSE(said("None of these points"));
   EXPECT_TRUE(said("16 of 18 values within the stated 95 % interval"));
   EXPECT_TRUE(said("1 of 2 points of predicted fronts failed"));
   // Two misses or more of 18 happen by chance in 0.23 of all cases, three or more in 0.06.
   EXPECT_FALSE(said("promised what simulation did not keep"));
-  in.confirmations.within = 15;
+  in.confirmations.runs[0].held = 15;
   EXPECT_TRUE(said("promised what simulation did not keep"));
 }
 

@@ -72,7 +72,10 @@ TEST_F(StoreTest, KeepsWhatWasPredictedAndHowTheStudyGoesOn) {
     predicted.deviation = Eigen::Vector2d(0.5, 0.0);
     store.add({planned(1, 0.5, 2.0), predicted, planned(3, 0.7, 2.0)});
     store.save_done(2, Eigen::Vector2d(1.0, 2.0), 0.1);
-    store.set_sampling({.points = 40, .batch = 5, .criteria = "error=0.3", .target = 0.1 + 0.2});
+    store.set_sampling(
+        {.points = 40, .batch = 5, .criteria = "error=0.3", .rounds = {{2, 1}, {7, 0}}, .target = 0.1 + 0.2});
+    EXPECT_NE(complaint([&] { store.set_sampling({.target = std::nan("")}); }).find("target is not finite"),
+              std::string::npos);
   }
   const Store store = Store::open(file_);
   const auto runs = store.runs();
@@ -87,6 +90,10 @@ TEST_F(StoreTest, KeepsWhatWasPredictedAndHowTheStudyGoesOn) {
   EXPECT_EQ(store.sampling().batch, 5);
   EXPECT_EQ(store.sampling().criteria, "error=0.3");
   EXPECT_EQ(store.sampling().target, 0.1 + 0.2);
+  ASSERT_EQ(store.sampling().rounds.size(), 2u);
+  EXPECT_EQ(store.sampling().rounds[0].first, 2);
+  EXPECT_EQ(store.sampling().rounds[0].named, 1);
+  EXPECT_EQ(store.sampling().rounds[1].first, 7);
 }
 
 TEST_F(StoreTest, TableIsReadableWithPlainSql) {

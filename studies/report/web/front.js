@@ -21,12 +21,12 @@ export function tradeOffs(data, chosen) {
 /// Predicted and simulated, side by side.
 function confirmed(data) {
   const judged = data.problem.responses.map((response, j) => ({response, j})).filter(({response}) => response.goal !== 'record');
-  const columns = [{title: 'Run', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: number})),
+  const columns = [{title: 'Run', format: String}, {title: 'Round', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: number})),
     ...judged.flatMap(({response}) => [{title: `${labelled(response)} predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
   const cell = (r, j) => [`${number(r.lower[j])} to ${number(r.upper[j])}`,
     r.y === null ? 'failed' : number(r.y[j]) + (r.within[j] ? '' : ' outside')];
-  const note = (r) => r.y === null ? r.reason : r.dominated ? 'an earlier run was better' : '';
-  const rows = data.confirmations.rows.map((r) => [r.run, ...r.x, ...judged.flatMap(({j}) => cell(r, j)), note(r)]);
+  const note = (r) => [r.named ? 'named by the user' : '', r.y === null ? r.reason : '', r.breaks_limit ? 'breaks a limit' : '', r.dominated ? 'an earlier run was better' : ''].filter(Boolean).join(', ');
+  const rows = data.confirmations.rows.map((r) => [r.run, r.round, ...r.x, ...judged.flatMap(({j}) => cell(r, j)), note(r)]);
   return el('div', {class: 'block'}, el('h3', {}, 'Confirmed by simulation'),
     el('p', {class: 'note'}, `Each run was predicted by the models of the runs before it; the interval given should hold 95 of 100 such runs. ${data.confirmations.text}.`),
     table(columns, rows, {tall: true}).node);
@@ -34,7 +34,7 @@ function confirmed(data) {
 
 function lead(data, objectives) {
   if (!objectives.length) return 'The study names no response to minimize or maximize, so there is nothing to search for.';
-  if (!data.front.X.length) return 'There is no front: the surrogates could not be fitted or searched.';
+  if (!data.front.X.length) return `There is no front: ${data.no_front || 'the surrogates could not be fitted or searched'}.`;
   if (objectives.length === 1) return `The surrogate was searched for the best ${pretty(objectives[0].name)}.`;
   return `${data.front.X.length} points that the surrogates cannot improve in one objective without losing in another (the Pareto front). All are predictions${data.confirmations.rows.length ? '; below stand those that were simulated.' : ': simulate a point before relying on it (command confirm).'}`;
 }
@@ -112,11 +112,10 @@ function confirmations(data, a, b) {
 const goal = (response) => axisLabel(response) + (response.goal === 'maximize' ? ' →' : ' ←');
 
 function pointTable(data, objectives, chosen) {
-  const items = [...objectives, ...data.problem.variables];
-  const {residual} = data.polishing;
-  const certificates = residual.length ? [{title: 'KKT residual', format: (value) => number(value, 2)}] : [];
-  const columns = [{title: 'Point', format: String}, ...items.map((item) => ({title: labelled(item), format: number})), ...certificates];
-  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i], ...x, ...residual.slice(i, i + 1)]);
+  const {margin} = data.front;
+  const values = objectives.flatMap((item) => [{title: labelled(item), format: number}, ...margin.length ? [{title: '± 95 %', format: (value) => number(value, 2)}] : []]);
+  const columns = [{title: 'Point', format: String}, ...values, ...data.problem.variables.map((item) => ({title: labelled(item), format: number}))];
+  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => margin.length ? [y, margin[i][k]] : [y]), ...x]);
   const detail = el('p', {class: 'note'});
   const {node, select: mark} = table(columns, rows, {onselect: (i) => chosen.select(chosen.selected === i ? -1 : i), tall: true});
   const update = () => {

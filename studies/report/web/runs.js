@@ -44,7 +44,7 @@ function scatterMatrix(data) {
   const half = data.validation.rows.length && d > 1 ? 'Below the diagonal the training runs, above it the validation runs. ' : '';
   const part = d < data.problem.variables.length ? `The ${d} most influential of ${data.problem.variables.length} variables are shown. ` : '';
   const failed = everyRun(data).some((r) => r.y === null) ? 'Failed runs are red crosses: a cluster of them marks a region where the simulation breaks down.' : '';
-  return figure(box, `Where the design was sampled. ${half}On the diagonal, the share of runs along each variable; even bars mean even coverage. ${part}${failed}`);
+  return figure(box, `Where the design was sampled. ${half}On the diagonal, the share of runs along each variable; even bars mean even coverage; adaptive and confirmation runs count with the training runs. ${part}${failed}`);
 }
 
 /// In the order of the problem, at most mostVariables of them.
