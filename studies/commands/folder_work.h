@@ -12,7 +12,7 @@
 
 namespace drawpoint::studies {
 
-/// Opens the store, with the folder locked, has the work done in it, and concludes. A signal ends the work in
+/// Opens the store, with the folder locked, prepares what runs share, has the work done, and concludes. A signal ends the work in
 /// good order with exit code 130 and a word on how to go on.
 int work_in_folder(const Study& study, const Settings& settings,
                    const std::function<Store(const Folder& folder)>& open,

@@ -68,7 +68,6 @@ int run_command(const Study& study, const Settings& settings) {
   return work_in_folder(
       study, settings, [&](const Folder& folder) { return plan_study(study, folder, settings); },
       [&](Store& store, const Folder& folder) {
-        prepare_shared(study, store.identity().options, folder, messages);
         do {
           carry_out_runs(store, folder, settings, messages);
         } while (add_batch(store, seconds_left(), messages));

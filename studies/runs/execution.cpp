@@ -4,6 +4,7 @@
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/progress.h>
 #include <drawpoint/studies/store/run_logs.h>
+#include <drawpoint/studies/store/shared_files.h>
 
 #include <chrono>
 #include <cstdio>
@@ -114,7 +115,8 @@ ProgressState state_of(const std::vector<Run>& runs) {
 
 void prepare_shared(const Study& study, const OptionValues& options, const Folder& folder,
                     int message_descriptor) {
-  if (!study.prepare || fs::exists(folder.shared())) return;
+  if (!study.prepare) return;
+  if (fs::exists(folder.shared())) return check_shared(folder);
   dprintf(message_descriptor, "preparing what all runs share ...\n");
   const fs::path draft = folder.path / "shared.unfinished";
   const fs::path printed = folder.logs() / "prepare.txt";
@@ -138,6 +140,7 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
     if (disk_is_full(folder)) stop_for_full_disk(folder);
     throw std::runtime_error("studies: the preparation failed: " + outcome.reason());
   }
+  remember_shared(folder, draft);
   fs::rename(draft, folder.shared());
   dprintf(message_descriptor, "prepared in %s\n", duration_text(ends.front().seconds).c_str());
 }

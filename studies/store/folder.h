@@ -7,6 +7,7 @@
 ///     DIR/study.db             the store
 ///     DIR/report.html          the report
 ///     DIR/shared/              from Study::prepare
+///     DIR/shared.checksums     of its files
 ///     DIR/logs/run_0001.h5     run log, named by the run's id
 ///     DIR/logs/run_0001.txt    what the run printed, if anything
 ///     DIR/logs/unfinished/     logs of runs in flight
@@ -27,6 +28,7 @@ struct Folder {
   std::filesystem::path store() const { return path / "study.db"; }
   std::filesystem::path report() const { return path / "report.html"; }
   std::filesystem::path shared() const { return path / "shared"; }
+  std::filesystem::path shared_checksums() const { return path / "shared.checksums"; }
   std::filesystem::path logs() const { return path / "logs"; }
   std::filesystem::path unfinished() const { return logs() / "unfinished"; }
   std::filesystem::path log(std::int64_t id) const;  ///< logs/run_0001.h5

@@ -5,12 +5,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <drawpoint/studies/store/columns.h>
 #include <drawpoint/studies/store/row_checksum.h>
+#include <drawpoint/studies/store/rows.h>
 #include <drawpoint/studies/store/store_errors.h>
 #include <drawpoint/doe/problem_json.hpp>
 
-#include <charconv>
 #include <ctime>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
@@ -20,6 +19,8 @@ namespace drawpoint::studies {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::create_runs;
+using detail::read_rows;
 using detail::refuse;
 using detail::with_context;
 
@@ -38,20 +39,6 @@ std::string now() {
 
 int pragma(SQLite::Database& database, const std::string& name) {
   return database.execAndGet("PRAGMA " + name).getInt();
-}
-
-std::string create_statement(const Columns& columns) {
-  std::string text =
-      "CREATE TABLE runs (id INTEGER PRIMARY KEY, kind TEXT NOT NULL CHECK (kind IN ('training', "
-      "'adaptive', 'confirmation', 'validation')), "
-      "point INTEGER NOT NULL, replicate INTEGER NOT NULL, seed TEXT NOT NULL, "
-      "status TEXT NOT NULL CHECK (status IN ('planned', 'running', 'done', 'failed')), "
-      "reason TEXT, seconds REAL, started TEXT, finished TEXT, log TEXT, checksum TEXT";
-  for (const auto& column : columns.x) text += ", " + column + " REAL NOT NULL";
-  for (const auto* group : {&columns.y, &columns.predicted, &columns.deviation}) {
-    for (const auto& column : *group) text += ", " + column + " REAL";
-  }
-  return text + ", UNIQUE (kind, point, replicate))";
 }
 
 void put_in_study(SQLite::Database& database, const std::string& key, const std::string& value) {
@@ -84,95 +71,7 @@ std::string study_checksum(SQLite::Database& database) {
   return doe::detail::checksum(row.text());
 }
 
-Kind kind_from(const std::string& name) {
-  for (const Kind kind : all_kinds) {
-    if (name == name_of(kind)) return kind;
-  }
-  return Kind::training;
-}
-
-Status status_from(const std::string& name) {
-  for (const Status status : {Status::running, Status::done, Status::failed}) {
-    if (name == name_of(status)) return status;
-  }
-  return Status::planned;
-}
-
-/// 0 for what is no number, which the checksum then shows.
-doe::Seed seed_from(const std::string& text) {
-  doe::Seed seed = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), seed);
-  return end.ec == std::errc() && end.ptr == text.data() + text.size() ? seed : 0;
-}
-
-Eigen::VectorXd numbers(SQLite::Statement& row, int first, std::size_t count) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(count));
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const auto column = row.getColumn(first + static_cast<int>(i));
-    values[i] = column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
-  }
-  return values;
-}
-
-constexpr const char* fixed_columns =
-    "id, kind, point, replicate, seed, status, coalesce(reason, ''), coalesce(seconds, 0), "
-    "coalesce(started, ''), coalesce(finished, ''), coalesce(log, ''), coalesce(checksum, '')";
-constexpr int fixed_column_count = 12, checksum_column = 11;
-
-/// A row of `SELECT fixed_columns, Columns::all()`.
-Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t responses) {
-  const auto text = [&](int column) { return row.getColumn(column).getString(); };
-  int next = fixed_column_count;
-  const auto take = [&](std::size_t count) {
-    next += static_cast<int>(count);
-    return numbers(row, next - static_cast<int>(count), count);
-  };
-  Run run;
-  run.id = row.getColumn(0).getInt64();
-  run.kind = kind_from(text(1));
-  run.point = row.getColumn(2).getInt64();
-  run.replicate = row.getColumn(3).getInt();
-  run.seed = seed_from(text(4));
-  run.status = status_from(text(5));
-  run.reason = text(6);
-  run.seconds = row.getColumn(7).getDouble();
-  run.started = text(8);
-  run.finished = text(9);
-  run.log = text(10);
-  run.x = take(dimension);
-  run.y = take(responses);
-  run.predicted = take(responses);
-  run.deviation = take(responses);
-  return run;
-}
-
 }  // namespace
-
-std::string name_of(Kind kind) {
-  switch (kind) {
-    case Kind::adaptive:
-      return "adaptive";
-    case Kind::confirmation:
-      return "confirmation";
-    case Kind::validation:
-      return "validation";
-    default:
-      return "training";
-  }
-}
-
-std::string name_of(Status status) {
-  switch (status) {
-    case Status::running:
-      return "running";
-    case Status::done:
-      return "done";
-    case Status::failed:
-      return "failed";
-    default:
-      return "planned";
-  }
-}
 
 Store::Store(fs::path file, std::unique_ptr<SQLite::Database> database)
     : file_(std::move(file)), database_(std::move(database)) {}
@@ -190,7 +89,7 @@ Store Store::create(const fs::path& file, const Identity& identity) {
     database.exec("PRAGMA application_id = " + std::to_string(application_id));
     database.exec("PRAGMA user_version = " + std::to_string(schema_version));
     database.exec("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL)");
-    database.exec(create_statement(columns_of(identity.problem)));
+    database.exec(create_runs(columns_of(identity.problem)));
     write_identity(database, identity);
     put_in_study(database, "checksum", study_checksum(database));
     transaction.commit();
@@ -248,22 +147,11 @@ void Store::read_identity() {
   columns_ = columns_of(identity_.problem);
 }
 
-std::vector<std::pair<Run, std::string>> Store::rows(const std::string& condition) const {
-  std::string text = std::string("SELECT ") + fixed_columns;
-  for (const auto& column : columns_.all()) text += ", " + column;
-  SQLite::Statement query(*database_, text + " FROM runs WHERE " + condition + " ORDER BY id");
-  std::vector<std::pair<Run, std::string>> found;
-  while (query.executeStep())
-    found.emplace_back(read_run(query, columns_.x.size(), columns_.y.size()),
-                       query.getColumn(checksum_column).getString());
-  return found;
-}
-
 std::vector<Run> Store::runs() const {
   return with_context(file_, [&] {
     SQLite::Transaction at_one_time(*database_);  // another program may be adding rows
     std::vector<Run> result;
-    for (auto& [run, checksum] : rows("1")) {
+    for (auto& [run, checksum] : read_rows(*database_, columns_, "1")) {
       const std::string name = std::to_string(result.size() + 1);
       if (run.id != static_cast<std::int64_t>(result.size()) + 1)
         refuse(file_, "is damaged (run " + name + " is not there)");
@@ -280,7 +168,7 @@ std::vector<Run> Store::runs() const {
 
 void Store::seal_rows(const std::string& condition) {
   SQLite::Statement update(*database_, "UPDATE runs SET checksum = ? WHERE id = ?");
-  for (const auto& [run, ignored] : rows(condition)) {
+  for (const auto& [run, ignored] : read_rows(*database_, columns_, condition)) {
     update.reset();
     update.bind(1, detail::row_checksum(run));
     update.bind(2, run.id);

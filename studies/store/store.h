@@ -101,8 +101,6 @@ class Store {
   Store(std::filesystem::path file, std::unique_ptr<SQLite::Database> database);
   void check_format() const;
   void read_identity();
-  /// The rows for which `condition` (SQL) holds, as they are, sound or not, with their checksums.
-  std::vector<std::pair<Run, std::string>> rows(const std::string& condition) const;
   void seal_rows(const std::string& condition);
   void seal_study();
   template <class F>

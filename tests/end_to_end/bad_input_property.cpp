@@ -139,6 +139,23 @@ TEST_F(BadInput, PreparationIsKeptWholeOrNotAtAll) {
   EXPECT_EQ(contents(dir() / "logs" / "run_0010.h5").size(), 10u);
 }
 
+// An empty pile would fail every run for good.
+TEST_F(BadInput, ADamagedPreparationIsNamedBeforeARunFails) {
+  ASSERT_EQ(run(with("shared") + "--runs 6 --validation 0" + out()).code, 0);
+  const auto pile = dir() / "shared" / "pile.txt";
+  std::filesystem::resize_file(pile, 0);
+  for (const char* command : {"--runs 8", "confirm"}) {
+    const Ended end = run(with("shared") + command + out());
+    EXPECT_EQ(end.code, 1);
+    EXPECT_TRUE(contains(end.err, pile.string() + " is not what the preparation wrote"));
+    EXPECT_EQ(count("status = 'failed'"), 0);
+  }
+  std::filesystem::remove_all(dir() / "shared");
+  EXPECT_EQ(run(with("shared") + "--runs 8" + out()).code, 0);
+  EXPECT_EQ(count("status = 'done'"), 8);
+  EXPECT_EQ(contents(pile), "settled\n");
+}
+
 TEST_F(BadInput, FoldersOfOthersStayAsTheyAre) {
   std::filesystem::create_directories(dir());
   std::ofstream(database()) << "these are my notes, not a database\n";
