@@ -11,9 +11,9 @@
 
 namespace drawpoint::studies {
 
-/// The runs of a kind that ended and were predicted. Of the replicates of a point the first counts: they share
-/// the error of the models. Which runs dominate is told of confirmations alone, whose `rounds` are in rising
-/// order; points of one round are not compared with each other.
+/// The runs of a kind that ended and were predicted. Of the replicates of a point the first counts: they
+/// share the error of the models. Which runs dominate is told of confirmations alone, whose `rounds` are in
+/// rising order; points of one round are not compared with each other.
 CheckedRuns check_predictions(const std::vector<Run>& runs, const doe::Problem& problem, Kind kind,
                               const std::vector<ConfirmationRound>& rounds = {});
 

@@ -20,8 +20,8 @@ struct ExportTable {
   std::vector<std::vector<nlohmann::json>> rows;  ///< numbers, text, or null where there is nothing
 };
 
-/// All runs in order of id: run, kind, point, replicate, seed (text, 64 bits), status, reason, seconds, then the
-/// variables, the responses, and of each response what was predicted and the standard deviation of that.
+/// All runs in order of id: run, kind, point, replicate, seed (text, 64 bits), status, reason, seconds, then
+/// the variables, the responses, and of each response what was predicted and the standard deviation of that.
 ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs);
 
 /// The predicted front of the present models: the variables, the responses, and of each response the standard

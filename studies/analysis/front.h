@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The trade-offs that a study's models predict: NSGA-II searches the means of the models, and
-/// pareto/polished_front.hpp finishes what it finds with their exact gradients. What a model predicts outside of
-/// a response's range counts as the bound there; points that are then dominated are left out. Points beside
-/// failed runs (failed_places.h) count as failed in the search, and are left out where polishing leads there.
+/// pareto/polished_front.hpp finishes what it finds with their exact gradients. What a model predicts outside
+/// of a response's range counts as the bound there; points that are then dominated are left out. Points
+/// beside failed runs (failed_places.h) count as failed in the search, and are left out where polishing leads
+/// there.
 
 #include <drawpoint/studies/analysis/failed_places.h>
 #include <drawpoint/studies/analysis/models.h>

@@ -36,10 +36,11 @@ struct Summary {
 };
 
 /// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "unfinished",
-/// "adaptive_wanted", "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response: number or null}, "front", "confirmed":
-/// {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round}, "certified": number or null,
-/// "polishing_gain_percent": number or null, "report": path or null}, and "not_polished" and "error", which
-/// say why, if there is something to say. `runs` counts those that ended.
+/// "adaptive_wanted", "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
+/// number or null}, "front", "confirmed": {"points", "values", "within", "failed", "dominated", "breaking",
+/// "agree": of the last round}, "certified": number or null, "polishing_gain_percent": number or null,
+/// "report": path or null}, and "not_polished" and "error", which say why, if there is something to say.
+/// `runs` counts those that ended.
 std::string json_line(const Summary& summary);
 
 /// Several lines, each with its end.

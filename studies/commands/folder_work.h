@@ -12,8 +12,8 @@
 
 namespace drawpoint::studies {
 
-/// Opens the store, with the folder locked, prepares what runs share, has the work done, and concludes. A signal ends the work in
-/// good order with exit code 130 and a word on how to go on.
+/// Opens the store, with the folder locked, prepares what runs share, has the work done, and concludes. A
+/// signal ends the work in good order with exit code 130 and a word on how to go on.
 int work_in_folder(const Study& study, const Settings& settings,
                    const std::function<Store(const Folder& folder)>& open,
                    const std::function<void(Store& store, const Folder& folder)>& work);

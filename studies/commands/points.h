@@ -10,8 +10,8 @@
 
 namespace drawpoint::studies {
 
-/// One or more points, one after the other in `x`, as rows. Throws UsageError for a wrong number of values and
-/// for a value out of its range.
+/// One or more points, one after the other in `x`, as rows. Throws UsageError for a wrong number of values
+/// and for a value out of its range.
 Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x);
 
 }  // namespace drawpoint::studies

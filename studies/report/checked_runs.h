@@ -3,10 +3,10 @@
 #pragma once
 /// Predictions held against the runs that were made afterwards.
 ///
-/// The stated interval of a prediction is mean ± 1.96 standard deviations of one run, noise included, both ends
-/// within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the models when
-/// chance alone would give so few with a probability below 10 % (binomial). The responses of one run are not
-/// independent, so that this blames somewhat too often.
+/// The stated interval of a prediction is mean ± 1.96 standard deviations of one run, noise included, both
+/// ends within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the models
+/// when chance alone would give so few with a probability below 10 % (binomial). The responses of one run are
+/// not independent, so that this blames somewhat too often.
 
 #include <drawpoint/doe/outcome.hpp>
 
@@ -48,8 +48,8 @@ struct CheckedRuns {
 /// Probability that at most k of n independent values lie within intervals that hold 95 % each.
 double chance_of_at_most(int k, int n);
 
-/// "6 points, 16 of 18 values within the stated 95 % interval, 1 failed, 1 breaks a limit, 2 dominated by earlier
-/// runs"; what there is none of is left out but for the values.
+/// "6 points, 16 of 18 values within the stated 95 % interval, 1 failed, 1 breaks a limit, 2 dominated by
+/// earlier runs"; what there is none of is left out but for the values.
 std::string text(const CheckedRuns& checked);
 
 }  // namespace drawpoint::studies

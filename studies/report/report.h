@@ -6,9 +6,9 @@
 /// is built.
 ///
 /// Contents: a summary in words with cautions, findings held against the runs, figures of one simulation,
-/// trade-offs, what simulation said of them, response surfaces (the surrogates are evaluated in the browser), validation, the runs. Each
-/// part copes with what is missing: no validation runs, one response, no objective, no successful run.
-/// studies::Study lists the kinds of figures ("panels") of a simulation.
+/// trade-offs, what simulation said of them, response surfaces (the surrogates are evaluated in the browser),
+/// validation, the runs. Each part copes with what is missing: no validation runs, one response, no
+/// objective, no successful run. studies::Study lists the kinds of figures ("panels") of a simulation.
 
 #include <drawpoint/studies/report/checked_runs.h>
 #include <drawpoint/doe/evaluations.hpp>

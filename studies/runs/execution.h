@@ -20,8 +20,8 @@
 namespace drawpoint::studies {
 
 /// Fills folder.shared() in a child process, if the study asks for it and it is not there yet. The folder
-/// appears complete or not at all. What is there is checked (shared_files.h). Throws std::runtime_error with the
-/// child's reason or the file that is damaged, Interrupted after a signal.
+/// appears complete or not at all. What is there is checked (shared_files.h). Throws std::runtime_error with
+/// the child's reason or the file that is damaged, Interrupted after a signal.
 void prepare_shared(const Study& study, const OptionValues& options, const Folder& folder,
                     int message_descriptor);
 

@@ -26,8 +26,8 @@ class InterruptGuard {
   static bool requested();
 };
 
-/// While it lives, a signal ends the process with the guard's message and exit code 130: for work that looks at
-/// no flag and loses nothing. Throws Interrupted if a signal came before.
+/// While it lives, a signal ends the process with the guard's message and exit code 130: for work that looks
+/// at no flag and loses nothing. Throws Interrupted if a signal came before.
 class EndsAtOnce {
  public:
   EndsAtOnce();

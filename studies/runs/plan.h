@@ -5,8 +5,8 @@
 ///
 /// The points of the first design (training) are a Latin hypercube chosen for the distance between its points
 /// (doe/optimized_latin_hypercube.hpp), with the 2^d corners of the box in front when there are at least 2^d
-/// points. Validation points are independent and uniform. What comes after the first design is chosen elsewhere
-/// (sampling/). Each run has random numbers of its own, derived from the study seed.
+/// points. Validation points are independent and uniform. What comes after the first design is chosen
+/// elsewhere (sampling/). Each run has random numbers of its own, derived from the study seed.
 ///
 /// A study grows without losing a run: the store keeps the points, so that a study begun by another version
 /// grows from what it has. New validation points are more of the same. New training points are those of

@@ -15,8 +15,8 @@
 
 namespace drawpoint::studies {
 
-/// Places beside failures (failed_places.h) are not chosen: the models learn nothing there and would ask for them
-/// for ever.
+/// Places beside failures (failed_places.h) are not chosen: the models learn nothing there and would ask for
+/// them for ever.
 enum class BatchStatus {
   planned,
   complete,    ///< all points that are wanted are there

@@ -30,9 +30,9 @@ struct RoundPlan {
   std::string nothing = {};  ///< why there are no runs
 };
 
-/// The runs of a round: at the points that the user names (k x d) but for those that are confirmed already, then
-/// at those of the front of the present models, `points` at most, each with what the models say of it. Throws
-/// std::runtime_error if the runs do not allow models.
+/// The runs of a round: at the points that the user names (k x d) but for those that are confirmed already,
+/// then at those of the front of the present models, `points` at most, each with what the models say of it.
+/// Throws std::runtime_error if the runs do not allow models.
 RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, const Eigen::MatrixXd& named,
                      int points);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The criteria by which a study chooses its adaptive points, by name: several take turns, each for its share.
+/// The criteria by which a study chooses its adaptive points, by name: several take turns, each for its
+/// share.
 
 #include <drawpoint/doe/criterion.hpp>
 #include <drawpoint/kriging/model.hpp>

@@ -15,7 +15,8 @@ namespace drawpoint::studies::detail {
 /// SQL that makes the table.
 std::string create_runs(const Columns& columns);
 
-/// The rows for which `condition` (SQL) holds, in order of id, as they are, sound or not, with their checksums.
+/// The rows for which `condition` (SQL) holds, in order of id, as they are, sound or not, with their
+/// checksums.
 std::vector<std::pair<Run, std::string>> read_rows(SQLite::Database& database, const Columns& columns,
                                                    const std::string& condition);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What Study::prepare wrote, remembered by its checksums in DIR/shared.checksums: a settled pile that is damaged
-/// would fail every run, or, worse, change them.
+/// What Study::prepare wrote, remembered by its checksums in DIR/shared.checksums: a settled pile that is
+/// damaged would fail every run, or, worse, change them.
 
 #include <drawpoint/studies/store/folder.h>
 

@@ -66,8 +66,8 @@ struct Run {
   Eigen::VectorXd x;
   Status status = Status::planned;
   Eigen::VectorXd y;
-  /// What the models of the runs before it said of this run: mean and standard deviation of each response. NaN
-  /// (or, of a run that is being planned, empty) where nothing was predicted.
+  /// What the models of the runs before it said of this run: mean and standard deviation of each response.
+  /// NaN (or, of a run that is being planned, empty) where nothing was predicted.
   Eigen::VectorXd predicted, deviation;
   std::string reason;
   double seconds = 0.0;

@@ -84,8 +84,8 @@ double least_gap(const std::vector<studies::Run>& batch, const std::vector<studi
   return least;
 }
 
-// 25 points of a good design of the square are some 1/5 apart, so the middle of its holes is 1/(5 √2) = 0.14 from the
-// nearest; who looks for holes alone comes near to that, and further than half of it for certain.
+// 25 points of a good design of the square are some 1/5 apart, so the middle of its holes is 1/(5 √2) = 0.14
+// from the nearest; who looks for holes alone comes near to that, and further than half of it for certain.
 TEST_F(Adaptive, VoronoiAndDistanceFillHoles) {
   for (const char* criteria : {"voronoi", "distance"})
     EXPECT_GT(least_gap(batch({.points = 3, .criteria = criteria}), runs_), 0.07) << criteria;

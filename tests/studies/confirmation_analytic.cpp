@@ -50,8 +50,8 @@ TEST(Confirmation, ChanceIsBinomial) {
   for (const int n : {0, 1, 7, 1000}) EXPECT_EQ(chance_of_at_most(n, n), 1.0);
 }
 
-// A miss of one value happens in 0.05 of all cases, one or more of two in 0.0975, of three in 0.143; two or more of 18
-// in 0.226, three or more in 0.058. A tenth is the line.
+// A miss of one value happens in 0.05 of all cases, one or more of two in 0.0975, of three in 0.143; two or
+// more of 18 in 0.226, three or more in 0.058. A tenth is the line.
 TEST(Confirmation, AgreesUntilMissesAreMoreThanChance) {
   const auto verdict = [](int held, int values) {
     CheckedRuns checked;
@@ -91,8 +91,8 @@ TEST(Confirmation, CountsValuesWithinTheirIntervals) {
   EXPECT_TRUE(check_predictions(runs, bounded(), Kind::adaptive).runs.empty());
 }
 
-// Four points in one round, the first named by the user: what is better in the same round does not count, nor what breaks
-// the limit of 0.25, and no promise was made of the named one.
+// Four points in one round, the first named by the user: what is better in the same round does not count, nor
+// what breaks the limit of 0.25, and no promise was made of the named one.
 TEST(Confirmation, DominationIsByRunsBeforeTheRound) {
   const Eigen::Vector2d mean(100.0, 0.2), deviation(10.0, 0.01);
   const auto confirmed = [&](std::int64_t id, double production, double spill) {

@@ -64,8 +64,8 @@ double median_distance(const Eigen::MatrixXd& X) {
   return distances[distances.size() / 2];
 }
 
-// The formulas are quadratics, which polynomials and Kriging models with a quadratic trend both are to 1e-9: the
-// polished points of a mixed set are near the known set as those of the models alone below.
+// The formulas are quadratics, which polynomials and Kriging models with a quadratic trend both are to 1e-9:
+// the polished points of a mixed set are near the known set as those of the models alone below.
 TEST(Front, OfAMixedSetOfSurrogatesIsPolished) {
   const doe::Problem problem = support::unit_problem(3, 2);
   const Eigen::MatrixXd X = doe::latin_hypercube(problem, 30);
@@ -124,8 +124,8 @@ TEST(Front, NothingGetsWorse) {
   EXPECT_NEAR(after.polishing.gain, 100.0 * (is / was - 1.0), 1e-10);
 }
 
-// Four points of production against spill: two predict less than no spill, of which the better in production stays, with
-// no spill, and dominates the point that it ties with.
+// Four points of production against spill: two predict less than no spill, of which the better in production
+// stays, with no spill, and dominates the point that it ties with.
 TEST(Front, WhatIsPredictedIsPossible) {
   const doe::Problem problem{
       .variables = {{"x", "1", 0, 1}},
@@ -149,8 +149,8 @@ TEST(Front, WhatIsPredictedIsPossible) {
   EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(2, 3, 4));
 }
 
-// Of five front points on a line with runs at 0, 0.4 (failed twice), 0.6 (failed once of twice) and 1: those nearest
-// to 0.4 go, those nearest to 0.6 stay.
+// Of five front points on a line with runs at 0, 0.4 (failed twice), 0.6 (failed once of twice) and 1: those
+// nearest to 0.4 go, those nearest to 0.6 stay.
 TEST(Front, NothingBesideAFailedRunIsRecommended) {
   const doe::Problem problem{.variables = {{"x", "m", 0, 10}},
                              .responses = {{"mass", "kg", Goal::maximize}, {"spill", "1", Goal::minimize}}};
@@ -174,8 +174,8 @@ TEST(Front, NothingBesideAFailedRunIsRecommended) {
   EXPECT_EQ(found.front.X.rows(), 3);
 }
 
-// |x - a|² and |x - b|² with failures all along the middle of the segment from a to b: the front keeps its two ends
-// and goes around what failed.
+// |x - a|² and |x - b|² with failures all along the middle of the segment from a to b: the front keeps its
+// two ends and goes around what failed.
 TEST(Front, IsSearchedAroundFailures) {
   const doe::Problem problem = support::unit_problem(3, 2);
   const auto models = exact_models(problem, {near_a, near_b});
