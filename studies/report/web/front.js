@@ -25,7 +25,7 @@ function confirmed(data) {
     ...judged.flatMap(({response}) => [{title: `${labelled(response)} predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
   const cell = (r, j) => [`${number(r.lower[j])} to ${number(r.upper[j])}`,
     r.y === null ? 'failed' : number(r.y[j]) + (r.within[j] ? '' : ' outside')];
-  const note = (r) => [r.named ? 'named by the user' : '', r.y === null ? r.reason : '', r.breaks_limit ? 'breaks a limit' : '', r.dominated ? 'an earlier run was better' : ''].filter(Boolean).join(', ');
+  const note = (r) => [r.named ? 'named by the user' : '', r.y === null ? r.reason : '', r.breaks_limit ? 'breaks a limit' : '', r.dominated ? 'dominated' : ''].filter(Boolean).join(', ');
   const rows = data.confirmations.rows.map((r) => [r.run, r.round, ...r.x, ...judged.flatMap(({j}) => cell(r, j)), note(r)]);
   return el('div', {class: 'block'}, el('h3', {}, 'Confirmed by simulation'),
     el('p', {class: 'note'}, `Each run was predicted by the models of the runs before it; the interval given should hold 95 of 100 such runs. ${data.confirmations.text}.`),
