@@ -121,7 +121,9 @@ std::vector<Headline> headlines_of(const Study& study, const std::vector<const R
                                    const Folder& folder, std::vector<std::string>& warnings) {
   if (!study.headlines) return {};
   std::vector<std::filesystem::path> logs;
-  for (const Run* run : runs) logs.push_back(folder.log(run->id));
+  for (const Run* run : runs) {  // those that are spread over the whole box
+    if (run->kind == Kind::training || run->kind == Kind::validation) logs.push_back(folder.log(run->id));
+  }
   try {
     return study.headlines(logs);
   } catch (const std::exception& e) {

@@ -17,18 +17,29 @@ Eigen::MatrixXd responses_of(const doe::Evaluations& table) {
   return Y;
 }
 
+/// Adaptive runs and confirmed points crowd where the study looked; what is claimed is claimed of the whole box.
+doe::Evaluations first_design_of(const ReportInput& input) {
+  doe::Evaluations table{.problem = input.problem, .rows = {}};
+  for (const auto& row : input.training.rows) {
+    const auto kind = input.kinds.find(row.run);
+    if (kind == input.kinds.end() || kind->second == name_of(Kind::training)) table.rows.push_back(row);
+  }
+  return table;
+}
+
 StudyResults results_of(const ReportInput& input, const std::vector<const Run*>& logged,
                         const Folder& folder) {
   std::set<std::int64_t> with_log;
   for (const Run* run : logged) with_log.insert(run->id);
+  const doe::Evaluations training = first_design_of(input);
   StudyResults results{.problem = input.problem,
-                       .X = input.training.X(),
-                       .Y = responses_of(input.training),
+                       .X = training.X(),
+                       .Y = responses_of(training),
                        .X_new = input.validation.X(),
                        .Y_new = responses_of(input.validation),
                        .logs = {},
                        .nrmse = {}};
-  for (const auto& row : input.training.rows) {
+  for (const auto& row : training.rows) {
     if (row.outcome.failed()) continue;
     results.logs.push_back(with_log.contains(row.run) ? folder.log(row.run) : std::filesystem::path());
   }

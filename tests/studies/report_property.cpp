@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <drawpoint/studies/analysis/findings.h>
 #include <drawpoint/studies/report/page.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 #include <regex>
@@ -106,6 +107,22 @@ TEST_F(Report, SaysTheFindingsApartFromTheFiguresOfOneRun) {
   EXPECT_EQ(data.at("findings"),
             nlohmann::json({{"F1", "it pays", "not reproduced", "0.1"}, {"F2", "it costs", "unclear", ""}}));
   EXPECT_TRUE(data.at("illustrations").empty());
+}
+
+// Runs 6 and 7 were chosen where the study looked: a claim about the whole box is not held against them.
+TEST_F(Report, FindingsAreHeldAgainstTheFirstDesign) {
+  ReportInput in = input(2, 2, 8, 3);
+  in.kinds = {{0, "training"}, {6, "adaptive"}, {7, "confirmation"}};
+  StudyResults held;
+  const Study study{.findings = [&](const StudyResults& results) {
+    held = results;
+    return std::vector<Finding>();
+  }};
+  hold_findings(in, study, {}, Folder{});
+  EXPECT_EQ(held.X, in.training.X().topRows(6));
+  EXPECT_EQ(held.Y.rows(), 6);
+  EXPECT_EQ(held.logs.size(), 6u);
+  EXPECT_EQ(held.X_new.rows(), 3);
 }
 
 TEST_F(Report, CopesWithAnyNumberOfVariablesAndResponses) {
