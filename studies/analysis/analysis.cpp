@@ -40,11 +40,6 @@ std::string failure_warning(const doe::Evaluations& training, const doe::Evaluat
   return text;
 }
 
-bool has_objectives(const doe::Problem& problem) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [](const doe::Response& response) { return doe::is_objective(response.goal); });
-}
-
 void warn(ReportInput& input, const std::vector<Run>& runs) {
   const std::string failures = failure_warning(input.training, input.validation);
   if (!failures.empty())
@@ -58,7 +53,7 @@ void warn(ReportInput& input, const std::vector<Run>& runs) {
     input.warnings.push_back("Model of " + input.problem.responses[j].name + ": " +
                              input.models[j].message() + ".");
   }
-  if (!input.no_front.empty() && has_objectives(input.problem))
+  if (!input.no_front.empty() && has_objective(input.problem))
     input.warnings.push_back("There is no front: " + input.no_front + ".");
   if (input.validation.X().rows() == 0) {
     input.warnings.push_back("Without a validation run, nothing tells how good the models are.");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/confirmations.h>
+#include <drawpoint/pareto/detail/roles.hpp>
 #include <drawpoint/pareto/dominance.hpp>
 
 #include <algorithm>
@@ -9,11 +10,8 @@
 namespace drawpoint::studies {
 namespace {
 
-constexpr double two_sided_deviations = 1.959963984540054;  // 95 % of a normal variable
-
 bool breaks_limit(const doe::Response& response, double y) {
-  return doe::is_constraint(response.goal) &&
-         doe::sign_of(response.goal) * y > doe::sign_of(response.goal) * response.limit;
+  return doe::is_constraint(response.goal) && pareto::detail::violation(response, y) > 0.0;
 }
 
 bool keeps_all_limits(const Run& run, const doe::Problem& problem) {
@@ -49,7 +47,7 @@ CheckedRun checked_run(const Run& run, const doe::Problem& problem) {
   if (!done) checked.outcome = doe::Failure{run.reason};
   for (Eigen::Index j = 0; j < run.predicted.size(); ++j) {
     const doe::Response& response = problem.responses[static_cast<std::size_t>(j)];
-    const double margin = two_sided_deviations * run.deviation[j];
+    const double margin = interval_deviations * run.deviation[j];
     checked.predicted[j] = doe::within_range(response, run.predicted[j]);
     checked.lower[j] = doe::within_range(response, run.predicted[j] - margin);
     checked.upper[j] = doe::within_range(response, run.predicted[j] + margin);

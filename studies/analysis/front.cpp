@@ -63,12 +63,15 @@ pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const 
   return found;
 }
 
+bool has_objective(const doe::Problem& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const doe::Response& response) { return doe::is_objective(response.goal); });
+}
+
 PredictedFront predicted_front(const std::vector<kriging::Model>& models, const Tables& tables,
                                doe::Seed seed) {
   const doe::Problem& problem = tables.training.problem;
-  const auto objective = [](const doe::Response& response) { return doe::is_objective(response.goal); };
-  if (std::none_of(problem.responses.begin(), problem.responses.end(), objective))
-    return {.found = {}, .missing = "no response is to be minimized or maximized"};
+  if (!has_objective(problem)) return {.found = {}, .missing = "no response is to be minimized or maximized"};
   PredictedFront predicted{.found = front_of(models, problem, seed, FailedPlaces(tables))};
   if (predicted.found.front.X.rows() > 0) return predicted;
   predicted.missing = predicted.found.front.message;

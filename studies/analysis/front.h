@@ -23,6 +23,9 @@ namespace drawpoint::studies {
 pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
                                doe::Seed seed, const FailedPlaces& failed = {});
 
+/// Whether there is anything to search for.
+bool has_objective(const doe::Problem& problem);
+
 /// The front of a study, or why it has none.
 struct PredictedFront {
   pareto::PolishedFront found;

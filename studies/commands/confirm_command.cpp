@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/confirmations.h>
+#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
 #include <drawpoint/studies/commands/points.h>
@@ -86,9 +87,7 @@ void confirm_front(Store& store, const Folder& folder, const Settings& settings)
 }  // namespace
 
 int confirm_command(const Study& study, const Settings& settings) {
-  const auto objective = [](const doe::Response& response) { return doe::is_objective(response.goal); };
-  const auto& responses = study.problem.responses;
-  if (settings.confirm.x.empty() && std::none_of(responses.begin(), responses.end(), objective))
+  if (settings.confirm.x.empty() && !has_objective(study.problem))
     throw UsageError(
         "confirm: no response is minimized or maximized, so there is no front; name points with --x");
   named_points(study.problem, settings.confirm);  // refused before anything is done

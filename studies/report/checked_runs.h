@@ -17,6 +17,9 @@
 
 namespace drawpoint::studies {
 
+/// Half of an interval that holds 95 % of a normal variable, in standard deviations.
+inline constexpr double interval_deviations = 1.959963984540054;
+
 /// One entry per response in predicted, lower, upper and within.
 struct CheckedRun {
   std::int64_t run = 0;

@@ -121,7 +121,7 @@ Eigen::MatrixXd margins(const ReportInput& input) {
   Eigen::MatrixXd all(input.front.X.rows(), static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const auto p = input.models[chosen[k]].predict(input.front.X, kriging::Target::observation);
-    all.col(static_cast<Eigen::Index>(k)) = 1.959963984540054 * p.variance.cwiseMax(0.0).cwiseSqrt();
+    all.col(static_cast<Eigen::Index>(k)) = interval_deviations * p.variance.cwiseMax(0.0).cwiseSqrt();
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/sampling/confirmation.h>
+#include <drawpoint/pareto/detail/normalized.hpp>
 #include <drawpoint/pareto/knees.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
@@ -10,13 +11,6 @@
 
 namespace drawpoint::studies {
 namespace {
-
-/// Every objective from 0 to 1 on the front.
-Eigen::MatrixXd on_one_scale(const Eigen::MatrixXd& Y) {
-  const Eigen::RowVectorXd low = Y.colwise().minCoeff();
-  const Eigen::RowVectorXd range = Y.colwise().maxCoeff() - low;
-  return (Y.rowwise() - low).array().rowwise() / range.array().max(1e-300);
-}
 
 /// The points that matter, the most important first.
 std::vector<int> rows_that_matter(const pareto::Front& front, const doe::Problem& problem) {
@@ -67,7 +61,7 @@ std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Proble
   const auto n = front.X.rows();
   std::vector<int> chosen;
   if (n == 0) return chosen;
-  const Eigen::MatrixXd F = on_one_scale(front.Y);
+  const Eigen::MatrixXd F = pareto::detail::normalized(problem, front).F;
   Eigen::MatrixXd taken = confirmed;
   Eigen::VectorXd distance = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   const auto cover = [&](int row) {

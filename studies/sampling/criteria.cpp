@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/sampling/criteria.h>
@@ -103,8 +104,7 @@ std::vector<CriterionShare> criteria_from(const std::string& text) {
 }
 
 void check_criteria(const std::string& text, const doe::Problem& problem) {
-  const auto objective = [](const doe::Response& response) { return doe::is_objective(response.goal); };
-  if (std::any_of(problem.responses.begin(), problem.responses.end(), objective)) return;
+  if (has_objective(problem)) return;
   for (const auto& share : criteria_from(text)) {
     if (share.name == "improvement")
       throw UsageError(
