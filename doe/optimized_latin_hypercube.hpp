@@ -9,9 +9,10 @@
 /// (Fang, Li, Sudjianto 2006). Maximin is searched through phi_p with p = 100, whose smallest value is the
 /// largest distance as p → ∞.
 ///
-/// Two searches, and the better result counts: a random Latin hypercube is annealed (latin_annealing.hpp),
-/// and the best of many good lattice point sets (lattice.hpp) is improved by descent. Lattices win for many
-/// runs in few variables, annealing for few runs. Fixed runs (corners) count in the criterion. Integer and
+/// Two searches: a random Latin hypercube is annealed (latin_annealing.hpp), and the best of many good lattice
+/// point sets (lattice.hpp) is improved by descent. Lattices reach the larger distances for many runs in few
+/// variables, but sample a wave at regular places: a model of it may be wrong everywhere between them, and
+/// leave-one-out does not tell. So the default anneals. Fixed runs (corners) count in the criterion. Integer and
 /// categorical variables stay balanced; levels of a categorical variable are taken as if they were in order,
 /// which costs evenness, not balance. Cost O(sweeps n² d²) time, O(n d) memory. n = 500, d = 4 takes below a
 /// second.
@@ -35,7 +36,7 @@ namespace drawpoint::doe {
 
 enum class LatinCriterion { maximin, phi_p, centred_discrepancy };
 
-/// Where the search starts: `best` tries both, each with half of the sweeps.
+/// Where the search starts: `best` tries both, each with half of the sweeps, and takes the more even result.
 enum class LatinStart { best, random, lattice };
 
 struct OptimizedLatinOptions {
@@ -45,7 +46,7 @@ struct OptimizedLatinOptions {
   /// Budget, 0 or more; empty: 2e8/(n d)² up to 2000, but 10 up to n d = 14 000, then fewer, never below
   /// 2: below a second up to n d = 5000, a few seconds up to 20 000.
   std::optional<int> sweeps = {};
-  LatinStart start = LatinStart::best;
+  LatinStart start = LatinStart::random;
   bool corners = false;  ///< the 2^d corners come first and count in `runs`
   bool centred = true;   ///< runs in the middle of their strata; false: at random inside them
 };
@@ -158,6 +159,12 @@ inline Eigen::MatrixXd lattice_start(const LatinSearch& search, const Problem& p
   return best;
 }
 
+/// Annealings that share `sweeps`: small designs have deep local optima, and many starts are the cure.
+inline int annealing_starts(int n, Eigen::Index d, int sweeps) {
+  const int by_size = static_cast<int>(600 / std::max<Eigen::Index>(n * d, 1));
+  return std::clamp(by_size, 1, std::clamp(sweeps / 50, 1, 40));
+}
+
 /// n x d in the unit box; `fixed` rows count in the criterion.
 inline Eigen::MatrixXd optimized_unit_latin(const Problem& problem, int n,
                                             const OptimizedLatinOptions& options, Eigen::MatrixXd fixed) {
@@ -180,8 +187,12 @@ inline Eigen::MatrixXd optimized_unit_latin(const Problem& problem, int n,
     consider(lattice_start(search, problem, n, options.centred, random), 0.0, random);
   }
   if (options.start != LatinStart::lattice) {
-    RandomStream random(run_seed(options.seed, 1, 0));
-    consider(placed(random_strata(n, d, random), problem, options.centred, n, random), 1e-3, random);
+    const int starts = annealing_starts(n, d, sweeps);
+    search.schedule.sweeps = sweeps / starts;
+    for (int start = 0; start < starts; ++start) {
+      RandomStream random(run_seed(options.seed, 1, start));
+      consider(placed(random_strata(n, d, random), problem, options.centred, n, random), 1e-3, random);
+    }
   }
   return best;
 }

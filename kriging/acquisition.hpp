@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -30,7 +31,7 @@
 #include <drawpoint/doe/criterion.hpp>
 #include <drawpoint/doe/detail/nearest.hpp>
 #include <drawpoint/doe/outcome.hpp>
-#include <drawpoint/kriging/detail/blind.hpp>
+#include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/detail/normal.hpp>
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
@@ -58,8 +59,19 @@ inline void check_finite(const char* place, const char* name, double value) {
 /// most λs²(1 + 1/4), with the small λ of reinterpolation.hpp.
 inline double variance_floor(const Model& interpolating) { return 2.0 * interpolating.noise_variance(); }
 
-/// The surrogate that a search for improvement asks: a Kriging model is re-interpolated, and its round-off at
-/// the runs is no variance.
+/// The Kriging model that a surrogate is or holds, else nullptr.
+template <class S>
+const Model* kriging_model(const S& surrogate) {
+  if constexpr (std::is_same_v<S, Model>)
+    return &surrogate;
+  else if constexpr (requires { surrogate.template as<Model>(); })
+    return surrogate.template as<Model>();
+  else
+    return nullptr;
+}
+
+/// The surrogate that a search for improvement asks: a Kriging model, also one behind AnySurrogate, is
+/// re-interpolated, and its round-off at the runs is no variance.
 template <class S>
 class SearchModel {
  public:
@@ -68,17 +80,16 @@ class SearchModel {
   /// Of the latent function at the m x d points.
   Prediction predict(const Eigen::MatrixXd& X) const {
     Prediction p = model_.predict(X);
-    if constexpr (std::is_same_v<S, Model>)
-      for (double& v : p.variance) v = v <= variance_floor(model_) ? 0.0 : v;
+    if (const Model* model = kriging_model(model_))
+      for (double& v : p.variance) v = v <= variance_floor(*model) ? 0.0 : v;
     return p;
   }
 
  private:
   static S searched(const S& model) {
-    if constexpr (std::is_same_v<S, Model>)
-      return reinterpolated(model);
-    else
-      return model;
+    if constexpr (std::constructible_from<S, Model>)
+      if (const Model* kriging = kriging_model(model)) return S(reinterpolated(*kriging));
+    return model;
   }
 
   S model_;
@@ -178,7 +189,7 @@ inline doe::Criterion cross_validation_error(const Model& model) {
   const detail::ModelState& s = model.state();
   if (s.X.rows() == 0)
     return [](const Eigen::MatrixXd& X) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(X.rows()); };
-  Eigen::VectorXd error = detail::entry_quotients(s.gls.alpha, detail::diagonal_of_P(s));
+  Eigen::VectorXd error = detail::left_out_errors(s.L, s.gls);
   for (double& e : error) e = s.y_scale * std::abs(e);
   return [input = s.input, runs = s.X, error](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
     const std::vector<int> site = doe::detail::nearest_sites(input.apply(X), runs).site;

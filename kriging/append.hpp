@@ -42,8 +42,11 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
   if (runs.X.rows() != runs.y.size())
     reject("X has " + std::to_string(runs.X.rows()) + " rows but y has " + std::to_string(runs.y.size()) +
            " entries; give one response a run");
-  if (!all_finite(runs.X) || !all_finite(runs.y))
-    reject("X or y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
+  if (!std::all_of(runs.X.data(), runs.X.data() + runs.X.size(), is_usable) ||
+      !std::all_of(runs.y.begin(), runs.y.end(), is_usable))
+    reject(
+        "X or y holds a number that is not finite or beyond 1e150; allowed are magnitudes up to 1e150; leave "
+        "failed runs out");
   const Eigen::Index wanted = s.noise.size() ? runs.y.size() : 0;
   if (runs.noise_variance.size() != wanted)
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +

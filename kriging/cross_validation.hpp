@@ -17,7 +17,7 @@
 #include <concepts>
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/seed.hpp>
-#include <drawpoint/kriging/detail/blind.hpp>
+#include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <optional>
 #include <stdexcept>
@@ -39,7 +39,7 @@ inline Validation leave_one_out(const Model& model) {
     v.variance = v.observation_variance = Eigen::VectorXd::Constant(n, s.constant_variance);
     return detail::scored(std::move(v));
   }
-  const Eigen::VectorXd P = detail::diagonal_of_P(s);
+  const Eigen::VectorXd P = detail::diagonal_of_P(s.L, s.gls);
   const Eigen::VectorXd error = detail::entry_quotients(s.gls.alpha, P), noise = detail::added_noise(s);
   v.predicted = v.variance = v.observation_variance = s.observed;
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -4,8 +4,9 @@
 
 /// Fits Kriging to runs: `Model model = fit(X, y);`
 ///
-/// θ, the exponents and λ maximise the concentrated log likelihood (likelihood.hpp); search.hpp says how they
-/// are found. The default is regression Kriging with the Gaussian correlation and a constant trend.
+/// θ, the exponents and λ maximise the concentrated log likelihood (likelihood.hpp), by default with a prior
+/// (prior.hpp); search.hpp says how they are found. The default is regression Kriging with the Gaussian
+/// correlation and a constant trend.
 ///
 /// Deterministic: equal input gives equal bits on any number of threads. Safe to call concurrently; the last
 /// part of the searches then wait for each other. Cost: see search.hpp; O(n²) memory. A model is always
@@ -17,11 +18,13 @@
 #include <drawpoint/doe/detail/threads.hpp>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/kriging/detail/parameter_uncertainty.hpp>
 #include <drawpoint/kriging/detail/search.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -32,10 +35,15 @@ namespace detail {
 inline constexpr double condition_limit = 1e14;  // leaves two of the 16 digits
 
 inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitOptions& options) {
-  return {data.X,           data.y,
-          data.F,           data.noise,
-          data.known_noise, options.correlation,
-          options.exponent, doe::detail::thread_count(options.threads)};
+  return {data.X,
+          data.y,
+          data.F,
+          data.noise,
+          data.known_noise,
+          options.correlation,
+          options.exponent,
+          doe::detail::thread_count(options.threads),
+          options.estimation == Estimation::penalized_likelihood};
 }
 
 /// Bounds of (ln θ, exponents, ln λ). An input that never varies has no θ to estimate: it is fixed.
@@ -61,7 +69,11 @@ inline void report_search(const Search& search, Likelihood& likelihood, FitRepor
   report.condition = likelihood.condition();
   report.status = search.best.converged ? Status::converged : Status::not_converged;
   report.message = std::to_string(search.agreed) + " of " + std::to_string(search.tried) +
-                   " local searches agreed on the best likelihood";
+                   " local searches agreed on the chosen maximum";
+  if (search.error_ratio < 1.0)
+    report.message += ", which is " + text(search.height_left) +
+                      " lower in log likelihood than the highest one, but has " + text(search.error_ratio) +
+                      " of its leave-one-out error";
   if (!search.best.converged)
     report.message += "; the best of them ended before its stopping rule: raise max_iterations or starts";
   if (!(report.condition < condition_limit)) {
@@ -132,7 +144,56 @@ inline ModelState state_of(const TrainingData& data, const Likelihood& likelihoo
   return s;
 }
 
+/// Relative round-off of a standardised response: that of y and of a sum of a few terms of its size.
+inline double response_roundoff(const TrainingData& data) {
+  const double size = std::max(largest_entry(data.observed), -smallest_entry(data.observed));
+  return 64.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, size / data.y_scale);
+}
+
+/// Trend and round-off, where the trend alone meets all runs; empty where it does not. There is no correlation to
+/// estimate then: its likelihood has no bound.
+inline std::optional<Model> exact_trend(const TrainingData& data, const FitOptions& options) {
+  const Eigen::Index n = data.y.size();
+  ModelState s;
+  s.gls = least_squares(scaled_identity(n, 1.0), data.F, data.y);
+  const double roundoff = response_roundoff(data);
+  if (data.trend.is_constant() || s.gls.sum_of_squares > roundoff * roundoff * static_cast<double>(n))
+    return {};
+  s.input = data.input;
+  s.y_centre = data.y_centre;
+  s.y_scale = data.y_scale;
+  s.observed = data.observed;
+  s.correlation = {options.correlation, Eigen::VectorXd::Constant(data.X.cols(), options.theta_upper),
+                   options.exponent};
+  if (options.correlation == Correlation::power_exponential && s.correlation.exponent.size() == 0)
+    s.correlation.exponent = Eigen::VectorXd::Constant(data.X.cols(), 2.0);
+  s.nugget = 1.0;
+  s.trend = data.trend;
+  s.X = data.X;
+  s.F = data.F;
+  s.y = data.y;
+  fill_correlation(s.X, s.correlation, s.L);
+  add_to_diagonal(s.L, s.nugget);
+  factor(block_of(s.L), 1);
+  clear_upper(s.L);
+  s.gls = least_squares(s.L, s.F, s.y);
+  s.process_variance = roundoff * roundoff;
+  s.report.status = Status::exact_trend;
+  s.report.message =
+      "the trend meets all " + std::to_string(n) + " runs to round-off: the model is the trend";
+  add_remarks(data, s.report);
+  return Model(std::move(s));
+}
+
+/// What the fit leaves unknown of its parameters at p, where the likelihood stands.
+inline Eigen::MatrixXd spread_at(Likelihood& likelihood, const Box& box, const Eigen::VectorXd& p) {
+  if (likelihood.runs() <= many) return parameter_spread(likelihood, box, p);
+  Likelihood few(thinned(likelihood.problem()));
+  return parameter_spread(few, box, p, static_cast<double>(likelihood.runs()) / static_cast<double>(many));
+}
+
 inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
+  if (std::optional<Model> exact = exact_trend(data, options)) return *std::move(exact);
   Likelihood likelihood(likelihood_problem(data, options));
   Box box = parameter_box(data, likelihood, options);
   FitReport report;
@@ -146,6 +207,8 @@ inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
     found = search(likelihood, box, options, report.evaluations);
   }
   likelihood.value(found.best.p);
+  const Eigen::MatrixXd spread =
+      options.parameter_uncertainty ? spread_at(likelihood, box, found.best.p) : Eigen::MatrixXd();
   report_search(found, likelihood, report);
   report.evaluations += likelihood.factorizations();
   if (singular) {
@@ -154,7 +217,9 @@ inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {
                       text(likelihood.nugget());
   }
   add_remarks(data, report);
-  return Model(state_of(data, likelihood, std::move(report)));
+  ModelState state = state_of(data, likelihood, std::move(report));
+  state.parameter_spread = spread;
+  return Model(std::move(state));
 }
 
 }  // namespace detail

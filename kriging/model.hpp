@@ -8,7 +8,8 @@
 ///   mean        ŷ(x)    = fᵀβ + rᵀα
 ///   variance    s²(x)   = s² [1 − rᵀR⁻¹r + uᵀ(FᵀR⁻¹F)⁻¹u],  u = f − FᵀR⁻¹r
 ///   covariance  s²(x,z) = s² [c(x, z) − rₓᵀR⁻¹r_z + uₓᵀ(FᵀR⁻¹F)⁻¹u_z]
-/// The last terms are what estimating β adds. This is about the latent function, the response without noise;
+/// The last terms are what estimating β adds; unless FitOptions says otherwise there is one more, gᵀVg for what
+/// estimating θ, the exponents and λ adds (detail/parameter_uncertainty.hpp). This is about the latent function, the response without noise;
 /// its variance does not vanish at the runs when λ > 0. A new noisy observation has the variance s²(x) + λ
 /// s², where runs of different noise have their mean. Units: mean in the unit of y, variance in its square.
 /// Cost a point: mean n d, variance n² more, covariance of m points m n² + m² n. Source: Forrester, Keane,
@@ -21,6 +22,7 @@
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/model_state.hpp>
+#include <drawpoint/kriging/detail/parameter_uncertainty.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>
 #include <stdexcept>
@@ -48,7 +50,9 @@ class Model {
     stretched_ = runs_;
     for (Eigen::Index j = 0; j < runs_.cols(); ++j)
       for (Eigen::Index k = 0; k < runs_.rows(); ++k) stretched_(k, j) *= std::sqrt(s_.correlation.theta[k]);
-    if (s_.X.rows() > 0) triangle_ = s_.gls.T.transpose();
+    if (s_.X.rows() == 0) return;
+    triangle_ = s_.gls.T.transpose();
+    effects_ = detail::parameter_effects(s_);
   }
 
   /// X: m x d, natural units. Throws std::invalid_argument for another number of columns and for numbers that
@@ -103,6 +107,7 @@ class Model {
     g.variance =
         detail::difference(detail::transposed_product(dv, v), detail::transposed_product(at.slopes, w));
     g.variance = detail::affine(g.variance, 2.0 * process_variance());
+    if (!effects_.none()) add_parameter_slopes(at, g.variance);
     return g;
   }
 
@@ -119,15 +124,19 @@ class Model {
     if (s_.X.rows() == 0) return detail::scaled_identity(X.rows(), s_.constant_variance);
     const Eigen::MatrixXd scaled = s_.input.apply(X);
     Eigen::MatrixXd R = correlations(scaled), C;
-    Eigen::MatrixXd V = trend_part(X, scaled, R);
+    const Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
+    const Eigen::MatrixXd W = parameter_part(scaled, R, F);
+    Eigen::MatrixXd V = trend_part(F, R);
     detail::solve_right(detail::block_of(s_.L), detail::block_of(R));
     fill_correlation(scaled, s_.correlation, C);
     detail::add_product(detail::block_of(V), detail::block_of(V), 1.0, detail::block_of(C),
                         detail::Part::lower);
     detail::add_product(detail::block_of(R), detail::block_of(R), -1.0, detail::block_of(C),
                         detail::Part::lower);
-    detail::mirror_lower(C);
     for (double& entry : C.reshaped()) entry *= process_variance();
+    detail::add_product(detail::block_of(W), detail::block_of(W), 1.0, detail::block_of(C),
+                        detail::Part::lower);
+    detail::mirror_lower(C);
     return C;
   }
 
@@ -178,7 +187,7 @@ class Model {
 
   // Correlations with the runs and terms of the trend at one point, with their derivatives by the inputs.
   struct SlopesAt {
-    Eigen::VectorXd r, trend;              // n, q
+    Eigen::VectorXd scaled, r, trend;      // d, n, q
     Eigen::MatrixXd slopes, trend_slopes;  // n x d, q x d
   };
 
@@ -186,7 +195,8 @@ class Model {
     const Eigen::VectorXd scaled = s_.input.apply(x.transpose()).transpose();
     const Eigen::VectorXd half_range = s_.input.half_range();
     const detail::TrendPoint point{x, scaled, half_range};
-    SlopesAt at{cross_correlation(s_.X, scaled.transpose(), s_.correlation).col(0),
+    SlopesAt at{scaled,
+                cross_correlation(s_.X, scaled.transpose(), s_.correlation).col(0),
                 s_.trend.values(point),
                 {},
                 s_.trend.jacobian(point)};
@@ -244,25 +254,44 @@ class Model {
     return sums;
   }
 
-  // Rows T⁻ᵀu of the points, m x q.
-  Eigen::MatrixXd trend_part(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled,
-                             const Eigen::MatrixXd& R) const {
-    Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
+  // Rows T⁻ᵀu of the points, m x q, from the terms F of the trend.
+  Eigen::MatrixXd trend_part(Eigen::MatrixXd F, const Eigen::MatrixXd& R) const {
     detail::solve_right(detail::block_of(triangle_), detail::block_of(F));
     for (Eigen::Index j = 0; j < F.cols(); ++j)
       detail::add_product(detail::column(F, j), -1.0, R, detail::column(s_.gls.B, j));
     return F;
   }
 
+  // What a deviation along each direction of the parameters moves the means by, unit of y: m x k, k >= 1.
+  Eigen::MatrixXd parameter_part(const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& R,
+                                 const Eigen::MatrixXd& F) const {
+    if (effects_.none()) return Eigen::MatrixXd::Zero(scaled.rows(), 1);
+    Eigen::MatrixXd W = detail::mean_deviations(s_, effects_, {scaled, R, F});
+    for (double& entry : W.reshaped()) entry *= s_.y_scale;
+    return W;
+  }
+
+  // Adds ∂(gᵀVg)/∂x, unit of y squared.
+  void add_parameter_slopes(const SlopesAt& at, Eigen::VectorXd& slope) const {
+    const Eigen::MatrixXd scaled = at.scaled.transpose(), R = at.r.transpose(), F = at.trend.transpose();
+    const Eigen::VectorXd w = parameter_part(scaled, R, F).transpose();
+    const Eigen::MatrixXd dw =
+        detail::mean_deviation_slopes(s_, effects_, {at.scaled, at.r, at.slopes, at.trend_slopes});
+    detail::add_scaled(slope.data(), 2.0 * s_.y_scale, detail::transposed_product(dw, w).data(),
+                       slope.size());
+  }
+
   Eigen::VectorXd variance_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const {
     if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.constant_variance);
     Eigen::MatrixXd R = correlations(scaled);
-    const Eigen::VectorXd missing = detail::row_squares(trend_part(X, scaled, R));
+    const Eigen::MatrixXd F = detail::trend_matrix(s_.trend, X, scaled, s_.input);
+    const Eigen::VectorXd unknown = detail::row_squares(parameter_part(scaled, R, F));
+    const Eigen::VectorXd missing = detail::row_squares(trend_part(F, R));
     detail::solve_right(detail::block_of(s_.L), detail::block_of(R));
     Eigen::VectorXd variance = detail::row_squares(R);  // explained
     // Round-off may leave a small negative number at a run.
     for (Eigen::Index i = 0; i < variance.size(); ++i)
-      variance[i] = process_variance() * std::max(1.0 - variance[i] + missing[i], 0.0);
+      variance[i] = process_variance() * std::max(1.0 - variance[i] + missing[i], 0.0) + unknown[i];
     return variance;
   }
 
@@ -270,6 +299,7 @@ class Model {
   Eigen::MatrixXd runs_;       // X transposed: a run's coordinates stand together
   Eigen::MatrixXd stretched_;  // the same times √θ
   Eigen::MatrixXd triangle_;   // Tᵀ
+  detail::ParameterEffects effects_;
 };
 
 }  // namespace drawpoint::kriging

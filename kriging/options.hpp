@@ -24,6 +24,14 @@ enum class Noise {
   proportional,  ///< the variance of each run up to a common factor, which is estimated as λ
 };
 
+/// What is maximised.
+enum class Estimation {
+  /// Likelihood times the jointly robust prior (detail/prior.hpp); of several maxima the one that
+  /// leave-one-out prefers (detail/choice.hpp).
+  penalized_likelihood,
+  maximum_likelihood,  ///< the likelihood alone, its highest maximum
+};
+
 struct FitOptions {
   doe::Seed seed = 1;  ///< of the candidates
 
@@ -44,6 +52,11 @@ struct FitOptions {
   int candidates = 128;      ///< points from which the starts are chosen by their likelihood, >= starts
   int max_iterations = 200;  ///< of one local search, >= 1
 
+  Estimation estimation = Estimation::penalized_likelihood;
+  /// Whether variances hold what the estimates of θ, the exponents and λ leave unknown
+  /// (detail/parameter_uncertainty.hpp).
+  bool parameter_uncertainty = true;
+
   Correlation correlation = Correlation::gaussian;
   /// power_exponential only: pₖ in [1, 2], one entry per variable. Empty: estimated.
   Eigen::VectorXd exponent;
@@ -63,6 +76,7 @@ enum class Status {
   converged,          ///< the best local search met its stopping rule
   not_converged,      ///< the best search ended before its stopping rule: valid, maybe not the likeliest
   constant_response,  ///< all y are equal: the model is that constant with variance 0
+  exact_trend,        ///< the trend meets all y to round-off: the model is the trend, variance round-off
   ill_conditioned,    ///< a valid model, but R is so close to singular that few digits can be trusted
   too_few_runs  ///< one run: that constant, variance +∞; or the trend asked for has more terms than runs
 };
@@ -75,6 +89,8 @@ inline std::string_view to_string(Status status) {
       return "not_converged";
     case Status::constant_response:
       return "constant_response";
+    case Status::exact_trend:
+      return "exact_trend";
     case Status::ill_conditioned:
       return "ill_conditioned";
     case Status::too_few_runs:
@@ -87,7 +103,7 @@ struct FitReport {
   Status status = Status::converged;
   std::string message;    ///< for people; names also the inputs that never vary
   int starts_tried = 0;   ///< local searches that were run
-  int starts_agreed = 0;  ///< of these, how many came within 0.1 of the best log likelihood
+  int starts_agreed = 0;  ///< of these, how many came within 0.1 of the chosen maximum, or above it
   int evaluations = 0;    ///< correlation matrices factored, the screening of the candidates included
   double condition = 1;   ///< estimate of the 1-norm condition number of R
 };

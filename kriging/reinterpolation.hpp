@@ -9,7 +9,7 @@
 ///   s²_ri [1 − rᵀC⁻¹r + uᵀ(FᵀC⁻¹F)⁻¹u],  s²_ri = αᵀC α/n,
 /// and vanishes at the runs, so that a search for improvement does not ask for the same run again. C without
 /// the nugget may be singular to round-off: the smallest of n·ε·4·10ᵏ that lets it be factored is added to
-/// its diagonal, and the variance at the runs stays below that share of s²_ri. Cost n³/3. Source: Forrester,
+/// its diagonal, and the variance at the runs stays below that share of s²_ri. θ is taken as known. Cost n³/3. Source: Forrester,
 /// Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy' Computer Experiments".
 
 #include <Eigen/Core>
@@ -41,6 +41,7 @@ inline Model reinterpolated(const Model& model) {
   detail::clear_upper(s.L);
   s.y = detail::difference(s.y, share);
   s.noise.resize(0);
+  s.parameter_spread.resize(0, 0);
   s.known_noise = 0;
   s.gls = detail::least_squares(s.L, s.F, s.y);
   s.gls.beta = regression.beta;

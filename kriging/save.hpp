@@ -5,7 +5,7 @@
 /// Kriging models as JSON text: `save(model, "wear.json")`, `load("wear.json")`.
 ///
 /// The file holds all that makes the model, the factor of R included, so that a loaded model predicts the
-/// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 1}, on one line.
+/// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 2}, on one line.
 /// Numbers are the shortest text that reads back as the same double; ±∞ and NaN, which JSON lacks, are the
 /// texts "inf", "-inf" and "nan", where a field may be that. Matrices are {"columns", "rows", "values"} by
 /// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,
@@ -40,7 +40,7 @@ namespace detail {
 using Json = nlohmann::json;
 
 inline constexpr const char* model_format = "drawpoint kriging model";
-inline constexpr int model_version = 1;
+inline constexpr int model_version = 2;
 
 inline Json json_number(double value) {
   if (std::isfinite(value)) return value;
@@ -82,6 +82,7 @@ inline Json json_of(const ModelState& s) {
             {"B", json_matrix(s.gls.B)},
             {"T", json_matrix(s.gls.T)},
             {"sum_of_squares", s.gls.sum_of_squares}}},
+          {"parameter_spread", json_matrix(s.parameter_spread)},
           {"process_variance", s.process_variance},
           {"log_likelihood", json_number(s.log_likelihood)},
           {"constant_variance", json_number(s.constant_variance)},
@@ -233,6 +234,12 @@ inline ModelState state_of(const JsonReader& in) {
   s.L = unpacked_lower(in.at("factor").vector(n * (n + 1) / 2), n);
   if (!(s.L.diagonal().array() > 0).all()) in.at("factor").fail("its diagonal is not positive");
   read_solution(in.at("solution"), n, q, s.gls);
+  const JsonReader spread = in.at("parameter_spread");
+  const int parameters = spread.at("rows").integer(), directions = spread.at("columns").integer();
+  if (parameters != 0 && parameters != d + 1 && parameters != 2 * d + 1)
+    spread.fail("it has " + std::to_string(parameters) + " rows");
+  if (directions < 0 || directions > parameters) spread.fail("it has more columns than rows");
+  s.parameter_spread = spread.matrix(parameters, directions);
   s.process_variance = in.at("process_variance").number();
   s.log_likelihood = in.at("log_likelihood").number(false);
   s.constant_variance = in.at("constant_variance").number(false);

@@ -12,7 +12,7 @@
 ///   Wismer 1971; ρ after Mavrotas 2009): the point keeps its place in the others;
 /// both within the bounds and the limits of the problem, by Ipopt with the gradients as given and Hessians
 /// from differences of gradients. F are the objectives, minimised and scaled by their ranges on the front, x
-/// in the unit box. A result is kept only when it is feasible and no objective is worse than at x°, so the
+/// in the unit box; integer and categorical variables keep their values. A result is kept only when it is feasible and no objective is worse than at x°, so the
 /// dominated volume never falls. Every point, moved or not, gets the residual of the first-order conditions
 /// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations per point, each
 /// one evaluation and d for the Hessian, plus about half a millisecond per iteration inside Ipopt.
@@ -166,6 +166,10 @@ class Polisher {
     const ScaledPoint start = scaled_.at(scaled_.unit(before_.X.row(i).transpose()));
     if (!start.sound) return PolishedPoint::failed;
     result_.residual_before[i] = certify(i, start);
+    if (!scaled_.any_moves()) {
+      result_.residual[i] = result_.residual_before[i];
+      return PolishedPoint::unchanged;
+    }
     const ScalarSolution end =
         solve_scalar(scaled_, start, {options_.form, options_.objective, options_.augmentation},
                      {options_.tolerance, options_.iterations});

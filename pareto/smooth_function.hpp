@@ -51,6 +51,7 @@ class ScaledProblem {
       const doe::Variable& v = problem.variables[static_cast<std::size_t>(i)];
       lower_[i] = v.lower;
       width_[i] = v.upper - v.lower;
+      moves_.push_back(v.kind == doe::VariableKind::real);
     }
     range_ = (responses.colwise().maxCoeff() - responses.colwise().minCoeff()).transpose();
     for (const int c : role_.constraints)
@@ -61,12 +62,19 @@ class ScaledProblem {
 
   const Roles& roles() const { return role_; }
   int evaluations() const { return evaluations_; }
+  /// Integer and categorical variables keep the values that the search gave them, and count with no slope.
+  bool moves(Eigen::Index i) const { return moves_[static_cast<std::size_t>(i)]; }
+
+  bool any_moves() const { return std::find(moves_.begin(), moves_.end(), true) != moves_.end(); }
 
   Eigen::VectorXd unit(const Eigen::VectorXd& x) const {
     return (x - lower_).cwiseQuotient(width_).cwiseMax(0.0).cwiseMin(1.0);
   }
   Eigen::VectorXd natural(const Eigen::VectorXd& u) const {
-    return (lower_ + u.cwiseProduct(width_)).cwiseMax(lower_).cwiseMin(lower_ + width_);
+    Eigen::VectorXd x = (lower_ + u.cwiseProduct(width_)).cwiseMax(lower_).cwiseMin(lower_ + width_);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (!moves(i)) x[i] = std::round(x[i]);
+    return x;
   }
 
   ScaledPoint at(const Eigen::VectorXd& u) const {
@@ -97,7 +105,7 @@ class ScaledProblem {
       const int row = role_.objectives[j];
       const double scale = role_.signs[j] / range_[row];
       p.F[j] = scale * y.values[row];
-      p.gradients.row(j) = scale * y.jacobian.row(row).cwiseProduct(width_.transpose());
+      p.gradients.row(j) = scale * slope(y, row);
     }
     p.limits.resize(k);
     p.limit_gradients.resize(k, p.u.size());
@@ -106,14 +114,23 @@ class ScaledProblem {
       const doe::Response& response = problem_.responses[row];
       const double scale = doe::sign_of(response.goal) / range_[row];
       p.limits[c] = scale * (y.values[row] - response.limit);
-      p.limit_gradients.row(c) = scale * y.jacobian.row(row).cwiseProduct(width_.transpose());
+      p.limit_gradients.row(c) = scale * slope(y, row);
     }
+  }
+
+  // By the unit box.
+  Eigen::RowVectorXd slope(const ValueAndJacobian& y, int row) const {
+    Eigen::RowVectorXd g = y.jacobian.row(row).cwiseProduct(width_.transpose());
+    for (Eigen::Index i = 0; i < g.size(); ++i)
+      if (!moves(i)) g[i] = 0.0;
+    return g;
   }
 
   Function f_;
   const doe::Problem& problem_;
   Roles role_;
   Eigen::VectorXd lower_, width_, range_;
+  std::vector<bool> moves_;
   mutable int evaluations_ = 0;
 };
 

@@ -97,11 +97,11 @@ const std::vector<std::pair<std::string, Design>> designs{
     {"Latin hypercube", [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s}); }},
     {"Latin hypercube, centred",
      [](const Problem& p, int n, Seed s) { return latin_hypercube(p, n, {.seed = s, .centred = true}); }},
-    {"optimised: maximin (default)", optimized(LatinCriterion::maximin)},
-    {"optimised: phi_10", optimized(LatinCriterion::phi_p)},
-    {"optimised: phi_50", optimized(LatinCriterion::phi_p, 50)},
-    {"optimised: CD2", optimized(LatinCriterion::centred_discrepancy)},
-    {"annealed only: maximin", optimized(LatinCriterion::maximin, 10, LatinStart::random)},
+    {"optimised: maximin (default)", optimized(LatinCriterion::maximin, 10, LatinStart::random)},
+    {"lattice or annealed: phi_10", optimized(LatinCriterion::phi_p)},
+    {"lattice or annealed: phi_50", optimized(LatinCriterion::phi_p, 50)},
+    {"lattice or annealed: CD2", optimized(LatinCriterion::centred_discrepancy)},
+    {"lattice or annealed: maximin", optimized(LatinCriterion::maximin)},
     {"annealed only: CD2", optimized(LatinCriterion::centred_discrepancy, 10, LatinStart::random)},
     {"orthogonal array of the next size", [](const Problem& p, int n, Seed s) {
        return orthogonal_latin_hypercube(p, orthogonal_array_runs(n, 4), {.seed = s});

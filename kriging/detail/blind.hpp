@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Leave-one-out errors in closed form, and the trend that they choose.
+/// The trend that leave-one-out errors choose.
 ///
-/// With P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the run i, predicted from all others with β estimated anew, is missed
-/// by eᵢ = (P y)ᵢ/Pᵢᵢ (Dubrule 1983, Mathematical Geology 15, "Cross validation of kriging in a unique
-/// neighborhood"). One more term f of the trend changes P to P − (Pf)(Pf)ᵀ/(fᵀPf), so each candidate costs
-/// n².
+/// One more term f of the trend changes the P of left_out.hpp to P − (Pf)(Pf)ᵀ/(fᵀPf), so each candidate
+/// costs n².
 ///
 /// Blind selection: starting from the constant, the term of the quadratic that lowers Σ eᵢ² most is added,
 /// while it lowers it by 1 % or more and the terms stay below a third of the runs; θ and λ are those of the
@@ -20,25 +18,12 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/detail/cholesky.hpp>
+#include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/detail/model_state.hpp>
 #include <limits>
 #include <vector>
 
 namespace drawpoint::kriging::detail {
-
-/// Diagonal of P: n entries.
-inline Eigen::VectorXd diagonal_of_P(const ModelState& s) {
-  Eigen::MatrixXd L = s.L, X;
-  inverse_transposed(L, X);
-  Eigen::VectorXd P = row_squares(X);
-  add_scaled(P.data(), -1.0, row_squares(s.gls.B).data(), P.size());
-  return P;
-}
-
-/// Root mean square of the leave-one-out errors, standardised.
-inline double leave_one_out_error(const ModelState& s) {
-  return std::sqrt(square(entry_quotients(s.gls.alpha, diagonal_of_P(s))) / static_cast<double>(s.y.size()));
-}
 
 /// P and P y, and what a further term makes of them.
 struct Projection {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The concentrated log likelihood of regression Kriging, its gradient, its Hessian and its information.
+/// The concentrated log likelihood of regression Kriging, its gradient, its Hessian and its information, with
+/// or without a prior.
 ///
 ///   R = C(θ, p) + λ diag(w),  β = (FᵀR⁻¹F)⁻¹FᵀR⁻¹y,  α = R⁻¹(y − Fβ),  S = (y − Fβ)ᵀα
 ///   LL = −n/2 ln(2π s²) − ½ ln|R| − S/(2s²)
@@ -10,7 +11,8 @@
 ///   ∂²LL/∂a∂b = ½ Σᵢⱼ Mᵢⱼ (R_ab)ᵢⱼ − αᵀRₐ P R_b α/s² + qₐq_b/(2n s⁴) + ½ tr(R⁻¹Rₐ R⁻¹R_b)
 /// with qₐ = −αᵀRₐα, P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹. Parameters: ln θ, the exponents p where they are
 /// estimated, ln λ. s² = S/n is concentrated out. Known noise of mean τ² ties s² = τ²/λ instead: then the
-/// derivatives by ln λ gain those through ln s², and the term with qₐq_b is gone.
+/// derivatives by ln λ gain those through ln s², and the term with qₐq_b is gone. With a prior, value,
+/// gradient and Hessian are those of LL + ln π (prior.hpp); the estimates keep LL itself.
 ///
 /// Cost: value n³/3, gradient n³, Hessian about 3 parameters · n³ more; O(n²) memory whatever d is. Where R
 /// is not numerically positive definite the value is −∞. Source: Forrester, Sóbester, Keane 2008, section 2.4
@@ -21,11 +23,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/detail/prior.hpp>
 
 namespace drawpoint::kriging {
 
@@ -46,6 +50,7 @@ struct LikelihoodProblem {
   Correlation family = Correlation::gaussian;
   Eigen::VectorXd exponent;  ///< given p of power_exponential, d entries; empty: parameters
   int threads = 1;
+  bool prior = false;  ///< LL + ln π instead of LL
 };
 
 /// Remembers the last point, so that value, gradient and Hessian at one p share their factorisation. Not for
@@ -57,6 +62,7 @@ class Likelihood {
     f_.family = in_.family;
     f_.exponent = in_.exponent;
     estimated_exponents_ = in_.family == Correlation::power_exponential && in_.exponent.size() == 0;
+    if (in_.prior) prior_.emplace(runs(), variables(), varying(), in_.known_noise == 0);
   }
 
   /// Gaussian correlation, constant trend, the same noise everywhere.
@@ -71,10 +77,10 @@ class Likelihood {
   /// Number of matrices factored so far.
   int factorizations() const { return factorizations_; }
 
-  /// LL(p), or −∞ where R is not numerically positive definite.
+  /// LL(p), with ln π where a prior is asked for, or −∞ where R is not numerically positive definite.
   double value(const Eigen::VectorXd& p) {
     factor(p);
-    return estimates_.log_likelihood;
+    return estimates_.log_likelihood + (prior_ ? prior_->value(p) : 0.0);
   }
 
   /// One entry a parameter; zero where the value is −∞.
@@ -94,6 +100,7 @@ class Likelihood {
     const double s2 = estimates_.process_variance;
     g[last] = slope_in_nugget();
     if (in_.known_noise > 0) g[last] += 0.5 * static_cast<double>(n) - 0.5 * gls_.sum_of_squares / s2;
+    if (prior_) prior_->add_gradient(p, g);
     return g;
   }
 
@@ -132,6 +139,16 @@ class Likelihood {
     problem.X = std::move(X);
     problem.y = std::move(y);
     return problem;
+  }
+
+  // Inputs of which two runs differ, at least 1.
+  Eigen::Index varying() const {
+    Eigen::Index count = 0;
+    for (Eigen::Index k = 0; k < variables(); ++k) {
+      const double* x = detail::column(in_.X, k);
+      if (std::any_of(x, x + runs(), [&](double value) { return value != x[0]; })) ++count;
+    }
+    return std::max<Eigen::Index>(count, 1);
   }
 
   double noise_weight(Eigen::Index i) const { return in_.noise.size() ? in_.noise[i] : 1.0; }
@@ -245,6 +262,7 @@ class Likelihood {
   LikelihoodProblem in_;
   Eigen::MatrixXd points_;  // X transposed
   bool estimated_exponents_ = false;
+  std::optional<detail::JointlyRobustPrior> prior_;
   Eigen::VectorXd p_;
   CorrelationFunction f_;
   double nugget_ = 0;

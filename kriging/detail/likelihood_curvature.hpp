@@ -22,6 +22,7 @@ inline Eigen::MatrixXd Likelihood::hessian(const Eigen::VectorXd& p) {
   add_traces(H);
   add_trend_and_scale(H);
   detail::mirror_lower(H);
+  if (prior_) prior_->add_hessian(p, H);
   return H;
 }
 

@@ -34,6 +34,8 @@ struct ModelState {
   Eigen::VectorXd y;     ///< n
   Eigen::MatrixXd L;     ///< n x n, lower triangular with zeros above: L Lᵀ = R
   LeastSquares gls;
+  /// S, one row a parameter: V = S Sᵀ of (ln θ, exponents, ln λ); no columns: they are taken as known.
+  Eigen::MatrixXd parameter_spread;
   double process_variance = 0;                                      ///< s²
   double log_likelihood = std::numeric_limits<double>::infinity();  ///< for y in its unit
   double constant_variance = 0;                                     ///< unit of y squared

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The search for the likeliest θ, exponents and λ: many short climbs, then Ipopt from the best.
+/// The search for θ, exponents and λ: many short climbs, then Ipopt from the best.
 ///
 /// Up to 250 runs every start climbs on all runs (climb.hpp) until it promises less than 1e-3 more, and Ipopt
-/// finishes the best with the exact Hessian (maximize.hpp). Beyond, the climbs see 250 runs, evenly picked:
+/// finishes the best, or the one that leave-one-out prefers (choice.hpp), with the exact Hessian
+/// (maximize.hpp). Beyond, the climbs see 250 runs, evenly picked:
 /// what they end at, best of the interpolating and best of the noisy explanation, starts Ipopt on all runs
 /// with the curvature that the climb has learnt, scaled by the number of runs. Deterministic. Cost up to 250
 /// runs: candidates · n³/3 + about 15 starts · n³; beyond, about 10 gradients of n³ a search more.
@@ -13,6 +14,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/kriging/detail/choice.hpp>
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/kriging/detail/maximize.hpp>
@@ -29,6 +31,8 @@ inline constexpr double climb_gain = 1e-3;
 struct Search {
   Maximum best;
   int tried = 0, agreed = 0;
+  double height_left = 0;  ///< that the highest maximum has beyond the chosen one
+  double error_ratio = 1;  ///< root mean square leave-one-out error, chosen over highest
 };
 
 /// Of the runs: at most `many`, evenly picked.
@@ -55,9 +59,10 @@ inline std::vector<Climb> climbs(Likelihood& likelihood, const Box& box, const F
   return ranked;
 }
 
-inline int agreeing(const std::vector<Climb>& all) {
-  return static_cast<int>(std::count_if(
-      all.begin(), all.end(), [&](const Climb& c) { return c.value() >= all.front().value() - agreement; }));
+/// How many came as high as `value`.
+inline int agreeing(const std::vector<Climb>& all, double value) {
+  return static_cast<int>(
+      std::count_if(all.begin(), all.end(), [&](const Climb& c) { return c.value() >= value - agreement; }));
 }
 
 /// The best climb and the best of the other explanation of the same data, each with its curvature times
@@ -96,7 +101,7 @@ inline Search search_many(Likelihood& likelihood, const Box& box, const std::vec
     if (found.value > search.best.value) search.best = found;
   }
   search.tried = static_cast<int>(ranked.size());
-  search.agreed = agreeing(ranked);
+  search.agreed = agreeing(ranked, ranked.front().value());
   return search;
 }
 
@@ -110,8 +115,12 @@ inline Search search(Likelihood& likelihood, const Box& box, const FitOptions& o
   if (!std::isfinite(ranked.front().value()))
     return {{ranked.front().p(), ranked.front().value(), false}, static_cast<int>(ranked.size()), 0};
   if (!all) return search_many(likelihood, box, ranked, options);
-  const Maximum best = maximize(likelihood, box, {ranked.front().p(), {}}, options.max_iterations);
-  return {best, static_cast<int>(ranked.size()), agreeing(ranked)};
+  const bool by_error = options.estimation == Estimation::penalized_likelihood;
+  const Choice choice = by_error ? chosen(likelihood, ranked) : Choice{};
+  const Climb& from = ranked[choice.place];
+  const Maximum best = maximize(likelihood, box, {from.p(), {}}, options.max_iterations);
+  return {best, static_cast<int>(ranked.size()), agreeing(ranked, from.value()),
+          ranked.front().value() - from.value(), choice.ratio};
 }
 
 }  // namespace drawpoint::kriging::detail

@@ -68,6 +68,8 @@ class ScalarProblem : public Ipopt::TNLP {
                        double* high) override {
     std::fill(lower, lower + n, 0.0);
     std::fill(upper, upper + n, 1.0);
+    for (Ipopt::Index i = 0; i < dimension(); ++i)
+      if (!scaled_.moves(i)) lower[i] = upper[i] = start_.u[i];
     if (with_t()) lower[n - 1] = -(upper[n - 1] = infinite);
     std::fill(low, low + rows, -infinite);
     for (Ipopt::Index i = 0; i < rows; ++i) high[i] = i < objectives() && with_t() ? 0.0 : -margin_;

@@ -115,12 +115,13 @@ TEST(OptimizedLatinHypercube, FindsTheBestOfAllSmallDesigns) {
 
 // The figures that published tools reach for 500 runs of 4 variables, whatever their time: smallest distance
 // 0.131 (DiceDesign's ESE), phi_10 10.62 (lhs), CD2 6.4e-5 (SciPy). Three seeds; the search is
-// deterministic.
+// deterministic. Annealing alone does not reach the distance in ten sweeps.
 TEST(OptimizedLatinHypercube, BeatsThePublishedToolsAt500RunsOfFourVariables) {
   const Problem problem = support::unit_problem(4);
   for (Seed seed = 1; seed <= 3; ++seed) {
     const auto X = [&](LatinCriterion criterion) {
-      return optimized_latin_hypercube(problem, 500, {.seed = seed, .criterion = criterion, .sweeps = 10});
+      return optimized_latin_hypercube(
+          problem, 500, {.seed = seed, .criterion = criterion, .sweeps = 10, .start = LatinStart::best});
     };
     EXPECT_GE(minimum_distance(X(LatinCriterion::maximin)), 0.131);
     EXPECT_LE(phi_p(X(LatinCriterion::phi_p), 10.0), 10.62);

@@ -238,3 +238,14 @@ TEST(Reinterpolation, IsTheModelItselfWithoutNoise) {
   EXPECT_LT((through.predict(Z).variance - model.predict(Z).variance).cwiseAbs().maxCoeff(),
             1e-3 * model.process_variance());
 }
+
+// Differences of such inputs have no square: the correlation would be no number, and its factor would never come.
+TEST(Append, RefusesMagnitudesWithoutASquare) {
+  const MatrixXd X = reference::design(12, 2, 3);
+  const Model model = fit(X, X.col(0).array().sin().matrix());
+  for (const double far : {1e308, -1e151}) {
+    EXPECT_THROW(append(model, MatrixXd::Constant(1, 2, far), VectorXd::Zero(1)), std::invalid_argument);
+    EXPECT_THROW(append(model, MatrixXd::Zero(1, 2), VectorXd::Constant(1, far)), std::invalid_argument);
+  }
+  EXPECT_EQ(append(model, MatrixXd::Constant(1, 2, 1e150), VectorXd::Zero(1)).runs(), 13);
+}

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
+#include <drawpoint/kriging/any_surrogate.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/normal_surrogate.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
@@ -183,6 +184,22 @@ TEST(ExpectedHypervolumeImprovement, IsZeroAtTheRuns) {
   problem.responses[2].limit = -5.0;
   EXPECT_EQ(constrained_hypervolume_improvement(problem, models)(X),
             probability_of_feasibility(problem, models)(X));
+}
+
+// Kriging models behind AnySurrogate are re-interpolated as they are alone: noisy runs do not ask for themselves again.
+TEST(ExpectedHypervolumeImprovement, OfModelsBehindAnySurrogateIsThatOfTheModels) {
+  const MatrixXd X = reference::design(25, 2, 3);
+  VectorXd a = X.col(0);
+  doe::RandomStream random(3);
+  for (double& value : a) value += 0.05 * random.normal();
+  const std::vector<Model> models{fit(X, a), fit(X, (1.0 - X.col(0).array()).square() + X.col(1).array())};
+  const FrontView front{(MatrixXd(3, 2) << 0.1, 1.2, 0.4, 0.6, 0.9, 0.1).finished(),
+                        Eigen::Vector2d(1.1, 1.9)};
+  const MatrixXd points = reference::design(40, 2, 8);
+  const VectorXd alone = expected_hypervolume_improvement(objectives(2), models, front)(points);
+  const std::vector<AnySurrogate> held(models.begin(), models.end());
+  EXPECT_EQ(expected_hypervolume_improvement(objectives(2), held, front)(points), alone);
+  EXPECT_GT(alone.maxCoeff(), 1e-3);
 }
 
 TEST(ExpectedHypervolumeImprovement, RefusesFrontsThatDoNotFit) {

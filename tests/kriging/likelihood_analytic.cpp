@@ -72,7 +72,7 @@ TEST(Likelihood, HessianIsTheDifferenceQuotientOfTheGradient) {
   }
 }
 
-// Every family, trend and kind of noise against differences, as above.
+// Every family, trend and kind of noise against differences, as above; with the prior where the trend is linear.
 TEST(Likelihood, DerivativesOfAllKindsAreDifferenceQuotients) {
   const reference::Data data = reference::training("noisy4", 100);
   LikelihoodProblem problem;
@@ -89,6 +89,7 @@ TEST(Likelihood, DerivativesOfAllKindsAreDifferenceQuotients) {
           problem.F.resize(100, 5);
           problem.F << VectorXd::Ones(100), problem.X;
         }
+        problem.prior = universal;
         problem.noise = universal ? VectorXd::LinSpaced(100, 0.2, 1.8) : VectorXd();
         Likelihood likelihood(problem);
         VectorXd p = VectorXd::Constant(likelihood.parameters(), 1.7);

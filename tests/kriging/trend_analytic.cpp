@@ -126,3 +126,23 @@ TEST(Trend, ABasisThatChangesItsMindIsRefused) {
         "everywhere");
   }
 }
+
+// A plane under a linear trend: nothing is left to correlate. Round-off of the standardised response and of a sum of
+// three terms, each below 2e3 here: 1e-12 leaves a margin of two.
+TEST(Trend, ThatMeetsAllRunsIsTheModel) {
+  const MatrixXd X = reference::design(30, 2, 3), Z = reference::design(20, 2, 4);
+  const auto plane = [](const VectorXd& x) { return 1000.0 + 3.0 * x[0] - 700.0 * x[1]; };
+  FitOptions options;
+  for (const Trend trend : {Trend::linear, Trend::quadratic}) {
+    options.trend = trend;
+    const Model model = fit(X, reference::values(plane, X), options);
+    EXPECT_EQ(model.status(), Status::exact_trend) << model.message();
+    const Prediction p = model.predict(Z);
+    EXPECT_LT((p.mean - reference::values(plane, Z)).cwiseAbs().maxCoeff(), 1e-11);
+    EXPECT_GT(p.variance.minCoeff(), 0.0);
+    EXPECT_LT(std::sqrt(p.variance.maxCoeff()), 1e-9);
+  }
+  options.trend = Trend::linear;
+  const VectorXd bent = reference::values(plane, X).array() + 1e-6 * X.col(0).array().sin();
+  EXPECT_NE(fit(X, bent, options).status(), Status::exact_trend);
+}

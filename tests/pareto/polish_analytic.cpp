@@ -178,3 +178,39 @@ TEST(Polish, BadInputIsNamed) {
 }
 
 }  // namespace
+
+// The segment again, with x_0 one of 0, 1, 2, 3 in another unit: it keeps the whole number of the search, and the others
+// go to their optimum beside it, which for x_2 and x_3 is that of both objectives.
+TEST_P(Forms, LeaveWholeNumbersWhole) {
+  doe::Problem problem = support::unit_problem(4, 2);
+  problem.variables[0] = doe::integer_variable("count", "1", 0, 3);
+  const auto counted = [](const Eigen::VectorXd& x) {
+    Eigen::VectorXd scaled = x;
+    scaled[0] /= 3.0;
+    ValueAndJacobian y = paraboloids(scaled);
+    y.jacobian.col(0) /= 3.0;
+    return y;
+  };
+  Eigen::MatrixXd X = around_the_segment();
+  for (Eigen::Index i = 0; i < X.rows(); ++i) X(i, 0) = static_cast<double>(i % 4);
+  const Polished polished = polish(counted, problem, rough_front(counted, problem, X), {.form = GetParam()});
+  EXPECT_EQ(polished.front.X.col(0), X.col(0));
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    EXPECT_EQ(polished.points[static_cast<std::size_t>(i)], PolishedPoint::improved);
+    EXPECT_NEAR(polished.front.X(i, 2), 0.5, 5e-8);
+    EXPECT_LE(polished.front.X(i, 3), 5e-8);
+    EXPECT_LE(polished.residual[i], 1e-6);
+  }
+}
+
+// Where no variable is real there is nothing to polish, and the search's point is as good as it gets.
+TEST_P(Forms, LeaveAFrontOfWholeNumbersAsItIs) {
+  doe::Problem problem = support::unit_problem(4, 2);
+  for (doe::Variable& v : problem.variables) v = doe::integer_variable(v.name, "1", 0, 1);
+  const Eigen::MatrixXd X = (Eigen::MatrixXd(2, 4) << 0, 0, 0, 0, 1, 1, 0, 0).finished();
+  const Polished polished =
+      polish(paraboloids, problem, rough_front(paraboloids, problem, X), {.form = GetParam()});
+  EXPECT_EQ(polished.status, PolishStatus::completed) << polished.message;
+  EXPECT_EQ(polished.front.X, X);
+  EXPECT_EQ(polished.points, std::vector<PolishedPoint>(2, PolishedPoint::unchanged));
+}

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+/// fit_quality: are fits right, and do they know how wrong they are? See the help text.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
+#include <drawpoint/doe/optimized_latin_hypercube.hpp>
+#include <drawpoint/doe/sobol.hpp>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/validate.hpp>
+#include <drawpoint/tests/kriging/test_functions.hpp>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace drawpoint;
+using namespace drawpoint::kriging;
+
+constexpr const char* help =
+    R"(Fits the functions of tests/kriging/test_functions.hpp on several designs and says how far the
+predictions are off and how often their intervals hold 500 new observations.
+
+  fit_quality
+  fit_quality --functions friedman5,waves5 --designs corners --runs 60
+  fit_quality --runs 50,100 --write cases     # for the same table of another library
+
+One row per function, design, number of runs and way to fit; medians over the seeds. NRMSE is the error of the
+mean against the function without noise, over the range of it (over the noise where the function is 0), `worst`
+its largest. Then the per cent of new observations, noise included, within the central 50, 80 and 95 %
+intervals, the noise that was found over the true one (without noise: over the range), CPU seconds per fit, and
+how many fits did not converge.
+
+Ways: `default`; `plug-in`, the same with its parameters taken as known; `likeliest`, plain maximum likelihood
+with its parameters taken as known.
+
+Designs: `latin`, a random Latin hypercube; `maximin`, an optimised one; `lattice`, the same from a lattice
+where that lies farther apart; `discrepancy`, optimised by centred discrepancy; `corners`, maximin with the 2^d
+corners in it, left out where these are more than 7 in 10 runs; `sobol`, scrambled.)";
+
+struct Way {
+  std::string name;
+  FitOptions options;
+};
+
+std::vector<Way> ways() {
+  std::vector<Way> all{{"default", {}}, {"plug-in", {}}, {"likeliest", {}}};
+  all[1].options.parameter_uncertainty = all[2].options.parameter_uncertainty = false;
+  all[2].options.estimation = Estimation::maximum_likelihood;
+  return all;
+}
+
+Eigen::MatrixXd design(const std::string& kind, int variables, int runs, doe::Seed seed) {
+  if (kind == "latin") return reference::design(runs, variables, seed);
+  doe::Problem problem{.variables = {}, .responses = {{"y", "1", doe::Goal::minimize}}};
+  for (int k = 0; k < variables; ++k) problem.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
+  if (kind == "sobol") return doe::scrambled_sobol(problem, runs, {.seed = seed});
+  doe::OptimizedLatinOptions options{.seed = seed, .corners = kind == "corners"};
+  if (kind == "lattice") options.start = doe::LatinStart::best;
+  if (kind == "discrepancy") options.criterion = doe::LatinCriterion::centred_discrepancy;
+  return doe::optimized_latin_hypercube(problem, runs, options);
+}
+
+bool too_many_corners(const std::string& kind, int variables, int runs) {
+  return kind == "corners" && 10 * (1LL << variables) > 7LL * runs;
+}
+
+/// Runs to fit and new points, with and without noise.
+struct Case {
+  Eigen::MatrixXd X, Z;
+  Eigen::VectorXd y, truth, observed;
+};
+
+Eigen::VectorXd values(const reference::TestFunction& f, const Eigen::MatrixXd& X, doe::Seed draw) {
+  return reference::values([&](const Eigen::VectorXd& x) { return f.value(x, draw); }, X);
+}
+
+Eigen::VectorXd with_noise(const Eigen::VectorXd& y, double deviation, doe::Seed seed) {
+  doe::RandomStream random(seed);
+  Eigen::VectorXd noisy = y;
+  for (double& value : noisy) value += deviation * random.normal();
+  return noisy;
+}
+
+Case make_case(const reference::TestFunction& f, const std::string& kind, int runs, doe::Seed seed) {
+  Case c{design(kind, f.variables, runs, seed), reference::design(500, f.variables, 1000 + seed), {}, {}, {}};
+  c.y = with_noise(values(f, c.X, seed), f.noise, 2000 + seed);
+  c.truth = values(f, c.Z, seed);
+  c.observed = with_noise(c.truth, f.noise, 3000 + seed);
+  return c;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// What the seeds gave.
+struct Row {
+  std::vector<double> nrmse, noise, seconds, coverage[3];
+  int unsettled = 0;
+};
+
+void add(Row& row, const Case& c, const Way& way, double noise) {
+  const double start = benchmarks::cpu_seconds();
+  const Model model = fit(c.X, c.y, way.options);
+  row.seconds.push_back(benchmarks::cpu_seconds() - start);
+  if (model.status() != Status::converged) ++row.unsettled;
+  const Validation v = validate(model, c.Z, c.observed);
+  const double range = c.truth.maxCoeff() - c.truth.minCoeff(), unit = range > 0 ? range : noise;
+  row.nrmse.push_back(std::sqrt((v.predicted - c.truth).squaredNorm() / static_cast<double>(c.truth.size())) /
+                      unit);
+  row.noise.push_back(std::sqrt(model.noise_variance()) / (noise > 0 ? noise : unit));
+  const double levels[] = {0.5, 0.8, 0.95};
+  for (int k = 0; k < 3; ++k) row.coverage[k].push_back(100.0 * score(v, ErrorFunction::coverage, levels[k]));
+}
+
+void print(const std::string& place, const std::string& way, const Row& row) {
+  std::printf("%s %-9s %9.5f %9.5f  %5.1f %5.1f %5.1f  %7.4f %7.3f %4d\n", place.c_str(), way.c_str(),
+              median(row.nrmse), *std::max_element(row.nrmse.begin(), row.nrmse.end()),
+              median(row.coverage[0]), median(row.coverage[1]), median(row.coverage[2]), median(row.noise),
+              median(row.seconds), row.unsettled);
+  std::fflush(stdout);
+}
+
+void write_table(const std::filesystem::path& path, const Eigen::MatrixXd& X,
+                 const std::vector<Eigen::VectorXd>& columns) {
+  std::ofstream file(path);
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    std::string line;
+    for (const double value : X.row(i)) line += doe::detail::number_text(value) + ",";
+    for (const Eigen::VectorXd& column : columns) line += doe::detail::number_text(column[i]) + ",";
+    line.back() = '\n';
+    file << line;
+  }
+  if (!file.flush())
+    throw std::runtime_error("fit_quality: cannot write " + path.string() + "; choose another --write");
+}
+
+const std::vector<std::string> kinds{"latin", "maximin", "lattice", "discrepancy", "corners", "sobol"};
+
+struct Settings {
+  std::vector<std::string> ways{"default", "plug-in", "likeliest"}, functions,
+      designs{"latin", "maximin", "corners", "sobol"};
+  std::vector<int> runs{50, 100, 200};
+  int seeds = 11;
+  std::string folder;
+};
+
+void measure(const Settings& settings, const reference::TestFunction& f, const std::string& kind, int runs) {
+  std::vector<Row> rows(ways().size());
+  for (int seed = 1; seed <= settings.seeds; ++seed) {
+    const Case c = make_case(f, kind, runs, static_cast<doe::Seed>(seed));
+    if (!settings.folder.empty()) {
+      const std::string stem = settings.folder + "/" + f.name + "-" + kind + "-" + std::to_string(runs) +
+                               "-" + std::to_string(seed);
+      write_table(stem + "-train.csv", c.X, {c.y});
+      write_table(stem + "-test.csv", c.Z, {c.truth, c.observed});
+      continue;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (contains(settings.ways, ways()[k].name)) add(rows[k], c, ways()[k], f.noise);
+  }
+  if (!settings.folder.empty()) return;
+  char place[64];
+  std::snprintf(place, sizeof place, "%-12s %-8s %4d", f.name.c_str(), kind.c_str(), runs);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!rows[k].nrmse.empty()) print(place, ways()[k].name, rows[k]);
+}
+
+Settings settings_of(int argc, char** argv) {
+  Settings settings;
+  std::vector<std::string> names;
+  for (const reference::TestFunction& f : reference::test_functions()) names.push_back(f.name);
+  CLI::App app(help);
+  app.add_option("--functions", settings.functions, "of the list, with commas between (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  app.add_option("--designs", settings.designs, "with commas between")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kinds))
+      ->capture_default_str();
+  app.add_option("--ways", settings.ways, "with commas between")
+      ->delimiter(',')
+      ->check(CLI::IsMember(settings.ways))
+      ->capture_default_str();
+  app.add_option("--runs", settings.runs, "of a design")
+      ->delimiter(',')
+      ->check(CLI::Range(10, 2000))
+      ->capture_default_str();
+  app.add_option("--seeds", settings.seeds, "designs of each kind")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--write", settings.folder, "write the cases to FOLDER as CSV instead of fitting them");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error));
+  }
+  if (settings.functions.empty()) settings.functions = names;
+  return settings;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Settings settings = settings_of(argc, argv);
+  try {
+    if (!settings.folder.empty())
+      std::filesystem::create_directories(settings.folder);
+    else
+      std::printf("%-12s %-8s %4s %-9s %9s %9s  %5s %5s %5s  %7s %7s %4s\n", "function", "design", "runs",
+                  "way", "NRMSE", "worst", "50 %", "80 %", "95 %", "noise", "CPU s", "not");
+    for (const reference::TestFunction& f : reference::test_functions())
+      if (contains(settings.functions, f.name))
+        for (const std::string& kind : settings.designs)
+          for (const int runs : settings.runs)
+            if (!too_many_corners(kind, f.variables, runs)) measure(settings, f, kind, runs);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

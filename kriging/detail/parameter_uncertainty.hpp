@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// What the estimates of θ, the exponents and λ leave unknown of the mean.
+///
+/// With p̂ the maximum of the fit and H = −∂²/∂p∂p of what it maximised, the parameters p = (ln θ, exponents,
+/// ln λ) are p̂ ± V, V = (H + I/4)⁻¹ = S Sᵀ: a normal approximation (Laplace's), in which I/4 keeps any
+/// parameter from being unknown by more than a deviation of 2, a factor of 7 in θ. Parameters at a bound that
+/// holds them are taken as known. To first order the mean then has, beside its variance at p̂, that of
+///   gᵀV g,  gₐ = ∂ŷ/∂pₐ = (∂r/∂pₐ)ᵀα + rᵀ∂α/∂pₐ + fᵀ∂β/∂pₐ,  ∂α/∂pₐ = −P Rₐα,  ∂β/∂pₐ = −T⁻¹BᵀRₐα
+/// (least_squares.hpp has B and T). Simplification: the variance at p̂ itself is not averaged over p, and s²
+/// is taken as known; with 50 runs that leaves nominal 95 % intervals of smooth functions at 92 to 95 %
+/// (docs/measurements/kriging.md). Beyond 250 runs H is that of 250 of them, times their share. Cost: a
+/// Hessian and 2n² a parameter once, n a parameter and point. Source: Zimmerman, Cressie 1992, Annals of the
+/// Institute of Statistical Mathematics 44, "Mean squared prediction error in the spatial linear model with
+/// estimated covariance parameters".
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/detail/cholesky.hpp>
+#include <drawpoint/kriging/detail/climb.hpp>
+#include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/kriging/detail/model_state.hpp>
+#include <vector>
+
+namespace drawpoint::kriging::detail {
+
+inline constexpr double least_curvature = 0.25;
+
+/// S at p, where the likelihood stands: one row a parameter, one column a free one. `scale`: of H.
+inline Eigen::MatrixXd parameter_spread(Likelihood& likelihood, const Box& box, const Eigen::VectorXd& p,
+                                        double scale = 1.0) {
+  const std::vector<Eigen::Index> free = free_parameters(box, p, likelihood.gradient(p));
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(p.size(), static_cast<Eigen::Index>(free.size()));
+  if (free.empty()) return spread;
+  const Eigen::MatrixXd H = rows_of(columns_of(likelihood.hessian(p), free), free);
+  Eigen::MatrixXd L, S;
+  double added = least_curvature;
+  do {
+    L = H;
+    for (double& entry : L.reshaped()) entry *= -scale;
+    add_to_diagonal(L, added);
+    added *= 4.0;
+  } while (!factor(block_of(L), 1));
+  inverse_transposed(L, S);
+  for (Eigen::Index j = 0; j < S.cols(); ++j)
+    for (Eigen::Index i = 0; i <= j; ++i) spread(free[static_cast<std::size_t>(i)], j) = S(i, j);
+  return spread;
+}
+
+/// Σⱼ αⱼ ∂c(x, xⱼ)/∂pₐ at the rows of `scaled`: m x d, whose correlations with the runs are R: m x n. Gives m
+/// rows, one column a parameter; that of λ is 0.
+inline Eigen::MatrixXd parameter_slopes(const ModelState& s, const Eigen::MatrixXd& R,
+                                        const Eigen::MatrixXd& scaled) {
+  const Eigen::Index d = scaled.cols(), parameters = s.parameter_spread.rows();
+  const Eigen::MatrixXd runs = s.X.transpose();
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(scaled.rows(), parameters);
+  for (Eigen::Index j = 0; j < s.X.rows(); ++j)
+    for (Eigen::Index i = 0; i < scaled.rows(); i += chunk_rows) {
+      const Rows rows{scaled, i, std::min(chunk_rows, scaled.rows() - i), &runs(0, j)};
+      Chunk weighted(rows.count);
+      for (Index row = 0; row < rows.count; ++row) weighted.number[row] = R(i + row, j) * s.gls.alpha[j];
+      for (Eigen::Index k = 0; k < d; ++k) {
+        const Chunk h = rows.distance(k),
+                    slope = entry_products(weighted, slope_in_theta(s.correlation, k, h));
+        add_scaled(&G(i, k), 1.0, slope.number, rows.count);
+        if (parameters == 2 * d + 1)
+          add_scaled(&G(i, d + k), 1.0, entry_products(slope, logarithms(h)).number, rows.count);
+      }
+    }
+  return G;
+}
+
+/// What one deviation along each column of S does to α: n x k, and β: q x k; no columns when all is known.
+struct ParameterEffects {
+  Eigen::MatrixXd alpha, beta;
+
+  bool none() const { return alpha.cols() == 0; }
+};
+
+inline ParameterEffects parameter_effects(const ModelState& s) {
+  ParameterEffects effects;
+  if (s.parameter_spread.cols() == 0) return effects;
+  Eigen::MatrixXd slopes = parameter_slopes(s, cross_correlation(s.X, s.X, s.correlation), s.X);  // Rₐα
+  const Eigen::VectorXd weight = s.noise.size() ? s.noise : Eigen::VectorXd::Ones(s.X.rows());
+  const Eigen::VectorXd by_nugget = affine(entry_products(weight, s.gls.alpha), s.nugget);
+  std::copy(by_nugget.begin(), by_nugget.end(), column(slopes, slopes.cols() - 1));
+  Eigen::MatrixXd along = product(slopes, s.parameter_spread);
+  const Eigen::MatrixXd trend = transposed_product(s.gls.B, along);
+  solve_lower(s.L, along);
+  solve_lower_transposed(s.L, along);
+  effects.alpha = product(s.gls.B, trend);
+  add_scaled(effects.alpha.data(), -1.0, along.data(), along.size());
+  effects.beta.resize(trend.rows(), trend.cols());
+  for (Eigen::Index j = 0; j < trend.cols(); ++j)
+    effects.beta.col(j) = affine(solve_upper(s.gls.T, trend.col(j)), -1.0);
+  return effects;
+}
+
+/// Points with their correlations with the runs and terms of the trend.
+struct PredictedPoints {
+  const Eigen::MatrixXd &scaled, &R, &F;  ///< m x d, m x n, m x q
+};
+
+/// Sᵀg of each point, standardised: m x k. Its rows' squares are the variance that the parameters add.
+inline Eigen::MatrixXd mean_deviations(const ModelState& s, const ParameterEffects& effects,
+                                       const PredictedPoints& points) {
+  Eigen::MatrixXd W = product(parameter_slopes(s, points.R, points.scaled), s.parameter_spread);
+  const Eigen::MatrixXd by_alpha = product(points.R, effects.alpha),
+                        by_beta = product(points.F, effects.beta);
+  add_scaled(W.data(), 1.0, by_alpha.data(), W.size());
+  add_scaled(W.data(), 1.0, by_beta.data(), W.size());
+  return W;
+}
+
+/// ∂²ln c/∂pₐ∂xₖ of an input's own θ and exponent at the signed distance `step` = xₖ − runₖ, 0 at the run.
+/// ln c depends on θ and h by θ h^p alone, so it follows from the curvature in ln θ.
+struct MixedSlopes {
+  double theta = 0, exponent = 0;
+};
+
+inline MixedSlopes mixed_slopes(const CorrelationFunction& f, Eigen::Index k, double step) {
+  if (step == 0.0) return {};
+  Chunk h(1);
+  h.number[0] = std::abs(step);
+  const double curvature = curvature_in_theta(f, k, h)[0];
+  if (f.family != Correlation::power_exponential) return {2.0 * curvature / step, 0};
+  return {f.exponent[k] * curvature / step, curvature * (f.exponent[k] * std::log(h.number[0]) + 1.0) / step};
+}
+
+/// One point with what changes along it, by the natural inputs.
+struct PredictedSlopes {
+  const Eigen::VectorXd &scaled, &r;             ///< d, n
+  const Eigen::MatrixXd &slopes, &trend_slopes;  ///< n x d and q x d
+};
+
+/// ∂(Sᵀg)/∂x: k x d.
+inline Eigen::MatrixXd mean_deviation_slopes(const ModelState& s, const ParameterEffects& effects,
+                                             const PredictedSlopes& at) {
+  const Eigen::Index d = at.scaled.size(), parameters = s.parameter_spread.rows();
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(parameters, d);
+  for (Eigen::Index i = 0; i < s.X.rows(); ++i)
+    for (Eigen::Index a = 0; a < d; ++a) {
+      const double step = at.scaled[a] - s.X(i, a);
+      Chunk h(1);
+      h.number[0] = std::abs(step);
+      const double slope = slope_in_theta(s.correlation, a, h)[0], logarithm = logarithms(h)[0];
+      const MixedSlopes mixed = mixed_slopes(s.correlation, a, step);
+      const double own = s.gls.alpha[i] * at.r[i] * s.input.factor[a];
+      for (Eigen::Index k = 0; k < d; ++k) G(a, k) += s.gls.alpha[i] * at.slopes(i, k) * slope;
+      G(a, a) += own * mixed.theta;
+      if (parameters != 2 * d + 1) continue;
+      for (Eigen::Index k = 0; k < d; ++k)
+        G(d + a, k) += s.gls.alpha[i] * at.slopes(i, k) * slope * logarithm;
+      G(d + a, a) += own * mixed.exponent;
+    }
+  Eigen::MatrixXd W = transposed_product(s.parameter_spread, G);
+  const Eigen::MatrixXd by_alpha = transposed_product(effects.alpha, at.slopes);
+  const Eigen::MatrixXd by_beta = transposed_product(effects.beta, at.trend_slopes);
+  add_scaled(W.data(), 1.0, by_alpha.data(), W.size());
+  add_scaled(W.data(), 1.0, by_beta.data(), W.size());
+  return W;
+}
+
+}  // namespace drawpoint::kriging::detail
