@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// More runs in a model without a new fit: θ, the exponents, λ and the scales stay, β, α and s² are found
-/// anew.
+/// More runs in a model without a new fit: θ, the exponents, λ, what is unknown of them, and the scales stay; β,
+/// α and s² are found anew.
 ///
 /// With R = [R₁₁ R₂₁ᵀ; R₂₁ R₂₂] and R₁₁ = L₁₁L₁₁ᵀ at hand, L₂₁ = R₂₁L₁₁⁻ᵀ and L₂₂L₂₂ᵀ = R₂₂ − L₂₁L₂₁ᵀ: cost
 /// n² for each new run, where factoring anew costs n³/3. Equal to the full factor but for round-off. Runs
@@ -27,33 +27,46 @@ struct NewRuns {
   const Eigen::VectorXd &y, &noise_variance;
 };
 
+inline void check_magnitudes(const NewRuns& runs) {
+  const auto check = [](double value, const std::string& place) {
+    if (!is_usable(value))
+      throw std::invalid_argument("kriging::append: " + place + " is " + text(value) +
+                                  "; allowed are finite numbers up to 1e150; leave failed runs out");
+  };
+  for (Eigen::Index i = 0; i < runs.X.rows(); ++i) {
+    for (Eigen::Index k = 0; k < runs.X.cols(); ++k)
+      check(runs.X(i, k), "X(" + std::to_string(i) + ", " + std::to_string(k) + ")");
+    check(runs.y[i], "y[" + std::to_string(i) + "]");
+  }
+}
+
 inline void check_new_runs(const Model& model, const NewRuns& runs) {
   const auto reject = [](const std::string& what) {
     throw std::invalid_argument("kriging::append: " + what);
   };
   const ModelState& s = model.state();
-  if (s.X.rows() == 0)
+  if (s.X.rows() == 0 || s.report.status == Status::exact_trend)
     reject(
-        "the model is a constant and has no correlation to extend; allowed are fitted ones; fit all runs "
-        "anew");
+        "the model is a constant or a trend alone and has no correlation to extend; allowed are fitted ones; "
+        "fit "
+        "all runs anew");
   if (runs.X.cols() != model.variables())
     reject("X has " + std::to_string(runs.X.cols()) + " columns; the model has " +
            std::to_string(model.variables()) + " variables; give one run per row");
   if (runs.X.rows() != runs.y.size())
     reject("X has " + std::to_string(runs.X.rows()) + " rows but y has " + std::to_string(runs.y.size()) +
            " entries; give one response a run");
-  if (!std::all_of(runs.X.data(), runs.X.data() + runs.X.size(), is_usable) ||
-      !std::all_of(runs.y.begin(), runs.y.end(), is_usable))
-    reject(
-        "X or y holds a number that is not finite or beyond 1e150; allowed are magnitudes up to 1e150; leave "
-        "failed runs out");
+  check_magnitudes(runs);
   const Eigen::Index wanted = s.noise.size() ? runs.y.size() : 0;
   if (runs.noise_variance.size() != wanted)
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +
            std::to_string(wanted) +
            "; give one per run when the model was fitted with noise variances, else none");
-  if (!std::all_of(runs.noise_variance.begin(), runs.noise_variance.end(), [](double v) { return v >= 0; }))
-    reject("noise_variance holds a number below 0 or NaN; allowed are numbers from 0 on; give variances");
+  if (!std::all_of(runs.noise_variance.begin(), runs.noise_variance.end(),
+                   [](double v) { return v >= 0 && v <= largest; }))
+    reject(
+        "noise_variance holds a number below 0, NaN or above 1e150; allowed are numbers from 0 on; give "
+        "variances");
 }
 
 /// R₂₂ without what the old runs explain, factored; `raised` is what had to be added to its diagonal.
@@ -99,7 +112,7 @@ inline double extend_factor(ModelState& s) {
 
 /// X: m x d, y: m, natural units; noise_variance: one entry per run, unit of y squared, when the model was
 /// fitted with them, else empty. Throws std::invalid_argument for other sizes, numbers that are not finite
-/// and constant models.
+/// and models without a correlation; of magnitudes beyond 1e150 too.
 inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& noise_variance = {}) {
   detail::check_new_runs(model, {X, y, noise_variance});

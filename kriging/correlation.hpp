@@ -56,6 +56,8 @@ namespace detail {
 inline constexpr Index chunk_rows = 256;
 /// Matérn's h beyond which exp(−h) is nothing, and h² must not overflow.
 inline constexpr double farthest = 800.0;
+/// Scaled distance beyond which nothing is correlated, and whose fifth power must not overflow.
+inline constexpr double farthest_distance = 1e50;
 
 /// Up to 256 numbers on the stack, taken two at a time; beside a last odd one stands a 0.
 struct Chunk {
@@ -99,7 +101,7 @@ struct Rows {
   Chunk distance(Index k) const {
     const double* z = column(k);
     Chunk h(count);
-    for (Index i = 0; i < count; ++i) h.number[i] = std::abs(z[i] - x[k]);
+    for (Index i = 0; i < count; ++i) h.number[i] = std::min(std::abs(z[i] - x[k]), farthest_distance);
     return h;
   }
 };

@@ -27,6 +27,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace drawpoint::kriging {
 
@@ -70,10 +71,11 @@ inline void report_search(const Search& search, Likelihood& likelihood, FitRepor
   report.status = search.best.converged ? Status::converged : Status::not_converged;
   report.message = std::to_string(search.agreed) + " of " + std::to_string(search.tried) +
                    " local searches agreed on the chosen maximum";
+  const auto rounded = [](double value) { return text(std::round(100.0 * value) / 100.0); };
   if (search.error_ratio < 1.0)
-    report.message += ", which is " + text(search.height_left) +
-                      " lower in log likelihood than the highest one, but has " + text(search.error_ratio) +
-                      " of its leave-one-out error";
+    report.message += ", which is " + rounded(search.height_left) +
+                      " lower in log likelihood than the highest one, but has " +
+                      rounded(search.error_ratio) + " of its leave-one-out error";
   if (!search.best.converged)
     report.message += "; the best of them ended before its stopping rule: raise max_iterations or starts";
   if (!(report.condition < condition_limit)) {
@@ -150,46 +152,34 @@ inline double response_roundoff(const TrainingData& data) {
   return 64.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, size / data.y_scale);
 }
 
-/// Trend and round-off, where the trend alone meets all runs; empty where it does not. There is no correlation to
-/// estimate then: its likelihood has no bound.
+/// The trend and round-off, where the trend alone meets all runs; empty where it does not. There is nothing to
+/// correlate then, and the likelihood has no bound.
 inline std::optional<Model> exact_trend(const TrainingData& data, const FitOptions& options) {
-  const Eigen::Index n = data.y.size();
-  ModelState s;
-  s.gls = least_squares(scaled_identity(n, 1.0), data.F, data.y);
-  const double roundoff = response_roundoff(data);
-  if (data.trend.is_constant() || s.gls.sum_of_squares > roundoff * roundoff * static_cast<double>(n))
-    return {};
-  s.input = data.input;
-  s.y_centre = data.y_centre;
-  s.y_scale = data.y_scale;
-  s.observed = data.observed;
-  s.correlation = {options.correlation, Eigen::VectorXd::Constant(data.X.cols(), options.theta_upper),
-                   options.exponent};
-  if (options.correlation == Correlation::power_exponential && s.correlation.exponent.size() == 0)
-    s.correlation.exponent = Eigen::VectorXd::Constant(data.X.cols(), 2.0);
-  s.nugget = 1.0;
-  s.trend = data.trend;
-  s.X = data.X;
-  s.F = data.F;
-  s.y = data.y;
-  fill_correlation(s.X, s.correlation, s.L);
-  add_to_diagonal(s.L, s.nugget);
-  factor(block_of(s.L), 1);
-  clear_upper(s.L);
-  s.gls = least_squares(s.L, s.F, s.y);
-  s.process_variance = roundoff * roundoff;
-  s.report.status = Status::exact_trend;
-  s.report.message =
-      "the trend meets all " + std::to_string(n) + " runs to round-off: the model is the trend";
-  add_remarks(data, s.report);
-  return Model(std::move(s));
+  if (data.trend.is_constant() || data.known_noise > 0) return {};
+  Likelihood likelihood(likelihood_problem(data, options));
+  Eigen::VectorXd p = parameter_box(data, likelihood, options).upper;  // no two runs correlated
+  p[p.size() - 1] = std::log(std::clamp(1.0, options.nugget_lower, options.nugget_upper));
+  likelihood.value(p);
+  const double roundoff = response_roundoff(data), n = static_cast<double>(data.y.size());
+  if (!(likelihood.least_squares().sum_of_squares <= roundoff * roundoff * n)) return {};
+  FitReport report;
+  report.status = Status::exact_trend;
+  report.message =
+      "the trend meets all " + std::to_string(data.y.size()) + " runs to round-off: the model is the trend";
+  report.evaluations = likelihood.factorizations();
+  add_remarks(data, report);
+  ModelState state = state_of(data, likelihood, std::move(report));
+  state.process_variance = roundoff * roundoff;
+  state.log_likelihood = std::numeric_limits<double>::infinity();
+  return Model(std::move(state));
 }
 
 /// What the fit leaves unknown of its parameters at p, where the likelihood stands.
 inline Eigen::MatrixXd spread_at(Likelihood& likelihood, const Box& box, const Eigen::VectorXd& p) {
-  if (likelihood.runs() <= many) return parameter_spread(likelihood, box, p);
+  const std::vector<Eigen::Index> free = free_parameters(box, p, likelihood.gradient(p));
+  if (likelihood.runs() <= many) return parameter_spread(likelihood, p, free);
   Likelihood few(thinned(likelihood.problem()));
-  return parameter_spread(few, box, p, static_cast<double>(likelihood.runs()) / static_cast<double>(many));
+  return parameter_spread(few, p, free);
 }
 
 inline Model fit_prepared(const TrainingData& data, const FitOptions& options) {

@@ -27,7 +27,7 @@
 /// Kriging models and other surrogates of runs: the whole of the module, in the order of use.
 ///
 /// Fit:
-///   fit.hpp                        `Model model = fit(X, y);` by maximum likelihood
+///   fit.hpp                        `Model model = fit(X, y);` by penalised likelihood
 ///   options.hpp                    what a fit can be told, and what it reports
 ///   correlation.hpp                Gaussian, power-exponential and Matern correlations
 ///   replicates.hpp                 repeated runs as one run with a known noise

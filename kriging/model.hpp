@@ -86,7 +86,7 @@ class Model {
   /// The mean at one point x of d entries: a model is a black box itself.
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
 
-  /// Derivatives of the latent mean and variance at one point x of d entries. Cost n² + n d. Throws as
+  /// Derivatives of the latent mean and variance at one point x of d entries. Cost n² + n d². Throws as
   /// predict.
   PredictionGradient gradient(const Eigen::VectorXd& x) const {
     check(x.size(), detail::all_finite(x));
@@ -155,7 +155,7 @@ class Model {
   /// lacks the mean of the runs, which trend() includes.
   Eigen::VectorXd trend_coefficients() const { return detail::affine(s_.gls.beta, s_.y_scale); }
   const detail::TrendFunction& trend_function() const { return s_.trend; }
-  /// Concentrated log likelihood in the unit of y; +∞ for a constant response.
+  /// Concentrated log likelihood in the unit of y; +∞ for a constant response and an exact trend.
   double log_likelihood() const { return s_.log_likelihood; }
   const FitReport& report() const { return s_.report; }
   Status status() const { return s_.report.status; }

@@ -84,9 +84,10 @@ inline std::string_view to_string(PolishStatus status) {
 
 struct Polished {
   Front front;  ///< row i is polished from row i of the given front; rows may dominate each other
-  Eigen::VectorXd residual_before, residual;  ///< of the first-order conditions, 0 to 1; NaN where f failed
-  Eigen::MatrixXd weights;                    ///< n x m, λ of the conditions at the polished points
-  std::vector<PolishedPoint> points;          ///< n: what became of each
+  /// Of the first-order conditions of the real variables, 0 to 1; NaN where f failed, or where no variable is real.
+  Eigen::VectorXd residual_before, residual;
+  Eigen::MatrixXd weights;            ///< n x m, λ of the conditions at the polished points
+  std::vector<PolishedPoint> points;  ///< n: what became of each
   double hypervolume_before = 0.0, hypervolume = 0.0;
   Eigen::VectorXd reference;  ///< that they were taken with, natural units
   int evaluations = 0;
@@ -165,11 +166,8 @@ class Polisher {
   PolishedPoint polish(Eigen::Index i) {
     const ScaledPoint start = scaled_.at(scaled_.unit(before_.X.row(i).transpose()));
     if (!start.sound) return PolishedPoint::failed;
+    if (!scaled_.any_moves()) return PolishedPoint::unchanged;
     result_.residual_before[i] = certify(i, start);
-    if (!scaled_.any_moves()) {
-      result_.residual[i] = result_.residual_before[i];
-      return PolishedPoint::unchanged;
-    }
     const ScalarSolution end =
         solve_scalar(scaled_, start, {options_.form, options_.objective, options_.augmentation},
                      {options_.tolerance, options_.iterations});

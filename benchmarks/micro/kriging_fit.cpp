@@ -23,6 +23,7 @@ void fit_case(benchmark::State& state, const std::string& name, int runs) {
   const reference::Data data = reference::training(name, runs);
   FitOptions options;
   options.threads = 0;
+  options.estimation = Estimation::maximum_likelihood;
   double likelihood = 0;
   int evaluations = 0;
   for (auto _ : state) {

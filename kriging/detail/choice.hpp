@@ -28,22 +28,28 @@ namespace drawpoint::kriging::detail {
 /// A maximum's mean square error below this share of the other's speaks for it.
 inline constexpr double clearly_better = 0.5;
 
-/// The row of X: n x d that is nearest to x: d numbers.
-inline Eigen::Index nearest_row(const Eigen::MatrixXd& X, const Eigen::VectorXd& x) {
+/// Rows of X: n x d at the least distance from x: d numbers; more than one where runs repeat.
+inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& X, const Eigen::VectorXd& x) {
   Eigen::VectorXd distance = Eigen::VectorXd::Zero(X.rows());
   for (Eigen::Index k = 0; k < X.cols(); ++k)
     for (Eigen::Index i = 0; i < X.rows(); ++i) distance[i] += (X(i, k) - x[k]) * (X(i, k) - x[k]);
-  return std::min_element(distance.begin(), distance.end()) - distance.begin();
+  const double least = smallest_entry(distance);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < X.rows(); ++i)
+    if (distance[i] == least) rows.push_back(i);
+  return rows;
 }
 
-/// Share of [-1, 1]^d that is nearest to each row of X, by 50 random points a row.
+/// Share of [-1, 1]^d that is nearest to each row of X, by 50 random points per row; runs that repeat share alike.
 inline Eigen::VectorXd shares_of_box(const Eigen::MatrixXd& X) {
   doe::RandomStream random(1);
   const Eigen::Index points = 50 * X.rows();
   Eigen::VectorXd share = Eigen::VectorXd::Zero(X.rows()), x(X.cols());
   for (Eigen::Index i = 0; i < points; ++i) {
     for (double& entry : x) entry = 2.0 * random.uniform() - 1.0;
-    share[nearest_row(X, x)] += 1.0 / static_cast<double>(points);
+    const std::vector<Eigen::Index> nearest = nearest_rows(X, x);
+    for (const Eigen::Index row : nearest)
+      share[row] += 1.0 / static_cast<double>(points * static_cast<Eigen::Index>(nearest.size()));
   }
   return share;
 }

@@ -25,6 +25,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
@@ -62,7 +63,7 @@ class Likelihood {
     f_.family = in_.family;
     f_.exponent = in_.exponent;
     estimated_exponents_ = in_.family == Correlation::power_exponential && in_.exponent.size() == 0;
-    if (in_.prior) prior_.emplace(runs(), variables(), varying(), in_.known_noise == 0);
+    if (in_.prior) prior_.emplace(runs(), varying(), in_.known_noise == 0);
   }
 
   /// Gaussian correlation, constant trend, the same noise everywhere.
@@ -141,14 +142,14 @@ class Likelihood {
     return problem;
   }
 
-  // Inputs of which two runs differ, at least 1.
-  Eigen::Index varying() const {
-    Eigen::Index count = 0;
+  // Inputs of which two runs differ.
+  std::vector<bool> varying() const {
+    std::vector<bool> varies;
     for (Eigen::Index k = 0; k < variables(); ++k) {
       const double* x = detail::column(in_.X, k);
-      if (std::any_of(x, x + runs(), [&](double value) { return value != x[0]; })) ++count;
+      varies.push_back(std::any_of(x, x + runs(), [&](double value) { return value != x[0]; }));
     }
-    return std::max<Eigen::Index>(count, 1);
+    return varies;
   }
 
   double noise_weight(Eigen::Index i) const { return in_.noise.size() ? in_.noise[i] : 1.0; }

@@ -5,16 +5,18 @@
 /// What the estimates of θ, the exponents and λ leave unknown of the mean.
 ///
 /// With p̂ the maximum of the fit and H = −∂²/∂p∂p of what it maximised, the parameters p = (ln θ, exponents,
-/// ln λ) are p̂ ± V, V = (H + I/4)⁻¹ = S Sᵀ: a normal approximation (Laplace's), in which I/4 keeps any
-/// parameter from being unknown by more than a deviation of 2, a factor of 7 in θ. Parameters at a bound that
-/// holds them are taken as known. To first order the mean then has, beside its variance at p̂, that of
+/// ln λ) are p̂ ± V, V = (H + D)⁻¹ = S Sᵀ: a normal approximation (Laplace's). D is diagonal and keeps a
+/// parameter that the runs do not tell from being unknown without bound: 1/4 for the logarithms, a deviation
+/// of 2, and 12 for the exponents, the variance of a uniform number on [1, 2]. Where H + D is not positive
+/// definite the Fisher information takes the place of H. Parameters at a bound that holds them are taken as
+/// known. To first order the mean then has, beside its variance at p̂, that of
 ///   gᵀV g,  gₐ = ∂ŷ/∂pₐ = (∂r/∂pₐ)ᵀα + rᵀ∂α/∂pₐ + fᵀ∂β/∂pₐ,  ∂α/∂pₐ = −P Rₐα,  ∂β/∂pₐ = −T⁻¹BᵀRₐα
 /// (least_squares.hpp has B and T). Simplification: the variance at p̂ itself is not averaged over p, and s²
-/// is taken as known; with 50 runs that leaves nominal 95 % intervals of smooth functions at 92 to 95 %
-/// (docs/measurements/kriging.md). Beyond 250 runs H is that of 250 of them, times their share. Cost: a
-/// Hessian and 2n² a parameter once, n a parameter and point. Source: Zimmerman, Cressie 1992, Annals of the
-/// Institute of Statistical Mathematics 44, "Mean squared prediction error in the spatial linear model with
-/// estimated covariance parameters".
+/// is taken as known; what that costs is measured in docs/measurements/kriging.md. Beyond 250 runs H is that
+/// of 250 of them, which is less information than there is: V is too large, by a factor of 1.3 at 500 and of
+/// 1.7 at 1000 noisy runs of three inputs. Cost: a Hessian and 2n² per parameter once, n per parameter and
+/// point. Source: Zimmerman, Cressie 1992, Annals of the Institute of Statistical Mathematics 44, "Mean
+/// squared prediction error in the spatial linear model with estimated covariance parameters".
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -29,24 +31,35 @@
 
 namespace drawpoint::kriging::detail {
 
-inline constexpr double least_curvature = 0.25;
+/// (H + D)⁻¹ = S Sᵀ as S, upper triangular; empty where it is not positive definite.
+inline Eigen::MatrixXd inverse_root(Eigen::MatrixXd H, const Eigen::VectorXd& floor) {
+  Eigen::MatrixXd S;
+  for (Eigen::Index k = 0; k < H.rows(); ++k) H(k, k) += floor[k];
+  if (!all_finite(H) || !factor(block_of(H), 1)) return S;
+  inverse_transposed(H, S);
+  return S;
+}
 
-/// S at p, where the likelihood stands: one row a parameter, one column a free one. `scale`: of H.
-inline Eigen::MatrixXd parameter_spread(Likelihood& likelihood, const Box& box, const Eigen::VectorXd& p,
-                                        double scale = 1.0) {
-  const std::vector<Eigen::Index> free = free_parameters(box, p, likelihood.gradient(p));
-  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(p.size(), static_cast<Eigen::Index>(free.size()));
-  if (free.empty()) return spread;
-  const Eigen::MatrixXd H = rows_of(columns_of(likelihood.hessian(p), free), free);
-  Eigen::MatrixXd L, S;
-  double added = least_curvature;
-  do {
-    L = H;
-    for (double& entry : L.reshaped()) entry *= -scale;
-    add_to_diagonal(L, added);
-    added *= 4.0;
-  } while (!factor(block_of(L), 1));
-  inverse_transposed(L, S);
+/// D: one entry a parameter.
+inline Eigen::VectorXd least_curvature(const Likelihood& likelihood) {
+  Eigen::VectorXd floor = Eigen::VectorXd::Constant(likelihood.parameters(), 0.25);
+  if (likelihood.estimates_exponents())
+    for (Eigen::Index k = 0; k < likelihood.variables(); ++k) floor[likelihood.variables() + k] = 12.0;
+  return floor;
+}
+
+/// S at p from `likelihood`, one row a parameter, one column for each of `free`; no columns where no
+/// information is finite.
+inline Eigen::MatrixXd parameter_spread(Likelihood& likelihood, const Eigen::VectorXd& p,
+                                        const std::vector<Eigen::Index>& free) {
+  if (free.empty()) return Eigen::MatrixXd::Zero(p.size(), 0);
+  const auto among_free = [&](const Eigen::MatrixXd& A) { return rows_of(columns_of(A, free), free); };
+  const Eigen::VectorXd floor = entries_of(least_curvature(likelihood), free);
+  Eigen::MatrixXd H = among_free(likelihood.hessian(p));
+  for (double& entry : H.reshaped()) entry = -entry;
+  Eigen::MatrixXd S = inverse_root(H, floor);
+  if (S.size() == 0) S = inverse_root(among_free(likelihood.fisher(p)), floor);
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(p.size(), S.cols());
   for (Eigen::Index j = 0; j < S.cols(); ++j)
     for (Eigen::Index i = 0; i <= j; ++i) spread(free[static_cast<std::size_t>(i)], j) = S(i, j);
   return spread;
@@ -126,7 +139,7 @@ struct MixedSlopes {
 inline MixedSlopes mixed_slopes(const CorrelationFunction& f, Eigen::Index k, double step) {
   if (step == 0.0) return {};
   Chunk h(1);
-  h.number[0] = std::abs(step);
+  h.number[0] = std::min(std::abs(step), farthest_distance);
   const double curvature = curvature_in_theta(f, k, h)[0];
   if (f.family != Correlation::power_exponential) return {2.0 * curvature / step, 0};
   return {f.exponent[k] * curvature / step, curvature * (f.exponent[k] * std::log(h.number[0]) + 1.0) / step};
@@ -147,7 +160,7 @@ inline Eigen::MatrixXd mean_deviation_slopes(const ModelState& s, const Paramete
     for (Eigen::Index a = 0; a < d; ++a) {
       const double step = at.scaled[a] - s.X(i, a);
       Chunk h(1);
-      h.number[0] = std::abs(step);
+      h.number[0] = std::min(std::abs(step), farthest_distance);
       const double slope = slope_in_theta(s.correlation, a, h)[0], logarithm = logarithms(h)[0];
       const MixedSlopes mixed = mixed_slopes(s.correlation, a, step);
       const double own = s.gls.alpha[i] * at.r[i] * s.input.factor[a];

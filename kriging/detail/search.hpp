@@ -6,8 +6,8 @@
 ///
 /// Up to 250 runs every start climbs on all runs (climb.hpp) until it promises less than 1e-3 more, and Ipopt
 /// finishes the best, or the one that leave-one-out prefers (choice.hpp), with the exact Hessian
-/// (maximize.hpp). Beyond, the climbs see 250 runs, evenly picked:
-/// what they end at, best of the interpolating and best of the noisy explanation, starts Ipopt on all runs
+/// (maximize.hpp). Beyond, the climbs see 250 runs, evenly picked: the one that leave-one-out prefers, or the
+/// best of the interpolating and of the noisy explanation, starts Ipopt on all runs
 /// with the curvature that the climb has learnt, scaled by the number of runs. Deterministic. Cost up to 250
 /// runs: candidates · n³/3 + about 15 starts · n³; beyond, about 10 gradients of n³ a search more.
 
@@ -59,15 +59,16 @@ inline std::vector<Climb> climbs(Likelihood& likelihood, const Box& box, const F
   return ranked;
 }
 
-/// How many came as high as `value`.
+/// How many came to the height `value`.
 inline int agreeing(const std::vector<Climb>& all, double value) {
-  return static_cast<int>(
-      std::count_if(all.begin(), all.end(), [&](const Climb& c) { return c.value() >= value - agreement; }));
+  return static_cast<int>(std::count_if(
+      all.begin(), all.end(), [&](const Climb& c) { return std::abs(c.value() - value) <= agreement; }));
 }
 
-/// The best climb and the best of the other explanation of the same data, each with its curvature times
-/// `scale`.
-inline std::vector<SearchStart> best_of_each_explanation(const std::vector<Climb>& ranked, double scale) {
+/// Where the searches on all runs start, with curvatures times `scale`: the chosen climb, and, where that is the
+/// highest, the best of the other explanation of the same data.
+inline std::vector<SearchStart> starts_on_all(const std::vector<Climb>& ranked, std::size_t place,
+                                              double scale) {
   const auto noisy = [](const Climb& c) { return c.p()[c.p().size() - 1] >= std::log(interpolation_nugget); };
   const auto start = [&](const Climb& c) {
     SearchStart s{c.p(), c.curvature()};
@@ -75,7 +76,8 @@ inline std::vector<SearchStart> best_of_each_explanation(const std::vector<Climb
                   [=](double& b) { b *= scale; });
     return s;
   };
-  std::vector<SearchStart> starts{start(ranked.front())};
+  std::vector<SearchStart> starts{start(ranked[place])};
+  if (place > 0) return starts;
   const auto other = std::find_if(ranked.begin(), ranked.end(), [&](const Climb& c) {
     return std::isfinite(c.value()) && noisy(c) != noisy(ranked.front());
   });
@@ -90,19 +92,16 @@ inline void make_regular(Likelihood& likelihood, const Box& box, SearchStart& st
     start.p[last] = std::min(start.p[last] + std::log(10.0), box.upper[last]);
 }
 
-/// On all of many runs, from what the climbs on few of them found.
-inline Search search_many(Likelihood& likelihood, const Box& box, const std::vector<Climb>& ranked,
-                          const FitOptions& options) {
-  const double scale = static_cast<double>(likelihood.runs()) / static_cast<double>(many);
-  Search search;
-  for (SearchStart start : best_of_each_explanation(ranked, scale)) {
+/// The highest that the starts lead to on all of many runs.
+inline Maximum maximize_all(Likelihood& likelihood, const Box& box, const std::vector<SearchStart>& starts,
+                            int max_iterations) {
+  Maximum best;
+  for (SearchStart start : starts) {
     make_regular(likelihood, box, start);
-    const Maximum found = maximize(likelihood, box, start, options.max_iterations);
-    if (found.value > search.best.value) search.best = found;
+    const Maximum found = maximize(likelihood, box, start, max_iterations);
+    if (found.value > best.value) best = found;
   }
-  search.tried = static_cast<int>(ranked.size());
-  search.agreed = agreeing(ranked, ranked.front().value());
-  return search;
+  return best;
 }
 
 /// Searches the box; the best point has the value −∞ when R is singular wherever it was tried.
@@ -110,15 +109,20 @@ inline Search search(Likelihood& likelihood, const Box& box, const FitOptions& o
   if (box.lower == box.upper) return {{box.lower, likelihood.value(box.lower), true}, 1, 1};
   const bool all = likelihood.runs() <= many;
   Likelihood few(all ? LikelihoodProblem{} : thinned(likelihood.problem()));
-  const std::vector<Climb> ranked = climbs(all ? likelihood : few, box, options);
-  evaluations += all ? 0 : few.factorizations();
-  if (!std::isfinite(ranked.front().value()))
+  Likelihood& climbed = all ? likelihood : few;
+  const std::vector<Climb> ranked = climbs(climbed, box, options);
+  if (!std::isfinite(ranked.front().value())) {
+    evaluations += all ? 0 : few.factorizations();
     return {{ranked.front().p(), ranked.front().value(), false}, static_cast<int>(ranked.size()), 0};
-  if (!all) return search_many(likelihood, box, ranked, options);
+  }
   const bool by_error = options.estimation == Estimation::penalized_likelihood;
-  const Choice choice = by_error ? chosen(likelihood, ranked) : Choice{};
+  const Choice choice = by_error ? chosen(climbed, ranked) : Choice{};
+  evaluations += all ? 0 : few.factorizations();
   const Climb& from = ranked[choice.place];
-  const Maximum best = maximize(likelihood, box, {from.p(), {}}, options.max_iterations);
+  const double scale = static_cast<double>(likelihood.runs()) / static_cast<double>(many);
+  const Maximum best =
+      all ? maximize(likelihood, box, {from.p(), {}}, options.max_iterations)
+          : maximize_all(likelihood, box, starts_on_all(ranked, choice.place, scale), options.max_iterations);
   return {best, static_cast<int>(ranked.size()), agreeing(ranked, from.value()),
           ranked.front().value() - from.value(), choice.ratio};
 }

@@ -183,6 +183,10 @@ class ScalarProblem : public Ipopt::TNLP {
     const Eigen::RowVectorXd here = combined(at_, weights);
     Eigen::MatrixXd H(dimension(), dimension());
     for (Eigen::Index i = 0; i < H.rows(); ++i) {
+      if (!scaled_.moves(i)) {
+        H.row(i) = Eigen::RowVectorXd::Zero(H.cols());
+        continue;
+      }
       Eigen::VectorXd u = at_.u;
       u[i] += u[i] > 0.5 ? -step : step;
       const ScaledPoint there = scaled_.at(u);

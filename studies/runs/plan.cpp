@@ -91,7 +91,7 @@ void refuse_to_shrink(int stored, int wanted, const std::string& option, const s
 
 bool has_corners(const doe::Problem& problem, int runs) {
   const std::size_t dimension = problem.variables.size();
-  return dimension < 30 && runs >= (1 << dimension);
+  return dimension < 30 && 2LL * runs >= 5LL * (1LL << dimension);
 }
 
 Eigen::MatrixXd first_design(const Identity& identity, int runs) {

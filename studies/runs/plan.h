@@ -21,7 +21,7 @@
 
 namespace drawpoint::studies {
 
-/// Whether a first design of so many points starts with the corners.
+/// Whether a first design of so many points starts with the corners: where they are two fifths of it or less.
 bool has_corners(const doe::Problem& problem, int runs);
 
 /// The training points (n x d) of a new design.

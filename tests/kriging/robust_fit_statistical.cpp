@@ -12,6 +12,7 @@
 #include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;

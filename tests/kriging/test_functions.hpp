@@ -15,6 +15,7 @@
 #include <cmath>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 

@@ -79,7 +79,7 @@ int near_the_step(const Identity& base, const char* criteria, double width) {
 
 // 25 runs stand 1.8/5 = 0.36 apart in alpha. LOLA sees the step from each cell with a neighbour beyond it, so its points
 // lie within a cell's half and a neighbour's distance, 0.54, where 0.58 of the range is: 48 of 48 by chance has the
-// probability 1e-11, and 38, for a mix of which it chooses 0.7, 1e-3.
+// probability 1e-11, and 38, for a mix of which it chooses 0.7, 1.6e-3.
 TEST_F(Adaptive, LolaVoronoiGoesToTheStep) {
   EXPECT_EQ(near_the_step(identity_, "lola_voronoi", 0.54), 48);
   EXPECT_GE(near_the_step(identity_, "lola_voronoi=0.7,error=0.3", 0.54), 38);

@@ -28,8 +28,8 @@ Eigen::MatrixXd stacked(const Eigen::MatrixXd& above, const Eigen::MatrixXd& bel
 }
 
 TEST(Plan, CornersComeWithEnoughRuns) {
-  EXPECT_FALSE(has_corners(test::two_by_two(), 3));
-  EXPECT_TRUE(has_corners(test::two_by_two(), 4));
+  EXPECT_FALSE(has_corners(test::two_by_two(), 9));
+  EXPECT_TRUE(has_corners(test::two_by_two(), 10));
 }
 
 /// With n points in all, each new point is alone in its stratum of width 1/n on every axis, whatever the

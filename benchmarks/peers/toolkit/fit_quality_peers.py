@@ -5,7 +5,8 @@
 
 FOLDER: what `fit_quality --write FOLDER` wrote. scikit-learn: constant times squared exponential plus white noise, no
 restarts (its default) and five. OpenTURNS: squared exponential, constant trend, the best of nine nuggets by its own
-likelihood, since it does not estimate one. Medians over the seeds; columns as in fit_quality."""
+likelihood, since it does not estimate one. Medians over the seeds; columns as in fit_quality, but the
+noise is in the unit of the response."""
 import itertools
 import re
 import sys

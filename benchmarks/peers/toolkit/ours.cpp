@@ -110,6 +110,7 @@ void fit_case(const std::string& name, int runs) {
   options.lower = Eigen::VectorXd::Zero(4);
   options.upper = Eigen::VectorXd::Ones(4);
   options.threads = 1;
+  options.estimation = kriging::Estimation::maximum_likelihood;  // what the peers maximise
   const double seconds = peers::least_seconds([&] { kriging::fit(data.X, data.y, options); });
   const kriging::Model model = kriging::fit(data.X, data.y, options);
   const double mean = peers::least_seconds([&] { model.mean(test.X); });
