@@ -53,7 +53,7 @@ double range(const Eigen::VectorXd& x) {
 
 int main() {
   const doe::Evaluations runs =
-      doe::evaluate(range, throwing, doe::optimized_latin_hypercube(throwing, 50, {.corners = true}));
+      doe::evaluate(range, throwing, doe::optimized_latin_hypercube(throwing, 64, {.corners = true}));
   const kriging::Model model = kriging::fit(runs.X(), runs.y("range"));
 
   const doe::Evaluations others =
