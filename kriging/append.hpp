@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// More runs in a model without a new fit: θ, the exponents, λ, what is unknown of them, and the scales stay; β,
-/// α and s² are found anew.
+/// More runs in a model without a new fit: θ, the exponents, λ, what is unknown of them, and the scales stay;
+/// β, α and s² are found anew.
 ///
 /// With R = [R₁₁ R₂₁ᵀ; R₂₁ R₂₂] and R₁₁ = L₁₁L₁₁ᵀ at hand, L₂₁ = R₂₁L₁₁⁻ᵀ and L₂₂L₂₂ᵀ = R₂₂ − L₂₁L₂₁ᵀ: cost
 /// n² for each new run, where factoring anew costs n³/3. Equal to the full factor but for round-off. Runs
@@ -48,8 +48,7 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
   if (s.X.rows() == 0 || s.report.status == Status::exact_trend)
     reject(
         "the model is a constant or a trend alone and has no correlation to extend; allowed are fitted ones; "
-        "fit "
-        "all runs anew");
+        "fit all runs anew");
   if (runs.X.cols() != model.variables())
     reject("X has " + std::to_string(runs.X.cols()) + " columns; the model has " +
            std::to_string(model.variables()) + " variables; give one run per row");

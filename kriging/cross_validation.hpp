@@ -5,11 +5,12 @@
 /// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a
 /// measure made of one.
 ///
-/// leave_one_out(model): closed form, θ and λ as fitted, β estimated anew without each run. With
-/// P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the error is (P y)ᵢ/Pᵢᵢ and the variance of the run s²/Pᵢᵢ, its noise
-/// included (Dubrule 1983, Mathematical Geology 15). Cost n³/3, no refits. The s² is that of all runs, and what is unknown of θ and λ is left out. θ and
-/// λ have seen the run, so the error is estimated somewhat low. k_fold and hold_out fit anew without the runs
-/// that they predict: honest, at the cost of the fits. Runs are shared out at random, by the seed.
+/// leave_one_out(model): closed form, θ and λ as fitted, β estimated anew without each run. With P = R⁻¹ −
+/// R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the error is (P y)ᵢ/Pᵢᵢ and the variance of the run s²/Pᵢᵢ, its noise included
+/// (Dubrule 1983, Mathematical Geology 15). Cost n³/3, no refits. The s² is that of all runs, and what is
+/// unknown of θ and λ is left out. θ and λ have seen the run, so the error is estimated somewhat low. k_fold
+/// and hold_out fit anew without the runs that they predict: honest, at the cost of the fits. Runs are shared
+/// out at random, by the seed.
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -8,13 +8,13 @@
 ///   mean        ŷ(x)    = fᵀβ + rᵀα
 ///   variance    s²(x)   = s² [1 − rᵀR⁻¹r + uᵀ(FᵀR⁻¹F)⁻¹u],  u = f − FᵀR⁻¹r
 ///   covariance  s²(x,z) = s² [c(x, z) − rₓᵀR⁻¹r_z + uₓᵀ(FᵀR⁻¹F)⁻¹u_z]
-/// The last terms are what estimating β adds; unless FitOptions says otherwise there is one more, gᵀVg for what
-/// estimating θ, the exponents and λ adds (detail/parameter_uncertainty.hpp). This is about the latent function, the response without noise;
-/// its variance does not vanish at the runs when λ > 0. A new noisy observation has the variance s²(x) + λ
-/// s², where runs of different noise have their mean. Units: mean in the unit of y, variance in its square.
-/// Cost a point: mean n d, variance n² more, covariance of m points m n² + m² n. Source: Forrester, Keane,
-/// Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy' Computer Experiments"; universal
-/// Kriging: Santner, Williams, Notz 2003, section 3.3.
+/// The last terms are what estimating β adds; unless FitOptions says otherwise there is one more, gᵀVg for
+/// what estimating θ, the exponents and λ adds (detail/parameter_uncertainty.hpp). This is about the latent
+/// function, the response without noise; its variance does not vanish at the runs when λ > 0. A new noisy
+/// observation has the variance s²(x) + λ s², where runs of different noise have their mean. Units: mean in
+/// the unit of y, variance in its square. Cost a point: mean n d, variance n² more, covariance of m points m
+/// n² + m² n. Source: Forrester, Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy'
+/// Computer Experiments"; universal Kriging: Santner, Williams, Notz 2003, section 3.3.
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -103,7 +103,7 @@ struct FitReport {
   Status status = Status::converged;
   std::string message;    ///< for people; names also the inputs that never vary
   int starts_tried = 0;   ///< local searches that were run
-  int starts_agreed = 0;  ///< of these, how many came within 0.1 of the chosen maximum, or above it
+  int starts_agreed = 0;  ///< of these, how many came within 0.1 of the chosen maximum
   int evaluations = 0;    ///< correlation matrices factored, the screening of the candidates included
   double condition = 1;   ///< estimate of the 1-norm condition number of R
 };

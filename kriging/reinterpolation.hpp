@@ -9,8 +9,9 @@
 ///   s²_ri [1 − rᵀC⁻¹r + uᵀ(FᵀC⁻¹F)⁻¹u],  s²_ri = αᵀC α/n,
 /// and vanishes at the runs, so that a search for improvement does not ask for the same run again. C without
 /// the nugget may be singular to round-off: the smallest of n·ε·4·10ᵏ that lets it be factored is added to
-/// its diagonal, and the variance at the runs stays below that share of s²_ri. θ is taken as known. Cost n³/3. Source: Forrester,
-/// Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy' Computer Experiments".
+/// its diagonal, and the variance at the runs stays below that share of s²_ri. θ is taken as known. Cost
+/// n³/3. Source: Forrester, Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy'
+/// Computer Experiments".
 
 #include <Eigen/Core>
 #include <drawpoint/kriging/detail/cholesky.hpp>

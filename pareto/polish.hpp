@@ -12,10 +12,11 @@
 ///   Wismer 1971; ρ after Mavrotas 2009): the point keeps its place in the others;
 /// both within the bounds and the limits of the problem, by Ipopt with the gradients as given and Hessians
 /// from differences of gradients. F are the objectives, minimised and scaled by their ranges on the front, x
-/// in the unit box; integer and categorical variables keep their values. A result is kept only when it is feasible and no objective is worse than at x°, so the
-/// dominated volume never falls. Every point, moved or not, gets the residual of the first-order conditions
-/// (stationarity.hpp). Local: a point on a local front stays there. Cost: 10 to 30 iterations per point, each
-/// one evaluation and d for the Hessian, plus about half a millisecond per iteration inside Ipopt.
+/// in the unit box; integer and categorical variables keep their values. A result is kept only when it is
+/// feasible and no objective is worse than at x°, so the dominated volume never falls. Every point, moved or
+/// not, gets the residual of the first-order conditions (stationarity.hpp). Local: a point on a local front
+/// stays there. Cost: 10 to 30 iterations per point, each one evaluation and d for the Hessian, plus about
+/// half a millisecond per iteration inside Ipopt.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -84,7 +85,7 @@ inline std::string_view to_string(PolishStatus status) {
 
 struct Polished {
   Front front;  ///< row i is polished from row i of the given front; rows may dominate each other
-  /// Of the first-order conditions of the real variables, 0 to 1; NaN where f failed, or where no variable is real.
+  /// Of the first-order conditions of the real variables, 0 to 1; NaN where f failed, or where none is real.
   Eigen::VectorXd residual_before, residual;
   Eigen::MatrixXd weights;            ///< n x m, λ of the conditions at the polished points
   std::vector<PolishedPoint> points;  ///< n: what became of each

@@ -4,8 +4,8 @@
 
 /// Which of several maxima a fit takes: the highest, unless leave-one-out speaks clearly for another.
 ///
-/// The highest maximum may be a poor predictor. In a Latin hypercube with its corners half of the runs see the
-/// edge of the box alone; a model that fits these very well and the rest badly is likelier than one that
+/// The highest maximum may be a poor predictor. In a Latin hypercube with its corners half of the runs see
+/// the edge of the box alone; a model that fits these very well and the rest badly is likelier than one that
 /// predicts well everywhere. The error that counts is that at a new point of the box, so each run's squared
 /// leave-one-out error is weighted by the share of the box that lies nearer to it than to other runs (as
 /// geostatistics declusters its data). From the highest maximum down, another one is taken when its error is
@@ -40,7 +40,8 @@ inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& X, const Ei
   return rows;
 }
 
-/// Share of [-1, 1]^d that is nearest to each row of X, by 50 random points per row; runs that repeat share alike.
+/// Share of [-1, 1]^d that is nearest to each row of X, by 50 random points per row; runs that repeat share
+/// alike.
 inline Eigen::VectorXd shares_of_box(const Eigen::MatrixXd& X) {
   doe::RandomStream random(1);
   const Eigen::Index points = 50 * X.rows();

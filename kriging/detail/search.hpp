@@ -65,8 +65,8 @@ inline int agreeing(const std::vector<Climb>& all, double value) {
       all.begin(), all.end(), [&](const Climb& c) { return std::abs(c.value() - value) <= agreement; }));
 }
 
-/// Where the searches on all runs start, with curvatures times `scale`: the chosen climb, and, where that is the
-/// highest, the best of the other explanation of the same data.
+/// Where the searches on all runs start, with curvatures times `scale`: the chosen climb, and, where that is
+/// the highest, the best of the other explanation of the same data.
 inline std::vector<SearchStart> starts_on_all(const std::vector<Climb>& ranked, std::size_t place,
                                               double scale) {
   const auto noisy = [](const Climb& c) { return c.p()[c.p().size() - 1] >= std::log(interpolation_nugget); };

@@ -239,7 +239,8 @@ TEST(Reinterpolation, IsTheModelItselfWithoutNoise) {
             1e-3 * model.process_variance());
 }
 
-// Differences of such inputs have no square: the correlation would be no number, and its factor would never come.
+// Differences of such inputs have no square: the correlation would be no number, and its factor would never
+// come.
 TEST(Append, RefusesMagnitudesWithoutASquare) {
   const MatrixXd X = reference::design(12, 2, 3);
   const Model model = fit(X, X.col(0).array().sin().matrix());

@@ -186,7 +186,8 @@ TEST(ExpectedHypervolumeImprovement, IsZeroAtTheRuns) {
             probability_of_feasibility(problem, models)(X));
 }
 
-// Kriging models behind AnySurrogate are re-interpolated as they are alone: noisy runs do not ask for themselves again.
+// Kriging models behind AnySurrogate are re-interpolated as they are alone: noisy runs do not ask for
+// themselves again.
 TEST(ExpectedHypervolumeImprovement, OfModelsBehindAnySurrogateIsThatOfTheModels) {
   const MatrixXd X = reference::design(25, 2, 3);
   VectorXd a = X.col(0);

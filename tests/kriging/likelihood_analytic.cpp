@@ -72,7 +72,8 @@ TEST(Likelihood, HessianIsTheDifferenceQuotientOfTheGradient) {
   }
 }
 
-// Every family, trend and kind of noise against differences, as above; with the prior where the trend is linear.
+// Every family, trend and kind of noise against differences, as above; with the prior where the trend is
+// linear.
 TEST(Likelihood, DerivativesOfAllKindsAreDifferenceQuotients) {
   const reference::Data data = reference::training("noisy4", 100);
   LikelihoodProblem problem;

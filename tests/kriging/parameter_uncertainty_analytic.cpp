@@ -100,9 +100,10 @@ Model without(const Model& model) {
 }  // namespace
 
 // What the variance has beyond that of known parameters is gᵀVg with g by central differences of models of
-// other parameters. Richardson's steps of 0.02 and 0.01 leave h⁴ f⁽⁵⁾/480, below 1e-6 of g as for the likelihood;
-// round-off is the condition, 1e7, times 1e-16 over the step: 1e-7, and with the steps of 6e-4 at exponents near 2
-// 2e-6 of y, which is 1e-4 of the g of these. So 1e-5 of the largest, and 1e-4 with exponents.
+// other parameters. Richardson's steps of 0.02 and 0.01 leave h⁴ f⁽⁵⁾/480, below 1e-6 of g as for the
+// likelihood; round-off is the condition, 1e7, times 1e-16 over the step: 1e-7, and with the steps of 6e-4 at
+// exponents near 2 2e-6 of y, which is 1e-4 of the g of these. So 1e-5 of the largest, and 1e-4 with
+// exponents.
 TEST(ParameterUncertainty, IsTheVarianceOfTheMeanToFirstOrder) {
   const MatrixXd Z = reference::design(12, 2, 5);
   for (const FitOptions& options : kinds()) {
@@ -143,7 +144,8 @@ TEST(ParameterUncertainty, SpreadIsTheInverseOfTheCurvature) {
   }
 }
 
-// The gradient of the variance by Richardson's differences in x; the covariance has the variances on its diagonal.
+// The gradient of the variance by Richardson's differences in x; the covariance has the variances on its
+// diagonal.
 TEST(ParameterUncertainty, HasItsGradientAndCovariance) {
   const MatrixXd Z = reference::design(6, 2, 6);
   for (const FitOptions& options : kinds()) {
@@ -186,7 +188,8 @@ TEST(ParameterUncertainty, IsNoneWhereAllIsGivenOrNotAskedFor) {
   EXPECT_EQ(reinterpolated(on).state().parameter_spread.cols(), 0);
 }
 
-// More runs leave V as it is, and what it does to the mean is found anew: as by differences of the mean of all runs.
+// More runs leave V as it is, and what it does to the mean is found anew: as by differences of the mean of
+// all runs.
 TEST(ParameterUncertainty, IsOfAllRunsAfterAppending) {
   const reference::Data data = runs();
   FitOptions options;
@@ -226,7 +229,8 @@ TEST(ParameterUncertainty, OfManyRunsIsNoLessThanThatOfAll) {
   }
 }
 
-// Runs so far away that powers of their distance overflow: nothing is correlated with them, and all is finite.
+// Runs so far away that powers of their distance overflow: nothing is correlated with them, and all is
+// finite.
 TEST(ParameterUncertainty, IsFiniteFarAway) {
   const reference::Data data = runs();
   for (FitOptions options : kinds()) {

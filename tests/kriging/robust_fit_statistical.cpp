@@ -64,8 +64,9 @@ Found of_pure_noise(int variables, const FitOptions& options) {
 
 }  // namespace
 
-// 60 runs of which 32 are corners. Friedman's function is a sine, a square and two lines: a model worth its name beats
-// the least-squares quadratic of the same runs. The highest likelihood does not, in most of these designs.
+// 60 runs of which 32 are corners. Friedman's function is a sine, a square and two lines: a model worth its
+// name beats the least-squares quadratic of the same runs. The highest likelihood does not, in most of these
+// designs.
 TEST(DefaultFit, IsNotMisledByCorners) {
   const doe::Problem problem = unit_box(5);
   const MatrixXd Z = reference::design(1000, 5, 999);
@@ -82,8 +83,9 @@ TEST(DefaultFit, IsNotMisledByCorners) {
   EXPECT_GE(misled, 3) << "the designs no longer show what this test is about";
 }
 
-// The noise of 100 runs is known to 1/√200 = 0.07 of itself at best, the mean to 1/√100 = 0.1 as a constant and to
-// √(d + 1)/10 as a plane: a fit that explains no noise stays below these, twice the first for the median of 11.
+// The noise of 100 runs is known to 1/√200 = 0.07 of itself at best, the mean to 1/√100 = 0.1 as a constant
+// and to √(d + 1)/10 as a plane: a fit that explains no noise stays below these, twice the first for the
+// median of 11.
 TEST(DefaultFit, SaysThatNoiseIsNoise) {
   for (const int variables : {4, 10}) {
     const Found found = of_pure_noise(variables, {});

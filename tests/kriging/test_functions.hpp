@@ -5,11 +5,11 @@
 /// Functions on [0, 1]^d by which fits are judged, beyond the three of reference_cases.hpp.
 ///
 /// friedman5, borehole8, piston7, hartmann3 and hartmann6 with their usual constants (Surjanovic, Bingham,
-/// "Virtual Library of Simulation Experiments"); franke2: Franke 1979. waves5, rational5, saturating4 and step3 are
-/// ours: smooth waves, a ratio, a production that saturates, and a jump. process4 is a draw of the Gaussian
-/// process that a fit takes for granted: rates 4, 2, 1 and 0.5 on [0, 1]⁴, by 500 random cosines (Rahimi, Recht
-/// 2007), whose covariance misses the Gaussian's by 1/√500 at most. nothing4 is 0. Where `noise` is above 0, runs
-/// are observed with normal noise of that deviation.
+/// "Virtual Library of Simulation Experiments"); franke2: Franke 1979. waves5, rational5, saturating4 and
+/// step3 are ours: smooth waves, a ratio, a production that saturates, and a jump. process4 is a draw of the
+/// Gaussian process that a fit takes for granted: rates 4, 2, 1 and 0.5 on [0, 1]⁴, by 500 random cosines
+/// (Rahimi, Recht 2007), whose covariance misses the Gaussian's by 1/√500 at most. nothing4 is 0. Where
+/// `noise` is above 0, runs are observed with normal noise of that deviation.
 
 #include <Eigen/Core>
 #include <cmath>

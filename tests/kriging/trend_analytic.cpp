@@ -128,9 +128,10 @@ TEST(Trend, ABasisThatChangesItsMindIsRefused) {
   }
 }
 
-// A plane under a linear trend: nothing is left to correlate. The terms of the mean are below 2e3 here, and the quadratic
-// has six, found from 30 runs by least squares of a condition below 100: 2e3·6·100·1e-16 = 1e-10. The stated deviation is
-// 64 round-offs of 1700/700 for the standardised response, 3e-14, times its scale of 200 and some extrapolation: below 1e-10.
+// A plane under a linear trend: nothing is left to correlate. The terms of the mean are below 2e3 here, and
+// the quadratic has six, found from 30 runs by least squares of a condition below 100: 2e3·6·100·1e-16 =
+// 1e-10. The stated deviation is 64 round-offs of 1700/700 for the standardised response, 3e-14, times its
+// scale of 200 and some extrapolation: below 1e-10.
 TEST(Trend, ThatMeetsAllRunsIsTheModel) {
   const MatrixXd X = reference::design(30, 2, 3), Z = reference::design(20, 2, 4);
   const auto plane = [](const VectorXd& x) { return 1000.0 + 3.0 * x[0] - 700.0 * x[1]; };

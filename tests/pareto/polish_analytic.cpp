@@ -179,8 +179,8 @@ TEST(Polish, BadInputIsNamed) {
 
 }  // namespace
 
-// The segment again, with x_0 one of 0, 1, 2, 3 in another unit: it keeps the whole number of the search, and the others
-// go to their optimum beside it, which for x_2 and x_3 is that of both objectives.
+// The segment again, with x_0 one of 0, 1, 2, 3 in another unit: it keeps the whole number of the search, and
+// the others go to their optimum beside it, which for x_2 and x_3 is that of both objectives.
 TEST_P(Forms, LeaveWholeNumbersWhole) {
   doe::Problem problem = support::unit_problem(4, 2);
   problem.variables[0] = doe::integer_variable("count", "1", 0, 3);

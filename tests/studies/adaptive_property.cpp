@@ -77,16 +77,16 @@ int near_the_step(const Identity& base, const char* criteria, double width) {
   return near;
 }
 
-// 25 runs stand 1.8/5 = 0.36 apart in alpha. LOLA sees the step from each cell with a neighbour beyond it, so its points
-// lie within a cell's half and a neighbour's distance, 0.54, where 0.58 of the range is: 48 of 48 by chance has the
-// probability 1e-11, and 38, for a mix of which it chooses 0.7, 1.6e-3.
+// 25 runs stand 1.8/5 = 0.36 apart in alpha. LOLA sees the step from each cell with a neighbour beyond it, so
+// its points lie within a cell's half and a neighbour's distance, 0.54, where 0.58 of the range is: 48 of 48
+// by chance has the probability 1e-11, and 38, for a mix of which it chooses 0.7, 1.6e-3.
 TEST_F(Adaptive, LolaVoronoiGoesToTheStep) {
   EXPECT_EQ(near_the_step(identity_, "lola_voronoi", 0.54), 48);
   EXPECT_GE(near_the_step(identity_, "lola_voronoi=0.7,error=0.3", 0.54), 38);
 }
 
-// Models disagree on where the step is: within half a distance of two runs, 0.2, lie 2/9 of the range. Points that ignore
-// it are there 11 times in 48, with a deviation of 2.9: 20 are three of these more.
+// Models disagree on where the step is: within half a distance of two runs, 0.2, lie 2/9 of the range. Points
+// that ignore it are there 11 times in 48, with a deviation of 2.9: 20 are three of these more.
 TEST_F(Adaptive, ErrorGoesToTheStep) { EXPECT_GE(near_the_step(identity_, "error", 0.2), 20); }
 
 /// The least distance from a run of a batch to the runs before it, in the unit box.
