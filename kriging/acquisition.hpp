@@ -70,8 +70,8 @@ const Model* kriging_model(const S& surrogate) {
     return nullptr;
 }
 
-/// The surrogate that a search for improvement asks: a Kriging model, also one behind AnySurrogate, is
-/// re-interpolated, and its round-off at the runs is no variance.
+/// The surrogate that a search for improvement asks: one that can be is re-interpolated, also behind
+/// AnySurrogate, and the round-off of a Kriging model at the runs is no variance.
 template <class S>
 class SearchModel {
  public:
@@ -87,9 +87,10 @@ class SearchModel {
 
  private:
   static S searched(const S& model) {
-    if constexpr (std::constructible_from<S, Model>)
-      if (const Model* kriging = kriging_model(model)) return S(reinterpolated(*kriging));
-    return model;
+    if constexpr (requires { reinterpolated(model); })
+      return reinterpolated(model);
+    else
+      return model;
   }
 
   S model_;
@@ -104,6 +105,17 @@ inline Eigen::VectorXd fitted_values(const Model& model) {
   const Eigen::VectorXd share = detail::entry_products(detail::added_noise(s), s.gls.alpha);
   return detail::difference(s.observed, detail::affine(share, s.y_scale));
 }
+
+/// Surrogates of noisy runs that tell what they hold these to be without noise: fitted_values(s), n entries, and
+/// reinterpolated(s), the surrogate that interpolates those.
+template <class S>
+concept Regression = Surrogate<S> && requires(const S& s) {
+  { fitted_values(s) } -> std::convertible_to<Eigen::VectorXd>;
+  { reinterpolated(s) } -> std::convertible_to<S>;
+  { s.runs() } -> std::convertible_to<Eigen::Index>;
+};
+
+static_assert(Regression<Model>);
 
 /// σ² of the latent function, unit of y squared.
 template <class S>
@@ -143,11 +155,12 @@ doe::Criterion improvement(S model, const ImprovementOn& on) {
 }
 
 /// By the re-interpolated model, on the best fitted value of `runs`, all of them when empty.
-inline doe::Criterion reinterpolated_improvement(const Model& model, double sign, bool logarithm,
-                                                 const std::vector<Eigen::Index>& runs = {}) {
+template <Regression S>
+doe::Criterion reinterpolated_improvement(const S& model, double sign, bool logarithm,
+                                          const std::vector<Eigen::Index>& runs = {}) {
   Eigen::VectorXd values = affine(fitted_values(model), sign);
   if (!runs.empty()) values = entries_of(values, runs);
-  return improvement(SearchModel<Model>(model), {sign * smallest_entry(values), sign, logarithm});
+  return improvement(SearchModel<S>(model), {sign * smallest_entry(values), sign, logarithm});
 }
 
 }  // namespace detail
@@ -163,7 +176,8 @@ doe::Criterion expected_improvement(S model, doe::Goal goal, double best) {
 }
 
 /// Of a Kriging model, re-interpolated, on the best of its fitted values. Throws as above.
-inline doe::Criterion expected_improvement(const Model& model, doe::Goal goal) {
+template <Regression S>
+doe::Criterion expected_improvement(const S& model, doe::Goal goal) {
   return detail::reinterpolated_improvement(model, detail::sign_of("kriging::expected_improvement", goal),
                                             false);
 }
@@ -178,7 +192,8 @@ doe::Criterion log_expected_improvement(S model, doe::Goal goal, double best) {
 }
 
 /// ln of the second.
-inline doe::Criterion log_expected_improvement(const Model& model, doe::Goal goal) {
+template <Regression S>
+doe::Criterion log_expected_improvement(const S& model, doe::Goal goal) {
   return detail::reinterpolated_improvement(model, detail::sign_of("kriging::log_expected_improvement", goal),
                                             true);
 }

@@ -89,8 +89,9 @@ doe::Criterion probability_of_feasibility(const doe::Problem& problem, const std
 namespace detail {
 
 /// Which runs keep all limits, by the fitted values of models of the same runs.
-inline std::vector<Eigen::Index> feasible_runs(const char* place, const doe::Problem& problem,
-                                               const std::vector<Model>& models) {
+template <Regression S>
+std::vector<Eigen::Index> feasible_runs(const char* place, const doe::Problem& problem,
+                                        const std::vector<S>& models) {
   const Eigen::Index n = models.front().runs();
   std::vector<bool> kept(static_cast<std::size_t>(n), true);
   for (std::size_t j = 0; j < models.size(); ++j) {

@@ -234,8 +234,9 @@ doe::Criterion expected_hypervolume_improvement(const doe::Problem& problem, con
 /// feasibility. The reference point is theirs: the worst fitted value of each objective among all runs, so
 /// that better runs widen nothing. While no run is feasible the score is that probability alone. Throws as
 /// above, and when the models were fitted to different numbers of runs.
-inline doe::Criterion constrained_hypervolume_improvement(const doe::Problem& problem,
-                                                          const std::vector<Model>& models) {
+template <Regression S>
+doe::Criterion constrained_hypervolume_improvement(const doe::Problem& problem,
+                                                   const std::vector<S>& models) {
   constexpr const char* place = "kriging::constrained_hypervolume_improvement";
   detail::check_models(place, problem, models);
   const doe::Criterion feasible = probability_of_feasibility(problem, models);

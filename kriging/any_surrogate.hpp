@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 
 namespace drawpoint::kriging {
@@ -50,6 +51,11 @@ class AnySurrogate {
   }
 
   friend std::optional<Validation> leave_one_out(const AnySurrogate& any) { return any.held_->closed_form(); }
+  /// The surrogate without the noise of its runs where its kind has that, else itself.
+  friend AnySurrogate reinterpolated(const AnySurrogate& any) {
+    std::shared_ptr<const Held> other = any.held_->interpolating();
+    return other ? AnySurrogate(std::move(other)) : any;
+  }
 
  private:
   struct Held {
@@ -61,6 +67,7 @@ class AnySurrogate {
     virtual std::optional<Status> status() const = 0;
     virtual std::string message() const = 0;
     virtual std::optional<Validation> closed_form() const = 0;
+    virtual std::shared_ptr<const Held> interpolating() const = 0;
   };
 
   template <class S>
@@ -100,8 +107,16 @@ class AnySurrogate {
       else
         return std::nullopt;
     }
+    std::shared_ptr<const Held> interpolating() const override {
+      if constexpr (requires(const S& s) { reinterpolated(s); })
+        return std::make_shared<Holder<S>>(reinterpolated(surrogate));
+      else
+        return nullptr;
+    }
     S surrogate;
   };
+
+  explicit AnySurrogate(std::shared_ptr<const Held> held) : held_(std::move(held)) {}
 
   std::shared_ptr<const Held> held_;
 };

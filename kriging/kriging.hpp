@@ -7,6 +7,7 @@
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
 #include <drawpoint/kriging/any_surrogate.hpp>
 #include <drawpoint/kriging/append.hpp>
+#include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
@@ -22,6 +23,8 @@
 #include <drawpoint/kriging/score.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
+#include <drawpoint/kriging/transform.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
 
 /// Kriging models and other surrogates of runs: the whole of the module, in the order of use.
@@ -30,6 +33,9 @@
 ///   fit.hpp                        `Model model = fit(X, y);` by penalised likelihood
 ///   options.hpp                    what a fit can be told, and what it reports
 ///   correlation.hpp                Gaussian, power-exponential and Matern correlations
+///   transform.hpp                  scales for responses with bounds: square root, logarithm, logit
+///   transformed_model.hpp          a model on such a scale, predicting on the response's own
+///   choose_fit.hpp                 the way to fit, and the scale, that leave-one-out prefers
 ///   replicates.hpp                 repeated runs as one run with a known noise
 ///   polynomial.hpp                 polynomial regression
 ///   radial.hpp                     radial basis functions

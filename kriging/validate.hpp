@@ -33,6 +33,13 @@ inline void check_validation(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
     reject("y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
 }
 
+/// Surrogates whose predictions are normal on another scale than that of y.
+template <class S>
+concept OnAnotherScale = requires(const S& s, const Eigen::MatrixXd& X) {
+  { s.transform() } -> std::convertible_to<Transform>;
+  { s.model().predict(X, Target::observation) } -> std::convertible_to<Prediction>;
+};
+
 }  // namespace detail
 
 /// X: n x d, natural units; y: n. Throws std::invalid_argument for no runs, unequal lengths and numbers that
@@ -45,10 +52,17 @@ Validation validate(const S& model, const Eigen::MatrixXd& X, const Eigen::Vecto
       "giving an Eigen::VectorXd, X an Eigen::MatrixXd with one point per row");
   detail::check_validation(X, y, "kriging::validate: ");
   const Prediction p = model.predict(X);
-  return detail::scored({.observed = y,
-                         .predicted = p.mean,
-                         .variance = p.variance,
-                         .observation_variance = model.predict(X, Target::observation).variance});
+  Validation v{.observed = y,
+               .predicted = p.mean,
+               .variance = p.variance,
+               .observation_variance = model.predict(X, Target::observation).variance};
+  if constexpr (detail::OnAnotherScale<S>) {
+    const Prediction z = model.model().predict(X, Target::observation);
+    v.transform = model.transform();
+    v.scaled_mean = z.mean;
+    v.scaled_variance = z.variance;
+  }
+  return detail::scored(std::move(v));
 }
 
 }  // namespace drawpoint::kriging

@@ -164,13 +164,14 @@ struct Corners {
 };
 
 // The corners are forced, not drawn: half of them at each end of each variable. Uniform is what the other
-// runs should be; fewer than ten of them leave it unclear.
+// runs should be; fewer than ten of them leave it unclear. So does a plan of so few runs that corners would be
+// more than two fifths of it, and that has none (runs/plan.h).
 Finding f16(const LoadingRuns& runs) {
   const MatrixXd& X = runs.results().X;
   const Corners corners(runs);
   const int all = 1 << X.cols();
   Estimate margin;
-  if (X.rows() >= all) margin.value = static_cast<double>(corners.found.size()) - all + 0.5;
+  if (!corners.found.empty() || 2 * X.rows() >= 5 * all) margin.value = static_cast<double>(corners.found.size()) - all + 0.5;
   return decided(
       "F16", "Training points cover the box near-uniformly with its corners, validation points are uniform",
       {uniform(runs, X(corners.others, Eigen::all), "training without corners"),

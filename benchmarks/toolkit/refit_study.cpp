@@ -7,6 +7,9 @@
 /// on: leave-one-out in closed form (parameters kept), 10-fold with everything estimated anew, and the
 /// validation runs, with the per cent of these that lie within their 95 % interval. Beside them the noise of a
 /// run as the fit estimates it, over the range of the validation runs: no model gets below it there.
+/// A second table has the scales on which the response may be fitted (kriging/choose_fit.hpp): the mean
+/// logarithmic score of leave-one-out, its gain over the linear scale (standard error), and of the validation
+/// runs the ranked probability score in the response's unit, NRMSE and the per cent within their 95 % interval.
 /// "likeliest" is plain maximum likelihood with its parameters taken as known. With replicates in the store, the same noise from their scatter,
 /// √(Σ(y - mean)²/(n - points)), which no model has a part in. Times are CPU seconds of one fit.
 
@@ -21,6 +24,8 @@
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/doe/bounds.hpp>
+#include <drawpoint/doe/detail/enumerators.hpp>
+#include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
@@ -149,6 +154,30 @@ void scatter(const Table& runs, Eigen::Index response) {
                 std::sqrt(squares / static_cast<double>(freedom)), freedom);
 }
 
+void scales(const Box& box, const doe::Response& response, const Table& training, const Table& validation,
+            Eigen::Index j) {
+  kriging::FitOptions options;
+  options.lower = box.lower;
+  options.upper = box.upper;
+  options.threads = 0;
+  const kriging::ResponseRange range{response.lower, response.upper};
+  const Eigen::VectorXd y = training.Y.col(j);
+  const kriging::FitChoice choice = kriging::choose_scale(training.X, y, range, options);
+  std::printf("| scale | leave-one-out | gain | validation, crps | NRMSE | within |\n");
+  for (const kriging::FitStanding& s : choice.table) {
+    std::printf("| %s%s | %.4g | %.3g ± %.3g |", s.name.c_str(), s.name == choice.name() ? " (chosen)" : "",
+                s.log_score, s.gain, s.standard_error);
+    if (validation.X.rows() > 0) {
+      const auto scale = *doe::detail::enumerator_of<kriging::Scale>(s.name);
+      const auto model = kriging::fit_transformed(training.X, y, scale, range, options);
+      const kriging::Validation v = kriging::validate(model, validation.X, validation.Y.col(j));
+      std::printf(" %.4g | %.4f | %3.0f |", score(v, kriging::ErrorFunction::crps), v.nrmse,
+                  100.0 * score(v, kriging::ErrorFunction::coverage));
+    }
+    std::printf("\n");
+  }
+}
+
 void refit(const studies::Store& store) {
   const Table training = table_of(store, studies::Kind::training),
               validation = table_of(store, studies::Kind::validation);
@@ -165,6 +194,7 @@ void refit(const studies::Store& store) {
     scatter(training, j);
     std::printf("| way to fit | leave-one-out | 10-fold | validation | within | noise | CPU s |\n");
     for (const Way& way : ways) row(way, training.X, training.Y.col(j), validation, j);
+    scales(box, problem.responses[static_cast<std::size_t>(j)], training, validation, j);
     std::fflush(stdout);
   }
 }

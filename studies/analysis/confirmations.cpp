@@ -47,10 +47,9 @@ CheckedRun checked_run(const Run& run, const doe::Problem& problem) {
   if (!done) checked.outcome = doe::Failure{run.reason};
   for (Eigen::Index j = 0; j < run.predicted.size(); ++j) {
     const doe::Response& response = problem.responses[static_cast<std::size_t>(j)];
-    const double margin = interval_deviations * run.deviation[j];
     checked.predicted[j] = doe::within_range(response, run.predicted[j]);
-    checked.lower[j] = doe::within_range(response, run.predicted[j] - margin);
-    checked.upper[j] = doe::within_range(response, run.predicted[j] + margin);
+    checked.lower[j] = doe::within_range(response, run.lower[j]);
+    checked.upper[j] = doe::within_range(response, run.upper[j]);
     const bool within = done && run.y[j] >= checked.lower[j] && run.y[j] <= checked.upper[j];
     checked.within.push_back(within);
     if (!done || response.goal == doe::Goal::record) continue;

@@ -13,6 +13,12 @@ namespace {
 
 using nlohmann::json;
 
+void keep_within_range(Eigen::MatrixXd& values, const doe::Problem& problem) {
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    for (double& value : values.col(static_cast<Eigen::Index>(j)))
+      value = doe::within_range(problem.responses[j], value);
+}
+
 json number_or_nothing(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 void append_numbers(std::vector<json>& row, const Eigen::VectorXd& values) {
@@ -48,7 +54,7 @@ ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs) {
                                 {"seconds", "s"}},
                     .rows = {}};
   append_variables(table, identity.problem);
-  for (const char* ending : {"", "_predicted", "_deviation"})
+  for (const char* ending : {"", "_predicted", "_lower", "_upper"})
     append_responses(table, identity.problem, ending);
   for (const Run& run : runs) {
     std::vector<json> row = {run.id,
@@ -59,7 +65,8 @@ ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs) {
                              name_of(run.status),
                              run.reason,
                              run.seconds};
-    for (const auto* values : {&run.x, &run.y, &run.predicted, &run.deviation}) append_numbers(row, *values);
+    for (const auto* values : {&run.x, &run.y, &run.predicted, &run.lower, &run.upper})
+      append_numbers(row, *values);
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -72,14 +79,17 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
   const pareto::Front front = predicted_front(fitted.models, tables, identity.seed).found.front;
   ExportTable table;
   append_variables(table, problem);
-  for (const char* ending : {"", "_deviation"}) append_responses(table, problem, ending);
+  for (const char* ending : {"", "_lower", "_upper"}) append_responses(table, problem, ending);
   if (front.X.rows() == 0) return table;
-  const PlannedPoints points = with_predictions(fitted.models, front.X);
+  PlannedPoints points = with_predictions(fitted.models, front.X);
+  keep_within_range(points.lower, problem);
+  keep_within_range(points.upper, problem);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;
     append_numbers(row, front.X.row(i));
     append_numbers(row, front.responses.row(i));
-    append_numbers(row, points.deviation.row(i));
+    append_numbers(row, points.lower.row(i));
+    append_numbers(row, points.upper.row(i));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -21,11 +21,11 @@ struct ExportTable {
 };
 
 /// All runs in order of id: run, kind, point, replicate, seed (text, 64 bits), status, reason, seconds, then
-/// the variables, the responses, and of each response what was predicted and the standard deviation of that.
+/// the variables, the responses, and of each response what was predicted and the ends of its 95 % interval.
 ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs);
 
-/// The predicted front of the present models: the variables, the responses, and of each response the standard
-/// deviation of one run. Throws std::runtime_error if the runs do not allow models.
+/// The predicted front of the present models: the variables, the responses, and of each response the ends
+/// of the 95 % interval of one run. Throws std::runtime_error if the runs do not allow models.
 ExportTable front_table(const Identity& identity, const std::vector<Run>& runs);
 
 /// RFC 4180, the first line being "name [unit]"; every double reads back as the same bits.

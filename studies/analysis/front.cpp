@@ -42,8 +42,8 @@ void append(pareto::PolishedFront& found, const pareto::Front& searched) {
 
 }  // namespace
 
-pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
-                               doe::Seed seed, const FailedPlaces& failed) {
+pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& models,
+                               const doe::Problem& problem, doe::Seed seed, const FailedPlaces& failed) {
   const kriging::Surrogates means(models);
   const auto avoiding = [&](const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds) {
     std::vector<doe::Outcome> outcomes = means(X, seeds);
@@ -68,7 +68,7 @@ bool has_objective(const doe::Problem& problem) {
                      [](const doe::Response& response) { return doe::is_objective(response.goal); });
 }
 
-PredictedFront predicted_front(const std::vector<kriging::Model>& models, const Tables& tables,
+PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& models, const Tables& tables,
                                doe::Seed seed) {
   const doe::Problem& problem = tables.training.problem;
   if (!has_objective(problem)) return {.found = {}, .missing = "no response is to be minimized or maximized"};

@@ -10,7 +10,7 @@
 #include <drawpoint/studies/analysis/failed_places.h>
 #include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/pareto/polished_front.hpp>
 
 #include <string>
@@ -20,8 +20,8 @@ namespace drawpoint::studies {
 
 /// models: one per response, in order, of the problem's variables. Deterministic: the seed is that of the
 /// search.
-pareto::PolishedFront front_of(const std::vector<kriging::Model>& models, const doe::Problem& problem,
-                               doe::Seed seed, const FailedPlaces& failed = {});
+pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& models,
+                               const doe::Problem& problem, doe::Seed seed, const FailedPlaces& failed = {});
 
 /// Whether there is anything to search for.
 bool has_objective(const doe::Problem& problem);
@@ -31,7 +31,7 @@ struct PredictedFront {
   pareto::PolishedFront found;
   std::string missing = {};  ///< empty where there is a front
 };
-PredictedFront predicted_front(const std::vector<kriging::Model>& models, const Tables& tables,
+PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& models, const Tables& tables,
                                doe::Seed seed);
 
 /// Takes what is predicted as values that the responses can have.

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The models of a study: one Kriging model per response, its correlation and trend chosen by leave-one-out
-/// among four, and validated on the validation runs. Failed runs are left out. Deterministic.
+/// The models of a study: one Kriging model per response, its scale, correlation and trend chosen by
+/// leave-one-out, and validated on the validation runs. Failed runs are left out. Deterministic.
 
 #include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/kriging/compare.hpp>
-#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
 
 #include <string>
@@ -16,18 +15,19 @@
 
 namespace drawpoint::studies {
 
-/// The ways to fit that are compared: smooth and less smooth responses, without and with a slope. The first
-/// is the default.
-std::vector<kriging::NamedFitter<kriging::Model>> ways_to_fit(const doe::Problem& problem);
+/// The ways to fit a response on this scale that are compared: smooth and less smooth, without and with a
+/// slope. The first is the default.
+std::vector<kriging::WayToFit> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
+                                           kriging::Scale scale);
 
 struct Models {
-  std::vector<kriging::Model> models;            ///< one per response, in order
-  std::vector<std::string> ways;                 ///< how each was fitted: a name of ways_to_fit
-  std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
+  std::vector<kriging::TransformedModel> models;  ///< one per response, in order
+  std::vector<std::string> ways;                  ///< how each was fitted: a name of ways_to_fit
+  std::vector<kriging::Validation> validations;   ///< one per response; empty without validation runs
 };
 
-/// Takes the default way to fit unless another has a leave-one-out error that is lower by a tenth. Throws
-/// std::invalid_argument if the runs do not allow models.
+/// The scale is that of kriging::choose_scale among those that the response's range allows, the way to fit on it
+/// that of kriging::choose_fit. Throws std::invalid_argument if the runs do not allow models.
 Models fit_models(const Tables& tables);
 
 /// The same, for who cannot go on without: std::runtime_error says what to do.
@@ -37,6 +37,7 @@ Models models_or_reason(const Tables& tables);
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem);
 
 /// The points (n x d) with what the models expect of one run there, its noise included.
-PlannedPoints with_predictions(const std::vector<kriging::Model>& models, const Eigen::MatrixXd& X);
+PlannedPoints with_predictions(const std::vector<kriging::TransformedModel>& models,
+                               const Eigen::MatrixXd& X);
 
 }  // namespace drawpoint::studies

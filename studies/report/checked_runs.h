@@ -3,8 +3,8 @@
 #pragma once
 /// Predictions held against the runs that were made afterwards.
 ///
-/// The stated interval of a prediction is mean ± 1.96 standard deviations of one run, noise included, both
-/// ends within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the models
+/// The stated interval of a prediction is between the quantiles of 2.5 and 97.5 % of one run, noise included,
+/// both ends within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the models
 /// when chance alone would give so few with a probability below 10 % (binomial). The responses of one run are
 /// not independent, so that this blames somewhat too often.
 
@@ -17,8 +17,8 @@
 
 namespace drawpoint::studies {
 
-/// Half of an interval that holds 95 % of a normal variable, in standard deviations.
-inline constexpr double interval_deviations = 1.959963984540054;
+/// What of sound predictions lies within their stated interval.
+inline constexpr double stated_level = 0.95;
 
 /// One entry per response in predicted, lower, upper and within.
 struct CheckedRun {

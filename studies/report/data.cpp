@@ -54,13 +54,21 @@ json to_json(const Surface& s) {
           {"weights", to_json(s.weights)},
           {"terms", std::move(terms)},
           {"coefficients", to_json(s.coefficients)},
-          {"constant", s.constant}};
+          {"constant", s.constant},
+          {"scale", to_string(s.transform.scale)},
+          {"lower", s.transform.lower},
+          {"upper", s.transform.upper},
+          {"offset", s.transform.offset},
+          {"noise", to_json(s.noise)},
+          {"noise_weights", to_json(s.noise_weights)}};
 }
 
-json to_json(const kriging::Model& model, const std::optional<Surface>& s) {
+json to_json(const kriging::TransformedModel& fitted, const std::optional<Surface>& s) {
+  const kriging::Model& model = fitted.model();
   json formula;
   if (s) formula = to_json(*s);
-  return {{"theta", to_json(model.theta())},
+  return {{"scale", to_string(fitted.transform().scale)},
+          {"theta", to_json(model.theta())},
           {"nugget", model.nugget()},
           {"process_variance", model.process_variance()},
           {"log_likelihood", model.log_likelihood()},
@@ -68,14 +76,24 @@ json to_json(const kriging::Model& model, const std::optional<Surface>& s) {
           {"surface", std::move(formula)}};
 }
 
-json to_json(const kriging::Validation& v) {
+/// Of one noisy run at each validation point, kept within the range.
+Eigen::VectorXd ends_of_intervals(const kriging::Validation& v, const doe::Response& response,
+                                  double probability) {
+  Eigen::VectorXd ends(v.observed.size());
+  for (Eigen::Index i = 0; i < ends.size(); ++i)
+    ends[i] = doe::within_range(response, kriging::predicted_quantile(v, i, probability));
+  return ends;
+}
+
+json to_json(const kriging::Validation& v, const doe::Response& response) {
   if (v.observed.size() == 0) return json();
   return {{"rmse", v.rmse},
           {"nrmse", v.nrmse},
           {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
           {"observed", to_json(v.observed)},
           {"predicted", to_json(v.predicted)},
-          {"sd", to_json(Eigen::VectorXd(v.observation_variance.cwiseMax(0.0).cwiseSqrt()))}};
+          {"lower", to_json(ends_of_intervals(v, response, 0.5 - 0.5 * stated_level))},
+          {"upper", to_json(ends_of_intervals(v, response, 0.5 + 0.5 * stated_level))}};
 }
 
 json to_json(const std::vector<Finding>& findings) {
@@ -113,25 +131,30 @@ json to_json(const pareto::Polishing& polishing, const std::string& not_polished
           {"skipped", not_polished}};
 }
 
-/// Half of the 95 % interval of one run at each point of the front, one column per objective; no rows without
-/// models.
-Eigen::MatrixXd margins(const ReportInput& input) {
+/// One end of the 95 % interval of one run at each point of the front, one column per objective; no rows
+/// without models.
+Eigen::MatrixXd ends_of_intervals(const ReportInput& input, double probability) {
   const auto chosen = objectives(input.problem);
   if (input.models.empty() || input.front.X.rows() == 0) return {};
   Eigen::MatrixXd all(input.front.X.rows(), static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const auto p = input.models[chosen[k]].predict(input.front.X, kriging::Target::observation);
-    all.col(static_cast<Eigen::Index>(k)) = interval_deviations * p.variance.cwiseMax(0.0).cwiseSqrt();
+    const doe::Response& response = input.problem.responses[chosen[k]];
+    all.col(static_cast<Eigen::Index>(k)) =
+        input.models[chosen[k]]
+            .quantile(input.front.X, probability, kriging::Target::observation)
+            .unaryExpr([&](double y) { return doe::within_range(response, y); });
   }
   return all;
 }
 
-json to_json(const doe::Problem& problem, const pareto::Front& front, const Eigen::MatrixXd& margin) {
-  return {{"objectives", objectives(problem)},
-          {"margin", to_json(margin)},
+json front_json(const ReportInput& input) {
+  const pareto::Front& front = input.front;
+  return {{"objectives", objectives(input.problem)},
+          {"lower", to_json(ends_of_intervals(input, 0.5 - 0.5 * stated_level))},
+          {"upper", to_json(ends_of_intervals(input, 0.5 + 0.5 * stated_level))},
           {"X", to_json(front.X)},
           {"Y", to_json(front.Y)},
-          {"balanced", balanced_point(problem, front)},
+          {"balanced", balanced_point(input.problem, front)},
           {"evaluations", front.evaluations}};
 }
 
@@ -203,14 +226,15 @@ json report_data(const ReportInput& input) {
   json models = json::array(), validations = json::array(), shares = json::array();
   const std::vector<Eigen::VectorXd> effects = influence(input.models, input.problem);
   for (std::size_t j = 0; j < input.models.size(); ++j) {
-    const kriging::Model& model = input.models[j];
+    const kriging::TransformedModel& model = input.models[j];
     const auto formula = surface(model);
     if (!formula)
       known.warnings.push_back(
           "The response surface of " + pretty(input.problem.responses[j].name) +
           " is not drawn: the trend of its model is a function that this page does not know.");
     models.push_back(to_json(model, formula));
-    validations.push_back(j < input.validations.size() ? to_json(input.validations[j]) : json());
+    validations.push_back(
+        j < input.validations.size() ? to_json(input.validations[j], input.problem.responses[j]) : json());
     shares.push_back(to_json(effects[j]));
   }
   json panels = checked_panels(input.illustrations, known.warnings);
@@ -222,7 +246,7 @@ json report_data(const ReportInput& input) {
           {"validation", to_json(input.validation, input)},
           {"models", std::move(models)},
           {"validations", std::move(validations)},
-          {"front", to_json(input.problem, input.front, margins(input))},
+          {"front", front_json(input)},
           {"no_front", input.no_front},
           {"confirmations", to_json(input.confirmations)},
           {"polishing", to_json(input.polishing, input.not_polished)},

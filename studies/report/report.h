@@ -13,7 +13,7 @@
 #include <drawpoint/studies/report/checked_runs.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
-#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/pareto/search.hpp>
@@ -37,7 +37,8 @@ struct ReportInput {
   doe::Problem problem;
   doe::Evaluations training, validation;
   std::map<std::int64_t, std::string> kinds = {};  ///< of runs: what the table of runs calls them
-  std::vector<kriging::Model> models;  ///< one per response, in order; empty when none could be fitted
+  std::vector<kriging::TransformedModel>
+      models;  ///< one per response, in order; empty when none could be fitted
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
   std::string no_front = {};                     ///< why there is none; empty where there is one

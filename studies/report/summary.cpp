@@ -20,7 +20,6 @@ using nlohmann::json;
 constexpr double good_nrmse = 0.1, fair_nrmse = 0.2;
 constexpr Eigen::Index enough_points = 10;
 constexpr double enough_coverage = 0.75;
-constexpr double two_deviations = 0.9545;  // what a normal variable has within two standard deviations
 
 bool maximized(const doe::Response& r) { return r.goal == doe::Goal::maximize; }
 
@@ -247,10 +246,10 @@ void caution_about_models(const ReportInput& input, json& all) {
     if (is_poor(input, j))
       all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
                     "): add runs, or read only its trends.");
-    const double within = kriging::score(v, kriging::ErrorFunction::coverage, two_deviations);
+    const double within = kriging::score(v, kriging::ErrorFunction::coverage, stated_level);
     if (v.observed.size() >= enough_points && within < enough_coverage)
       all.push_back("The error bars of " + name + " are too narrow: only " + percent(within) +
-                    " of the validation runs lie within two standard deviations.");
+                    " of the validation runs lie within their 95 % interval.");
   }
 }
 

@@ -5,7 +5,7 @@
 ///
 /// Grades: NRMSE up to 0.1 good, up to 0.2 fair, above poor, without validation runs unknown. Cautions are
 /// raised for failed runs, a poor NRMSE, fewer than 10 validation points, error bars that are too narrow
-/// (fewer than 3 in 4 validation points within two standard deviations), and a predicted best beyond
+/// (fewer than 3 in 4 validation points within their 95 % interval), and a predicted best beyond
 /// everything simulated.
 
 #include <drawpoint/studies/report/report.h>

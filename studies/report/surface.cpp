@@ -5,20 +5,25 @@
 #include <drawpoint/doe/sensitivity.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 
+#include <tuple>
+
 namespace drawpoint::studies::detail {
 
-std::optional<Surface> surface(const kriging::Model& model) {
-  const auto& state = model.state();
+std::optional<Surface> surface(const kriging::TransformedModel& model) {
+  const auto& state = model.model().state();
   if (state.trend.by_user()) return std::nullopt;
-  Surface s{state.input.centre, state.input.factor, state.correlation, state.X, {}, {}, {}, state.y_centre};
+  Surface s{state.input.centre, state.input.factor, state.correlation, state.X, {}, {}, {},
+            state.y_centre,     model.transform()};
+  if (s.transform.scale != kriging::Scale::linear)
+    std::tie(s.noise, s.noise_weights) = kriging::noise_points(model.noise_variance());
   if (state.X.rows() == 0) return s;
   s.weights = state.y_scale * state.gls.alpha;
   s.terms = state.trend.terms;
-  s.coefficients = model.trend_coefficients();
+  s.coefficients = model.model().trend_coefficients();
   return s;
 }
 
-std::vector<Eigen::VectorXd> influence(const std::vector<kriging::Model>& models,
+std::vector<Eigen::VectorXd> influence(const std::vector<kriging::TransformedModel>& models,
                                        const doe::Problem& problem) {
   std::vector<Eigen::VectorXd> total;
   if (models.empty()) return total;

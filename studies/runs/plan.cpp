@@ -69,7 +69,8 @@ std::vector<Run> runs_at(const Identity& identity, const std::vector<Run>& exist
       run.x = points.X.row(row);
       if (points.predicted.rows() > 0) {
         run.predicted = points.predicted.row(row);
-        run.deviation = points.deviation.row(row);
+        run.lower = points.lower.row(row);
+        run.upper = points.upper.row(row);
       }
       runs.push_back(run);
     }
@@ -117,7 +118,7 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
   const auto dimension = static_cast<Eigen::Index>(identity.problem.variables.size());
   std::vector<Run> all = existing;
   const auto add = [&](Kind kind, const Eigen::MatrixXd& X) {
-    const std::vector<Run> more = runs_at(identity, all, kind, {.X = X, .predicted = {}, .deviation = {}});
+    const std::vector<Run> more = runs_at(identity, all, kind, {.X = X});
     all.insert(all.end(), more.begin(), more.end());
   };
   if (runs > trained) {

@@ -36,10 +36,11 @@ Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& 
 std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& existing, int runs,
                              int validation);
 
-/// Points to run, natural units, and what is predicted there: mean and standard deviation of one run.
+/// Points to run, natural units, and what is predicted there: mean and 95 % interval of one run.
 struct PlannedPoints {
-  Eigen::MatrixXd X;                     ///< n x d
-  Eigen::MatrixXd predicted, deviation;  ///< n x responses; no rows where nothing is predicted
+  Eigen::MatrixXd X;  ///< n x d
+  Eigen::MatrixXd predicted = {}, lower = {},
+                  upper = {};  ///< n x responses; no rows where nothing is predicted
 };
 
 /// Runs of a kind at these points, their numbers and seeds continuing those of `existing`.

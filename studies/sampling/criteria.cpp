@@ -53,22 +53,26 @@ doe::Criterion largest_of(std::vector<std::pair<doe::Criterion, double>> scores)
 
 double range_of(const Eigen::VectorXd& y) { return y.size() == 0 ? 0.0 : y.maxCoeff() - y.minCoeff(); }
 
-doe::Criterion disagreement_of_ways(const doe::Evaluations& runs) {
+/// Of the ways to fit each response on the scale of its model.
+doe::Criterion disagreement_of_ways(const doe::Evaluations& runs,
+                                    const std::vector<kriging::TransformedModel>& models) {
   std::vector<std::pair<doe::Criterion, double>> scores;
-  for (const auto& response : runs.problem.responses) {
+  for (std::size_t j = 0; j < models.size(); ++j) {
+    const doe::Response& response = runs.problem.responses[j];
     const Eigen::VectorXd y = runs.y(response.name);
-    std::vector<doe::Criterion> models;
-    for (const auto& way : ways_to_fit(runs.problem)) {
-      models.push_back([model = way.fitter(runs.X(), y)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+    std::vector<doe::Criterion> means;
+    for (const auto& way : ways_to_fit(runs.problem, response, models[j].transform().scale)) {
+      means.push_back([model = way.fitter(runs.X(), y)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
         return model.mean(X);
       });
     }
-    scores.emplace_back(doe::disagreement(std::move(models)), range_of(y));
+    scores.emplace_back(doe::disagreement(std::move(means)), range_of(y));
   }
   return largest_of(std::move(scores));
 }
 
-doe::Criterion deviation_of(const doe::Evaluations& runs, const std::vector<kriging::Model>& models) {
+doe::Criterion deviation_of(const doe::Evaluations& runs,
+                            const std::vector<kriging::TransformedModel>& models) {
   std::vector<std::pair<doe::Criterion, double>> scores;
   for (std::size_t j = 0; j < models.size(); ++j) {
     scores.emplace_back(
@@ -80,12 +84,13 @@ doe::Criterion deviation_of(const doe::Evaluations& runs, const std::vector<krig
   return largest_of(std::move(scores));
 }
 
-doe::Sampler sampler_named(const std::string& name, const std::vector<kriging::Model>& models,
+doe::Sampler sampler_named(const std::string& name, const std::vector<kriging::TransformedModel>& models,
                            doe::Seed seed) {
   if (name == "lola_voronoi") return doe::LolaVoronoi({.seed = seed});
   if (name == "voronoi") return doe::voronoi_sampler({.seed = seed});
   if (name == "distance") return doe::distance_to_runs;
-  if (name == "error") return disagreement_of_ways;
+  if (name == "error")
+    return [models](const doe::Evaluations& runs) { return disagreement_of_ways(runs, models); };
   if (name == "variance")
     return [models](const doe::Evaluations& runs) { return deviation_of(runs, models); };
   return [models](const doe::Evaluations& runs) {
@@ -112,8 +117,8 @@ void check_criteria(const std::string& text, const doe::Problem& problem) {
   }
 }
 
-doe::Mix mix_of(const std::vector<CriterionShare>& shares, const std::vector<kriging::Model>& models,
-                doe::Seed seed) {
+doe::Mix mix_of(const std::vector<CriterionShare>& shares,
+                const std::vector<kriging::TransformedModel>& models, doe::Seed seed) {
   std::vector<doe::Share> parts;
   for (const auto& share : shares) parts.push_back({share.weight, sampler_named(share.name, models, seed)});
   return doe::Mix(std::move(parts));

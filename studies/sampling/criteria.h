@@ -5,7 +5,7 @@
 /// share.
 
 #include <drawpoint/doe/criterion.hpp>
-#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
 
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ std::vector<CriterionShare> criteria_from(const std::string& text);
 void check_criteria(const std::string& text, const doe::Problem& problem);
 
 /// models: one per response, of the runs so far. `seed` is that of LOLA-Voronoi's test points.
-doe::Mix mix_of(const std::vector<CriterionShare>& shares, const std::vector<kriging::Model>& models,
-                doe::Seed seed);
+doe::Mix mix_of(const std::vector<CriterionShare>& shares,
+                const std::vector<kriging::TransformedModel>& models, doe::Seed seed);
 
 }  // namespace drawpoint::studies

@@ -16,12 +16,12 @@ namespace drawpoint::studies {
 
 /// Quoted column names in the order of the problem.
 struct Columns {
-  std::vector<std::string> x, y, predicted, deviation;
+  std::vector<std::string> x, y, predicted, lower, upper;
 
   /// All of them, in this order.
   std::vector<std::string> all() const {
     std::vector<std::string> names = x;
-    for (const auto* group : {&y, &predicted, &deviation})
+    for (const auto* group : {&y, &predicted, &lower, &upper})
       names.insert(names.end(), group->begin(), group->end());
     return names;
   }
@@ -58,7 +58,8 @@ inline Columns columns_of(const doe::Problem& problem) {
     columns.y.push_back(detail::claim(response.name, "y_", taken));
   for (const auto& response : problem.responses) {
     columns.predicted.push_back(detail::claim(response.name + "_predicted", "y_", taken));
-    columns.deviation.push_back(detail::claim(response.name + "_deviation", "y_", taken));
+    columns.lower.push_back(detail::claim(response.name + "_lower", "y_", taken));
+    columns.upper.push_back(detail::claim(response.name + "_upper", "y_", taken));
   }
   return columns;
 }

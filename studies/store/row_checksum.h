@@ -33,8 +33,8 @@ inline std::string row_checksum(const Run& run) {
   RowText row;
   row << std::to_string(run.id) << name_of(run.kind) << std::to_string(run.point)
       << std::to_string(run.replicate) << std::to_string(run.seed) << name_of(run.status) << run.reason
-      << run.seconds << run.started << run.finished << run.log << run.x << run.y << run.predicted
-      << run.deviation;
+      << run.seconds << run.started << run.finished << run.log << run.x << run.y << run.predicted << run.lower
+      << run.upper;
   return doe::detail::checksum(row.text());
 }
 

@@ -96,7 +96,8 @@ Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t response
   run.x = take(dimension);
   run.y = take(responses);
   run.predicted = take(responses);
-  run.deviation = take(responses);
+  run.lower = take(responses);
+  run.upper = take(responses);
   return run;
 }
 
@@ -110,7 +111,7 @@ std::string create_runs(const Columns& columns) {
       "status TEXT NOT NULL CHECK (status IN ('planned', 'running', 'done', 'failed')), "
       "reason TEXT, seconds REAL, started TEXT, finished TEXT, log TEXT, checksum TEXT";
   for (const auto& column : columns.x) text += ", " + column + " REAL NOT NULL";
-  for (const auto* group : {&columns.y, &columns.predicted, &columns.deviation}) {
+  for (const auto* group : {&columns.y, &columns.predicted, &columns.lower, &columns.upper}) {
     for (const auto& column : *group) text += ", " + column + " REAL";
   }
   return text + ", UNIQUE (kind, point, replicate))";

@@ -25,7 +25,7 @@ using detail::refuse;
 using detail::with_context;
 
 constexpr int application_id = 0x44727770;
-constexpr int schema_version = 4;
+constexpr int schema_version = 5;
 constexpr int lock_patience = 30000;  // [ms] for another program that reads the file
 
 std::string now() {
@@ -204,7 +204,7 @@ void Store::set_sampling(const Sampling& sampling) {
 void Store::add(const std::vector<Run>& planned) {
   std::string columns = "id, kind, point, replicate, seed, status";
   std::string marks = "?, ?, ?, ?, ?, 'planned'";
-  for (const auto* group : {&columns_.x, &columns_.predicted, &columns_.deviation}) {
+  for (const auto* group : {&columns_.x, &columns_.predicted, &columns_.lower, &columns_.upper}) {
     for (const auto& column : *group) {
       columns += ", " + column;
       marks += ", ?";
@@ -221,12 +221,16 @@ void Store::add(const std::vector<Run>& planned) {
       insert.bind(3, run.point);
       insert.bind(4, run.replicate);
       insert.bind(5, std::to_string(run.seed));
+      const std::size_t responses = columns_.y.size();
+      std::size_t group = 6 + columns_.x.size();
       const auto bind = [&](std::size_t first, const Eigen::VectorXd& values) {
         for (const double value : values) insert.bind(static_cast<int>(first++), value);
       };
       bind(6, run.x);
-      bind(6 + columns_.x.size(), run.predicted);
-      bind(6 + columns_.x.size() + columns_.y.size(), run.deviation);
+      for (const auto* values : {&run.predicted, &run.lower, &run.upper}) {
+        bind(group, *values);
+        group += responses;
+      }
       insert.exec();
     }
     seal_rows("checksum IS NULL");

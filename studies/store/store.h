@@ -8,7 +8,7 @@
 ///     runs               one row per run: id (1, 2, ... without a gap), kind, point, replicate, seed, status,
 ///                        reason, seconds, started, finished, log, checksum, then one REAL column for each
 ///                        variable and each response, named as in the problem, and for each response what was
-///                        predicted of the run before it was made, and the standard deviation of that
+///                        predicted of the run before it was made, and the ends of its 95 % interval
 ///
 /// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.h
 /// names the columns.
@@ -66,9 +66,10 @@ struct Run {
   Eigen::VectorXd x;
   Status status = Status::planned;
   Eigen::VectorXd y;
-  /// What the models of the runs before it said of this run: mean and standard deviation of each response.
-  /// NaN (or, of a run that is being planned, empty) where nothing was predicted.
-  Eigen::VectorXd predicted, deviation;
+  /// What the models of the runs before it said of this run: mean of each response and the ends of the interval
+  /// that should hold 95 of 100 such runs. NaN (or, of a run that is being planned, empty) where nothing was
+  /// predicted.
+  Eigen::VectorXd predicted, lower, upper;
   std::string reason;
   double seconds = 0.0;
   std::string started, finished;

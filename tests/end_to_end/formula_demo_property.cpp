@@ -72,7 +72,7 @@ TEST_F(FormulaDemo, AdaptiveRunsDoNotDependOnJobsOrOnStops) {
   ASSERT_EQ(whole.code, 0) << whole.err;
   EXPECT_EQ(whole.json()["adaptive"], 12);
   EXPECT_TRUE(contains(whole.err, "adaptive points 9 to 12 of 12: 28 runs for the models so far; NRMSE"));
-  EXPECT_EQ(count("kind = 'adaptive' AND status = 'done' AND production_deviation > 0"), 12);
+  EXPECT_EQ(count("kind = 'adaptive' AND status = 'done' AND production_lower < production_upper"), 12);
   EXPECT_EQ(count("kind != 'adaptive' AND production_predicted IS NOT NULL"), 0);
   const std::string one = query(fingerprint);
   std::filesystem::remove_all(dir());
@@ -133,7 +133,8 @@ TEST_F(FormulaDemo, ExportsRunsAndFront) {
   const auto front = run(demo + " export --what front --format json" + out()).json();
   EXPECT_EQ(static_cast<int>(front["rows"].size()), run(demo + " report --json" + out()).json()["front"]);
   EXPECT_EQ(front["columns"][4]["unit"], "kg/s");
-  EXPECT_EQ(front["columns"][7]["name"], "production_deviation");
+  EXPECT_EQ(front["columns"][7]["name"], "production_lower");
+  for (const auto& row : front["rows"]) EXPECT_LT(row[7].get<double>(), row[10].get<double>());
 }
 
 TEST_F(FormulaDemo, OnePointByHandIsTheRowOfTheTable) {

@@ -54,7 +54,7 @@ TEST_F(Adaptive, ABatchIsDecidedByWhatIsStored) {
     EXPECT_EQ(first[k].id, 26 + static_cast<std::int64_t>(k));
     EXPECT_EQ(first[k].point, 1 + static_cast<std::int64_t>(k));
     EXPECT_EQ(first[k].kind, Kind::adaptive);
-    EXPECT_TRUE(first[k].predicted.allFinite() && (first[k].deviation.array() >= 0.0).all());
+    EXPECT_TRUE(first[k].predicted.allFinite() && (first[k].lower.array() <= first[k].upper.array()).all());
     for (const auto& run : runs_) EXPECT_NE(run.seed, first[k].seed);
   }
 }
@@ -135,9 +135,8 @@ TEST(AdaptiveEnd, WholeVariablesRunOutOfPlaces) {
   std::vector<studies::Run> runs;
   for (const double teeth : {1.0, 2.0}) {
     for (const double bolts : {1.0, 2.0}) {
-      studies::Run run = runs_at(identity, runs, Kind::training,
-                                 {.X = Eigen::RowVector2d(teeth, bolts), .predicted = {}, .deviation = {}})
-                             .front();
+      studies::Run run =
+          runs_at(identity, runs, Kind::training, {.X = Eigen::RowVector2d(teeth, bolts)}).front();
       run.status = Status::done;
       run.y = Eigen::Vector2d(teeth + 0.1 * bolts * teeth, bolts * bolts);
       runs.push_back(run);

@@ -30,13 +30,15 @@ studies::Run done(std::int64_t id, Kind kind, double production, double spill) {
   run.status = Status::done;
   run.x = Eigen::Vector2d(1.0, 0.0);
   run.y = Eigen::Vector2d(production, spill);
-  run.predicted = run.deviation = Eigen::Vector2d::Constant(std::nan(""));
+  run.predicted = run.lower = run.upper = Eigen::Vector2d::Constant(std::nan(""));
   return run;
 }
 
+/// With the interval that holds 95 % of a normal variable.
 studies::Run predicted(studies::Run run, const Eigen::Vector2d& mean, const Eigen::Vector2d& deviation) {
   run.predicted = mean;
-  run.deviation = deviation;
+  run.lower = mean - 1.959963984540054 * deviation;
+  run.upper = mean + 1.959963984540054 * deviation;
   return run;
 }
 

@@ -39,11 +39,12 @@ double distance_to_segment(const Eigen::Vector3d& x) {
   return (x - a - std::clamp(along, 0.0, 1.0) * (b - a)).norm();
 }
 
-std::vector<kriging::Model> exact_models(const doe::Problem& problem, const std::vector<Formula>& formulas) {
+std::vector<kriging::TransformedModel> exact_models(const doe::Problem& problem,
+                                                    const std::vector<Formula>& formulas) {
   const Eigen::MatrixXd X = doe::latin_hypercube(problem, 30);
   kriging::FitOptions options;
   options.trend = kriging::Trend::quadratic;
-  std::vector<kriging::Model> models;
+  std::vector<kriging::TransformedModel> models;
   for (const auto& formula : formulas) {
     Eigen::VectorXd y(X.rows());
     for (Eigen::Index i = 0; i < X.rows(); ++i) y[i] = formula(X.row(i).transpose());
@@ -52,7 +53,7 @@ std::vector<kriging::Model> exact_models(const doe::Problem& problem, const std:
   return models;
 }
 
-pareto::Front searched(const std::vector<kriging::Model>& models, const doe::Problem& problem) {
+pareto::Front searched(const std::vector<kriging::TransformedModel>& models, const doe::Problem& problem) {
   return pareto::nsga2(kriging::Surrogates(models), problem,
                        {.search = {.population = 60, .stopping = {.generations = 60}, .seed = 3}});
 }

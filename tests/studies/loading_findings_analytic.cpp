@@ -237,6 +237,12 @@ TEST(LoadingFindings, CornersDoNotCountAgainstUniformity) {
   EXPECT_EQ(of.at("F16").verdict, Verdict::reproduced) << of.at("F16").grounds;
 }
 
+TEST(LoadingFindings, ASmallPlanHasNoCornersToJudge) {
+  StudyResults results = results_of(39, as_the_source);
+  results.X = uniform_points(39, 1);
+  EXPECT_EQ(found(results).at("F16").verdict, Verdict::unclear) << found(results).at("F16").grounds;
+}
+
 /// All non-dominated: 20 runs that produce more, and n of high beta, low production and very low alpha.
 StudyResults with_high_beta(int n) {
   StudyResults results{.problem = problem,

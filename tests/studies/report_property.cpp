@@ -200,7 +200,8 @@ TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
   EXPECT_TRUE(rows.at(1).at("y").is_null());
   EXPECT_EQ(data.at("training").at("rows").at(1).at("kind"), "adaptive");
   EXPECT_TRUE(said("7 training, 1 adaptive, 0 validation"));
-  EXPECT_EQ(data.at("front").at("margin").size(), 8u);
+  EXPECT_EQ(data.at("front").at("lower").size(), 8u);
+  EXPECT_EQ(data.at("front").at("upper").size(), 8u);
   EXPECT_FALSE(said("None of these points"));
   EXPECT_TRUE(said("16 of 18 values within the stated 95 % interval"));
   EXPECT_TRUE(said("1 of 2 points of predicted fronts failed"));

@@ -68,8 +68,7 @@ TEST_F(SessionTest, AdaptivePointsDoNotShrinkAndATargetNeedsValidation) {
   {
     Store store = plan_study(sample(), folder_, {.validation = 0, .adaptive = 4});
     const Eigen::MatrixXd X = Eigen::MatrixXd::Constant(3, 2, 0.5);
-    store.add(
-        runs_at(store.identity(), store.runs(), Kind::adaptive, {.X = X, .predicted = {}, .deviation = {}}));
+    store.add(runs_at(store.identity(), store.runs(), Kind::adaptive, {.X = X}));
   }
   EXPECT_NE(refused(sample(), {.adaptive = 2}).find("--adaptive 3 or more"), std::string::npos);
   EXPECT_NE(refused(sample(), {.target = 0.1}).find("--validation 10 or more"), std::string::npos);

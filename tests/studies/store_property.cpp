@@ -69,7 +69,8 @@ TEST_F(StoreTest, KeepsWhatWasPredictedAndHowTheStudyGoesOn) {
     studies::Run predicted = planned(2, 0.6, 2.5);
     predicted.kind = Kind::confirmation;
     predicted.predicted = Eigen::Vector2d(0.1 + 0.2, -1e-300);
-    predicted.deviation = Eigen::Vector2d(0.5, 0.0);
+    predicted.lower = Eigen::Vector2d(0.5, 0.0);
+    predicted.upper = Eigen::Vector2d(1.5, 0.25);
     store.add({planned(1, 0.5, 2.0), predicted, planned(3, 0.7, 2.0)});
     store.save_done(2, Eigen::Vector2d(1.0, 2.0), 0.1);
     store.set_sampling(
@@ -81,10 +82,12 @@ TEST_F(StoreTest, KeepsWhatWasPredictedAndHowTheStudyGoesOn) {
   const auto runs = store.runs();
   EXPECT_EQ(runs[1].kind, Kind::confirmation);
   EXPECT_EQ(runs[1].predicted, Eigen::Vector2d(0.1 + 0.2, -1e-300));
-  EXPECT_EQ(runs[1].deviation, Eigen::Vector2d(0.5, 0.0));
+  EXPECT_EQ(runs[1].lower, Eigen::Vector2d(0.5, 0.0));
+  EXPECT_EQ(runs[1].upper, Eigen::Vector2d(1.5, 0.25));
   for (const std::size_t k : {0, 2}) {
     ASSERT_EQ(runs[k].predicted.size(), 2);
-    EXPECT_TRUE(runs[k].predicted.array().isNaN().all() && runs[k].deviation.array().isNaN().all());
+    EXPECT_TRUE(runs[k].predicted.array().isNaN().all() && runs[k].lower.array().isNaN().all() &&
+                runs[k].upper.array().isNaN().all());
   }
   EXPECT_EQ(store.sampling().points, 40);
   EXPECT_EQ(store.sampling().batch, 5);

@@ -112,10 +112,11 @@ function confirmations(data, a, b) {
 const goal = (response) => axisLabel(response) + (response.goal === 'maximize' ? ' →' : ' ←');
 
 function pointTable(data, objectives, chosen) {
-  const {margin} = data.front;
-  const values = objectives.flatMap((item) => [{title: labelled(item), format: number}, ...margin.length ? [{title: '± 95 %', format: (value) => number(value, 2)}] : []]);
+  const {lower, upper} = data.front;
+  const values = objectives.flatMap((item) => [{title: labelled(item), format: number}, ...lower.length ? [{title: '95 % of runs', text: true}] : []]);
+  const interval = (i, k) => lower.length ? [`${number(lower[i][k], 3)} to ${number(upper[i][k], 3)}`] : [];
   const columns = [{title: 'Point', format: String}, ...values, ...data.problem.variables.map((item) => ({title: labelled(item), format: number}))];
-  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => margin.length ? [y, margin[i][k]] : [y]), ...x]);
+  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => [y, ...interval(i, k)]), ...x]);
   const detail = el('p', {class: 'note'});
   const {node, select: mark} = table(columns, rows, {onselect: (i) => chosen.select(chosen.selected === i ? -1 : i), tall: true});
   const update = () => {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 // Mean of a fitted model in the browser, so that the sliders need no table of prepared slices:
-//   mean(x) = constant + sum_t beta_t s_a s_b + sum_i w_i prod_k c_k(|s_k - X_ik|),   s = (x - centre) factor.
+//   z(x) = constant + sum_t beta_t s_a s_b + sum_i w_i prod_k c_k(|s_k - X_ik|),   s = (x - centre) factor.
+// It is z itself, or of a model on another scale what noisy runs at z have in the mean: a sum over points of noise.
 
 /// By family: the factors of one variable, from its theta, its exponent and the distance.
 const correlations = {
@@ -11,7 +12,24 @@ const correlations = {
   matern52: (theta, _, h) => { const u = Math.sqrt(10 * theta) * h; return (1 + u + (u * u) / 3) * Math.exp(-u); },
 };
 
-export function predictor({centre, factor, correlation, theta, exponent, X, weights, terms, coefficients, constant}) {
+/// By scale: the response at z.
+const responses = {
+  linear: (z) => z,
+  square_root: (z, {lower}) => lower + Math.max(z, 0) ** 2,
+  logarithm: (z, {lower, offset}) => lower - offset + Math.exp(z),
+  logit: (z, {lower, upper, offset}) => lower - offset + (upper - lower + 2 * offset) / (1 + Math.exp(-z)),
+};
+
+export function predictor(surface) {
+  const {scale, noise, noise_weights: shares} = surface, z = scaledMean(surface), response = responses[scale];
+  if (scale === 'linear') return z;
+  return (x) => {
+    const at = z(x);
+    return noise.reduce((sum, e, k) => sum + shares[k] * response(at + e, surface), 0);
+  };
+}
+
+function scaledMean({centre, factor, correlation, theta, exponent, X, weights, terms, coefficients, constant}) {
   const c = correlations[correlation];
   const d = centre.length;
   return (x) => {

@@ -10,7 +10,7 @@ export function validation(data) {
   const {variables, responses} = data.problem;
   const columns = [{title: 'Response', text: true}, {title: 'RMSE', format: number}, {title: 'Range', format: number},
     {title: 'NRMSE', format: percent}, {title: 'Points', format: String},
-    ...variables.map((v) => ({title: 'ϑ ' + pretty(v.name), format: number})), {title: 'Nugget', format: number},
+    {title: 'Scale', text: true}, ...variables.map((v) => ({title: 'ϑ ' + pretty(v.name), format: number})), {title: 'Nugget', format: number},
     {title: 'Process σ', format: number}];
   const rows = responses.map((r, j) => row(labelled(r), data.models[j], data.validations[j], variables.length));
   const node = section('surrogates', 'How good the surrogates are',
@@ -19,28 +19,28 @@ export function validation(data) {
   if (!data.models.length) return node;
   node.append(el('div', {class: 'block'}, table(columns, rows, {sortable: false}).node, el('p', {class: 'note'},
     'RMSE: root mean square error on the validation runs, in the unit of the response. NRMSE: RMSE over the range of the simulated values. ' +
-    'ϑ: how fast the response changes along an input scaled to [-1, 1]; larger is livelier. Nugget: share of run-to-run noise, relative to the process variance.')));
+    'Scale: what was fitted, the response itself or its square root, logarithm or logit, chosen by leave-one-out; ' +
+    'ϑ, nugget and process σ are of that scale. ϑ: how fast the response changes along an input scaled to [-1, 1]; larger is livelier. Nugget: share of run-to-run noise, relative to the process variance.')));
   const known = responses.map((_, j) => j).filter((j) => data.validations[j]?.observed.length);
   if (known.length) node.append(figure(el('div', {class: 'grid'}, known.map((j) => parity(responses[j], data.validations[j]))),
-    'Predicted against simulated value of each validation run. A perfect surrogate puts every point on the dashed line; the bars are two standard deviations of its own prediction on both sides, and about 19 of 20 should reach the line.'));
+    'Predicted against simulated value of each validation run. A perfect surrogate puts every point on the dashed line; the bars are its own 95 % intervals, and about 19 of 20 should reach the line.'));
   return node;
 }
 
 function row(name, model, check, inputs) {
-  const fit = model ? [...model.theta, model.nugget, Math.sqrt(model.process_variance)] : Array(inputs + 2).fill(null);
+  const fit = model ? [pretty(model.scale), ...model.theta, model.nugget, Math.sqrt(model.process_variance)] : ['', ...Array(inputs + 2).fill(null)];
   return [name, ...(check ? [check.rmse, check.range, check.nrmse, check.observed.length] : [null, null, null, 0]), ...fit];
 }
 
-function parity(response, {observed, predicted, sd, nrmse}) {
+function parity(response, {observed, predicted, lower, upper, nrmse}) {
   const box = plotBox(340, 'Predicted against simulated ' + response.name);
-  const low = Math.min(...observed, ...predicted.map((p, i) => p - 2 * sd[i]));
-  const high = Math.max(...observed, ...predicted.map((p, i) => p + 2 * sd[i]));
+  const low = Math.min(...observed, ...predicted, ...lower), high = Math.max(...observed, ...predicted, ...upper);
   const pad = 0.04 * (high - low || Math.abs(high) || 1);
   const range = [low - pad, high + pad];
   draw(box, [
     {x: range, y: range, mode: 'lines', line: {color: '#9aa7b2', dash: 'dash', width: 1.5}, hoverinfo: 'skip'},
     {x: observed, y: predicted, mode: 'markers', marker: {color: colour.validation, size: 8, line: {color: '#fff', width: 1}},
-      error_y: {type: 'data', array: sd.map((s) => 2 * s), color: 'rgba(217,130,43,0.45)', thickness: 1.5, width: 3},
+      error_y: {type: 'data', symmetric: false, array: upper.map((u, i) => u - predicted[i]), arrayminus: predicted.map((p, i) => p - lower[i]), color: 'rgba(217,130,43,0.45)', thickness: 1.5, width: 3},
       hovertemplate: 'simulated %{x:.4g}<br>predicted %{y:.4g}<extra></extra>'},
   ], {showlegend: false, margin: {l: 60, r: 16, t: 36, b: 52},
     title: {text: plain(labelled(response)) + (nrmse === null ? '' : `  <span style="color:${colour.muted};font-weight:400">NRMSE ${percent(nrmse)}</span>`), font: {size: 14}, x: 0, xanchor: 'left', xref: 'paper'},

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Which of several ways to fit a response predicts it best, error bars included, and on which scale.
+///
+/// Each way is scored by the logarithm of the density that it predicts, on the scale of y, for each run without
+/// it (cross_validation.hpp). A prediction outside of the range counts as the bound, so a run on a bound is
+/// scored by the probability of reaching that. The score is proper and compares scales; unlike an error of the
+/// mean it sees error bars that are too narrow, where noise was taken for signal, and those that are equally
+/// wide where the response is not equally certain. The best way is taken where its mean score is better than
+/// the first one's by more than one standard error of the difference, paired by runs; else the first: a gain
+/// below that is mostly chance. Source: Gneiting, Raftery 2007, JASA 102(477), "Strictly proper scoring rules,
+/// prediction, and estimation".
+///
+/// Cost: a fit and a leave-one-out per way. Deterministic.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <drawpoint/kriging/compare.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::kriging {
+
+struct FitStanding {
+  std::string name;
+  double log_score = 0;       ///< −ln of the predicted density, mean over the runs, unit ln(unit of y)
+  double gain = 0;            ///< the first way's less this
+  double standard_error = 0;  ///< of the gain
+};
+
+struct FitChoice {
+  std::vector<FitStanding> table;  ///< in the order of the ways
+  std::size_t best = 0;            ///< of the table
+  TransformedModel model;          ///< fitted to all runs in the best way
+
+  const std::string& name() const { return table[best].name; }
+  Scale scale() const { return model.transform().scale; }
+};
+
+using WayToFit = NamedFitter<TransformedModel>;
+
+namespace detail {
+
+/// −ln of the predicted density of y; on a bound of the probability of that bound.
+inline double log_score(const PredictedRun& p, double y, const ResponseRange& range) {
+  const double t = (transformed(p.transform, y) - p.mean) / p.deviation;
+  if (y <= range.lower) return -log_normal_probability(t);
+  if (y >= range.upper) return -log_normal_probability(-t);
+  return negative_log_density(p, y);
+}
+
+/// Of each run as predicted without it.
+inline Eigen::VectorXd left_out_scores(const TransformedModel& model, const ResponseRange& range) {
+  const Validation v = leave_one_out(model);
+  Eigen::VectorXd scores(v.observed.size());
+  for (Eigen::Index i = 0; i < scores.size(); ++i)
+    scores[i] = log_score(predicted_run(v, i), v.observed[i], range);
+  return scores;
+}
+
+inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& scores,
+                               const Eigen::VectorXd& first) {
+  const double n = static_cast<double>(scores.size());
+  const Eigen::VectorXd gains = difference(first, scores);
+  const double gain = mean_of(gains);
+  return {name, mean_of(scores), gain,
+          n > 1 ? std::sqrt(square(affine(gains, 1.0, -gain)) / (n - 1) / n)
+                : std::numeric_limits<double>::infinity()};
+}
+
+/// NaN, which constant models score, is no gain.
+inline std::size_t best_standing(const std::vector<FitStanding>& table) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < table.size(); ++k)
+    if (table[k].gain > table[k].standard_error && table[k].gain > table[best].gain) best = k;
+  return best;
+}
+
+}  // namespace detail
+
+/// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. Throws
+/// std::invalid_argument without ways, and as the ways do.
+inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
+                            const std::vector<WayToFit>& ways) {
+  if (ways.empty())
+    throw std::invalid_argument("kriging::choose_fit: 0 ways; allowed is 1 or more; name at least one");
+  std::vector<TransformedModel> models;
+  std::vector<FitStanding> table;
+  Eigen::VectorXd first;
+  for (const WayToFit& way : ways) {
+    models.push_back(way.fitter(X, y));
+    const Eigen::VectorXd scores = detail::left_out_scores(models.back(), range);
+    if (table.empty()) first = scores;
+    table.push_back(detail::standing_of(way.name, scores, first));
+  }
+  const std::size_t best = detail::best_standing(table);
+  return {std::move(table), best, std::move(models[best])};
+}
+
+/// Among the scales that the range allows, the linear one first. Throws as fit_transformed.
+inline FitChoice choose_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
+                              const FitOptions& options = {}) {
+  std::vector<WayToFit> ways;
+  for (const Scale scale : {Scale::linear, Scale::square_root, Scale::logarithm, Scale::logit}) {
+    if (!allows(range, scale)) continue;
+    ways.push_back({std::string(to_string(scale)),
+                    [scale, range, options](const Eigen::MatrixXd& P, const Eigen::VectorXd& v) {
+                      return fit_transformed(P, v, scale, range, options);
+                    }});
+  }
+  return choose_fit(X, y, range, ways);
+}
+
+}  // namespace drawpoint::kriging
