@@ -7,7 +7,8 @@
 /// A child is started by fork and exec in a process group of its own (a Ctrl-C in the terminal reaches the
 /// parent only, which then decides), with one thread (OMP_NUM_THREADS and its like are 1), with nothing on
 /// standard input, with standard output and error in a file, and with file descriptor 3 as the reply channel.
-/// It is killed by the kernel if the thread that started it dies. Linux only. One thread at a time may use a
+/// It is killed by the kernel if the thread that started it dies, and what it has started too (orphan_reaper.hpp),
+/// unless that left its process group. Linux only. One thread at a time may use a
 /// pool. process_pool.hpp makes a black box of it.
 
 #include <fcntl.h>
@@ -32,15 +33,18 @@
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/orphan_reaper.hpp>
+
 namespace drawpoint::doe {
 
 /// One child process to start.
 struct Process {
   std::int64_t id = 0;
-  std::string executable = {};                 ///< a path, or a name to look for in the PATH
-  std::vector<std::string> arguments = {};     ///< without the program name
-  std::filesystem::path output = "/dev/null";  ///< file for what the child prints; removed if it stays empty
-  double time_limit = 0.0;                     ///< [s] before it is killed; 0 means none
+  std::string executable = {};              ///< a path, or a name to look for in the PATH
+  std::vector<std::string> arguments = {};  ///< without the program name
+  /// File for what the child prints, removed if it stays empty; no name: where this process prints.
+  std::filesystem::path output = "/dev/null";
+  double time_limit = 0.0;  ///< [s] before it is killed; 0 means none
 };
 
 /// How a child ended.
@@ -83,10 +87,11 @@ inline std::vector<std::string> single_threaded_environment() {
   if (getppid() != parent) _exit(127);  // the parent died before the line above took effect
   setpgid(0, 0);
   const int nothing = ::open("/dev/null", O_RDONLY);
-  const int file = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  if (nothing < 0 || file < 0) _exit(127);
-  if (dup2(nothing, STDIN_FILENO) < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0)
-    _exit(127);
+  if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0) _exit(127);
+  if (output[0] != '\0') {
+    const int file = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(127);
+  }
   if (reply == reply_channel) {
     fcntl(reply, F_SETFD, 0);
   } else if (dup2(reply, reply_channel) < 0) {
@@ -135,7 +140,8 @@ inline std::string describe(const ProcessEnd& end) {
 
 class ProcessPool {
  public:
-  explicit ProcessPool(int jobs) : jobs_(jobs) { assert(jobs >= 1); }
+  /// Throws std::runtime_error as start.
+  explicit ProcessPool(int jobs) : jobs_(jobs), reaper_(static_cast<std::size_t>(jobs)) { assert(jobs >= 1); }
   ~ProcessPool() { terminate(std::chrono::milliseconds(0)); }  ///< kills what still runs
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
@@ -164,6 +170,7 @@ class ProcessPool {
       throw detail::cannot_start("cannot start a process", fork_error);
     }
     setpgid(pid, pid);  // also here: whichever of the two comes first
+    reaper_.add(pid);
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
     children_.push_back({process.id, pid, ends[0], {}, process.output, Clock::now(), process.time_limit});
   }
@@ -255,6 +262,7 @@ class ProcessPool {
       child.read_reply();
       close(child.reply_descriptor);
       kill(-child.pid, SIGKILL);  // whatever the child itself has left behind
+      reaper_.remove(child.pid);
       detail::remove_if_empty(child.output);
       ends.push_back(
           {child.id, std::move(child.reply), status, child.timed_out, child.time_limit, child.seconds()});
@@ -264,6 +272,7 @@ class ProcessPool {
   }
 
   int jobs_;
+  detail::OrphanReaper reaper_;
   std::vector<Child> children_;
 };
 

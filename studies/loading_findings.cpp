@@ -171,7 +171,8 @@ Finding f16(const LoadingRuns& runs) {
   const Corners corners(runs);
   const int all = 1 << X.cols();
   Estimate margin;
-  if (!corners.found.empty() || 2 * X.rows() >= 5 * all) margin.value = static_cast<double>(corners.found.size()) - all + 0.5;
+  if (!corners.found.empty() || 2 * X.rows() >= 5 * all)
+    margin.value = static_cast<double>(corners.found.size()) - all + 0.5;
   return decided(
       "F16", "Training points cover the box near-uniformly with its corners, validation points are uniform",
       {uniform(runs, X(corners.others, Eigen::all), "training without corners"),

@@ -108,6 +108,9 @@ struct Study {
   std::string about = {};  ///< one or two sentences for the report's head
   Defaults defaults = {};
   std::vector<StudyOption> options = {};
+  /// Words that stand before the command on the command line, such as the file that the study was read from. The
+  /// processes of its runs are started with these, whatever was typed.
+  std::vector<std::string> leading_words = {};
   /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
   /// writes is kept or nothing.
   std::function<void(const RunContext& context)> prepare = {};

@@ -66,9 +66,9 @@ std::string criteria_complaint(const std::string& text) {
   }
 }
 
-/// `prog --runs 5` means `prog run --runs 5`.
-std::vector<std::string> with_command(int argc, char** argv) {
-  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+/// `prog --runs 5` means `prog run --runs 5`. The first `leading` words are the study's.
+std::vector<std::string> with_command(int argc, char** argv, std::size_t leading) {
+  std::vector<std::string> words(argv + std::min(argc, 1 + static_cast<int>(leading)), argv + argc);
   const std::string first = words.empty() ? "" : words.front();
   const bool help = first == "--help" || first == "-h" || first == "--version";
   const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
@@ -287,6 +287,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   parsed.settings.command = joined(argc, argv);
+  parsed.settings.leading_words = study.leading_words;
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, study.name);
   app.set_help_flag();
   app.set_help_all_flag("-h,--help", "show this text");
@@ -294,7 +295,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   app.require_subcommand(1);
   define_folder_commands(app, parsed, study);
   define_point_commands(app, parsed, study);
-  auto words = with_command(argc, argv);
+  auto words = with_command(argc, argv, study.leading_words.size());
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
     app.parse(words);

@@ -45,24 +45,27 @@ std::string joined(const Eigen::VectorXd& x) {
   return text;
 }
 
-/// The words of a child's command line, with the study's options.
-std::vector<std::string> with_options(std::vector<std::string> words, const OptionValues& options) {
-  for (const auto& [name, value] : options) words.push_back("--" + name + "=" + value);
-  return words;
+/// The words of a child's command line, with those of the study before them and its options behind.
+std::vector<std::string> whole_line(std::vector<std::string> leading, const std::vector<std::string>& words,
+                                    const OptionValues& options) {
+  leading.insert(leading.end(), words.begin(), words.end());
+  for (const auto& [name, value] : options) leading.push_back("--" + name + "=" + value);
+  return leading;
 }
 
 doe::Process process_for(const Run& run, const Folder& folder, const OptionValues& options,
-                         double time_limit) {
+                         const Settings& settings) {
   std::error_code ignored;
   fs::remove(folder.unfinished_log(run.id), ignored);
   return {.id = run.id,
           .executable = own_executable(),
-          .arguments = with_options({"evaluate", "--x=" + joined(run.x), "--seed=" + std::to_string(run.seed),
-                                     "--log=" + folder.unfinished_log(run.id).string(),
-                                     "--shared=" + folder.shared().string(), "--result-descriptor=3"},
-                                    options),
+          .arguments = whole_line(settings.leading_words,
+                                  {"evaluate", "--x=" + joined(run.x), "--seed=" + std::to_string(run.seed),
+                                   "--log=" + folder.unfinished_log(run.id).string(),
+                                   "--shared=" + folder.shared().string(), "--result-descriptor=3"},
+                                  options),
           .output = folder.printed(run.id),
-          .time_limit = time_limit};
+          .time_limit = settings.time_limit};
 }
 
 /// The log gets its final name before the run counts as done, so that each run that is done has its log.
@@ -125,7 +128,8 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
   doe::ProcessPool pool(1);
   pool.start(
       {.executable = own_executable(),
-       .arguments = with_options({"prepare", "--shared=" + draft.string(), "--result-descriptor=3"}, options),
+       .arguments = whole_line(study.leading_words,
+                               {"prepare", "--shared=" + draft.string(), "--result-descriptor=3"}, options),
        .output = printed});
   std::vector<doe::ProcessEnd> ends;
   while (ends.empty()) {
@@ -165,7 +169,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
     if (full && pool.running() == 0) stop_for_full_disk(folder);
     while (!full && !waiting.empty() && !pool.full()) {
       store.mark_running(waiting.front()->id);
-      pool.start(process_for(*waiting.front(), folder, store.identity().options, settings.time_limit));
+      pool.start(process_for(*waiting.front(), folder, store.identity().options, settings));
       waiting.pop_front();
     }
     for (const auto& end : pool.wait(patience)) progress.finished_one(store_end(store, folder, end));

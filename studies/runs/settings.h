@@ -54,7 +54,8 @@ struct Settings {
   double time_limit = 0.0;    ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;
   bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
-  std::string command = {};  ///< the command line as typed, for the report
+  std::string command = {};                     ///< the command line as typed, for the report
+  std::vector<std::string> leading_words = {};  ///< of the study, for its processes
 };
 
 /// Options of `evaluate`, which runs one point in this process.

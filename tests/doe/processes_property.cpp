@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -68,6 +69,35 @@ TEST_F(PoolTest, SaysHowAChildEnded) {
 TEST_F(PoolTest, ChildrenHaveOneThreadAndNoTerminal) {
   const auto ends = run_all({shell(1, "printf $OMP_NUM_THREADS >&3; cat >&3")}, 1);
   EXPECT_EQ(ends.at(1).reply, "1");
+}
+
+// With the owner killed nobody is left to wait for: a second is a thousand times what the reaper needs.
+TEST_F(PoolTest, WhatChildrenStartedDiesWithAnOwnerThatWasKilled) {
+  const std::filesystem::path grandchild = folder_ / "orphan";
+  const pid_t owner = fork();
+  if (owner == 0) {
+    ProcessPool pool(1);
+    pool.start(shell(1, "sleep 60 & echo $! > " + grandchild.string() + "; wait"));
+    for (;;) pause();
+  }
+  while (contents(grandchild).empty()) std::this_thread::sleep_for(milliseconds(5));
+  const pid_t pid = std::stoi(contents(grandchild));
+  ASSERT_EQ(kill(pid, 0), 0);
+  kill(owner, SIGKILL);
+  waitpid(owner, nullptr, 0);
+  const auto runs = [&] {
+    return contents("/proc/" + std::to_string(pid) + "/stat").find(") S") != std::string::npos;
+  };
+  for (int i = 0; i < 1000 && runs(); ++i) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_FALSE(runs());
+}
+
+TEST_F(PoolTest, WithoutAFileChildrenPrintWhereTheOwnerDoes) {
+  testing::internal::CaptureStdout();
+  Process process = shell(1, "echo here");
+  process.output.clear();
+  run_all({process}, 1);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "here\n");
 }
 
 /// Also a program that the child has started ends with it, and a child that ignores SIGTERM.

@@ -7,6 +7,8 @@ import {axisLabel, colour, labelled, number, pretty, scale, withUnit} from './fo
 import {axis, draw, plotBox} from './plot.js';
 
 const mostProjections = 6;
+/// On one line.
+const interval95 = (low, high) => `${number(low, 3)}\u00a0to\u00a0${number(high, 3)}`;
 
 export function tradeOffs(data, chosen) {
   const objectives = data.front.objectives.map((j) => data.problem.responses[j]);
@@ -23,7 +25,7 @@ function confirmed(data) {
   const judged = data.problem.responses.map((response, j) => ({response, j})).filter(({response}) => response.goal !== 'record');
   const columns = [{title: 'Run', format: String}, {title: 'Round', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: number})),
     ...judged.flatMap(({response}) => [{title: `${labelled(response)} predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
-  const cell = (r, j) => [`${number(r.lower[j])} to ${number(r.upper[j])}`,
+  const cell = (r, j) => [interval95(r.lower[j], r.upper[j]),
     r.y === null ? 'failed' : number(r.y[j]) + (r.within[j] ? '' : ' outside')];
   const note = (r) => [r.named ? 'named by the user' : '', r.y === null ? r.reason : '', r.breaks_limit ? 'breaks a limit' : '', r.dominated ? 'dominated' : ''].filter(Boolean).join(', ');
   const rows = data.confirmations.rows.map((r) => [r.run, r.round, ...r.x, ...judged.flatMap(({j}) => cell(r, j)), note(r)]);
@@ -114,7 +116,7 @@ const goal = (response) => axisLabel(response) + (response.goal === 'maximize' ?
 function pointTable(data, objectives, chosen) {
   const {lower, upper} = data.front;
   const values = objectives.flatMap((item) => [{title: labelled(item), format: number}, ...lower.length ? [{title: '95 % of runs', text: true}] : []]);
-  const interval = (i, k) => lower.length ? [`${number(lower[i][k], 3)} to ${number(upper[i][k], 3)}`] : [];
+  const interval = (i, k) => lower.length ? [interval95(lower[i][k], upper[i][k])] : [];
   const columns = [{title: 'Point', format: String}, ...values, ...data.problem.variables.map((item) => ({title: labelled(item), format: number}))];
   const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => [y, ...interval(i, k)]), ...x]);
   const detail = el('p', {class: 'note'});

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/study_file.h>
+#include <drawpoint/doe/detail/enumerators.hpp>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/external_program.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// An object of the file and its place, such as "variables[2]"; errors name both.
+class Section {
+ public:
+  Section(const json& object, fs::path file, std::string place)
+      : object_(object), file_(std::move(file)), place_(std::move(place)) {}
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(file_.string() + ": " + (place_.empty() ? "" : place_ + ": ") + what);
+  }
+
+  void allow_only(std::initializer_list<const char*> keys) const {
+    if (!object_.is_object()) fail("it is " + object_.dump() + "; give an object, {...}");
+    std::string names;
+    for (const char* key : keys) names += (names.empty() ? "" : ", ") + std::string(key);
+    for (const auto& [key, value] : object_.items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        fail("there is no \"" + key + "\"; the keys are " + names);
+  }
+
+  bool has(const char* key) const { return object_.contains(key); }
+
+  std::string text(const char* key) const {
+    const json& value = needed(key, "text");
+    if (!value.is_string()) wrong(key, value, "text in quotes");
+    return value.get<std::string>();
+  }
+
+  std::string text(const char* key, const std::string& otherwise) const {
+    return has(key) ? text(key) : otherwise;
+  }
+
+  double number(const char* key) const {
+    const json& value = needed(key, "a number");
+    if (!value.is_number()) wrong(key, value, "a number");
+    return value.get<double>();
+  }
+
+  double number(const char* key, double otherwise) const { return has(key) ? number(key) : otherwise; }
+
+  int integer(const char* key, int otherwise, int least) const {
+    if (!has(key)) return otherwise;
+    const json& value = object_[key];
+    const int most = 1'000'000;
+    if (!value.is_number_integer() || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
+      wrong(key, value, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    return value.get<int>();
+  }
+
+  std::vector<std::string> texts(const char* key) const {
+    const json& list = needed(key, "a list of texts");
+    std::vector<std::string> all;
+    if (!list.is_array() || list.empty()) wrong(key, list, "a list of texts, [\"...\", ...]");
+    for (const json& entry : list) {
+      if (!entry.is_string()) wrong(key, entry, "texts alone in this list");
+      all.push_back(entry.get<std::string>());
+    }
+    return all;
+  }
+
+  std::vector<Section> sections(const char* key) const {
+    const json& list = needed(key, "a list of objects");
+    if (!list.is_array() || list.empty()) wrong(key, list, "a list of objects, [{...}, ...]");
+    std::vector<Section> all;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      all.emplace_back(list[i], file_, std::string(key) + "[" + std::to_string(i) + "]");
+    return all;
+  }
+
+  Section section(const char* key) const { return {object_.at(key), file_, key}; }
+
+  /// The enumerator of this name among `all`.
+  template <class Enum>
+  Enum one_of(const char* key, std::initializer_list<Enum> all) const {
+    const std::string name = text(key);
+    std::string names;
+    for (const Enum value : all) {
+      if (to_string(value) == name) return value;
+      names += (names.empty() ? "" : ", ") + std::string(to_string(value));
+    }
+    wrong(key, object_[key], "one of " + names);
+  }
+
+ private:
+  const json& needed(const char* key, const std::string& what) const {
+    if (!object_.contains(key)) fail("\"" + std::string(key) + "\" is missing; give " + what);
+    return object_[key];
+  }
+
+  [[noreturn]] void wrong(const char* key, const json& value, const std::string& wanted) const {
+    fail("\"" + std::string(key) + "\" is " + value.dump() + "; give " + wanted);
+  }
+
+  const json& object_;
+  fs::path file_;
+  std::string place_;
+};
+
+doe::Variable variable_from(const Section& in) {
+  in.allow_only({"name", "unit", "lower", "upper", "kind", "levels"});
+  doe::Variable variable{.name = in.text("name"), .unit = in.text("unit", "1"), .lower = 0, .upper = 0};
+  if (in.has("kind"))
+    variable.kind = in.one_of(
+        "kind", {doe::VariableKind::real, doe::VariableKind::integer, doe::VariableKind::categorical});
+  if (variable.kind == doe::VariableKind::categorical) {
+    variable.levels = in.texts("levels");
+    variable.upper = static_cast<double>(variable.levels.size()) - 1.0;
+    return variable;
+  }
+  if (in.has("levels")) in.fail("levels are of a variable of the kind categorical; say so, or remove them");
+  variable.lower = in.number("lower");
+  variable.upper = in.number("upper");
+  return variable;
+}
+
+doe::Response response_from(const Section& in) {
+  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper"});
+  doe::Response response{.name = in.text("name"), .unit = in.text("unit", "1")};
+  response.goal = in.one_of("goal", {doe::Goal::minimize, doe::Goal::maximize, doe::Goal::at_most,
+                                     doe::Goal::at_least, doe::Goal::record});
+  response.limit = in.number("limit", response.limit);
+  response.lower = in.number("lower", response.lower);
+  response.upper = in.number("upper", response.upper);
+  return response;
+}
+
+doe::Problem problem_from(const Section& in) {
+  doe::Problem problem;
+  for (const Section& entry : in.sections("variables")) problem.variables.push_back(variable_from(entry));
+  for (const Section& entry : in.sections("responses")) problem.responses.push_back(response_from(entry));
+  return problem;
+}
+
+/// Words that name a file beside the study file become its whole name.
+std::vector<std::string> command_from(const Section& in, const fs::path& folder) {
+  std::vector<std::string> words = in.texts("command");
+  for (std::string& word : words) {
+    std::error_code ignored;
+    if (!word.empty() && fs::is_regular_file(folder / word, ignored)) word = (folder / word).string();
+  }
+  return words;
+}
+
+Defaults defaults_from(const Section& in) {
+  in.allow_only({"runs", "validation", "adaptive"});
+  Defaults defaults;
+  defaults.runs = in.integer("runs", defaults.runs, 2);
+  defaults.validation = in.integer("validation", defaults.validation, 0);
+  defaults.adaptive = in.integer("adaptive", defaults.adaptive, 0);
+  return defaults;
+}
+
+json parsed(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.is_open() || stream.bad() || fs::is_directory(file))
+    throw std::runtime_error(file.string() + ": cannot be read; give the JSON file of a study");
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& e) {
+    throw std::runtime_error(file.string() + ": no JSON: " + e.what());
+  }
+}
+
+}  // namespace
+
+Study study_from(const fs::path& file) {
+  const json content = parsed(file);
+  const Section in(content, file, "");
+  in.allow_only({"name", "about", "variables", "responses", "command", "attempts", "time_limit", "defaults"});
+  Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
+  if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
+  const ExternalProgram program{.command = command_from(in, fs::absolute(file).parent_path()),
+                                .time_limit = in.number("time_limit", 0.0),
+                                .attempts = in.integer("attempts", 1, 1)};
+  try {
+    study.black_box = external_program(study.problem, program);
+  } catch (const std::invalid_argument& e) {
+    in.fail(e.what());
+  }
+  return study;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// A study written as a JSON file, whose simulator is a program in any language (external_program.hpp):
+///
+///     {"name": "throw", "about": "Ore thrown from a belt.",
+///      "variables": [{"name": "speed", "unit": "m/s", "lower": 1, "upper": 6},
+///                    {"name": "rollers", "lower": 2, "upper": 6, "kind": "integer"},
+///                    {"name": "lining", "kind": "categorical", "levels": ["steel", "rubber"]}],
+///      "responses": [{"name": "reach", "unit": "m", "goal": "maximize"},
+///                    {"name": "wear", "goal": "at_most", "limit": 3, "lower": 0}],
+///      "command": ["python3", "throw.py"], "attempts": 1, "time_limit": 60,
+///      "defaults": {"runs": 40, "validation": 10, "adaptive": 0}}
+///
+/// Needed are name, variables, responses and command; a variable has lower and upper unless it has levels, a
+/// response a goal: minimize, maximize, at_most, at_least or record. A word of the command that names a file
+/// beside the study file means that file, wherever the study is started. Unknown keys are refused, since they
+/// are mostly misspelt.
+
+#include <drawpoint/studies/study.hpp>
+
+#include <filesystem>
+
+namespace drawpoint::studies {
+
+/// Throws std::runtime_error that names the file, the place in it and what is allowed there.
+Study study_from(const std::filesystem::path& file);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// A simulator that is a program of its own: what it is told, what of its answers is taken, and that nothing of
+/// it is left running.
+
+#include <drawpoint/tests/end_to_end/support.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExternalProgram : public StudyTest {
+ protected:
+  /// A study of one variable x and one response y whose simulator is this shell script; $1 is the request, $2
+  /// the reply.
+  std::string study(const std::string& script, const std::string& more = "") const {
+    std::ofstream(place_ / "simulate.sh") << script << "\n";
+    return study_file(R"("variables": [{"name": "x", "lower": 0, "upper": 1}],)"
+                      R"("responses": [{"name": "y", "goal": "minimize"}],)"
+                      R"("command": ["sh", "simulate.sh"])" +
+                      more);
+  }
+
+  std::string study_file(const std::string& content) const {
+    std::ofstream(place_ / "study.json") << R"({"name": "study", )" << content << "}\n";
+    return EXTERNAL_PROGRAM + std::string(" ") + (place_ / "study.json").string();
+  }
+
+  /// Why a run fails.
+  std::string reason(const std::string& script, const std::string& more = "") const {
+    const Ended end = run(study(script, more) + " evaluate --x=0.5 --json");
+    EXPECT_EQ(end.code, 1) << end.out << end.err;
+    return end.json().value("reason", "");
+  }
+
+  std::string complaint(const std::string& content) const {
+    const Ended end = run(study_file(content));
+    EXPECT_EQ(end.code, 1);
+    return end.err;
+  }
+};
+
+const std::string half = R"(echo '{"values": {"y": 0.5}}' > $2)";
+
+/// Of a process that a test's script has started; zombies count as gone.
+bool runs(const std::string& pid) {
+  const std::string stat = contents("/proc/" + pid + "/stat");
+  return !stat.empty() && stat.find(") Z") == std::string::npos;
+}
+
+/// A second is a hundred times what ending takes.
+testing::AssertionResult ends_soon(const std::string& pid) {
+  for (int i = 0; i < 100; ++i) {
+    if (!runs(pid)) return testing::AssertionSuccess();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return testing::AssertionFailure() << pid << " still runs";
+}
+
+}  // namespace
+
+TEST_F(ExternalProgram, IsTheSimulatorOfAWholeStudy) {
+  const Ended end = run("env -C / " THROW_STUDY " --runs 8 --validation 2 --jobs 2 --json" + out());
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(count("status = 'done'"), 10);
+  EXPECT_TRUE(contains(contents(dir() / "logs" / "run_0003.txt"), "a lump of"));
+  const Ended again = run(THROW_STUDY " evaluate --run 3" + out());
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(contains(again.err, "as stored, bit for bit"));
+}
+
+TEST_F(ExternalProgram, IsToldThePointByNameTheSeedAndItsFiles) {
+  const std::string program =
+      study_file(R"("variables": [{"name": "x", "unit": "m", "lower": 0, "upper": 1},)"
+                 R"({"name": "n", "lower": 1, "upper": 9, "kind": "integer"},)"
+                 R"({"name": "rock", "kind": "categorical", "levels": ["ore", "waste"]}],)"
+                 R"("responses": [{"name": "y", "goal": "record"}], "command": ["sh", "-c", "cp $0 )" +
+                 (place_ / "seen").string() + R"(; echo '{\"values\": {\"y\": 1, \"z\": 2}}' > $1"])");
+  const Ended end = run(program + " evaluate --x=0.1,7,1 --seed 18446744073709551615 --json");
+  ASSERT_EQ(end.code, 0) << end.err;
+  const auto seen = nlohmann::json::parse(contents(place_ / "seen"));
+  EXPECT_EQ(seen["x"], nlohmann::json({{"x", 0.1}, {"n", 7}, {"rock", "waste"}}));
+  EXPECT_TRUE(seen["x"]["n"].is_number_integer());
+  EXPECT_EQ(seen["seed"].get<std::uint64_t>(), 18446744073709551615u);
+  EXPECT_FALSE(seen["log"].get<std::string>().empty());
+  EXPECT_EQ(end.json()["values"], nlohmann::json({{"y", 1.0}})) << "what is no response is left alone";
+}
+
+TEST_F(ExternalProgram, FailsWithAReason) {
+  EXPECT_EQ(reason(R"(echo '{"failure": "stuck"}' > $2)"), "stuck");
+  EXPECT_EQ(reason("exit 3"), "the program \"sh\" crashed: it ended with exit code 3");
+  EXPECT_TRUE(contains(reason("kill -SEGV $$"), "SIGSEGV"));
+  EXPECT_TRUE(contains(reason("true"), "it wrote no reply"));
+  EXPECT_TRUE(contains(reason("echo nonsense > $2"), "is neither"));
+  EXPECT_TRUE(contains(reason(R"(echo '{"values": {"why": 1}}' > $2)"), "no value for \"y\""));
+  EXPECT_TRUE(contains(reason(R"(echo '{"values": {"y": "1"}}' > $2)"), "which is no number"));
+  EXPECT_TRUE(contains(reason(R"(echo '{"values": {"y": NaN}}' > $2)"), "is neither"));
+  EXPECT_TRUE(contains(reason(half + "; exit 1"), "exit code 1")) << "a reply of a crash is not taken";
+  EXPECT_TRUE(contains(reason("sleep 30", R"(, "time_limit": 0.1)"), "stopped after 0.1 s"));
+}
+
+TEST_F(ExternalProgram, IsTriedAgainAfterACrashAlone) {
+  const std::string marker = (place_ / "tries").string();
+  const std::string flaky =
+      "echo x >> " + marker + "; [ $(wc -l < " + marker + ") -ge 3 ] || exit 1\n" + half;
+  const Ended end = run(study(flaky, R"(, "attempts": 3)") + " evaluate --x=0.5 --json");
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_TRUE(contains(end.err, "attempt 2 of 3: it ended with exit code 1"));
+  fs::remove(marker);
+  EXPECT_TRUE(contains(reason(flaky, R"(, "attempts": 2)"), "in each of 2 attempts"));
+  fs::remove(marker);
+  EXPECT_EQ(reason("echo x >> " + marker + R"(; echo '{"failure": "no"}' > $2)", R"(, "attempts": 3)"), "no");
+  EXPECT_EQ(contents(marker), "x\n") << "a failure is an answer";
+}
+
+// The program has started another one when it is stopped: by the time limit of the run, by Ctrl-C, and by the
+// death of the study, which no handler sees.
+TEST_F(ExternalProgram, IsStoppedWithAllThatItStarted) {
+  const fs::path started = place_ / "started";
+  const std::string slow = study("sleep 60 & echo $! > " + started.string() + "; wait") +
+                           " --runs 2 --validation 0 --jobs 1" + out();
+  const auto pid = [&] {
+    while (contents(started).find('\n') == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const std::string text = contents(started);
+    fs::remove(started);
+    return text.substr(0, text.find('\n'));
+  };
+  for (const int signal : {SIGINT, SIGKILL}) {
+    Command running(slow, place_);
+    const std::string child = pid();
+    EXPECT_TRUE(runs(child));
+    running.send(signal);
+    running.wait();
+    EXPECT_TRUE(ends_soon(child)) << "signal " << signal;
+  }
+  Command limited(slow + " --time-limit 0.3", place_);
+  const std::string child = pid();
+  EXPECT_TRUE(runs(child));
+  limited.wait();
+  EXPECT_TRUE(ends_soon(child));
+}
+
+TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
+  const std::string x = R"("variables": [{"name": "x", "lower": 0, "upper": 1}],)";
+  const std::string y = R"("responses": [{"name": "y", "goal": "minimize"}],)";
+  const std::string command = R"("command": ["true"])";
+  EXPECT_TRUE(contains(complaint(x + y + R"("comand": ["true"])"), "there is no \"comand\"; the keys are"));
+  EXPECT_TRUE(contains(complaint(y + command), "\"variables\" is missing"));
+  EXPECT_TRUE(contains(complaint(R"("variables": [{"name": "x", "lower": "0", "upper": 1}],)" + y + command),
+                       "variables[0]: \"lower\" is \"0\"; give a number"));
+  EXPECT_TRUE(contains(complaint(x + R"("responses": [{"name": "y", "goal": "least"}],)" + command),
+                       "responses[0]: \"goal\" is \"least\"; give one of minimize, maximize"));
+  EXPECT_TRUE(contains(complaint(x + y + R"("command": [])"), "\"command\" is []; give a list of texts"));
+  EXPECT_TRUE(contains(complaint(x + y + command + R"(, "attempts": 0)"), "a whole number from 1"));
+  EXPECT_TRUE(contains(complaint(x + y + command + R"(, "time_limit": -1)"), "time_limit is -1"));
+  EXPECT_TRUE(contains(complaint(R"("variables": [{"name": "x", "lower": 1, "upper": 0}],)" + y + command),
+                       "swap them"));
+  EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " " + (place_ / "none.json").string()).err, "cannot be read"));
+  EXPECT_EQ(run(EXTERNAL_PROGRAM).code, 2);
+  EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " --help").out, "docs/writing-a-study.md"));
+}
