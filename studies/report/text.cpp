@@ -45,12 +45,22 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+namespace {
+
+std::string setting(const doe::Variable& v, double x) {
+  if (v.kind == doe::VariableKind::real) return number_with_unit(x, v.unit);
+  const long long whole = std::llround(x);
+  if (v.kind == doe::VariableKind::categorical) return pretty(v.levels[static_cast<std::size_t>(whole)]);
+  return std::to_string(whole) + (v.unit.empty() || v.unit == "1" ? "" : " " + v.unit);
+}
+
+}  // namespace
+
 std::string point_text(const doe::Problem& problem, const Eigen::VectorXd& x) {
   std::string text;
   for (std::size_t k = 0; k < problem.variables.size(); ++k) {
     const doe::Variable& v = problem.variables[k];
-    text +=
-        (k ? ", " : "") + pretty(v.name) + " = " + number_with_unit(x[static_cast<Eigen::Index>(k)], v.unit);
+    text += (k ? ", " : "") + pretty(v.name) + " = " + setting(v, x[static_cast<Eigen::Index>(k)]);
   }
   return text;
 }

@@ -18,7 +18,7 @@ std::string percent(double share);
 std::string pretty(const std::string& name);                       ///< underscores become spaces
 std::string counted(std::size_t count, const std::string& thing);  ///< "1 run", "2 runs"
 
-/// "alpha = 1.2, beta = 0.8".
+/// "alpha = 1.2, bolts = 3, rock = ore".
 std::string point_text(const doe::Problem& problem, const Eigen::VectorXd& x);
 
 }  // namespace drawpoint::studies::detail

@@ -137,6 +137,15 @@ TEST(ReportInfluence, ConstantFunctionHasNone) {
   EXPECT_EQ(detail::influence({constant}, in.problem).front(), Eigen::VectorXd::Zero(2));
 }
 
+TEST(ReportText, AVariableIsSaidAsWhatItIs) {
+  const doe::Problem mill{.variables = {{"speed", "1", 0.0, 1.0},
+                                        doe::integer_variable("balls", "t", 10, 40),
+                                        doe::categorical_variable("lining", {"hard_steel", "rubber"})},
+                          .responses = {{"ground", "t/h", doe::Goal::maximize}}};
+  EXPECT_EQ(detail::point_text(mill, Eigen::Vector3d(0.75, 32.0, 0.0)),
+            "speed = 0.750, balls = 32 t, lining = hard steel");
+}
+
 // Ideal point (best of each) is (10, 0) with the goals maximize, minimize. Scaled distances: (0, 1) -> 1;
 // (0.5, 0.25) -> 0.56; (1, 0) -> 1.
 TEST(ReportSummary, BalancedPointIsNearestToTheIdeal) {

@@ -4,7 +4,7 @@
 
 export function choose(data) {
   const listeners = [];
-  const middle = data.problem.variables.map((v) => 0.5 * (v.lower + v.upper));
+  const middle = data.problem.variables.map((v) => (v.kind ? Math.floor(0.5 * (v.lower + v.upper)) : 0.5 * (v.lower + v.upper)));
   const state = {
     x: [...middle], selected: -1, middle,
     onchange: (listener) => listeners.push(listener),

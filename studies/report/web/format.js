@@ -22,6 +22,11 @@ export const percent = (value) => (value === null || !Number.isFinite(value) ? '
 export const pretty = (name) => name.replaceAll('_', ' ');
 export const hasUnit = (unit) => unit !== '' && unit !== '1';
 export const labelled = (item) => pretty(item.name) + (hasUnit(item.unit) ? ` [${item.unit}]` : '');
+/// A variable's value: the name of a level, a whole number, or a number.
+export const setting = (value, {levels, kind}) => (levels ? pretty(levels[Math.round(value)] ?? 'n/a') : kind ? String(Math.round(value)) : number(value));
+export const settingWithUnit = (value, item) => setting(value, item) + (hasUnit(item.unit) ? ' ' + item.unit : '');
+/// Of an axis along a variable: the names of its levels.
+export const ticks = ({levels}) => (levels ? {tickvals: levels.map((_, i) => i), ticktext: levels.map((name) => plain(pretty(name)))} : {});
 export const withUnit = (value, item) => number(value) + (hasUnit(item.unit) ? ' ' + item.unit : '');
 
 /// Text for Plotly, which reads a little markup and its own %{...} patterns.

@@ -3,7 +3,7 @@
 // The trade-offs: projections of the front on pairs of objectives, and its points as a table.
 
 import {el, figure, section, select, table} from './dom.js';
-import {axisLabel, colour, labelled, number, pretty, scale, withUnit} from './format.js';
+import {axisLabel, colour, labelled, number, pretty, scale, setting, settingWithUnit, withUnit} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
 
 const mostProjections = 6;
@@ -23,7 +23,7 @@ export function tradeOffs(data, chosen) {
 /// Predicted and simulated, side by side.
 function confirmed(data) {
   const judged = data.problem.responses.map((response, j) => ({response, j})).filter(({response}) => response.goal !== 'record');
-  const columns = [{title: 'Run', format: String}, {title: 'Round', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: number})),
+  const columns = [{title: 'Run', format: String}, {title: 'Round', format: String}, ...data.problem.variables.map((v) => ({title: labelled(v), format: (value) => setting(value, v)})),
     ...judged.flatMap(({response}) => [{title: `${labelled(response)} predicted`, text: true}, {title: 'simulated', text: true}]), {title: 'Note', text: true}];
   const cell = (r, j) => [interval95(r.lower[j], r.upper[j]),
     r.y === null ? 'failed' : number(r.y[j]) + (r.within[j] ? '' : ' outside')];
@@ -117,7 +117,7 @@ function pointTable(data, objectives, chosen) {
   const {lower, upper} = data.front;
   const values = objectives.flatMap((item) => [{title: labelled(item), format: number}, ...lower.length ? [{title: '95 % of runs', text: true}] : []]);
   const interval = (i, k) => lower.length ? [interval95(lower[i][k], upper[i][k])] : [];
-  const columns = [{title: 'Point', format: String}, ...values, ...data.problem.variables.map((item) => ({title: labelled(item), format: number}))];
+  const columns = [{title: 'Point', format: String}, ...values, ...data.problem.variables.map((item) => ({title: labelled(item), format: (value) => setting(value, item)}))];
   const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => [y, ...interval(i, k)]), ...x]);
   const detail = el('p', {class: 'note'});
   const {node, select: mark} = table(columns, rows, {onselect: (i) => chosen.select(chosen.selected === i ? -1 : i), tall: true});
@@ -132,6 +132,6 @@ function pointTable(data, objectives, chosen) {
 
 function describe(data, objectives, i) {
   const y = objectives.map((r, k) => `${pretty(r.name)} ${withUnit(data.front.Y[i][k], r)}`);
-  const x = data.problem.variables.map((v, k) => `${pretty(v.name)} = ${withUnit(data.front.X[i][k], v)}`);
+  const x = data.problem.variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(data.front.X[i][k], v)}`);
   return `Point ${i + 1}: ${y.join(', ')} at ${x.join(', ')}.`;
 }

@@ -3,7 +3,7 @@
 // The runs behind everything: the scatter matrix of the design, the failures, and every run as a table.
 
 import {el, figure, section, table} from './dom.js';
-import {axisLabel, colour, labelled, number} from './format.js';
+import {axisLabel, colour, labelled, number, setting, ticks} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
 
 const mostVariables = 6;
@@ -20,7 +20,7 @@ export function runs(data) {
 
 const everyRun = (data) => [...data.training.rows.map((r) => ({...r, set: r.kind || 'training'})), ...data.validation.rows.map((r) => ({...r, set: 'validation'}))];
 
-const inputs = (data) => data.problem.variables.map((v) => ({title: labelled(v), format: number}));
+const inputs = (data) => data.problem.variables.map((v) => ({title: labelled(v), format: (value) => setting(value, v)}));
 
 function failures(data, failed) {
   return table([{title: 'Run', format: String}, {title: 'Set', text: true}, ...inputs(data), {title: 'Reason', text: true}],
@@ -61,8 +61,8 @@ function cell(data, shown, row, column, traces, layout) {
   const suffix = id === 1 ? '' : id;
   const across = data.problem.variables[shown[column]], down = data.problem.variables[shown[row]];
   const range = (v) => [v.lower - 0.04 * (v.upper - v.lower), v.upper + 0.04 * (v.upper - v.lower)];
-  layout['xaxis' + suffix] = axis(row === d - 1 ? axisLabel(across) : '', {domain: [x, x + size], anchor: 'y' + suffix, range: range(across), showticklabels: row === d - 1, nticks: 5, automargin: false, mirror: true});
-  layout['yaxis' + suffix] = axis(column === 0 ? axisLabel(down) : '', {domain: [y, y + size], anchor: 'x' + suffix, showticklabels: column === 0 && row !== column, nticks: 5, automargin: false, mirror: true,
+  layout['xaxis' + suffix] = axis(row === d - 1 ? axisLabel(across) : '', {domain: [x, x + size], anchor: 'y' + suffix, range: range(across), showticklabels: row === d - 1, nticks: 5, automargin: false, mirror: true, ...ticks(across)});
+  layout['yaxis' + suffix] = axis(column === 0 ? axisLabel(down) : '', {domain: [y, y + size], anchor: 'x' + suffix, showticklabels: column === 0 && row !== column, nticks: 5, automargin: false, mirror: true, ...(row === column ? {} : ticks(down)),
     ...(row === column ? {rangemode: 'tozero', fixedrange: true} : {range: range(down)})});
   const place = {xaxis: 'x' + suffix, yaxis: 'y' + suffix};
   if (row === column) histograms(data, shown[row], place, traces, id === 1);

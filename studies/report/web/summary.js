@@ -4,7 +4,7 @@
 
 import {certificate} from './front.js';
 import {el, section, table} from './dom.js';
-import {labelled, number} from './format.js';
+import {labelled, number, setting} from './format.js';
 
 export function header(data) {
   return el('header', {}, el('div', {class: 'inner'},
@@ -33,8 +33,8 @@ const verdict = ({response, grade, text}) => el('li', {}, el('span', {class: 'gr
 
 export function facts(data) {
   const {variables, responses} = data.problem;
-  const inputs = table([{title: 'Variable', text: true}, {title: 'Lower', format: number}, {title: 'Upper', format: number}],
-    variables.map((v) => [labelled(v), v.lower, v.upper]), {sortable: false});
+  const inputs = table([{title: 'Variable', text: true}, {title: 'Values', text: true}],
+    variables.map((v) => [labelled(v), v.levels ? v.levels.join(', ') : `${setting(v.lower, v)} to ${setting(v.upper, v)}`]), {sortable: false});
   const goals = {minimize: 'as small as possible', maximize: 'as large as possible', at_most: 'at most', at_least: 'at least', record: 'recorded only'};
   const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}],
     responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit))]), {sortable: false});

@@ -5,7 +5,7 @@
 /* global Plotly */
 
 import {choice, el, figure, section, select} from './dom.js';
-import {axisLabel, labelled, plain, pretty, scale, series, withUnit} from './format.js';
+import {axisLabel, labelled, plain, pretty, scale, series, settingWithUnit, ticks} from './format.js';
 import {predictor, steps} from './kriging.js';
 import {axis, draw, plotBox} from './plot.js';
 
@@ -28,6 +28,10 @@ export function surfaces(data, chosen) {
   return node;
 }
 
+/// Where a curve along a variable is drawn: at all of its values where there are few, so that none is made up between them.
+const places = (v, count) => steps(v.lower, v.upper, v.kind ? Math.min(count, v.upper - v.lower + 1) : count)
+  .map((value) => (v.kind ? Math.round(value) : value));
+
 function extent(values) {
   const low = Math.min(...values), high = Math.max(...values);
   return high > low ? [low, high] : [low - 0.5, high + 0.5];
@@ -49,7 +53,8 @@ function sliders(data, chosen) {
     const out = el('output', {});
     const input = el('input', {type: 'range', min: 0, max: 200, step: 1, 'aria-label': pretty(v.name), oninput: () => {
       const x = [...chosen.x];
-      x[k] = v.lower + ((v.upper - v.lower) * Number(input.value)) / 200;
+      const value = v.lower + ((v.upper - v.lower) * Number(input.value)) / 200;
+      x[k] = v.kind ? Math.round(value) : value;
       chosen.move(x);
     }});
     return {k, v, input, out, node: el('label', {class: 'slider'}, el('span', {}, pretty(v.name)), input, out)};
@@ -57,7 +62,7 @@ function sliders(data, chosen) {
   const update = () => rows.forEach(({k, v, input, out}) => {
     const position = String(Math.round((200 * (chosen.x[k] - v.lower)) / (v.upper - v.lower)));
     if (input.value !== position) input.value = position;
-    out.textContent = withUnit(chosen.x[k], v);
+    out.textContent = settingWithUnit(chosen.x[k], v);
   });
   chosen.onchange(update);
   update();
@@ -95,7 +100,7 @@ function frameLimited(f) {
 
 function map(box, f, variables, [a, b], chosen, solid) {
   const count = f.model.surface.weights.length > 200 ? 31 : 41;
-  const x = steps(variables[a].lower, variables[a].upper, count), y = steps(variables[b].lower, variables[b].upper, count);
+  const x = places(variables[a], count), y = places(variables[b], count);
   const point = [...chosen.x];
   const z = y.map((vb) => x.map((va) => { point[a] = va; point[b] = vb; return f.mean(point); }));
   const title = {text: axisLabel(f.response), font: {size: 14}, x: 0, xanchor: 'left', xref: 'paper'};
@@ -110,7 +115,7 @@ function map(box, f, variables, [a, b], chosen, solid) {
     {type: 'contour', x, y, z, ...range, ncontours: 14, contours: {coloring: 'heatmap', showlines: true}, line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
       hovertemplate: `${axisLabel(variables[a])}: %{x:.3g}<br>${axisLabel(variables[b])}: %{y:.3g}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`},
     {x: [chosen.x[a]], y: [chosen.x[b]], mode: 'markers', hoverinfo: 'skip', marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}}},
-  ], {title, showlegend: false, margin: {l: 56, r: 8, t: 36, b: 52}, xaxis: axis(axisLabel(variables[a])), yaxis: axis(axisLabel(variables[b]))});
+  ], {title, showlegend: false, margin: {l: 56, r: 8, t: 36, b: 52}, xaxis: axis(axisLabel(variables[a]), ticks(variables[a])), yaxis: axis(axisLabel(variables[b]), ticks(variables[b]))});
 }
 
 function profiles(data, fitted, chosen) {
@@ -130,7 +135,7 @@ function profile(box, data, fitted, shown, chosen) {
   const layout = {showlegend: false, grid: {rows, columns, pattern: 'independent', xgap: 0.06, ygap: 0.14}, margin: {l: 66, r: 12, t: 12, b: 52}};
   fitted.forEach((f, r) => {
     const curves = shown.map((k) => {
-      const v = data.problem.variables[k], x = steps(v.lower, v.upper, 61), point = [...chosen.x];
+      const v = data.problem.variables[k], x = places(v, 61), point = [...chosen.x];
       return {k, v, x, y: x.map((value) => { point[k] = value; return f.mean(point); })};
     });
     const [low, high] = extent([...curves.flatMap((c) => c.y), ...f.range]);
@@ -138,9 +143,9 @@ function profile(box, data, fitted, shown, chosen) {
     curves.forEach(({k, v, x, y}, c) => {
       const id = r * columns + c + 1, suffix = id === 1 ? '' : id, place = {xaxis: 'x' + suffix, yaxis: 'y' + suffix};
       if (data.problem.variables.length === 1) traces.push(simulated(data, f, place));
-      traces.push({x, y, mode: 'lines', line: {color: series[r % series.length], width: 2.5}, hovertemplate: '%{x:.3g}: %{y:.4g}<extra></extra>', ...place},
+      traces.push({x, y, mode: v.kind ? 'lines+markers' : 'lines', marker: {size: 4}, line: {color: series[r % series.length], width: 2.5}, hovertemplate: '%{x:.3g}: %{y:.4g}<extra></extra>', ...place},
         {x: [chosen.x[k]], y: [f.mean(chosen.x)], mode: 'markers', marker: {size: 8, color: series[r % series.length], line: {color: '#fff', width: 1.5}}, hoverinfo: 'skip', ...place});
-      layout['xaxis' + suffix] = axis(r === rows - 1 ? axisLabel(v) : '', {showticklabels: r === rows - 1, nticks: 6, automargin: false});
+      layout['xaxis' + suffix] = axis(r === rows - 1 ? axisLabel(v) : '', {showticklabels: r === rows - 1, nticks: 6, automargin: false, ...ticks(v)});
       layout['yaxis' + suffix] = axis(c === 0 ? axisLabel(f.response) : '', {showticklabels: c === 0, range: [low - pad, high + pad], nticks: 6, automargin: false});
     });
   });
