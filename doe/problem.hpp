@@ -35,6 +35,7 @@ struct Variable {
   double lower, upper;
   VariableKind kind = VariableKind::real;
   std::vector<std::string> levels = {};  ///< names of a categorical variable's levels, at least 2
+  std::string description = {};          ///< what it is, in a few words, for help and reports
 };
 
 /// A variable that takes the whole numbers lower..upper.
@@ -57,6 +58,7 @@ struct Response {
   double limit = std::numeric_limits<double>::quiet_NaN();
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  std::string description = {};  ///< what it is, in a few words, for help and reports
 };
 
 struct Problem {

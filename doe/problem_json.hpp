@@ -7,7 +7,7 @@
 ///     {"variables": [{"name", "unit", "lower", "upper", "kind", "levels"}, ...],
 ///      "responses": [{"name", "unit", "goal", "limit"}, ...]}
 ///
-/// "kind" is left out for a real variable, "levels" for one that is not categorical, "limit" where there is none.
+/// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a real variable, "levels" for one that is not categorical, "limit" where there is none.
 /// Numbers are the shortest text that reads back as the same double. This is the only header of the module that
 /// needs nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
 

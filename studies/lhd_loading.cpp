@@ -13,13 +13,45 @@
 using namespace drawpoint;
 
 const doe::Problem problem{
-    .variables = {{"alpha", "1", 0.2, 2.0},
-                  {"beta", "1", 0.0, 1.0},
-                  {"gamma", "1", 0.0, 1.0},
-                  {"kappa", "1", 0.0, 1.0}},
-    .responses = {{.name = "production", .unit = "kg/s", .goal = doe::Goal::maximize, .lower = 0},
-                  {.name = "joint_damage", .unit = "s", .goal = doe::Goal::minimize, .lower = 0},
-                  {.name = "rock_spill", .unit = "1", .goal = doe::Goal::minimize, .lower = 0}}};
+    .variables = {{.name = "alpha",
+                   .unit = "1",
+                   .lower = 0.2,
+                   .upper = 2.0,
+                   .description = "wanted fill: planned cut over the bucket's volume"},
+                  {.name = "beta",
+                   .unit = "1",
+                   .lower = 0.0,
+                   .upper = 1.0,
+                   .description = "end of the lift over the height of the pile; 0: no lift"},
+                  {.name = "gamma",
+                   .unit = "1",
+                   .lower = 0.0,
+                   .upper = 1.0,
+                   .description =
+                       "place across the drift, from where the pile reaches farthest back to where "
+                       "it stands farthest out"},
+                  {.name = "kappa",
+                   .unit = "1",
+                   .lower = 0.0,
+                   .upper = 1.0,
+                   .description = "tilt in the lift over the angle of the pile; 0: the bucket stays level"}},
+    .responses = {
+        {.name = "production",
+         .unit = "kg/s",
+         .goal = doe::Goal::maximize,
+         .lower = 0,
+         .description = "loaded mass over the time of a cycle, mean of the cycles"},
+        {.name = "joint_damage",
+         .unit = "s",
+         .goal = doe::Goal::minimize,
+         .lower = 0,
+         .description = "torque in the bucket's hinge above the yield torque, over that and summed over the "
+                        "time of a run"},
+        {.name = "rock_spill",
+         .unit = "1",
+         .goal = doe::Goal::minimize,
+         .lower = 0,
+         .description = "mass left on the floor by a cycle over the 10 t that would stop the work"}}};
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
   engine::loading::Scenario scenario = studies::loading_scenario(run);

@@ -120,8 +120,12 @@ class Section {
 };
 
 doe::Variable variable_from(const Section& in) {
-  in.allow_only({"name", "unit", "lower", "upper", "kind", "levels"});
-  doe::Variable variable{.name = in.text("name"), .unit = in.text("unit", "1"), .lower = 0, .upper = 0};
+  in.allow_only({"name", "unit", "lower", "upper", "kind", "levels", "description"});
+  doe::Variable variable{.name = in.text("name"),
+                         .unit = in.text("unit", "1"),
+                         .lower = 0,
+                         .upper = 0,
+                         .description = in.text("description", "")};
   if (in.has("kind"))
     variable.kind = in.one_of(
         "kind", {doe::VariableKind::real, doe::VariableKind::integer, doe::VariableKind::categorical});
@@ -137,13 +141,14 @@ doe::Variable variable_from(const Section& in) {
 }
 
 doe::Response response_from(const Section& in) {
-  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper"});
+  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper", "description"});
   doe::Response response{.name = in.text("name"), .unit = in.text("unit", "1")};
   response.goal = in.one_of("goal", {doe::Goal::minimize, doe::Goal::maximize, doe::Goal::at_most,
                                      doe::Goal::at_least, doe::Goal::record});
   response.limit = in.number("limit", response.limit);
   response.lower = in.number("lower", response.lower);
   response.upper = in.number("upper", response.upper);
+  response.description = in.text("description", "");
   return response;
 }
 

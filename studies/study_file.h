@@ -13,7 +13,7 @@
 ///      "defaults": {"runs": 40, "validation": 10, "adaptive": 0}}
 ///
 /// Needed are name, variables, responses and command; a variable has lower and upper unless it has levels, a
-/// response a goal: minimize, maximize, at_most, at_least or record. A word of the command that names a file
+/// response a goal: minimize, maximize, at_most, at_least or record. Both may have a description. A word of the command that names a file
 /// beside the study file means that file, wherever the study is started. Unknown keys are refused, since they
 /// are mostly misspelt.
 

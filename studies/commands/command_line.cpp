@@ -282,6 +282,42 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   prepare->callback([&] { parsed.action = [&] { return prepare_command(study, parsed.point); }; });
 }
 
+std::string range_of(const doe::Variable& variable) {
+  if (variable.levels.empty())
+    return doe::detail::number_text(variable.lower) + " to " +
+           doe::detail::with_unit(variable.upper, variable.unit);
+  std::string names;
+  for (std::size_t i = 0; i < variable.levels.size(); ++i)
+    names += (i ? ", " : "") + std::to_string(i) + " = " + variable.levels[i];
+  return names;
+}
+
+std::string wanted_of(const doe::Response& response) {
+  std::string text(to_string(response.goal));
+  if (doe::is_constraint(response.goal))
+    text += " " + doe::detail::with_unit(response.limit, response.unit);
+  else if (!response.unit.empty() && response.unit != "1")
+    text += ", " + response.unit;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string described(const std::string& name, const std::string& what, const std::string& description) {
+  std::string text = "  ";
+  text += name + " (" + what + ")";
+  if (!description.empty()) text += ": " + description;
+  return text + "\n";
+}
+
+/// What is varied and what comes out, below the options.
+std::string about(const doe::Problem& problem) {
+  std::string text = "Variables:\n";
+  for (const auto& v : problem.variables) text += described(v.name, range_of(v), v.description);
+  text += "Responses:\n";
+  for (const auto& r : problem.responses) text += described(r.name, wanted_of(r), r.description);
+  return text;
+}
+
 int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
@@ -293,6 +329,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   app.set_help_all_flag("-h,--help", "show this text");
   app.set_version_flag("--version", std::string("Drawpoint ") + DRAWPOINT_VERSION);
   app.require_subcommand(1);
+  app.footer(about(study.problem));
   define_folder_commands(app, parsed, study);
   define_point_commands(app, parsed, study);
   auto words = with_command(argc, argv, study.leading_words.size());

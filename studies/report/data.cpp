@@ -27,6 +27,15 @@ json to_json(const Eigen::MatrixXd& rows) {
   return all;
 }
 
+json described(const doe::Problem& problem) {
+  json all = to_json(problem);
+  for (std::size_t i = 0; i < problem.variables.size(); ++i)
+    all["variables"][i]["description"] = problem.variables[i].description;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    all["responses"][j]["description"] = problem.responses[j].description;
+  return all;
+}
+
 json to_json(const doe::Evaluations& table, const ReportInput& input) {
   json rows = json::array();
   for (const doe::Evaluation& e : table.rows) {
@@ -241,7 +250,7 @@ json report_data(const ReportInput& input) {
   return {{"study", input.study},
           {"about", input.about},
           {"command", input.command},
-          {"problem", to_json(input.problem)},
+          {"problem", described(input.problem)},
           {"training", to_json(input.training, input)},
           {"validation", to_json(input.validation, input)},
           {"models", std::move(models)},

@@ -70,6 +70,8 @@ TEST_F(ExternalProgram, IsTheSimulatorOfAWholeStudy) {
   const Ended again = run(THROW_STUDY " evaluate --run 3" + out());
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_TRUE(contains(again.err, "as stored, bit for bit"));
+  EXPECT_TRUE(contains(run(THROW_STUDY " --help").out, "speed (1 to 6 m/s): of the belt"));
+  EXPECT_TRUE(contains(contents(dir() / "report.html"), "energy of a tonne as it lands"));
 }
 
 TEST_F(ExternalProgram, IsToldThePointByNameTheSeedAndItsFiles) {

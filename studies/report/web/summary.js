@@ -33,11 +33,13 @@ const verdict = ({response, grade, text}) => el('li', {}, el('span', {class: 'gr
 
 export function facts(data) {
   const {variables, responses} = data.problem;
-  const inputs = table([{title: 'Variable', text: true}, {title: 'Values', text: true}],
-    variables.map((v) => [labelled(v), v.levels ? v.levels.join(', ') : `${setting(v.lower, v)} to ${setting(v.upper, v)}`]), {sortable: false});
+  const told = (items) => (items.some((item) => item.description) ? [{title: 'What it is', text: true}] : []);
+  const words = (item, items) => (told(items).length ? [item.description] : []);
+  const inputs = table([{title: 'Variable', text: true}, {title: 'Values', text: true}, ...told(variables)],
+    variables.map((v) => [labelled(v), v.levels ? v.levels.join(', ') : `${setting(v.lower, v)} to ${setting(v.upper, v)}`, ...words(v, variables)]), {sortable: false});
   const goals = {minimize: 'as small as possible', maximize: 'as large as possible', at_most: 'at most', at_least: 'at least', record: 'recorded only'};
-  const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}],
-    responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit))]), {sortable: false});
+  const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}, ...told(responses)],
+    responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit)), ...words(r, responses)]), {sortable: false});
   const rows = [...data.facts];
   const search = certificate(data.polishing);
   if (search) rows.push(['Search for the front', search]);
