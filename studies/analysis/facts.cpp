@@ -71,6 +71,8 @@ std::string design(const Store& store, const std::vector<Run>& runs) {
     text += "; " + std::to_string(more) + " adaptive points, the last by " + store.sampling().criteria;
   if (const int more = count_points(runs, Kind::confirmation); more > 0)
     text += "; " + std::to_string(more) + " points of predicted fronts";
+  if (const int more = count_points(runs, Kind::imported); more > 0)
+    text += "; " + std::to_string(more) + " points made elsewhere";
   return text + "; " + std::to_string(count_points(runs, Kind::validation)) + " validation points, uniform";
 }
 

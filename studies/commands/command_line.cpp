@@ -103,7 +103,9 @@ void add_run_options(CLI::App& command, Settings& settings, const Defaults& defa
   command
       .add_option("--runs", settings.runs,
                   "training points (default " + std::to_string(defaults.runs) + kept + ")")
-      ->check(CLI::Range(2, most_points));
+      ->check(CLI::Range(0, most_points));
+  command.add_option("--import", settings.imported,
+                     "table of points made elsewhere, as export writes it; those already there are left out");
   command
       .add_option("--validation", settings.validation,
                   "validation points (default " + std::to_string(defaults.validation) + kept + ")")

@@ -116,6 +116,9 @@ StoredRun stored_run(const Study& study, const PointSettings& given) {
     throw UsageError("--run " + std::to_string(*given.run) + ": the study in " + folder.path.string() +
                      " has runs 1 to " + std::to_string(runs.size()));
   StoredRun stored{runs[static_cast<std::size_t>(*given.run) - 1], given};
+  if (stored.run.kind == Kind::imported)
+    throw UsageError("--run " + std::to_string(*given.run) +
+                     ": it was made elsewhere and imported; give its point with --x to simulate it here");
   stored.settings.x.assign(stored.run.x.begin(), stored.run.x.end());
   stored.settings.seed = stored.run.seed;
   stored.settings.options = store.identity().options;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/runs/imported_points.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/option_values.h>
@@ -44,6 +45,26 @@ void check_target(double target, int validation) {
         "--target: without a validation run there is no NRMSE to reach; give --validation 10 or more");
 }
 
+std::vector<Run> everything(std::vector<Run> existing, const std::vector<Run>& added) {
+  existing.insert(existing.end(), added.begin(), added.end());
+  return existing;
+}
+
+/// Models need two points; where none is imported they are training points.
+void check_runs(int runs, const std::vector<Run>& all) {
+  if (runs < 2 && count_points(all, Kind::imported) == 0)
+    throw UsageError("--runs " + std::to_string(runs) +
+                     ": allowed is 2 or more, or fewer beside points of --import");
+}
+
+/// With the points of a table made elsewhere.
+void add_imported(const Settings& settings, const doe::Problem& problem, const std::vector<Run>& existing,
+                  std::vector<Run>& added) {
+  if (settings.imported.empty()) return;
+  const std::vector<Run> imported = imported_runs(settings.imported, problem, everything(existing, added));
+  added.insert(added.end(), imported.begin(), imported.end());
+}
+
 /// What is given, else what the folder or the study has. Throws UsageError for what cannot be.
 Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<Run>& existing,
                      int validation) {
@@ -77,6 +98,9 @@ Store open_store(const Study& study, const Folder& folder) {
 }
 
 void check_new_study(const Study& study, const Settings& settings) {
+  std::vector<Run> imported;
+  add_imported(settings, study.problem, {}, imported);
+  check_runs(settings.runs.value_or(study.defaults.runs), imported);
   check_target(settings.target.value_or(0.0), settings.validation.value_or(study.defaults.validation));
 }
 
@@ -90,7 +114,9 @@ Store plan_study(const Study& study, const Folder& folder, const Settings& setti
       settings.runs.value_or(resumes ? count_points(existing, Kind::training) : study.defaults.runs);
   const int validation = settings.validation.value_or(resumes ? count_points(existing, Kind::validation)
                                                               : study.defaults.validation);
-  const auto added = runs_to_add(store.identity(), existing, runs, validation);
+  auto added = runs_to_add(store.identity(), existing, runs, validation);
+  add_imported(settings, study.problem, existing, added);
+  check_runs(runs, everything(existing, added));
   Sampling kept = store.sampling();
   if (!resumes) kept.points = study.defaults.adaptive;
   const Sampling sampling = sampling_of(kept, settings, existing, validation);

@@ -15,6 +15,8 @@ std::string name_of(Kind kind) {
       return "adaptive";
     case Kind::confirmation:
       return "confirmation";
+    case Kind::imported:
+      return "imported";
     case Kind::validation:
       return "validation";
     default:
@@ -106,7 +108,7 @@ Run read_run(SQLite::Statement& row, std::size_t dimension, std::size_t response
 std::string create_runs(const Columns& columns) {
   std::string text =
       "CREATE TABLE runs (id INTEGER PRIMARY KEY, kind TEXT NOT NULL CHECK (kind IN ('training', "
-      "'adaptive', 'confirmation', 'validation')), "
+      "'adaptive', 'confirmation', 'imported', 'validation')), "
       "point INTEGER NOT NULL, replicate INTEGER NOT NULL, seed TEXT NOT NULL, "
       "status TEXT NOT NULL CHECK (status IN ('planned', 'running', 'done', 'failed')), "
       "reason TEXT, seconds REAL, started TEXT, finished TEXT, log TEXT, checksum TEXT";

@@ -201,10 +201,11 @@ void Store::set_sampling(const Sampling& sampling) {
   sampling_ = sampling;
 }
 
-void Store::add(const std::vector<Run>& planned) {
+void Store::add(const std::vector<Run>& runs) {
   std::string columns = "id, kind, point, replicate, seed, status";
-  std::string marks = "?, ?, ?, ?, ?, 'planned'";
-  for (const auto* group : {&columns_.x, &columns_.predicted, &columns_.lower, &columns_.upper}) {
+  std::string marks = "?, ?, ?, ?, ?, ?";
+  for (const auto* group :
+       {&columns_.x, &columns_.y, &columns_.predicted, &columns_.lower, &columns_.upper}) {
     for (const auto& column : *group) {
       columns += ", " + column;
       marks += ", ?";
@@ -213,7 +214,7 @@ void Store::add(const std::vector<Run>& planned) {
   with_context(file_, [&] {
     SQLite::Transaction transaction(*database_);
     SQLite::Statement insert(*database_, "INSERT INTO runs (" + columns + ") VALUES (" + marks + ")");
-    for (const auto& run : planned) {
+    for (const auto& run : runs) {
       insert.reset();
       insert.clearBindings();  // what was not predicted is NULL
       insert.bind(1, run.id);
@@ -222,12 +223,13 @@ void Store::add(const std::vector<Run>& planned) {
       insert.bind(4, run.replicate);
       insert.bind(5, std::to_string(run.seed));
       const std::size_t responses = columns_.y.size();
-      std::size_t group = 6 + columns_.x.size();
+      std::size_t group = 7 + columns_.x.size();
       const auto bind = [&](std::size_t first, const Eigen::VectorXd& values) {
         for (const double value : values) insert.bind(static_cast<int>(first++), value);
       };
-      bind(6, run.x);
-      for (const auto* values : {&run.predicted, &run.lower, &run.upper}) {
+      insert.bind(6, name_of(run.status));
+      bind(7, run.x);
+      for (const auto* values : {&run.y, &run.predicted, &run.lower, &run.upper}) {
         bind(group, *values);
         group += responses;
       }

@@ -47,9 +47,10 @@ enum class Kind {
   training,      ///< of the first design
   adaptive,      ///< chosen by what the runs before it showed
   confirmation,  ///< a point of a predicted front
+  imported,      ///< made elsewhere
   validation     ///< independent, for judging the models
 };
-inline constexpr std::array all_kinds = {Kind::training, Kind::adaptive, Kind::confirmation,
+inline constexpr std::array all_kinds = {Kind::training, Kind::adaptive, Kind::confirmation, Kind::imported,
                                          Kind::validation};
 enum class Status { planned, running, done, failed };
 
@@ -90,7 +91,7 @@ class Store {
   std::vector<Run> runs() const;  ///< in order of id
 
   void set_sampling(const Sampling& sampling);
-  void add(const std::vector<Run>& planned);  ///< all or none
+  void add(const std::vector<Run>& runs);  ///< planned or done ones, all or none
   void mark_running(std::int64_t id);
   void mark_planned(std::int64_t id);
   void save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log = {});

@@ -118,6 +118,35 @@ TEST_F(ExternalProgram, IsTriedAgainAfterACrashAlone) {
   EXPECT_EQ(contents(marker), "x\n") << "a failure is an answer";
 }
 
+// What one study exports trains another one, alone or beside runs of its own; the same command again adds nothing.
+TEST_F(ExternalProgram, PointsMadeElsewhereTrainTheModels) {
+  const std::string here = (place_ / "other").string(), table = (place_ / "points.csv").string();
+  ASSERT_EQ(run(THROW_STUDY " --runs 12 --validation 0 --jobs 2 --out " + here).code, 0);
+  ASSERT_EQ(run(THROW_STUDY " export --out " + here + " --file " + table).code, 0);
+  const std::string import = THROW_STUDY " --json --runs 0 --validation 3 --import " + table + out();
+  for (int i = 0; i < 2; ++i) {
+    const Ended end = run(import);
+    ASSERT_EQ(end.code, 0) << end.err;
+    EXPECT_EQ(end.json()["imported"], 12);
+    EXPECT_EQ(end.json()["training"], 0);
+    EXPECT_LT(end.json()["nrmse"]["reach"], 0.05) << "a plane misses by a tenth of the range";
+  }
+  const Ended repeat = run(THROW_STUDY " evaluate --run 5" + out());
+  EXPECT_EQ(repeat.code, 2);
+  EXPECT_TRUE(contains(repeat.err, "it was made elsewhere"));
+  EXPECT_EQ(run(THROW_STUDY " --runs 4" + out()).code, 0);
+  EXPECT_EQ(count("kind = 'training' AND status = 'done'"), 4);
+}
+
+TEST_F(ExternalProgram, AWrongTableChangesNothing) {
+  std::ofstream(place_ / "points.csv") << "speed,angle\n1,2\n";
+  const Ended end = run(THROW_STUDY " --import " + (place_ / "points.csv").string() + out());
+  EXPECT_EQ(end.code, 2);
+  EXPECT_TRUE(contains(end.err, "there is no column \"reach\""));
+  EXPECT_FALSE(fs::exists(database()));
+  EXPECT_TRUE(contains(run(THROW_STUDY " --runs 1" + out()).err, "allowed is 2 or more"));
+}
+
 // The program has started another one when it is stopped: by the time limit of the run, by Ctrl-C, and by the
 // death of the study, which no handler sees.
 TEST_F(ExternalProgram, IsStoppedWithAllThatItStarted) {

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// Tables of points made elsewhere: what is taken of them, and that a wrong one is refused with its place.
+
+#include <drawpoint/studies/runs/imported_points.h>
+#include <drawpoint/studies/runs/settings.h>
+#include <gtest/gtest.h>
+#include <drawpoint/tests/studies/support.hpp>
+
+#include <fstream>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
+namespace {
+
+const doe::Problem problem{
+    .variables = {{"speed", "m/s", 1.0, 6.0}, doe::categorical_variable("lining", {"steel", "rubber"})},
+    .responses = {{.name = "wear", .unit = "1", .goal = doe::Goal::minimize, .lower = 0}}};
+
+class ImportedPoints : public testing::Test {
+ protected:
+  std::vector<studies::Run> imported(const std::string& text,
+                                     const std::vector<studies::Run>& existing = {}) const {
+    std::ofstream(file()) << text;
+    return imported_runs(file(), problem, existing);
+  }
+  std::string refused(const std::string& text) const {
+    try {
+      imported(text);
+    } catch (const UsageError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  std::filesystem::path file() const { return place_.path() / "points.csv"; }
+
+  test::TestFolder place_;
+};
+
+}  // namespace
+
+TEST_F(ImportedPoints, AreTakenByNameWhateverElseTheTableHolds) {
+  const auto runs = imported(
+      "who,wear [1],lining,speed [m/s],status\nann,0.25,rubber,2.5,done\nbob,,steel,3,failed\ncy,0,0,6,done");
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].x, Eigen::Vector2d(2.5, 1.0));
+  EXPECT_EQ(runs[0].y, Eigen::VectorXd::Constant(1, 0.25));
+  EXPECT_EQ(runs[1].x, Eigen::Vector2d(6.0, 0.0));
+  EXPECT_EQ(runs[1].id, 2);
+  EXPECT_EQ(runs[1].point, 2);
+  EXPECT_TRUE(runs[1].kind == Kind::imported && runs[1].status == Status::done);
+}
+
+TEST_F(ImportedPoints, AreTakenOnce) {
+  const std::string table = "speed,lining,wear\r\n2,0,1\r\n3,0,1\r\n";
+  const auto first = imported(table);
+  ASSERT_EQ(first.size(), 2u);
+  EXPECT_TRUE(imported(table, first).empty());
+  const auto more = imported(table + "3,0,1.5\n", first);
+  ASSERT_EQ(more.size(), 1u) << "another answer at the same place is another run";
+  EXPECT_EQ(more[0].id, 3);
+}
+
+TEST_F(ImportedPoints, AreRefusedWithTheirPlace) {
+  const auto has = [&](const std::string& table, const std::string& part) {
+    const std::string text = refused(table);
+    EXPECT_NE(text.find(part), std::string::npos) << table << "\n" << text;
+  };
+  has("speed,wear\n2,1\n", "line 1: there is no column \"lining\"");
+  has("speed [km/h],lining,wear\n2,0,1\n", "\"speed [km/h]\" is not in m/s");
+  has("speed,lining,wear\n2,0,1\n2,0,\n", "line 3: \"\" is no number for \"wear\"");
+  has("speed,lining,wear\n2,0,nan\n", "is no number");
+  has("speed,lining,wear\n7,0,1\n", "\"speed\" is 7 m/s; allowed are 1 to 6 m/s");
+  has("speed,lining,wear\n2,wood,1\n", "\"wood\" is no number for \"lining\"");
+  has("speed,lining,wear\n2,0.5,1\n", "whole numbers from 0 to 1");
+  has("speed,lining,wear\n2,0,-1\n", "\"wear\" is -1, which lies outside of its range");
+  has("speed,lining,wear\n2,0\n", "line 2: it has 2 fields");
+  has("speed,lining,wear\n", "no row with a point");
+  has("", "no first line");
+  std::filesystem::remove(file());
+  EXPECT_THROW(imported_runs(file(), problem, {}), UsageError);
+}
