@@ -209,7 +209,8 @@ void add_study_options(CLI::App& command, const Study& study, OptionValues& valu
 }
 
 void add_point_options(CLI::App& command, PointSettings& settings) {
-  command.add_option("--shared", settings.shared, "folder common to all runs");
+  command.add_option("--shared", settings.shared,
+                     "folder common to all runs; filled first where it is not there yet");
   command
       .add_option("--result-descriptor", settings.result_descriptor,
                   "file descriptor that takes the outcome as JSON")

@@ -149,15 +149,27 @@ RunContext context_of(const Study& study, const PointSettings& settings, const f
   return {.log = log, .shared = shared, .options = with_defaults(study.options, settings.options)};
 }
 
-/// The shared folder for a run by hand: that of the study if it is there, else one that is made for this run.
+/// The folder appears complete or not at all.
+void fill_shared(const Study& study, const PointSettings& settings, const fs::path& folder) {
+  const fs::path draft = folder.string() + ".unfinished";
+  fs::remove_all(draft);
+  fs::create_directories(draft);
+  study.prepare(context_of(study, settings, {}, draft));
+  fs::rename(draft, folder);
+}
+
+/// The shared folder for a run by hand: the one that is named, filled where it is not there yet, else one that
+/// is made for this run alone.
 fs::path shared_folder(const Study& study, const PointSettings& settings,
                        std::optional<TemporaryFolder>& temporary) {
   if (!settings.shared.empty() && (fs::exists(settings.shared) || !study.prepare)) return settings.shared;
-  if (!temporary) temporary.emplace();
-  const fs::path made = temporary->path() / "shared";
-  fs::create_directory(made);
-  if (study.prepare) study.prepare(context_of(study, settings, {}, made));
-  return made;
+  if (settings.shared.empty() && !temporary) temporary.emplace();
+  const fs::path folder = settings.shared.empty() ? temporary->path() / "shared" : settings.shared;
+  if (study.prepare)
+    fill_shared(study, settings, folder);
+  else
+    fs::create_directory(folder);
+  return folder;
 }
 
 }  // namespace

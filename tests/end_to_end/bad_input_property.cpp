@@ -186,6 +186,19 @@ TEST_F(BadInput, ALinkToNothingIsNamed) {
   expect_refused(study + out(), 1, "is a link to /nowhere/there, which is not there");
 }
 
+TEST_F(BadInput, ARunByHandFillsTheFolderThatItNames) {
+  const auto folder = place_ / "deep" / "shared";
+  const std::string one = with("shared") + "evaluate --x=0.5,0.5 --shared " + folder.string();
+  ASSERT_EQ(run(one).code, 0);
+  EXPECT_EQ(contents(folder / "pile.txt"), "settled\n");
+  std::ofstream(folder / "pile.txt") << "kept";
+  ASSERT_EQ(run(one).code, 0);
+  EXPECT_EQ(contents(folder / "pile.txt"), "kept") << "it is filled once";
+  const auto other = place_ / "other";
+  EXPECT_NE(run(with("unprepared") + "evaluate --x=0.5,0.5 --shared " + other.string()).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(other));
+}
+
 // A run is made again from its number: point, seed, options and shared folder are the study's.
 TEST_F(BadInput, ARunIsMadeAgainFromItsNumber) {
   ASSERT_EQ(run(with("shared") + "--runs 6 --validation 2 --rock waste" + out()).code, 0);
