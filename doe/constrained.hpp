@@ -150,7 +150,10 @@ ConstrainedDesign feasible_replacement(const Problem& problem, const Eigen::Matr
   std::vector<Eigen::Index> kept, lost;
   for (Eigen::Index i = 0; i < X.rows(); ++i) (allowed(Eigen::VectorXd(X.row(i))) ? kept : lost).push_back(i);
   ConstrainedDesign design{X, RegionStatus::complete, "", 1.0, static_cast<int>(lost.size())};
-  if (lost.empty()) return design;
+  if (lost.empty()) {
+    design.feasible_share = std::numeric_limits<double>::quiet_NaN();
+    return design;
+  }
   const auto runs = static_cast<int>(X.rows());
   const auto found = detail::feasible_points(problem, detail::candidate_count(options, runs), options.tries,
                                              allowed, options.seed);

@@ -73,7 +73,7 @@ struct ConstrainedDesign {
   Eigen::MatrixXd X;  ///< n x d, natural units, every row allowed
   RegionStatus status = RegionStatus::complete;
   std::string message = {};     ///< empty when complete
-  double feasible_share = 1.0;  ///< of the points that were asked about at random
+  double feasible_share = 1.0;  ///< of the points that were asked about at random; NaN: none was
   int replaced = 0;             ///< runs that do not stand where the unconstrained design has them
 };
 

@@ -29,10 +29,12 @@ inline Model reinterpolated(const Model& model) {
   const double n = static_cast<double>(s.X.rows());
   const Eigen::VectorXd share =
       detail::entry_products(detail::added_noise(s), s.gls.alpha);  // y − ŷ at the runs
-  const double process_variance = (s.gls.sum_of_squares - detail::dot(s.gls.alpha, share)) / n;
   const detail::LeastSquares regression = s.gls;
   Eigen::MatrixXd C;
   fill_correlation(s.X, s.correlation, C);
+  detail::mirror_lower(C);
+  // As a form of C, which is never negative: as S − λαᵀα it would be what rounding leaves where noise is most.
+  const double process_variance = detail::dot(s.gls.alpha, detail::product(C, s.gls.alpha)) / n;
   s.nugget = 4.0 * n * std::numeric_limits<double>::epsilon();
   for (;; s.nugget *= 10.0) {
     s.L = C;

@@ -63,6 +63,7 @@ TEST(ConstrainedDesigns, EverywhereAllowedChangesNothing) {
   const ConstrainedDesign same = feasible_replacement(problem, X, everywhere);
   EXPECT_EQ(same.X, X);
   EXPECT_EQ(same.replaced, 0);
+  EXPECT_TRUE(std::isnan(same.feasible_share)) << "no point was asked about at random";
   EXPECT_EQ(feasible_sequence(problem, 20, everywhere, {.seed = 3}).X, halton(problem, 20, {.seed = 3}));
   EXPECT_EQ(feasible_sequence(problem, 20, everywhere, {.seed = 3}).feasible_share, 1.0);
 }

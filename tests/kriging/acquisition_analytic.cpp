@@ -127,6 +127,21 @@ TEST(ExpectedImprovement, OfANoisyModelAsksForNoRunAgain) {
   EXPECT_LE((fitted_values(model) - model.mean(data.X)).cwiseAbs().maxCoeff(), 4 * round_off);
 }
 
+// s² = αᵀCα/n of noise 10¹⁴ times the process: S − λαᵀα, the same without rounding, has lost all but one digit of
+// it. A product of n² terms of one sign keeps 1e-13.
+TEST(Reinterpolation, KeepsItsVarianceWhereNoiseIsAlmostAll) {
+  const Eigen::MatrixXd X = reference::design(30, 2, 1);
+  const Eigen::VectorXd y = X.col(0) + X.col(1);
+  FitOptions options;
+  options.nugget_lower = options.nugget_upper = 1e14;
+  const Model model = fit(X, y, options);
+  const detail::ModelState& s = model.state();
+  const Eigen::MatrixXd C = cross_correlation(s.X, s.X, s.correlation);
+  const double wanted = s.gls.alpha.dot(C * s.gls.alpha) / 30.0 * s.y_scale * s.y_scale;
+  ASSERT_GT(wanted, 0.0);
+  EXPECT_NEAR(reinterpolated(model).process_variance() / wanted, 1.0, 1e-12);
+}
+
 TEST(MaximumVariance, IsTheVariance) {
   const Noisy data;
   const Model model = fit(data.X, data.y);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <drawpoint/doe/detail/permutation.hpp>
@@ -245,7 +246,8 @@ TEST(Fit, SurvivesExtremeUnits) {
 // Ipopt reads ipopt.opt in the working directory and prints by default; a library does neither.
 TEST(Fit, PrintsNothingAndReadsNoOptionFile) {
   const std::filesystem::path before = std::filesystem::current_path();
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "drawpoint_kriging_silence";
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("drawpoint_kriging_silence_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::filesystem::current_path(folder);
   std::ofstream("ipopt.opt") << "print_level 5\nmax_iter 0\n";
