@@ -66,8 +66,8 @@ struct Problem {
   std::vector<Response> responses;
 };
 
-/// A surrogate's prediction as a value that the response can have. Of a normal prediction whose part outside the
-/// range counts as its bound, this is the median, and the same of a quantile.
+/// A surrogate's prediction as a value that the response can have. Of a normal prediction whose part outside
+/// the range counts as its bound, this is the median, and the same of a quantile.
 inline double within_range(const Response& response, double value) {
   return std::clamp(value, response.lower, response.upper);
 }

@@ -5,11 +5,12 @@
 /// A problem as JSON, for stores, reports and programs in other languages:
 ///
 ///     {"variables": [{"name", "unit", "lower", "upper", "kind", "levels"}, ...],
-///      "responses": [{"name", "unit", "goal", "limit"}, ...]}
+///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper"}, ...]}
 ///
-/// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a real variable, "levels" for one that is not categorical, "limit" where there is none.
-/// Numbers are the shortest text that reads back as the same double. This is the only header of the module that
-/// needs nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
+/// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a
+/// real variable, "levels" for one that is not categorical, "limit" where there is none. Numbers are the
+/// shortest text that reads back as the same double. This is the only header of the module that needs
+/// nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
 
 #include <cmath>
 #include <limits>
@@ -40,8 +41,8 @@ inline nlohmann::json to_json(const Problem& problem) {
   return {{"variables", std::move(variables)}, {"responses", std::move(responses)}};
 }
 
-/// Throws nlohmann::json::exception if the text is not what to_json wrote. A kind or goal of an unknown name is
-/// read as real and record.
+/// Throws nlohmann::json::exception if the text is not what to_json wrote. A kind or goal of an unknown name
+/// is read as real and record.
 inline Problem problem_from_json(const nlohmann::json& json) {
   Problem problem;
   for (const auto& v : json.at("variables"))

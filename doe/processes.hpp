@@ -7,8 +7,8 @@
 /// A child is started by fork and exec in a process group of its own (a Ctrl-C in the terminal reaches the
 /// parent only, which then decides), with one thread (OMP_NUM_THREADS and its like are 1), with nothing on
 /// standard input, with standard output and error in a file, and with file descriptor 3 as the reply channel.
-/// It is killed by the kernel if the thread that started it dies, and what it has started too (orphan_reaper.hpp),
-/// unless that left its process group. Linux only. One thread at a time may use a
+/// It is killed by the kernel if the thread that started it dies, and what it has started too
+/// (orphan_reaper.hpp), unless that left its process group. Linux only. One thread at a time may use a
 /// pool. process_pool.hpp makes a black box of it.
 
 #include <fcntl.h>
@@ -141,7 +141,9 @@ inline std::string describe(const ProcessEnd& end) {
 class ProcessPool {
  public:
   /// Throws std::runtime_error as start.
-  explicit ProcessPool(int jobs) : jobs_(jobs), reaper_(static_cast<std::size_t>(jobs)) { assert(jobs >= 1); }
+  explicit ProcessPool(int jobs) : jobs_(jobs), reaper_(static_cast<std::size_t>(std::max(jobs, 1))) {
+    assert(jobs >= 1);
+  }
   ~ProcessPool() { terminate(std::chrono::milliseconds(0)); }  ///< kills what still runs
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
@@ -257,12 +259,16 @@ class ProcessPool {
 
   void collect(std::vector<ProcessEnd>& ends) {
     const auto ended = [&](Child& child) {
-      int status = 0;
-      if (waitpid(child.pid, &status, WNOHANG) != child.pid) return false;
-      child.read_reply();
-      close(child.reply_descriptor);
+      siginfo_t info{};
+      const int options = WEXITED | WNOHANG | WNOWAIT;  // until it is waited for, its number is no other's
+      if (waitid(P_PID, static_cast<id_t>(child.pid), &info, options) != 0 || info.si_pid != child.pid)
+        return false;
       kill(-child.pid, SIGKILL);  // whatever the child itself has left behind
       reaper_.remove(child.pid);
+      int status = 0;
+      waitpid(child.pid, &status, 0);
+      child.read_reply();
+      close(child.reply_descriptor);
       detail::remove_if_empty(child.output);
       ends.push_back(
           {child.id, std::move(child.reply), status, child.timed_out, child.time_limit, child.seconds()});

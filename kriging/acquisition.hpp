@@ -106,8 +106,8 @@ inline Eigen::VectorXd fitted_values(const Model& model) {
   return detail::difference(s.observed, detail::affine(share, s.y_scale));
 }
 
-/// Surrogates of noisy runs that tell what they hold these to be without noise: fitted_values(s), n entries, and
-/// reinterpolated(s), the surrogate that interpolates those.
+/// Surrogates of noisy runs that tell what they hold these to be without noise: fitted_values(s), n entries,
+/// and reinterpolated(s), the surrogate that interpolates those.
 template <class S>
 concept Regression = Surrogate<S> && requires(const S& s) {
   { fitted_values(s) } -> std::convertible_to<Eigen::VectorXd>;

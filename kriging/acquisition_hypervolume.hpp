@@ -197,9 +197,9 @@ inline void check_front(const FrontView& front, Eigen::Index m) {
 
 }  // namespace detail
 
-/// models: one per response of the problem; those of objectives are used, re-interpolated when they are Kriging
-/// models. Multiply by probability_of_feasibility(problem, models) for limits. Throws std::invalid_argument
-/// when sizes do not fit or a number is not finite.
+/// models: one per response of the problem; those of objectives are used, re-interpolated when they are
+/// Kriging models. Multiply by probability_of_feasibility(problem, models) for limits. Throws
+/// std::invalid_argument when sizes do not fit or a number is not finite.
 template <class S>
 doe::Criterion expected_hypervolume_improvement(const doe::Problem& problem, const std::vector<S>& models,
                                                 const FrontView& front) {

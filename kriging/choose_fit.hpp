@@ -4,14 +4,14 @@
 
 /// Which of several ways to fit a response predicts it best, error bars included, and on which scale.
 ///
-/// Each way is scored by the logarithm of the density that it predicts, on the scale of y, for each run without
-/// it (cross_validation.hpp). A prediction outside of the range counts as the bound, so a run on a bound is
-/// scored by the probability of reaching that. The score is proper and compares scales; unlike an error of the
-/// mean it sees error bars that are too narrow, where noise was taken for signal, and those that are equally
-/// wide where the response is not equally certain. The best way is taken where its mean score is better than
-/// the first one's by more than one standard error of the difference, paired by runs; else the first: a gain
-/// below that is mostly chance. Source: Gneiting, Raftery 2007, JASA 102(477), "Strictly proper scoring rules,
-/// prediction, and estimation".
+/// Each way is scored by the logarithm of the density that it predicts, on the scale of y, for each run
+/// without it (cross_validation.hpp). A prediction outside of the range counts as the bound, so a run on a
+/// bound is scored by the probability of reaching that. The score is proper and compares scales; unlike an
+/// error of the mean it sees error bars that are too narrow, where noise was taken for signal, and those that
+/// are equally wide where the response is not equally certain. The best way is taken where its mean score is
+/// better than the first one's by more than one standard error of the difference, paired by runs; else the
+/// first: a gain below that is mostly chance. Source: Gneiting, Raftery 2007, JASA 102(477), "Strictly proper
+/// scoring rules, prediction, and estimation".
 ///
 /// Cost: a fit and a leave-one-out per way. Deterministic.
 
@@ -71,6 +71,7 @@ inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& s
   const double n = static_cast<double>(scores.size());
   const Eigen::VectorXd gains = difference(first, scores);
   const double gain = mean_of(gains);
+  if (std::isinf(gain)) return {name, mean_of(scores), gain, 0.0};  // of what the first way holds impossible
   return {name, mean_of(scores), gain,
           n > 1 ? std::sqrt(square(affine(gains, 1.0, -gain)) / (n - 1) / n)
                 : std::numeric_limits<double>::infinity()};

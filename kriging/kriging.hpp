@@ -61,6 +61,6 @@
 ///   acquisition_constraints.hpp    how likely a point keeps its limits
 ///   acquisition_hypervolume.hpp    expected hypervolume improvement
 ///
-/// Apart from these, and not included here because it needs nlohmann-json: save.hpp, models as JSON files. What
-/// stands in detail/ may change in any version. Needs doe, Eigen and Ipopt.
+/// Apart from these, and not included here because it needs nlohmann-json: save.hpp, models as JSON files.
+/// What stands in detail/ may change in any version. Needs doe, Eigen and Ipopt.
 namespace drawpoint::kriging {}

@@ -33,7 +33,8 @@ inline Model reinterpolated(const Model& model) {
   Eigen::MatrixXd C;
   fill_correlation(s.X, s.correlation, C);
   detail::mirror_lower(C);
-  // As a form of C, which is never negative: as S − λαᵀα it would be what rounding leaves where noise is most.
+  // As a form of C, which is never negative: as S − λαᵀα it would be what rounding leaves where noise is
+  // most.
   const double process_variance = detail::dot(s.gls.alpha, detail::product(C, s.gls.alpha)) / n;
   s.nugget = 4.0 * n * std::numeric_limits<double>::epsilon();
   for (;; s.nugget *= 10.0) {

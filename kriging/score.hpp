@@ -13,8 +13,8 @@
 ///             that knows how wrong it may be
 /// Where predictions are normal on another scale (transform.hpp), nlpd, coverage and crps are those of the
 /// distribution that this makes on the scale of y; crps is then a sum over 200 quantiles, exact to 1 %. nrmse
-/// and q2 are NaN when the observations are all equal. nlpd and crps punish error bars that are too narrow and
-/// too wide; coverage of a sound model is near `level`. Sources: Rasmussen, Williams 2006, section 2.5;
+/// and q2 are NaN when the observations are all equal. nlpd and crps punish error bars that are too narrow
+/// and too wide; coverage of a sound model is near `level`. Sources: Rasmussen, Williams 2006, section 2.5;
 /// Gneiting, Raftery 2007, JASA 102(477), "Strictly proper scoring rules, prediction, and estimation" (crps).
 
 #include <Eigen/Core>
@@ -76,17 +76,23 @@ struct PredictedRun {
   double mean, deviation;
 
   /// t: the normal quantile; unit of y.
-  double quantile(double t) const { return back_transformed(transform, mean + t * deviation); }
+  double quantile(double t) const {
+    return back_transformed(transform, t == 0 ? mean : mean + t * deviation);
+  }
 };
 
 inline PredictedRun predicted_run(const Validation& v, Index i) {
   if (v.transform.scale == Scale::linear)
-    return {v.transform, v.predicted[i], std::sqrt(v.observation_variance[i])};
-  return {v.transform, v.scaled_mean[i], std::sqrt(v.scaled_variance[i])};
+    return {v.transform, v.predicted[i], std::sqrt(std::max(v.observation_variance[i], 0.0))};
+  return {v.transform, v.scaled_mean[i], std::sqrt(std::max(v.scaled_variance[i], 0.0))};
 }
 
+/// +∞ where no prediction reaches. On the bound of a square root, where part of the distribution is, of the
+/// probability of that.
 inline double negative_log_density(const PredictedRun& p, double y) {
+  if (!reaches(p.transform, y)) return std::numeric_limits<double>::infinity();
   const double z = transformed(p.transform, y), t = (z - p.mean) / p.deviation;
+  if (p.transform.scale == Scale::square_root && z <= 0) return -log_normal_probability(t);
   return std::log(p.deviation * back_slope(p.transform, z)) - log_normal_density(t);
 }
 

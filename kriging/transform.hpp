@@ -7,15 +7,15 @@
 ///   linear       z = y
 ///   square_root  z = √(y − a)                      y = a + max(z, 0)²
 ///   logarithm    z = ln(y − a + c)                 y = a − c + eᶻ
-///   logit        z = ln((y − a + c)/(b − y + c))   y = a − c + (b − a + 2c)/(1 + e⁻ᶻ)
-/// a and b are the bounds of y, c >= 0 an offset that keeps runs on a bound finite; predictions reach beyond a
-/// bound by less than c. Noise that is the same everywhere on the scale of z grows with y on that of y: with
-/// its square root for square_root, with y − a + c for logarithm.
+///   logit        z = ln((y − a + c)/(b − y + e))   y = a − c + (b − a + c + e)/(1 + e⁻ᶻ)
+/// a and b are the bounds of y, c and e >= 0 offsets that keep runs on them finite; predictions reach beyond
+/// a bound by less than its offset. Noise that is the same everywhere on the scale of z grows with y on that
+/// of y: with its square root for square_root, with y − a + c for logarithm.
 ///
-/// What a noisy run at z has in the mean, E[g⁻¹(z + ε)] with ε normal, is a sum over nine points (Gauss-Hermite
-/// quadrature, exact for polynomials up to degree 17): for logarithm its relative error is below 1e-9 up to a
-/// noise deviation of 1, 1e-5 up to 2; for square_root, whose inverse has a kink in its slope at 0, below 1 %
-/// of the noise variance.
+/// What a noisy run at z has in the mean, E[g⁻¹(z + ε)] with ε normal, is a sum over nine points
+/// (Gauss-Hermite quadrature, exact for polynomials up to degree 17): for logarithm its relative error is
+/// below 1e-9 up to a noise deviation of 1, 1e-5 up to 2; for square_root, whose inverse has a kink in its
+/// slope at 0, below 1 % of the noise variance.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -57,10 +57,26 @@ struct ResponseRange {
 /// A scale with its constants, unit of y. A value; transform_for makes sound ones.
 struct Transform {
   Scale scale = Scale::linear;
-  double lower = 0, upper = 0, offset = 0;  ///< a, b and c; 0 where the scale has none
+  double lower = 0, upper = 0, offset = 0, upper_offset = 0;  ///< a, b, c, e; 0 where the scale has none
 };
 
-/// g(y); y within its bounds.
+/// Whether some z stands for y.
+inline bool reaches(const Transform& t, double y) {
+  const double above = y - t.lower + t.offset;
+  switch (t.scale) {
+    case Scale::linear:
+      return true;
+    case Scale::square_root:
+      return above >= 0;
+    case Scale::logarithm:
+      return above > 0;
+    case Scale::logit:
+      return above > 0 && t.upper - y + t.upper_offset > 0;
+  }
+  return true;
+}
+
+/// g(y) of a y that the scale reaches.
 inline double transformed(const Transform& t, double y) {
   const double above = y - t.lower + t.offset;
   switch (t.scale) {
@@ -71,7 +87,7 @@ inline double transformed(const Transform& t, double y) {
     case Scale::logarithm:
       return std::log(above);
     case Scale::logit:
-      return std::log(above / (t.upper - y + t.offset));
+      return std::log(above / (t.upper - y + t.upper_offset));
   }
   return y;
 }
@@ -87,7 +103,7 @@ inline double back_transformed(const Transform& t, double z) {
     case Scale::logarithm:
       return from + std::exp(z);
     case Scale::logit:
-      return from + (t.upper - t.lower + 2 * t.offset) / (1 + std::exp(-z));
+      return from + (t.upper - t.lower + t.offset + t.upper_offset) / (1 + std::exp(-z));
   }
   return z;
 }
@@ -103,7 +119,7 @@ inline double back_slope(const Transform& t, double z) {
       return std::exp(z);
     case Scale::logit: {
       const double half = std::cosh(0.5 * z);
-      return 0.25 * (t.upper - t.lower + 2 * t.offset) / (half * half);
+      return 0.25 * (t.upper - t.lower + t.offset + t.upper_offset) / (half * half);
     }
   }
   return 1;
@@ -146,7 +162,8 @@ inline double mean_response_slope(const Transform& t, double z, double noise_var
   return detail::mean_over_noise([&](double at) { return back_slope(t, at); }, z, std::sqrt(noise_variance));
 }
 
-/// The mean as a sum for those who compute it elsewhere: Σ shareₖ g⁻¹(z + stepₖ); steps and shares, nine each.
+/// The mean as a sum for those who compute it elsewhere: Σ shareₖ g⁻¹(z + stepₖ); steps and shares, nine
+/// each.
 inline std::pair<Eigen::VectorXd, Eigen::VectorXd> noise_points(double noise_variance) {
   using Rule = detail::NormalQuadrature;
   constexpr auto half = static_cast<Eigen::Index>(Rule::point.size()) - 1;
@@ -200,22 +217,18 @@ inline void check_range(const Eigen::VectorXd& y, Scale scale, const ResponseRan
 }  // namespace detail
 
 /// The transform of a response whose runs are y, all within the range. Where runs lie on a bound of a
-/// logarithm or logit, the offset is half of the least other distance from it; runs that all lie there have
+/// logarithm or logit, its offset is half of the least other distance from it; runs that all lie there have
 /// none, and leave the scale linear. Throws std::invalid_argument for a range that lacks what the scale
 /// needs, and for y outside of it.
 inline Transform transform_for(Scale scale, const Eigen::VectorXd& y, const ResponseRange& range) {
   if (scale == Scale::linear) return {};
   detail::check_range(y, scale, range);
-  Transform t{scale, range.lower, scale == Scale::logit ? range.upper : 0.0, 0.0};
+  Transform t{scale, range.lower, scale == Scale::logit ? range.upper : 0.0};
   if (scale == Scale::square_root) return t;
-  Eigen::VectorXd distances = detail::affine(y, 1.0, -range.lower);
-  if (scale == Scale::logit) {
-    distances.conservativeResize(2 * y.size());
-    for (Eigen::Index i = 0; i < y.size(); ++i) distances[y.size() + i] = range.upper - y[i];
-  }
-  t.offset = detail::offset_of(distances);
-  if (!(detail::smallest_entry(distances) + t.offset > 0)) return {};
-  return t;
+  t.offset = detail::offset_of(detail::affine(y, 1.0, -range.lower));
+  if (scale == Scale::logit) t.upper_offset = detail::offset_of(detail::affine(y, -1.0, range.upper));
+  const bool all = std::all_of(y.begin(), y.end(), [&](double value) { return reaches(t, value); });
+  return all ? t : Transform{};
 }
 
 }  // namespace drawpoint::kriging

@@ -52,12 +52,12 @@ class TransformedModel {
 
   /// X: m x d, natural units. Throws as Model::predict.
   Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
-    if (is_linear()) return model_.predict(X, target);
-    Prediction p = model_.predict(X, target);
+    Prediction p = scaled(X, target);
+    if (is_linear()) return p;
     for (Eigen::Index i = 0; i < p.mean.size(); ++i) {
-      const double m = p.mean[i], variance = p.variance[i] > round_off_ ? p.variance[i] : 0.0;
+      const double m = p.mean[i];
       p.mean[i] = mean_response(transform_, m, noise_variance_);
-      p.variance[i] = squared_half(m, variance, target);
+      p.variance[i] = squared_half(m, p.variance[i], target);
     }
     return p;
   }
@@ -76,10 +76,10 @@ class TransformedModel {
       throw std::invalid_argument("kriging::TransformedModel: quantile of " + detail::text(p) +
                                   "; allowed are numbers between 0 and 1; use 0.025 and 0.975");
     const double t = detail::normal_quantile(p);
-    const Prediction z = model_.predict(X, target);
+    const Prediction z = scaled(X, target);
     Eigen::VectorXd q(X.rows());
-    for (Eigen::Index i = 0; i < q.size(); ++i)
-      q[i] = back(z.mean[i] + t * std::sqrt(std::max(z.variance[i], 0.0)), target);
+    for (Eigen::Index i = 0; i < q.size(); ++i)  // 0 times ∞ is not the median of one run
+      q[i] = back(t == 0 ? z.mean[i] : z.mean[i] + t * std::sqrt(std::max(z.variance[i], 0.0)), target);
     return q;
   }
 
@@ -138,6 +138,14 @@ class TransformedModel {
 
  private:
   bool is_linear() const { return transform_.scale == Scale::linear; }
+
+  // Of z, without the round-off of an interpolating model.
+  Prediction scaled(const Eigen::MatrixXd& X, Target target) const {
+    Prediction p = model_.predict(X, target);
+    if (round_off_ > 0)
+      for (double& variance : p.variance) variance = variance > round_off_ ? variance : 0.0;
+    return p;
+  }
 
   double back(double z, Target target) const {
     if (target == Target::observation) return back_transformed(transform_, z);

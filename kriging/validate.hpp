@@ -7,6 +7,7 @@
 /// Use runs drawn independently of the training runs.
 
 #include <Eigen/Core>
+#include <concepts>
 #include <drawpoint/kriging/score.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <stdexcept>

@@ -6,7 +6,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <string>
 
 using namespace drawpoint;
@@ -29,14 +28,13 @@ language, with a request to read and a reply to write. docs/writing-a-study.md s
 int main(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (first == "--help" || first == "-h") return std::fputs(usage, stdout) < 0;
+  if (first == "--version") return std::puts("Drawpoint " DRAWPOINT_VERSION) < 0;
   if (first.empty() || first[0] == '-') {
     std::fputs(usage, stderr);
     return 2;
   }
   try {
-    studies::Study study = studies::study_from(first);
-    study.leading_words = {std::filesystem::absolute(first).string()};
-    return studies::run(argc, argv, study);
+    return studies::run(argc, argv, studies::study_from(first));
   } catch (const std::exception& e) {
     std::fprintf(stderr, "external_program: %s\n", e.what());
     return 1;

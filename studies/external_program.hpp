@@ -8,18 +8,18 @@
 ///     {"x": {"speed": 2.5, "bolts": 3, "rock": "ore"}, "seed": 18364758544493064720,
 ///      "log": "/...", "shared": "/...", "options": {}}
 ///
-/// a number per real or integer variable, the name of the level per categorical one; `seed` has 64 bits; `log`
-/// is a file that the program may write, `shared` the study's folder for all runs, empty if it has none. Before
-/// it ends with exit code 0 the program writes the second, one of
+/// a number per real or integer variable, the name of the level per categorical one; `seed` has 64 bits;
+/// `log` is the whole name of a file that the program may write, `shared` that of the study's folder for all
+/// runs, empty if it has none. Before it ends with exit code 0 the program writes the second, one of
 ///
 ///     {"values": {"reach": 31.7, "wear": 0.2}}      a finite number per response; others are left alone
 ///     {"failure": "the chute is blocked"}           a failed run with this reason
 ///
-/// What it prints goes to the run's file in logs/. Equal x and seed must give equal values. Anything else, such
-/// as another exit code, a signal or no such reply, is a crash: the program is started again with the same
-/// request until `attempts` are spent, then the run has failed with the reason of the last one. A program that
-/// is stopped, by a time limit, Ctrl-C or the death of the study, is stopped with all that it started in its
-/// process group.
+/// What it prints goes to the run's file in logs/. Equal x and seed must give equal values. Anything else,
+/// such as another exit code, a signal or no such reply, is a crash: the program is started again with the
+/// same request until `attempts` are spent, then the run has failed with the reason of the last one. Ctrl-C
+/// gives the program SIGTERM and a second to end, a time limit SIGKILL; with these and with the death of the
+/// study all that it started in its process group ends too.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/studies/study.hpp>

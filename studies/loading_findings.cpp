@@ -164,8 +164,8 @@ struct Corners {
 };
 
 // The corners are forced, not drawn: half of them at each end of each variable. Uniform is what the other
-// runs should be; fewer than ten of them leave it unclear. So does a plan of so few runs that corners would be
-// more than two fifths of it, and that has none (runs/plan.h).
+// runs should be; fewer than ten of them leave it unclear. So does a plan of so few runs that corners would
+// be more than two fifths of it, and that has none (runs/plan.h).
 Finding f16(const LoadingRuns& runs) {
   const MatrixXd& X = runs.results().X;
   const Corners corners(runs);

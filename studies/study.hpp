@@ -8,10 +8,10 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, confirm, status, report, export and evaluate (docs/studies.md). Every
-/// run is a process of its own with one thread, so that a crash is one failed run; each finished run is
-/// stored before the next one starts. Equal (x, seed) must give equal outcomes: a run that was lost is simply
-/// run again.
+/// The program has the commands run, confirm, status, fit, validate, report, export and evaluate
+/// (docs/studies.md). Every run is a process of its own with one thread, so that a crash is one failed run;
+/// each finished run is stored before the next one starts. Equal (x, seed) must give equal outcomes: a run
+/// that was lost is simply run again.
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
@@ -108,9 +108,12 @@ struct Study {
   std::string about = {};  ///< one or two sentences for the report's head
   Defaults defaults = {};
   std::vector<StudyOption> options = {};
-  /// Words that stand before the command on the command line, such as the file that the study was read from. The
-  /// processes of its runs are started with these, whatever was typed.
+  /// Words that stand before the command on the command line, such as the file that the study was read from.
+  /// The processes of its runs are started with these, whatever was typed.
   std::vector<std::string> leading_words = {};
+  /// What makes the runs where that is not this program alone, such as another program and its checksum: a
+  /// folder never mixes runs of two.
+  std::string simulator = {};
   /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
   /// writes is kept or nothing.
   std::function<void(const RunContext& context)> prepare = {};

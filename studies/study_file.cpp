@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/study_file.h>
-#include <drawpoint/doe/detail/enumerators.hpp>
+#include <drawpoint/doe/detail/hash.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/studies/external_program.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -159,14 +161,27 @@ doe::Problem problem_from(const Section& in) {
   return problem;
 }
 
-/// Words that name a file beside the study file become its whole name.
-std::vector<std::string> command_from(const Section& in, const fs::path& folder) {
-  std::vector<std::string> words = in.texts("command");
-  for (std::string& word : words) {
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The command with whole names of the files beside the study file, and in words with the checksums of these.
+struct Command {
+  std::vector<std::string> words;
+  std::string simulator;
+};
+
+Command command_from(const Section& in, const fs::path& folder) {
+  Command command;
+  for (const std::string& word : in.texts("command")) {
     std::error_code ignored;
-    if (!word.empty() && fs::is_regular_file(folder / word, ignored)) word = (folder / word).string();
+    const bool beside = !word.empty() && fs::is_regular_file(folder / word, ignored);
+    command.words.push_back(beside ? (folder / word).string() : word);
+    command.simulator += (command.simulator.empty() ? "" : " ") + word;
+    if (beside) command.simulator += " (checksum " + doe::detail::checksum(content_of(folder / word)) + ")";
   }
-  return words;
+  return command;
 }
 
 Defaults defaults_from(const Section& in) {
@@ -179,26 +194,54 @@ Defaults defaults_from(const Section& in) {
 }
 
 json parsed(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad() || fs::is_directory(file))
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || fs::is_directory(file, ignored) || !std::ifstream(file))
     throw std::runtime_error(file.string() + ": cannot be read; give the JSON file of a study");
+  const std::string text = content_of(file);
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto once = [&](int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw std::runtime_error(file.string() + ": the key " + value.dump() +
+                               " stands twice in one object; remove one");
+    return true;
+  };
   try {
-    return json::parse(text);
+    return json::parse(text, once);
   } catch (const json::parse_error& e) {
     throw std::runtime_error(file.string() + ": no JSON: " + e.what());
   }
 }
 
+/// A file's name, and what it and its simulator were when the study began; empty where it begins now.
+struct Word {
+  fs::path file;
+  std::string checksum;
+};
+
+Word parsed_word(const std::string& word) {
+  const auto colon = word.find(':');
+  if (word.empty() || word[0] != '@' || colon == std::string::npos) return {word, ""};
+  return {word.substr(colon + 1), word.substr(1, colon - 1)};
+}
+
 }  // namespace
 
-Study study_from(const fs::path& file) {
+Study study_from(const std::string& word) {
+  const auto [file, expected] = parsed_word(word);
   const json content = parsed(file);
   const Section in(content, file, "");
   in.allow_only({"name", "about", "variables", "responses", "command", "attempts", "time_limit", "defaults"});
   Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
-  const ExternalProgram program{.command = command_from(in, fs::absolute(file).parent_path()),
+  const Command command = command_from(in, fs::absolute(file).parent_path());
+  const std::string checksum = doe::detail::checksum(content.dump() + command.simulator);
+  if (!expected.empty() && expected != checksum)
+    in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
+  study.simulator = command.simulator;
+  study.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
+  const ExternalProgram program{.command = command.words,
                                 .time_limit = in.number("time_limit", 0.0),
                                 .attempts = in.integer("attempts", 1, 1)};
   try {

@@ -13,9 +13,13 @@
 ///      "defaults": {"runs": 40, "validation": 10, "adaptive": 0}}
 ///
 /// Needed are name, variables, responses and command; a variable has lower and upper unless it has levels, a
-/// response a goal: minimize, maximize, at_most, at_least or record. Both may have a description. A word of the command that names a file
-/// beside the study file means that file, wherever the study is started. Unknown keys are refused, since they
-/// are mostly misspelt.
+/// response a goal: minimize, maximize, at_most, at_least or record. Both may have a description. A word of
+/// the command that names a file beside the study file means that file, wherever the study is started.
+/// Unknown and repeated keys are refused, since they are mostly mistakes.
+///
+/// The command and these files are what the study holds its runs to (Study::simulator), by their checksum.
+/// The processes of its runs are given the file's name with a checksum of all of it, "@CHECKSUM:FILE", and
+/// end where it no longer fits: the file was edited while the study ran.
 
 #include <drawpoint/studies/study.hpp>
 
@@ -23,7 +27,8 @@
 
 namespace drawpoint::studies {
 
-/// Throws std::runtime_error that names the file, the place in it and what is allowed there.
-Study study_from(const std::filesystem::path& file);
+/// `word`: the file's name, as typed or as a run's process is given it. Throws std::runtime_error that names
+/// the file, the place in it and what is allowed there, or says that it changed.
+Study study_from(const std::string& word);
 
 }  // namespace drawpoint::studies

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-/// scale_choice: is the right scale chosen for a response with bounds, and what does it bring? See the help text.
+/// scale_choice: is the right scale chosen for a response with bounds, and what does it bring? See the help
+/// text.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -5,11 +5,12 @@
 /// Kills process groups when the process that owns them is gone, however it went.
 ///
 /// The kernel kills a child whose parent dies (PR_SET_PDEATHSIG), but not what the child has started. So a
-/// small process of its own watches: it is told which groups there are, and when its socket closes, which even
-/// SIGKILL cannot keep a dying owner from, it kills them and ends. What leaves its process group is not
-/// reached. Linux only.
+/// small process of its own watches: it is told which groups there are, and when its socket closes or its
+/// owner is no longer its parent, which even SIGKILL cannot prevent, it kills them and ends. What leaves its
+/// process group is not reached. Linux only.
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -34,8 +35,9 @@ class OrphanReaper {
     std::vector<pid_t> watched(groups, 0);  // made here: after fork only plain system calls are safe
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket", errno);
+    const pid_t owner = getpid();
     pid_ = fork();
-    if (pid_ == 0) watch(ends[1], watched);
+    if (pid_ == 0) watch(ends[1], owner, watched);
     const int fork_error = errno;
     close(ends[1]);
     socket_ = ends[0];
@@ -45,6 +47,7 @@ class OrphanReaper {
     }
   }
   ~OrphanReaper() {
+    shutdown(socket_, SHUT_RDWR);  // also where a process that was forked since holds a copy
     close(socket_);
     while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -65,14 +68,17 @@ class OrphanReaper {
   void tell(pid_t message) const { (void)send(socket_, &message, sizeof message, MSG_NOSIGNAL); }
 
   /// In the child, with the terminal's signals ignored: its owner decides.
-  [[noreturn]] static void watch(int socket, std::vector<pid_t>& watched) {
+  [[noreturn]] static void watch(int socket, pid_t owner, std::vector<pid_t>& watched) {
     setpgid(0, 0);
     for (const int terminal : {SIGINT, SIGTERM, SIGHUP}) ::signal(terminal, SIG_IGN);
     prctl(PR_SET_NAME, "drawpoint-watch");
     if (dup2(socket, STDIN_FILENO) < 0) _exit(1);
     closefrom(STDERR_FILENO + 1);  // the owner's files, pipes and locks are not the reaper's
+    constexpr int patience = 500;  // [ms] between two looks at the owner
+    pollfd news{STDIN_FILENO, POLLIN, 0};
     pid_t message = 0;
-    for (;;) {
+    while (getppid() == owner) {
+      if (poll(&news, 1, patience) <= 0) continue;
       const ssize_t count = read(STDIN_FILENO, &message, sizeof message);
       if (count < 0 && errno == EINTR) continue;
       if (count != sizeof message) break;

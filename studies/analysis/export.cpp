@@ -13,12 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-void keep_within_range(Eigen::MatrixXd& values, const doe::Problem& problem) {
-  for (std::size_t j = 0; j < problem.responses.size(); ++j)
-    for (double& value : values.col(static_cast<Eigen::Index>(j)))
-      value = doe::within_range(problem.responses[j], value);
-}
-
 json number_or_nothing(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 void append_numbers(std::vector<json>& row, const Eigen::VectorXd& values) {
@@ -81,9 +75,7 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
   append_variables(table, problem);
   for (const char* ending : {"", "_lower", "_upper"}) append_responses(table, problem, ending);
   if (front.X.rows() == 0) return table;
-  PlannedPoints points = with_predictions(fitted.models, front.X);
-  keep_within_range(points.lower, problem);
-  keep_within_range(points.upper, problem);
+  const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;
     append_numbers(row, front.X.row(i));

@@ -94,14 +94,16 @@ std::string nrmse_text(const Models& fitted, const doe::Problem& problem) {
 }
 
 PlannedPoints with_predictions(const std::vector<kriging::TransformedModel>& models,
-                               const Eigen::MatrixXd& X) {
+                               const doe::Problem& problem, const Eigen::MatrixXd& X) {
   const Eigen::MatrixXd none(X.rows(), static_cast<Eigen::Index>(models.size()));
   PlannedPoints points{X, none, none, none};
   for (std::size_t j = 0; j < models.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
-    points.predicted.col(column) = models[j].mean(X);
-    points.lower.col(column) = models[j].quantile(X, 0.5 - 0.5 * stated_level, kriging::Target::observation);
-    points.upper.col(column) = models[j].quantile(X, 0.5 + 0.5 * stated_level, kriging::Target::observation);
+    const auto bounded = [&](double y) { return doe::within_range(problem.responses[j], y); };
+    const auto end = [&](double p) { return models[j].quantile(X, p, kriging::Target::observation); };
+    points.predicted.col(column) = models[j].mean(X).unaryExpr(bounded);
+    points.lower.col(column) = end(0.5 - 0.5 * stated_level).unaryExpr(bounded);
+    points.upper.col(column) = end(0.5 + 0.5 * stated_level).unaryExpr(bounded);
   }
   return points;
 }

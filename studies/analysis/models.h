@@ -26,8 +26,8 @@ struct Models {
   std::vector<kriging::Validation> validations;   ///< one per response; empty without validation runs
 };
 
-/// The scale is that of kriging::choose_scale among those that the response's range allows, the way to fit on it
-/// that of kriging::choose_fit. Throws std::invalid_argument if the runs do not allow models.
+/// The scale is that of kriging::choose_scale among those that the response's range allows, the way to fit on
+/// it that of kriging::choose_fit. Throws std::invalid_argument if the runs do not allow models.
 Models fit_models(const Tables& tables);
 
 /// The same, for who cannot go on without: std::runtime_error says what to do.
@@ -36,8 +36,9 @@ Models models_or_reason(const Tables& tables);
 /// "NRMSE production 0.21, spill 0.09"; empty without validation runs.
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem);
 
-/// The points (n x d) with what the models expect of one run there, its noise included.
+/// The points (n x d) with what the models expect of one run there, its noise included, within the ranges of
+/// the problem's responses.
 PlannedPoints with_predictions(const std::vector<kriging::TransformedModel>& models,
-                               const Eigen::MatrixXd& X);
+                               const doe::Problem& problem, const Eigen::MatrixXd& X);
 
 }  // namespace drawpoint::studies

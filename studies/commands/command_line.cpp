@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <CLI/CLI.hpp>
@@ -21,8 +22,8 @@ namespace {
 
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
-constexpr std::array<const char*, 7> commands = {"run",    "confirm",  "status", "report",
-                                                 "export", "evaluate", "prepare"};
+constexpr std::array<const char*, 9> commands = {"run",    "confirm", "status",   "fit",    "validate",
+                                                 "report", "export",  "evaluate", "prepare"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -74,7 +75,7 @@ std::vector<std::string> with_command(int argc, char** argv, std::size_t leading
   const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !named) {
     throw UsageError("unknown command \"" + first +
-                     "\"; the commands are run, confirm, status, report, export, evaluate");
+                     "\"; the commands are run, confirm, status, fit, validate, report, export, evaluate");
   }
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
@@ -243,6 +244,13 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   auto* status = app.add_subcommand("status", "say how many runs are planned, done and failed, and why");
   add_folder_options(*status, parsed.settings);
   status->callback([&] { parsed.action = [&] { return status_command(study, parsed.settings); }; });
+  auto* fit = app.add_subcommand(
+      "fit", "say how each response is fitted, and how well runs are predicted without themselves");
+  add_folder_options(*fit, parsed.settings);
+  fit->callback([&] { parsed.action = [&] { return fit_command(study, parsed.settings); }; });
+  auto* validate = app.add_subcommand("validate", "hold the models against the validation runs, one by one");
+  add_folder_options(*validate, parsed.settings);
+  validate->callback([&] { parsed.action = [&] { return validate_command(study, parsed.settings); }; });
   auto* report = app.add_subcommand("report", "make the report again from the stored runs");
   add_folder_options(*report, parsed.settings);
   report->callback([&] { parsed.action = [&] { return report_command(study, parsed.settings); }; });
@@ -285,42 +293,6 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   prepare->callback([&] { parsed.action = [&] { return prepare_command(study, parsed.point); }; });
 }
 
-std::string range_of(const doe::Variable& variable) {
-  if (variable.levels.empty())
-    return doe::detail::number_text(variable.lower) + " to " +
-           doe::detail::with_unit(variable.upper, variable.unit);
-  std::string names;
-  for (std::size_t i = 0; i < variable.levels.size(); ++i)
-    names += (i ? ", " : "") + std::to_string(i) + " = " + variable.levels[i];
-  return names;
-}
-
-std::string wanted_of(const doe::Response& response) {
-  std::string text(to_string(response.goal));
-  if (doe::is_constraint(response.goal))
-    text += " " + doe::detail::with_unit(response.limit, response.unit);
-  else if (!response.unit.empty() && response.unit != "1")
-    text += ", " + response.unit;
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
-std::string described(const std::string& name, const std::string& what, const std::string& description) {
-  std::string text = "  ";
-  text += name + " (" + what + ")";
-  if (!description.empty()) text += ": " + description;
-  return text + "\n";
-}
-
-/// What is varied and what comes out, below the options.
-std::string about(const doe::Problem& problem) {
-  std::string text = "Variables:\n";
-  for (const auto& v : problem.variables) text += described(v.name, range_of(v), v.description);
-  text += "Responses:\n";
-  for (const auto& r : problem.responses) text += described(r.name, wanted_of(r), r.description);
-  return text;
-}
-
 int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
@@ -332,7 +304,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   app.set_help_all_flag("-h,--help", "show this text");
   app.set_version_flag("--version", std::string("Drawpoint ") + DRAWPOINT_VERSION);
   app.require_subcommand(1);
-  app.footer(about(study.problem));
+  app.footer(problem_text(study.problem));
   define_folder_commands(app, parsed, study);
   define_point_commands(app, parsed, study);
   auto words = with_command(argc, argv, study.leading_words.size());

@@ -16,6 +16,10 @@ int run_command(const Study& study, const Settings& settings);
 int confirm_command(const Study& study, const Settings& settings);
 /// What the output folder holds.
 int status_command(const Study& study, const Settings& settings);
+/// How each response is fitted, and how well runs are predicted without themselves.
+int fit_command(const Study& study, const Settings& settings);
+/// The models against the validation runs, one by one.
+int validate_command(const Study& study, const Settings& settings);
 /// The report again, from the stored runs.
 int report_command(const Study& study, const Settings& settings);
 /// The runs or the front as a table for other programs.

@@ -111,6 +111,7 @@ StoredRun stored_run(const Study& study, const PointSettings& given) {
                      given.options.begin()->first);
   const Folder folder{given.out};
   const Store store = open_store(study, folder);
+  require_same_simulator(study, store, folder);
   const std::vector<Run> runs = store.runs();
   if (*given.run > static_cast<std::int64_t>(runs.size()))
     throw UsageError("--run " + std::to_string(*given.run) + ": the study in " + folder.path.string() +
@@ -158,8 +159,8 @@ void fill_shared(const Study& study, const PointSettings& settings, const fs::pa
   fs::rename(draft, folder);
 }
 
-/// The shared folder for a run by hand: the one that is named, filled where it is not there yet, else one that
-/// is made for this run alone.
+/// The shared folder for a run by hand: the one that is named, filled where it is not there yet, else one
+/// that is made for this run alone.
 fs::path shared_folder(const Study& study, const PointSettings& settings,
                        std::optional<TemporaryFolder>& temporary) {
   if (!settings.shared.empty() && (fs::exists(settings.shared) || !study.prepare)) return settings.shared;

@@ -26,7 +26,8 @@ int work_in_folder(const Study& study, const Settings& settings,
                    const std::function<Store(const Folder& folder)>& open,
                    const std::function<void(Store& store, const Folder& folder)>& work) {
   const Folder folder{settings.out};
-  if (std::filesystem::exists(folder.store())) open_store(study, folder);  // before anything is written there
+  if (std::filesystem::exists(folder.store()))  // before anything is written there
+    require_same_simulator(study, open_store(study, folder), folder);
   make_writable(folder);
   const FolderLock lock(folder);
   const InterruptGuard guard(resume_message(folder));

@@ -4,9 +4,9 @@
 /// Predictions held against the runs that were made afterwards.
 ///
 /// The stated interval of a prediction is between the quantiles of 2.5 and 97.5 % of one run, noise included,
-/// both ends within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the models
-/// when chance alone would give so few with a probability below 10 % (binomial). The responses of one run are
-/// not independent, so that this blames somewhat too often.
+/// both ends within the response's range. Of sound intervals 95 % hold their value; fewer are blamed on the
+/// models when chance alone would give so few with a probability below 10 % (binomial). The responses of one
+/// run are not independent, so that this blames somewhat too often.
 
 #include <drawpoint/doe/outcome.hpp>
 

@@ -3,6 +3,7 @@
 
 #include <drawpoint/studies/report/data.h>
 #include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/surface.h>
 #include <drawpoint/studies/report/text.h>
@@ -68,6 +69,7 @@ json to_json(const Surface& s) {
           {"lower", s.transform.lower},
           {"upper", s.transform.upper},
           {"offset", s.transform.offset},
+          {"upper_offset", s.transform.upper_offset},
           {"noise", to_json(s.noise)},
           {"noise_weights", to_json(s.noise_weights)}};
 }
@@ -85,24 +87,22 @@ json to_json(const kriging::TransformedModel& fitted, const std::optional<Surfac
           {"surface", std::move(formula)}};
 }
 
-/// Of one noisy run at each validation point, kept within the range.
-Eigen::VectorXd ends_of_intervals(const kriging::Validation& v, const doe::Response& response,
-                                  double probability) {
-  Eigen::VectorXd ends(v.observed.size());
-  for (Eigen::Index i = 0; i < ends.size(); ++i)
-    ends[i] = doe::within_range(response, kriging::predicted_quantile(v, i, probability));
-  return ends;
-}
-
 json to_json(const kriging::Validation& v, const doe::Response& response) {
   if (v.observed.size() == 0) return json();
+  json predicted = json::array(), lower = json::array(), upper = json::array();
+  for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
+    const Interval interval = stated_interval(v, i, response);
+    predicted.push_back(doe::within_range(response, v.predicted[i]));
+    lower.push_back(interval.lower);
+    upper.push_back(interval.upper);
+  }
   return {{"rmse", v.rmse},
           {"nrmse", v.nrmse},
           {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
           {"observed", to_json(v.observed)},
-          {"predicted", to_json(v.predicted)},
-          {"lower", to_json(ends_of_intervals(v, response, 0.5 - 0.5 * stated_level))},
-          {"upper", to_json(ends_of_intervals(v, response, 0.5 + 0.5 * stated_level))}};
+          {"predicted", std::move(predicted)},
+          {"lower", std::move(lower)},
+          {"upper", std::move(upper)}};
 }
 
 json to_json(const std::vector<Finding>& findings) {

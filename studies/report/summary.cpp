@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/pareto/minimised.hpp>
@@ -246,7 +247,8 @@ void caution_about_models(const ReportInput& input, json& all) {
     if (is_poor(input, j))
       all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
                     "): add runs, or read only its trends.");
-    const double within = kriging::score(v, kriging::ErrorFunction::coverage, stated_level);
+    const double within =
+        count_within(v, input.problem.responses[j]) / static_cast<double>(v.observed.size());
     if (v.observed.size() >= enough_points && within < enough_coverage)
       all.push_back("The error bars of " + name + " are too narrow: only " + percent(within) +
                     " of the validation runs lie within their 95 % interval.");

@@ -6,8 +6,8 @@
 ///
 /// The mean is constant + Σₜ βₜ sₐ s_b + Σᵢ wᵢ c(s, cᵢ) with s = (x - centre)·factor, the terms sₐ s_b of the
 /// trend and the correlation c of the model (kriging/correlation.hpp). Of a model on another scale
-/// (kriging/transform.hpp) this is z, and the mean is h(z), a sum over the points of `noise`. All of it is the
-/// model's own, so the browser sees its mean to rounding.
+/// (kriging/transform.hpp) this is z, and the mean is h(z), a sum over the points of `noise`. All of it is
+/// the model's own, so the browser sees its mean to rounding.
 ///
 /// Influence is the total Sobol' index of doe/sensitivity.hpp, from 512 (d + 2) means.
 

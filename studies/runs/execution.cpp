@@ -176,7 +176,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
     progress.tick();
   }
   std::error_code ignored;
-  fs::remove(folder.unfinished(), ignored);
+  fs::remove_all(folder.unfinished(), ignored);  // with what processes that were killed have left
 }
 
 std::string reply_text(const doe::Outcome& outcome) {

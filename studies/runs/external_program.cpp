@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
+#include <signal.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/doe/processes.hpp>
 #include <drawpoint/studies/external_program.hpp>
 
-#include <cerrno>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,8 +14,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <variant>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -23,29 +25,55 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// The two files of a run, gone with it.
+constexpr std::chrono::milliseconds time_to_end(
+    1000);                            // for the program to end by itself; less than a study's own
+constexpr int could_not_start = 127;  // the shell's code, doe/processes.hpp
+
+/// Thrown to leave a run after a signal.
+struct Stopped {
+  int signal;
+};
+
+volatile sig_atomic_t stop_signal = 0;
+
+/// While it lives, the signals that stop a run are noted instead.
+class NotedSignals {
+ public:
+  NotedSignals() {
+    struct sigaction noted = {};
+    noted.sa_handler = [](int signal) { stop_signal = signal; };
+    for (std::size_t k = 0; k < before_.size(); ++k) sigaction(numbers[k], &noted, &before_[k]);
+  }
+  ~NotedSignals() {
+    for (std::size_t k = 0; k < before_.size(); ++k) sigaction(numbers[k], &before_[k], nullptr);
+  }
+  NotedSignals(const NotedSignals&) = delete;
+  NotedSignals& operator=(const NotedSignals&) = delete;
+
+ private:
+  static constexpr std::array<int, 3> numbers = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> before_ = {};
+};
+
+/// The two files of a run beside its log, gone with it.
 class Exchange {
  public:
-  Exchange() {
-    std::string name = (fs::temp_directory_path() / "drawpoint-run-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw std::system_error(
-          errno, std::generic_category(),
-          "studies: cannot make a folder for the request in " + fs::temp_directory_path().string());
-    folder_ = name;
-  }
+  explicit Exchange(const fs::path& log)
+      : request_(fs::absolute(log).string() + ".request.json"),
+        reply_(fs::absolute(log).string() + ".reply.json") {}
   ~Exchange() {
     std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    fs::remove(request_, ignored);
+    fs::remove(reply_, ignored);
   }
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
 
-  fs::path request() const { return folder_ / "request.json"; }
-  fs::path reply() const { return folder_ / "reply.json"; }
+  const fs::path& request() const { return request_; }
+  const fs::path& reply() const { return reply_; }
 
  private:
-  fs::path folder_;
+  fs::path request_, reply_;
 };
 
 json value_of(const doe::Variable& variable, double x) {
@@ -55,16 +83,19 @@ json value_of(const doe::Variable& variable, double x) {
   return x;
 }
 
-json request_of(const doe::Problem& problem, const Eigen::VectorXd& x, doe::Seed seed,
-                const RunContext& context) {
+std::string request_text(const doe::Problem& problem, const Eigen::VectorXd& x, doe::Seed seed,
+                         const RunContext& context) {
   json named = json::object();
   for (std::size_t i = 0; i < problem.variables.size(); ++i)
     named[problem.variables[i].name] = value_of(problem.variables[i], x[static_cast<Eigen::Index>(i)]);
-  return {{"x", named},
-          {"seed", seed},
-          {"log", context.log.string()},
-          {"shared", context.shared.string()},
-          {"options", json(context.options)}};
+  std::error_code ignored;
+  const bool shares = fs::exists(context.shared, ignored) && !fs::is_empty(context.shared, ignored);
+  const json request = {{"x", named},
+                        {"seed", seed},
+                        {"log", fs::absolute(context.log).string()},
+                        {"shared", shares ? fs::absolute(context.shared).string() : ""},
+                        {"options", json(context.options)}};
+  return request.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 /// How an attempt crashed: worth another one.
@@ -89,19 +120,33 @@ Attempt reply_in(const fs::path& file, const doe::Problem& problem) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return Crash{"it wrote no reply"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const json reply = json::parse(text, nullptr, false);
-  if (reply.is_object() && reply.contains("failure") && reply["failure"].is_string())
-    return doe::Outcome(doe::Failure{reply["failure"].get<std::string>()});
-  if (reply.is_object() && reply.contains("values") && reply["values"].is_object())
-    return values_of(problem, reply["values"]);
-  return Crash{R"(its reply is neither {"values": {...}} nor {"failure": "..."})"};
+  json reply;
+  try {
+    reply = json::parse(text);
+  } catch (const json::exception& e) {  // NaN and Infinity too, which some languages write as JSON
+    return Crash{std::string("its reply is no JSON, whose numbers are finite: ") + e.what()};
+  }
+  const bool failed = reply.is_object() && reply.contains("failure");
+  if (failed == (reply.is_object() && reply.contains("values")))
+    return Crash{R"(its reply is not one of {"values": {...}} and {"failure": "..."})"};
+  if (!failed && reply["values"].is_object()) return values_of(problem, reply["values"]);
+  if (!failed || !reply["failure"].is_string() || reply["failure"].get<std::string>().empty())
+    return Crash{"its reply has " + std::string(failed ? "no text as failure" : "no object as values")};
+  return doe::Outcome(doe::Failure{reply["failure"].get<std::string>()});
 }
 
+/// Throws Stopped after a signal, the program having been given the time to end.
 doe::ProcessEnd run_to_end(const doe::Process& process) {
+  const NotedSignals noted;
   doe::ProcessPool pool(1);
   pool.start(process);
   std::vector<doe::ProcessEnd> ends;
-  while (ends.empty()) ends = pool.wait(std::chrono::milliseconds(100));
+  while (ends.empty()) {
+    ends = pool.wait(std::chrono::milliseconds(100));
+    if (stop_signal == 0) continue;
+    pool.terminate(time_to_end);
+    throw Stopped{stop_signal};
+  }
   return ends.front();
 }
 
@@ -116,8 +161,24 @@ Attempt attempt(const doe::Problem& problem, const ExternalProgram& program, con
                                           .arguments = words,
                                           .output = {},
                                           .time_limit = program.time_limit});
+  if (!end.timed_out && WIFEXITED(end.wait_status) && WEXITSTATUS(end.wait_status) == could_not_start)
+    return doe::Outcome(doe::Failure{"the program \"" + program.command.front() + "\" could not be started"});
   if (end.wait_status != 0 || end.timed_out) return Crash{"it " + doe::describe(end)};
   return reply_in(files.reply(), problem);
+}
+
+doe::Outcome outcome_of_attempts(const doe::Problem& problem, const ExternalProgram& program,
+                                 const Exchange& files) {
+  std::string reason;
+  for (int k = 1; k <= program.attempts; ++k) {
+    const Attempt result = attempt(problem, program, files);
+    if (const auto* outcome = std::get_if<doe::Outcome>(&result)) return *outcome;
+    reason = std::get<Crash>(result).reason;
+    std::fprintf(stderr, "attempt %d of %d: %s\n", k, program.attempts, reason.c_str());
+  }
+  std::string text = "the program \"" + program.command.front() + "\" crashed";
+  if (program.attempts > 1) text += " in each of " + std::to_string(program.attempts) + " attempts, at last";
+  return doe::Failure{text + ": " + reason};
 }
 
 void check(const ExternalProgram& program) {
@@ -127,7 +188,8 @@ void check(const ExternalProgram& program) {
   if (program.command.empty() || program.command.front().empty())
     reject("no command; give the program and its words, such as {\"python3\", \"simulate.py\"}");
   if (!(program.time_limit >= 0.0))
-    reject("time_limit is " + std::to_string(program.time_limit) + " s; allowed is 0 or more; 0 means none");
+    reject("time_limit is " + doe::detail::number_text(program.time_limit) +
+           " s; allowed is 0 or more; 0 means none");
   if (program.attempts < 1)
     reject("attempts is " + std::to_string(program.attempts) + "; allowed is 1 or more");
 }
@@ -138,19 +200,15 @@ StudyFunction external_program(const doe::Problem& problem, const ExternalProgra
   check(program);
   doe::check(problem);
   return [problem, program](const Eigen::VectorXd& x, doe::Seed seed, const RunContext& context) {
-    const Exchange files;
-    doe::write_file(files.request(), request_of(problem, x, seed, context).dump(2) + "\n");
-    std::string reason;
-    for (int k = 1; k <= program.attempts; ++k) {
-      const Attempt result = attempt(problem, program, files);
-      if (const auto* outcome = std::get_if<doe::Outcome>(&result)) return *outcome;
-      reason = std::get<Crash>(result).reason;
-      std::fprintf(stderr, "attempt %d of %d: %s\n", k, program.attempts, reason.c_str());
+    try {
+      const Exchange files(context.log);
+      doe::write_file(files.request(), request_text(problem, x, seed, context));
+      return outcome_of_attempts(problem, program, files);
+    } catch (const Stopped& stopped) {  // as if the signal had found nobody to note it
+      ::signal(stopped.signal, SIG_DFL);
+      ::raise(stopped.signal);
+      throw;
     }
-    const std::string often =
-        program.attempts > 1 ? " in each of " + std::to_string(program.attempts) + " attempts, at last" : "";
-    return doe::Outcome(
-        doe::Failure{"the program \"" + program.command.front() + "\" crashed" + often + ": " + reason});
   };
 }
 

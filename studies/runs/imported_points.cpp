@@ -34,6 +34,7 @@ std::string text_of(const std::filesystem::path& file) {
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
     throw UsageError("--import " + file.string() + ": cannot be read; give a table as export writes it");
+  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark, as spreadsheets write it
   if (!text.empty() && text.back() != '\n') text += '\n';
   return text;
 }

@@ -36,7 +36,8 @@ Store new_store(const Study& study, const Folder& folder, const Settings& settin
                                         .seed = settings.seed.value_or(1),
                                         .replicates = settings.replicates.value_or(1),
                                         .corners = has_corners(study.problem, runs),
-                                        .options = with_defaults(study.options, settings.options)});
+                                        .options = with_defaults(study.options, settings.options),
+                                        .simulator = study.simulator});
 }
 
 void check_target(double target, int validation) {
@@ -50,11 +51,11 @@ std::vector<Run> everything(std::vector<Run> existing, const std::vector<Run>& a
   return existing;
 }
 
-/// Models need two points; where none is imported they are training points.
+/// Models need two points.
 void check_runs(int runs, const std::vector<Run>& all) {
-  if (runs < 2 && count_points(all, Kind::imported) == 0)
-    throw UsageError("--runs " + std::to_string(runs) +
-                     ": allowed is 2 or more, or fewer beside points of --import");
+  if (const int imported = count_points(all, Kind::imported); runs + imported < 2)
+    throw UsageError("--runs " + std::to_string(runs) + " and " + std::to_string(imported) +
+                     " points of --import: allowed is 2 or more together");
 }
 
 /// With the points of a table made elsewhere.
@@ -95,6 +96,12 @@ Store open_store(const Study& study, const Folder& folder) {
   const std::string other = difference(stored.options, with_defaults(study.options, stored.options), false);
   if (!other.empty()) refuse_folder(folder, other);
   return store;
+}
+
+void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
+  const std::string& stored = store.identity().simulator;
+  if (stored != study.simulator)
+    refuse_folder(folder, "its runs were made by \"" + stored + "\", now it is \"" + study.simulator + "\"");
 }
 
 void check_new_study(const Study& study, const Settings& settings) {

@@ -14,6 +14,9 @@ namespace drawpoint::studies {
 /// to another study or to another problem, saying what differs.
 Store open_store(const Study& study, const Folder& folder);
 
+/// Before runs are made: throws UsageError where another simulator made those in the folder.
+void require_same_simulator(const Study& study, const Store& store, const Folder& folder);
+
 /// Throws UsageError for options that do not go together in a new folder: asked before anything is written.
 void check_new_study(const Study& study, const Settings& settings);
 

@@ -40,7 +40,7 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
     return batch;
   }
   batch.status = BatchStatus::planned;
-  batch.runs = runs_at(identity, runs, Kind::adaptive, with_predictions(fitted.models, X));
+  batch.runs = runs_at(identity, runs, Kind::adaptive, with_predictions(fitted.models, identity.problem, X));
   return batch;
 }
 

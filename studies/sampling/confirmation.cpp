@@ -105,7 +105,7 @@ RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, con
     return plan;
   }
   const Eigen::MatrixXd added = X.bottomRows(X.rows() - before);
-  plan.runs = runs_at(identity, runs, Kind::confirmation, with_predictions(fitted.models, added));
+  plan.runs = runs_at(identity, runs, Kind::confirmation, with_predictions(fitted.models, problem, added));
   return plan;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What makes two invocations the same study: its name, its problem, its options, its seed and how its points
-/// were planned. It is kept in the store, so that runs of two different studies never end up in one table.
+/// What makes two invocations the same study: its name, its problem, its options, its simulator, its seed
+/// and how its points were planned. It is kept in the store, so that runs of two different studies never end
+/// up in one table.
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -16,9 +17,10 @@ struct Identity {
   std::string study;
   doe::Problem problem;
   doe::Seed seed = 1;
-  int replicates = 1;         ///< runs per training point
-  bool corners = false;       ///< the first 2^d training points are the corners of the box
-  OptionValues options = {};  ///< a value of every option of the study
+  int replicates = 1;          ///< runs per training point
+  bool corners = false;        ///< the first 2^d training points are the corners of the box
+  OptionValues options = {};   ///< a value of every option of the study
+  std::string simulator = {};  ///< Study::simulator
 };
 
 /// The first difference in words ('variable "alpha": upper bound 2 there, 3 here'), or "" if there is none.

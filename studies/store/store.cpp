@@ -58,6 +58,7 @@ void write_identity(SQLite::Database& database, const Identity& identity) {
   put("replicates", std::to_string(identity.replicates));
   put("corners", identity.corners ? "1" : "0");
   put("options", nlohmann::json(identity.options).dump());
+  put("simulator", identity.simulator);
   put("created", now());
   put("rows", "0");
   put("sampling", to_text(Sampling{}));
@@ -137,7 +138,8 @@ void Store::read_identity() {
                  std::stoull(get("seed")),
                  std::stoi(get("replicates")),
                  get("corners") == "1",
-                 nlohmann::json::parse(get("options")).get<OptionValues>()};
+                 nlohmann::json::parse(get("options")).get<OptionValues>(),
+                 get("simulator")};
     sampling_ = sampling_from(get("sampling"));
   } catch (const std::logic_error&) {
     refuse(file_, "is damaged (a number in table study is not one)");

@@ -3,7 +3,7 @@
 #pragma once
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
-///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), created, rows (how
+///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), simulator, created, rows (how
 ///                        many runs there are), sampling (JSON; the only entry that a user may change), checksum
 ///     runs               one row per run: id (1, 2, ... without a gap), kind, point, replicate, seed, status,
 ///                        reason, seconds, started, finished, log, checksum, then one REAL column for each
@@ -67,9 +67,9 @@ struct Run {
   Eigen::VectorXd x;
   Status status = Status::planned;
   Eigen::VectorXd y;
-  /// What the models of the runs before it said of this run: mean of each response and the ends of the interval
-  /// that should hold 95 of 100 such runs. NaN (or, of a run that is being planned, empty) where nothing was
-  /// predicted.
+  /// What the models of the runs before it said of this run: mean of each response and the ends of the
+  /// interval that should hold 95 of 100 such runs. NaN (or, of a run that is being planned, empty) where
+  /// nothing was predicted.
   Eigen::VectorXd predicted, lower, upper;
   std::string reason;
   double seconds = 0.0;

@@ -137,6 +137,25 @@ TEST_F(FormulaDemo, ExportsRunsAndFront) {
   for (const auto& row : front["rows"]) EXPECT_LT(row[7].get<double>(), row[10].get<double>());
 }
 
+TEST_F(FormulaDemo, SaysHowItIsFittedAndHowThatHolds) {
+  ASSERT_EQ(run(demo + " --runs 20 --validation 6" + out()).code, 0);
+  const auto fit = run(demo + " fit --json" + out()).json()["models"]["production"];
+  EXPECT_EQ(fit["runs"], 20);
+  EXPECT_EQ(fit["theta"].size(), 4u);
+  EXPECT_LE(fit["leave_one_out"]["within"], 20);
+  EXPECT_TRUE(contains(run(demo + " fit" + out()).out, "production [kg/s]: "));
+  const auto checked = run(demo + " validate --json" + out()).json()["validations"]["rock_spill"];
+  ASSERT_EQ(checked["rows"].size(), 6u);
+  int within = 0;
+  for (const auto& row : checked["rows"])
+    within += row["simulated"] >= row["lower"] && row["simulated"] <= row["upper"];
+  EXPECT_EQ(checked["within"], within);
+  EXPECT_EQ(
+      checked["rows"][0]["simulated"].get<double>(),
+      std::stod(query("SELECT printf('%!.17g', rock_spill) FROM runs WHERE kind = 'validation' LIMIT 1")));
+  EXPECT_TRUE(contains(run(demo + " validate" + out()).out, "of 6 within their 95 % interval"));
+}
+
 TEST_F(FormulaDemo, OnePointByHandIsTheRowOfTheTable) {
   ASSERT_EQ(run(demo + " --runs 6 --validation 0" + out()).code, 0);
   const std::string x =

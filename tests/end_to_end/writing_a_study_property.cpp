@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// A newcomer's walk: docs/writing-a-study.md, followed to the letter. A block that opens with a kind and a file
-/// name is that file, a block of the kind sh is typed.
+/// A newcomer's walk: docs/writing-a-study.md, followed to the letter. A block that opens with a kind and a
+/// file name is that file, a block of the kind sh is typed.
 
 #include <drawpoint/tests/end_to_end/support.hpp>
 

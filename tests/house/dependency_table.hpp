@@ -13,9 +13,9 @@
 /// A file belongs to the row with the longest folder that its path starts with. It may include the standard
 /// library and POSIX, the project folders of its row, and the packages of its row; a package of `in_cpp_only`
 /// never in a *.hpp, and its names do not appear in other rows at all, so that users of the module never
-/// need it. A *.h is an internal header: it may use what a *.cpp of its room may, is not installed, and no *.hpp
-/// includes it. Headers of no known package are refused: a new dependency starts as a line here and as a
-/// decision note.
+/// need it. A *.h is an internal header: it may use what a *.cpp of its room may, is not installed, and no
+/// *.hpp includes it. Headers of no known package are refused: a new dependency starts as a line here and as
+/// a decision note.
 namespace drawpoint::house {
 
 struct Row {

@@ -127,8 +127,8 @@ TEST(ExpectedImprovement, OfANoisyModelAsksForNoRunAgain) {
   EXPECT_LE((fitted_values(model) - model.mean(data.X)).cwiseAbs().maxCoeff(), 4 * round_off);
 }
 
-// s² = αᵀCα/n of noise 10¹⁴ times the process: S − λαᵀα, the same without rounding, has lost all but one digit of
-// it. A product of n² terms of one sign keeps 1e-13.
+// s² = αᵀCα/n of noise 10¹⁴ times the process: S − λαᵀα, the same without rounding, has lost all but one
+// digit of it. A product of n² terms of one sign keeps 1e-13.
 TEST(Reinterpolation, KeepsItsVarianceWhereNoiseIsAlmostAll) {
   const Eigen::MatrixXd X = reference::design(30, 2, 1);
   const Eigen::VectorXd y = X.col(0) + X.col(1);

@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::vector<Transform> all = {{Scale::linear, 0, 0, 0},
                                     {Scale::square_root, 2, 0, 0},
                                     {Scale::logarithm, 2, 0, 0.25},
-                                    {Scale::logit, 2, 5, 0.25}};
+                                    {Scale::logit, 2, 5, 0.25, 0.125}};
 
 // ∫ f(z + s t) φ(t) dt by the trapezoidal rule over [-9, 9]; for smooth f its error is far below 1e-9.
 template <class F>
@@ -51,7 +51,7 @@ TEST(Transform, KeepsPredictionsWithinItsOffsetOfTheBounds) {
     EXPECT_GE(back_transformed(all[1], z), 2.0);
     EXPECT_GE(back_transformed(all[2], z), 1.75);
     EXPECT_GE(back_transformed(all[3], z), 1.75);
-    EXPECT_LE(back_transformed(all[3], z), 5.25);
+    EXPECT_LE(back_transformed(all[3], z), 5.125);
   }
 }
 
@@ -64,8 +64,8 @@ TEST(Transform, HasTheSlopeOfItsInverse) {
           << to_string(t.scale);
 }
 
-// E e^(z + ε) = e^(z + τ²/2). The remainder of nine points is 9!/18! τ^18 times the eighteenth derivative near
-// the middle: 6e-11 at τ = 1, 1.5e-5 times e^z at τ = 2.
+// E e^(z + ε) = e^(z + τ²/2). The remainder of nine points is 9!/18! τ^18 times the eighteenth derivative
+// near the middle: 6e-11 at τ = 1, 1.5e-5 times e^z at τ = 2.
 TEST(MeanResponse, OfALogarithmIsThatOfTheLognormalDistribution) {
   const Transform t{Scale::logarithm, 0, 0, 0};
   for (const double z : {-4.0, 0.0, 3.0}) {
@@ -86,15 +86,15 @@ TEST(MeanResponse, OfASquareRootMissesByLessThanOnePerCentOfTheNoise) {
   }
 }
 
-// The quadrature of a logistic function of slope 1 and noise 0.8 converges geometrically; 1e-4 of its range is
-// what its poles, π from the axis, leave of nine points.
+// The quadrature of a logistic function of slope 1 and noise 0.8 converges geometrically; 1e-4 of its range
+// is what its poles, π from the axis, leave of nine points.
 TEST(MeanResponse, OfALogitIsTheIntegral) {
   const Transform& t = all[3];
   for (const double z : {-3.0, -0.5, 0.0, 1.0}) {
     const auto inverse = [&](double at) { return back_transformed(t, at); };
     EXPECT_NEAR(mean_response(t, z, 0.64), normal_mean(inverse, z, 0.8), 1e-4 * 3.5) << z;
   }
-  EXPECT_NEAR(mean_response(t, 0.0, 2.0), 3.5, 1e-14 * 5) << "the middle, by symmetry";
+  EXPECT_NEAR(mean_response(t, 0.0, 2.0), 0.5 * (1.75 + 5.125), 1e-14 * 5) << "the middle, by symmetry";
 }
 
 // Both are sums over the same nine points, so the slope is that of the sum: as above.
@@ -114,7 +114,10 @@ TEST(TransformFor, PutsHalfOfTheLeastDistanceBelowRunsOnABound) {
   EXPECT_EQ(transform_for(Scale::logarithm, touching, positive).offset, 0.25);
   EXPECT_EQ(transform_for(Scale::square_root, touching, positive).offset, 0.0);
   EXPECT_EQ(transform_for(Scale::logit, inside, share).offset, 0.0);
-  EXPECT_NEAR(transform_for(Scale::logit, touching, share).offset, 0.05, 1e-16) << "0.9 is 0.1 from 1";
+  EXPECT_EQ(transform_for(Scale::logit, touching, share).offset, 0.25);
+  EXPECT_EQ(transform_for(Scale::logit, touching, share).upper_offset, 0.0) << "each bound has its own";
+  const VectorXd other = Eigen::Vector3d(1.0, 0.5, 0.75);
+  EXPECT_EQ(transform_for(Scale::logit, other, share).upper_offset, 0.125);
   EXPECT_EQ(transform_for(Scale::logarithm, VectorXd::Zero(3), positive).scale, Scale::linear)
       << "all on the bound";
 }

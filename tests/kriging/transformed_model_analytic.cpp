@@ -95,7 +95,8 @@ TEST(TransformedModel, HasTheGradientOfItsMean) {
   }
 }
 
-// Leaving a run out is done on the scale of z, in closed form there; what comes of it is what a model predicts.
+// Leaving a run out is done on the scale of z, in closed form there; what comes of it is what a model
+// predicts.
 TEST(TransformedModel, LeavesRunsOutOnItsScale) {
   const Runs r = runs(25, 4);
   const TransformedModel y = fit_transformed(r.X, exponentials(r.z), Scale::logarithm, positive);
@@ -123,6 +124,11 @@ TEST(TransformedModel, IsValidatedByItsQuantiles) {
 // A search re-interpolates: the mean stays, and no variance is left at the runs.
 TEST(TransformedModel, IsReinterpolatedInSearches) {
   const Runs r = runs(30, 7);
+  for (const Scale scale : {Scale::linear, Scale::square_root, Scale::logarithm, Scale::logit}) {
+    const TransformedModel sure = reinterpolated(fit_transformed(r.X, exponentials(r.z), scale, {0, 100}));
+    EXPECT_EQ(sure.predict(r.X).variance, VectorXd::Zero(30)) << to_string(scale);
+    EXPECT_EQ(sure.quantile(r.X, 0.9), sure.quantile(r.X, 0.1)) << to_string(scale);
+  }
   const TransformedModel y = fit_transformed(r.X, exponentials(r.z), Scale::logarithm, positive);
   const TransformedModel sure = reinterpolated(y);
   // Round-off of weights that are solved anew, at the condition of C.
@@ -137,9 +143,9 @@ TEST(TransformedModel, IsReinterpolatedInSearches) {
   EXPECT_EQ(score, VectorXd::Zero(30)) << "nothing is won where all is known";
 }
 
-// Multiplicative noise of 0.6 about a response that varies by a factor of 50, and noise of 0.3 added to one that
-// varies by a factor of 2. Each is the truth of one scale: of ten designs chance may misjudge two, a rule
-// without sense does seven.
+// Multiplicative noise of 0.6 about a response that varies by a factor of 50, and noise of 0.3 added to one
+// that varies by a factor of 2. Each is the truth of one scale: of ten designs chance may misjudge two, a
+// rule without sense does seven.
 TEST(ChooseScale, FindsTheScaleOfTheNoise) {
   int logarithms = 0, linears = 0;
   for (doe::Seed seed = 1; seed <= 10; ++seed) {
@@ -158,6 +164,14 @@ TEST(ChooseScale, WithoutARangeIsLinear) {
   const FitChoice choice = choose_scale(r.X, exponentials(r.z), {});
   EXPECT_EQ(choice.table.size(), 1u);
   EXPECT_EQ(choice.scale(), Scale::linear);
+}
+
+// A prediction of one run has no width: its median is the run, the rest is unknown.
+TEST(TransformedModel, OfOneRunHasAMedian) {
+  const TransformedModel one =
+      fit_transformed(MatrixXd::Constant(1, 2, 0.5), VectorXd::Constant(1, 3.0), Scale::linear, {});
+  EXPECT_EQ(one.quantile(points, 0.5), VectorXd::Constant(3, 3.0));
+  EXPECT_TRUE(std::isinf(one.quantile(points, 0.975)[0]));
 }
 
 TEST(ChooseScale, TakesOneRunAndEqualOnes) {

@@ -53,7 +53,7 @@ TEST_F(ImportedPoints, AreTakenByNameWhateverElseTheTableHolds) {
 }
 
 TEST_F(ImportedPoints, AreTakenOnce) {
-  const std::string table = "speed,lining,wear\r\n2,0,1\r\n3,0,1\r\n";
+  const std::string table = "\xEF\xBB\xBFspeed,lining,wear\r\n2,0,1\r\n3,0,1\r\n";
   const auto first = imported(table);
   ASSERT_EQ(first.size(), 2u);
   EXPECT_TRUE(imported(table, first).empty());

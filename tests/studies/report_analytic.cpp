@@ -90,7 +90,8 @@ TEST(ReportSurface, EveryCorrelationAndTrendIsDrawn) {
     }
 }
 
-// What round-off does to z, 1e-13 of its largest partial sum, the scales pass on with their slope: below 10 here.
+// What round-off does to z, 1e-13 of its largest partial sum, the scales pass on with their slope: below 10
+// here.
 TEST(ReportSurface, TheBrowserSeesTheMeanOnEveryScale) {
   const ReportInput in = input(3, 1, 30, 0);
   Eigen::VectorXd y = in.training.y("y0");

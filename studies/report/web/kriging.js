@@ -17,7 +17,7 @@ const responses = {
   linear: (z) => z,
   square_root: (z, {lower}) => lower + Math.max(z, 0) ** 2,
   logarithm: (z, {lower, offset}) => lower - offset + Math.exp(z),
-  logit: (z, {lower, upper, offset}) => lower - offset + (upper - lower + 2 * offset) / (1 + Math.exp(-z)),
+  logit: (z, {lower, upper, offset, upper_offset: above}) => lower - offset + (upper - lower + offset + above) / (1 + Math.exp(-z)),
 };
 
 export function predictor(surface) {

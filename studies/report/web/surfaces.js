@@ -51,16 +51,16 @@ function influence(data, fitted) {
 function sliders(data, chosen) {
   const rows = data.problem.variables.map((v, k) => {
     const out = el('output', {});
-    const input = el('input', {type: 'range', min: 0, max: 200, step: 1, 'aria-label': pretty(v.name), oninput: () => {
+    const whole = v.upper - v.lower, most = v.kind ? whole : 200;
+    const input = el('input', {type: 'range', min: 0, max: most, step: 1, 'aria-label': pretty(v.name), oninput: () => {
       const x = [...chosen.x];
-      const value = v.lower + ((v.upper - v.lower) * Number(input.value)) / 200;
-      x[k] = v.kind ? Math.round(value) : value;
+      x[k] = v.lower + (whole * Number(input.value)) / most;
       chosen.move(x);
     }});
-    return {k, v, input, out, node: el('label', {class: 'slider'}, el('span', {}, pretty(v.name)), input, out)};
+    return {k, v, most, input, out, node: el('label', {class: 'slider'}, el('span', {}, pretty(v.name)), input, out)};
   });
-  const update = () => rows.forEach(({k, v, input, out}) => {
-    const position = String(Math.round((200 * (chosen.x[k] - v.lower)) / (v.upper - v.lower)));
+  const update = () => rows.forEach(({k, v, most, input, out}) => {
+    const position = String(Math.round((most * (chosen.x[k] - v.lower)) / (v.upper - v.lower)));
     if (input.value !== position) input.value = position;
     out.textContent = settingWithUnit(chosen.x[k], v);
   });

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/model_report.h>
+#include <drawpoint/studies/report/stated_interval.h>
+#include <drawpoint/kriging/cross_validation.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace drawpoint::studies {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string with_unit(double value, const std::string& unit) {
+  return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+std::string heading(const doe::Response& response) {
+  return response.name + (response.unit.empty() || response.unit == "1" ? "" : " [" + response.unit + "]");
+}
+
+/// Errors of predictions against runs that the model did not know.
+std::string errors_text(const kriging::Validation& v, const doe::Response& response) {
+  const auto n = v.observed.size();
+  return "RMSE " + with_unit(v.rmse, response.unit) + ", NRMSE " +
+         (std::isfinite(v.nrmse) ? number(v.nrmse) : "unknown") + ", " +
+         std::to_string(count_within(v, response)) + " of " + std::to_string(n) +
+         " within their 95 % interval";
+}
+
+Json errors_json(const kriging::Validation& v, const doe::Response& response) {
+  return {{"runs", v.observed.size()},
+          {"rmse", finite_or_null(v.rmse)},
+          {"nrmse", finite_or_null(v.nrmse)},
+          {"q2", finite_or_null(kriging::score(v, kriging::ErrorFunction::q2))},
+          {"within", count_within(v, response)}};
+}
+
+/// Of one run, on the scale that is fitted.
+std::string noise_text(const kriging::TransformedModel& model, const std::string& unit) {
+  const double noise = std::sqrt(model.noise_variance());
+  if (model.transform().scale == kriging::Scale::linear) return with_unit(noise, unit);
+  return number(noise) + " on the scale " + std::string(to_string(model.transform().scale));
+}
+
+/// The validation runs that have values, in the order of Validation's entries.
+std::vector<std::int64_t> runs_of(const Tables& tables) {
+  std::vector<std::int64_t> runs;
+  for (const auto& row : tables.validation.rows)
+    if (!row.outcome.failed()) runs.push_back(row.run);
+  return runs;
+}
+
+}  // namespace
+
+std::string fit_text(const Models& fitted, const doe::Problem& problem) {
+  std::string text;
+  for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    const kriging::TransformedModel& model = fitted.models[j];
+    const doe::Response& response = problem.responses[j];
+    text += heading(response) + ": " + fitted.ways[j] + ", " + std::to_string(model.runs()) + " runs\n";
+    text += "  " + std::string(to_string(model.status())) + ": " + model.message() + "\n";
+    text += "  runs predicted without themselves: " + errors_text(leave_one_out(model), response) + "\n";
+    text += "  noise of a run: " + noise_text(model, response.unit) + "\n  theta:";
+    for (std::size_t k = 0; k < problem.variables.size(); ++k)
+      text += (k ? ", " : " ") + problem.variables[k].name + " " +
+              number(model.model().theta()[static_cast<Eigen::Index>(k)]);
+    text += "\n";
+  }
+  return text;
+}
+
+Json fit_json(const Models& fitted, const doe::Problem& problem) {
+  Json all = Json::object();
+  for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    const kriging::TransformedModel& model = fitted.models[j];
+    Json theta = Json::object();
+    for (std::size_t k = 0; k < problem.variables.size(); ++k)
+      theta[problem.variables[k].name] = model.model().theta()[static_cast<Eigen::Index>(k)];
+    all[problem.responses[j].name] = {
+        {"way", fitted.ways[j]},
+        {"scale", to_string(model.transform().scale)},
+        {"runs", model.runs()},
+        {"status", to_string(model.status())},
+        {"message", model.message()},
+        {"theta", theta},
+        {"noise_deviation", finite_or_null(std::sqrt(model.noise_variance()))},
+        {"leave_one_out", errors_json(leave_one_out(model), problem.responses[j])}};
+  }
+  return all;
+}
+
+std::string validation_text(const Models& fitted, const Tables& tables) {
+  const auto& responses = tables.training.problem.responses;
+  const std::vector<std::int64_t> runs = runs_of(tables);
+  std::string text;
+  for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
+    const kriging::Validation& v = fitted.validations[j];
+    text += heading(responses[j]) + ": " + errors_text(v, responses[j]) + "\n";
+    for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
+      const Interval interval = stated_interval(v, i, responses[j]);
+      const bool outside = !interval.holds(v.observed[i]);
+      text += "  run " + std::to_string(runs[static_cast<std::size_t>(i)]) + ": " + number(v.observed[i]) +
+              ", predicted " + number(v.predicted[i]) + " (" + number(interval.lower) + " to " +
+              number(interval.upper) + ")" + (outside ? " outside" : "") + "\n";
+    }
+  }
+  return text;
+}
+
+Json validation_json(const Models& fitted, const Tables& tables) {
+  const auto& responses = tables.training.problem.responses;
+  const std::vector<std::int64_t> runs = runs_of(tables);
+  Json all = Json::object();
+  for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
+    const kriging::Validation& v = fitted.validations[j];
+    Json entry = errors_json(v, responses[j]);
+    entry["rows"] = Json::array();
+    for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
+      const Interval interval = stated_interval(v, i, responses[j]);
+      entry["rows"].push_back({{"run", runs[static_cast<std::size_t>(i)]},
+                               {"simulated", v.observed[i]},
+                               {"predicted", finite_or_null(v.predicted[i])},
+                               {"lower", finite_or_null(interval.lower)},
+                               {"upper", finite_or_null(interval.upper)}});
+    }
+    all[responses[j].name] = std::move(entry);
+  }
+  return all;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the commands fit and validate say of a study's models, as text for people and as JSON for scripts.
+
+#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/analysis/tables.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace drawpoint::studies {
+
+/// Per response: how it is fitted and how the fit ended, the rates and the noise on its scale, and how runs
+/// are predicted without themselves.
+std::string fit_text(const Models& fitted, const doe::Problem& problem);
+nlohmann::ordered_json fit_json(const Models& fitted, const doe::Problem& problem);
+
+/// Per response: the errors on the validation runs, then each of these beside its 95 % interval.
+std::string validation_text(const Models& fitted, const Tables& tables);
+nlohmann::ordered_json validation_json(const Models& fitted, const Tables& tables);
+
+}  // namespace drawpoint::studies

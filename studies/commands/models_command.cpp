@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/model_report.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/folder.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace drawpoint::studies {
+namespace {
+
+Tables stored_tables(const Study& study, const Settings& settings) {
+  return tables_of(open_store(study, Folder{settings.out}).runs(), study.problem);
+}
+
+void print(const std::string& study, const char* key, const nlohmann::ordered_json& content) {
+  const nlohmann::ordered_json line = {{"study", study}, {key, content}};
+  std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+}  // namespace
+
+int fit_command(const Study& study, const Settings& settings) {
+  const Models fitted = models_or_reason(stored_tables(study, settings));
+  if (settings.json)
+    print(study.name, "models", fit_json(fitted, study.problem));
+  else
+    std::fputs(fit_text(fitted, study.problem).c_str(), stdout);
+  return 0;
+}
+
+int validate_command(const Study& study, const Settings& settings) {
+  const Tables tables = stored_tables(study, settings);
+  const Models fitted = models_or_reason(tables);
+  if (fitted.validations.empty())
+    throw std::runtime_error(
+        "studies: there is no validation run to judge the models by; add some with run --validation 10");
+  if (settings.json)
+    print(study.name, "validations", validation_json(fitted, tables));
+  else
+    std::fputs(validation_text(fitted, tables).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace drawpoint::studies
