@@ -3,8 +3,9 @@
 #pragma once
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
-///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), simulator, created, rows (how
-///                        many runs there are), sampling (JSON; the only entry that a user may change), checksum
+///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), simulator,
+///                        created, rows (how many runs there are), sampling (JSON; the only entry that a
+///                        user may change), checksum
 ///     runs               one row per run: id (1, 2, ... without a gap), kind, point, replicate, seed, status,
 ///                        reason, seconds, started, finished, log, checksum, then one REAL column for each
 ///                        variable and each response, named as in the problem, and for each response what was
