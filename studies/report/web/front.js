@@ -3,7 +3,7 @@
 // The trade-offs: projections of the front on pairs of objectives, and its points as a table.
 
 import {el, figure, section, select, table} from './dom.js';
-import {axisLabel, colour, labelled, number, pretty, scale, setting, settingWithUnit, withUnit} from './format.js';
+import {axisLabel, colour, labelled, number, pretty, scale, setting, settingWithUnit, ticks, withUnit} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
 
 const mostProjections = 6;
@@ -86,7 +86,7 @@ function projection(box, data, objectives, [a, b], shade, chosen) {
   const simulated = (k) => data.training.rows.filter((r) => r.y).map((r) => r.y[data.front.objectives[k]]);
   const marker = {size: 8, line: {color: '#fff', width: 0.6}, color: shade ? shade.values : colour.training};
   if (shade) Object.assign(marker, {colorscale: scale, showscale: true,
-    colorbar: {title: {text: axisLabel(shade.item), side: 'right', font: {size: 12}}, thickness: 11, len: 0.95, outlinewidth: 0, tickfont: {size: 11}}});
+    colorbar: {title: {text: axisLabel(shade.item), side: 'right', font: {size: 12}}, thickness: 11, len: 0.95, outlinewidth: 0, tickfont: {size: 11}, ...ticks(shade.item)}});
   const traces = [
     {name: 'simulated', x: simulated(a), y: simulated(b), mode: 'markers', marker: {size: 5, color: '#c3ccd4'}, hovertemplate: 'simulated<br>%{x:.4g}, %{y:.4g}<extra></extra>'},
     {name: 'front', x: column(a), y: column(b), mode: 'markers', marker, customdata: data.front.Y.map((_, i) => i + 1),

@@ -3,7 +3,7 @@
 // The runs behind everything: the scatter matrix of the design, the failures, and every run as a table.
 
 import {el, figure, section, table} from './dom.js';
-import {axisLabel, colour, labelled, number, setting, ticks} from './format.js';
+import {axisLabel, colour, labelled, number, place, setting, ticks} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
 
 const mostVariables = 6;
@@ -64,9 +64,9 @@ function cell(data, shown, row, column, traces, layout) {
   layout['xaxis' + suffix] = axis(row === d - 1 ? axisLabel(across) : '', {domain: [x, x + size], anchor: 'y' + suffix, range: range(across), showticklabels: row === d - 1, nticks: 5, automargin: false, mirror: true, ...ticks(across)});
   layout['yaxis' + suffix] = axis(column === 0 ? axisLabel(down) : '', {domain: [y, y + size], anchor: 'x' + suffix, showticklabels: column === 0 && row !== column, nticks: 5, automargin: false, mirror: true, ...(row === column ? {} : ticks(down)),
     ...(row === column ? {rangemode: 'tozero', fixedrange: true} : {range: range(down)})});
-  const place = {xaxis: 'x' + suffix, yaxis: 'y' + suffix};
-  if (row === column) histograms(data, shown[row], place, traces, id === 1);
-  else points(data, shown, row, column, place, traces, id === (d > 1 ? 2 : 0));
+  const panel = {xaxis: 'x' + suffix, yaxis: 'y' + suffix};
+  if (row === column) histograms(data, shown[row], panel, traces, id === 1);
+  else points(data, shown, row, column, panel, traces, id === (d > 1 ? 2 : 0));
 }
 
 /// Percent of the values in each of the equal parts of a variable's range; both bounds belong to a part.
@@ -76,21 +76,22 @@ function shares(values, {lower, upper}) {
   return counts.map((count) => 100 * count / values.length);
 }
 
-function histograms(data, k, place, traces, legend) {
+function histograms(data, k, panel, traces, legend) {
   const v = data.problem.variables[k];
   const middles = Array.from({length: bars}, (_, i) => v.lower + (i + 0.5) / bars * (v.upper - v.lower));
   for (const set of ['training', 'validation']) {
     if (!data[set].rows.length) continue;
     traces.push({type: 'bar', name: set, legendgroup: set, showlegend: legend, x: middles, y: shares(data[set].rows.map((r) => r.x[k]), v), width: (v.upper - v.lower) / bars,
-      marker: {color: colour[set], opacity: set === 'training' ? 0.75 : 0.5}, hovertemplate: set + ' %{y:.0f} %<extra></extra>', ...place});
+      marker: {color: colour[set], opacity: set === 'training' ? 0.75 : 0.5}, hovertemplate: set + ' %{y:.0f} %<extra></extra>', ...panel});
   }
 }
 
-function points(data, shown, row, column, place, traces, legend) {
+function points(data, shown, row, column, panel, traces, legend) {
+  const across = data.problem.variables[shown[column]], down = data.problem.variables[shown[row]];
   const set = column > row && data.validation.rows.length ? 'validation' : 'training';
   const part = (failed) => data[set].rows.filter((r) => (r.y === null) === failed);
   const trace = (rows, more) => ({x: rows.map((r) => r.x[shown[column]]), y: rows.map((r) => r.x[shown[row]]), mode: 'markers',
-    text: rows.map((r) => 'run ' + r.run), hovertemplate: '%{text}<br>%{x:.4g}, %{y:.4g}<extra></extra>', ...place, ...more});
+    text: rows.map((r) => 'run ' + r.run), hovertemplate: `%{text}<br>${place(across, 'x', 4)}, ${place(down, 'y', 4)}<extra></extra>`, ...panel, ...more});
   const size = data[set].rows.length > 150 ? 4 : 6;
   traces.push(trace(part(false), {showlegend: false, legendgroup: set, name: set, marker: {size, color: colour[set], opacity: 0.8}}));
   const failed = part(true);

@@ -5,7 +5,7 @@
 /* global Plotly */
 
 import {choice, el, figure, section, select} from './dom.js';
-import {axisLabel, labelled, plain, pretty, scale, series, settingWithUnit, ticks} from './format.js';
+import {axisLabel, labelled, place, plain, pretty, scale, series, settingWithUnit, ticks} from './format.js';
 import {predictor, steps} from './kriging.js';
 import {axis, draw, plotBox} from './plot.js';
 
@@ -113,7 +113,7 @@ function map(box, f, variables, [a, b], chosen, solid) {
   }
   draw(box, [
     {type: 'contour', x, y, z, ...range, ncontours: 14, contours: {coloring: 'heatmap', showlines: true}, line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
-      hovertemplate: `${axisLabel(variables[a])}: %{x:.3g}<br>${axisLabel(variables[b])}: %{y:.3g}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`},
+      hovertemplate: `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`},
     {x: [chosen.x[a]], y: [chosen.x[b]], mode: 'markers', hoverinfo: 'skip', marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}}},
   ], {title, showlegend: false, margin: {l: 56, r: 8, t: 36, b: 52}, xaxis: axis(axisLabel(variables[a]), ticks(variables[a])), yaxis: axis(axisLabel(variables[b]), ticks(variables[b]))});
 }
@@ -141,10 +141,10 @@ function profile(box, data, fitted, shown, chosen) {
     const [low, high] = extent([...curves.flatMap((c) => c.y), ...f.range]);
     const pad = 0.05 * (high - low);
     curves.forEach(({k, v, x, y}, c) => {
-      const id = r * columns + c + 1, suffix = id === 1 ? '' : id, place = {xaxis: 'x' + suffix, yaxis: 'y' + suffix};
-      if (data.problem.variables.length === 1) traces.push(simulated(data, f, place));
-      traces.push({x, y, mode: v.kind ? 'lines+markers' : 'lines', marker: {size: 4}, line: {color: series[r % series.length], width: 2.5}, hovertemplate: '%{x:.3g}: %{y:.4g}<extra></extra>', ...place},
-        {x: [chosen.x[k]], y: [f.mean(chosen.x)], mode: 'markers', marker: {size: 8, color: series[r % series.length], line: {color: '#fff', width: 1.5}}, hoverinfo: 'skip', ...place});
+      const id = r * columns + c + 1, suffix = id === 1 ? '' : id, panel = {xaxis: 'x' + suffix, yaxis: 'y' + suffix};
+      if (data.problem.variables.length === 1) traces.push(simulated(data, f, panel));
+      traces.push({x, y, mode: v.kind ? 'lines+markers' : 'lines', marker: {size: 4}, line: {color: series[r % series.length], width: 2.5}, hovertemplate: `${place(v, 'x')}: %{y:.4g}<extra></extra>`, ...panel},
+        {x: [chosen.x[k]], y: [f.mean(chosen.x)], mode: 'markers', marker: {size: 8, color: series[r % series.length], line: {color: '#fff', width: 1.5}}, hoverinfo: 'skip', ...panel});
       layout['xaxis' + suffix] = axis(r === rows - 1 ? axisLabel(v) : '', {showticklabels: r === rows - 1, nticks: 6, automargin: false, ...ticks(v)});
       layout['yaxis' + suffix] = axis(c === 0 ? axisLabel(f.response) : '', {showticklabels: c === 0, range: [low - pad, high + pad], nticks: 6, automargin: false});
     });
@@ -152,7 +152,7 @@ function profile(box, data, fitted, shown, chosen) {
   draw(box, traces, layout);
 }
 
-function simulated(data, f, place) {
+function simulated(data, f, panel) {
   const done = data.training.rows.filter((r) => r.y);
-  return {x: done.map((r) => r.x[0]), y: done.map((r) => r.y[f.j]), mode: 'markers', marker: {size: 5, color: '#9aa7b2'}, hovertemplate: 'simulated %{y:.4g}<extra></extra>', ...place};
+  return {x: done.map((r) => r.x[0]), y: done.map((r) => r.y[f.j]), mode: 'markers', marker: {size: 5, color: '#9aa7b2'}, hovertemplate: 'simulated %{y:.4g}<extra></extra>', ...panel};
 }
