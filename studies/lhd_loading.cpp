@@ -51,7 +51,8 @@ const doe::Problem problem{
          .unit = "1",
          .goal = doe::Goal::minimize,
          .lower = 0,
-         .description = "mass left on the floor by a cycle over the 10 t that would stop the work"}}};
+         .description = "mass that the run has left before the pile, after a cycle, over the 10 t that would "
+                        "stop the work"}}};
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
   engine::loading::Scenario scenario = studies::loading_scenario(run);
