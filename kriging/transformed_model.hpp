@@ -9,7 +9,7 @@
 ///   mean        h(m): the median of h(z), what a run is expected to give where the model is sure
 ///   quantiles   h(m + t√v) of the latent function, g⁻¹(m + t√(v + τ²)) of a run; t the normal quantile
 ///   variance    the square of half the distance between the quantiles at t = −1 and t = 1: that of a normal
-///               distribution with as wide a middle, which heavy tails do not blow up as they do the moments
+///               distribution with the same width between them; the moments would follow the far tail
 /// Intervals are not symmetric about the mean: take quantile() for them. On the linear scale all of this is
 /// the model's own, to the bit. Cost as the model's, gradient of the mean too.
 ///

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/model_report.h>
+#include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/kriging/cross_validation.hpp>
 
@@ -18,8 +19,6 @@ std::string number(double value) {
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
 }
-
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 std::string with_unit(double value, const std::string& unit) {
   return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
@@ -40,9 +39,9 @@ std::string errors_text(const kriging::Validation& v, const doe::Response& respo
 
 Json errors_json(const kriging::Validation& v, const doe::Response& response) {
   return {{"runs", v.observed.size()},
-          {"rmse", finite_or_null(v.rmse)},
-          {"nrmse", finite_or_null(v.nrmse)},
-          {"q2", finite_or_null(kriging::score(v, kriging::ErrorFunction::q2))},
+          {"rmse", number_or_null(v.rmse)},
+          {"nrmse", number_or_null(v.nrmse)},
+          {"q2", number_or_null(kriging::score(v, kriging::ErrorFunction::q2))},
           {"within", count_within(v, response)}};
 }
 
@@ -94,7 +93,7 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
         {"status", to_string(model.status())},
         {"message", model.message()},
         {"theta", theta},
-        {"noise_deviation", finite_or_null(std::sqrt(model.noise_variance()))},
+        {"noise_deviation", number_or_null(std::sqrt(model.noise_variance()))},
         {"leave_one_out", errors_json(leave_one_out(model), problem.responses[j])}};
   }
   return all;
@@ -130,9 +129,9 @@ Json validation_json(const Models& fitted, const Tables& tables) {
       const Interval interval = stated_interval(v, i, responses[j]);
       entry["rows"].push_back({{"run", runs[static_cast<std::size_t>(i)]},
                                {"simulated", v.observed[i]},
-                               {"predicted", finite_or_null(v.predicted[i])},
-                               {"lower", finite_or_null(interval.lower)},
-                               {"upper", finite_or_null(interval.upper)}});
+                               {"predicted", number_or_null(v.predicted[i])},
+                               {"lower", number_or_null(interval.lower)},
+                               {"upper", number_or_null(interval.upper)}});
     }
     all[responses[j].name] = std::move(entry);
   }

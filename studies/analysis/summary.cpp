@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/doe/problem.hpp>
 
@@ -9,10 +10,6 @@
 
 namespace drawpoint::studies {
 namespace {
-
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-}
 
 std::string formatted(const char* format, double value) {
   char text[32];

@@ -4,8 +4,8 @@
 /// Which runs a study makes.
 ///
 /// The points of the first design (training) are a Latin hypercube chosen for the distance between its points
-/// (doe/optimized_latin_hypercube.hpp), with the 2^d corners of the box in front when there are at least 2^d
-/// points. Validation points are independent and uniform. What comes after the first design is chosen
+/// (doe/optimized_latin_hypercube.hpp), with the 2^d corners of the box in front where they are two fifths of
+/// it or less. Validation points are independent and uniform. What comes after the first design is chosen
 /// elsewhere (sampling/). Each run has random numbers of its own, derived from the study seed.
 ///
 /// A study grows without losing a run: the store keeps the points, so that a study begun by another version
@@ -39,8 +39,8 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
 /// Points to run, natural units, and what is predicted there: mean and 95 % interval of one run.
 struct PlannedPoints {
   Eigen::MatrixXd X;  ///< n x d
-  Eigen::MatrixXd predicted = {}, lower = {},
-                  upper = {};  ///< n x responses; no rows where nothing is predicted
+  /// n x responses; no rows where nothing is predicted.
+  Eigen::MatrixXd predicted = {}, lower = {}, upper = {};
 };
 
 /// Runs of a kind at these points, their numbers and seeds continuing those of `existing`.
