@@ -33,6 +33,8 @@
 #include <drawpoint/doe/run_journal.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/doe/sensitivity.hpp>
+#include <drawpoint/doe/slurm_array.hpp>
+#include <drawpoint/doe/slurm_jobs.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/doe/uniform.hpp>
 #include <drawpoint/doe/value_and_jacobian.hpp>
@@ -53,6 +55,8 @@
 ///   remembered.hpp                   a black box that never makes a run twice: a store in memory or on disk
 ///   process_pool.hpp                 a program as a black box: each run a process of its own
 ///   processes.hpp                    the child processes beneath it
+///   slurm_array.hpp                  a program as a black box on a Slurm cluster
+///   slurm_jobs.hpp                   the tasks of job arrays beneath it
 ///
 /// Designs:
 ///   latin_hypercube.hpp              one run in each of n strata of every variable; corners
@@ -81,6 +85,6 @@
 ///   main_effects.hpp                 how the mean of a response moves with one input
 ///   sensitivity.hpp                  Sobol' indices with intervals
 ///
-/// Apart from these, and not included here because it needs nlohmann-json: problem_json.hpp, a problem as JSON.
-/// What stands in detail/ may change in any version. Needs Eigen and a thread library.
+/// Apart from these, and not included here because it needs nlohmann-json: problem_json.hpp, a problem as
+/// JSON. What stands in detail/ may change in any version. Needs Eigen and a thread library.
 namespace drawpoint::doe {}

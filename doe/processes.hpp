@@ -54,7 +54,8 @@ struct ProcessEnd {
   int wait_status = 0;     ///< as from waitpid
   bool timed_out = false;  ///< killed because of its time limit
   double time_limit = 0.0;
-  double seconds = 0.0;  ///< wall time
+  double seconds = 0.0;   ///< wall time
+  std::string told = {};  ///< in place of wait_status, where there is none: how it ended, in words
 };
 
 namespace detail {
@@ -120,6 +121,7 @@ inline std::runtime_error cannot_start(const std::string& what, int error) {
 
 /// "ended by signal SIGSEGV (Segmentation fault)", "ended with exit code 3", ...
 inline std::string describe(const ProcessEnd& end) {
+  if (!end.told.empty()) return end.told;
   if (end.timed_out) {
     char text[64];
     std::snprintf(text, sizeof text, "stopped after %.3g s, its time limit", end.time_limit);

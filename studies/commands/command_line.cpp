@@ -15,7 +15,6 @@
 #include <limits>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 
 namespace drawpoint::studies {
 namespace {
@@ -152,15 +151,30 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
 }
 
 void add_execution_options(CLI::App& command, Settings& settings) {
-  command.add_option("--jobs", settings.jobs, "processes at a time")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+  command
+      .add_option("--jobs", settings.jobs,
+                  "processes at a time (default: one per core; with --slurm: tasks of a job array at a time, "
+                  "as many as the cluster gives)")
+      ->check(CLI::Range(1, 4096));
   command
       .add_option("--time-limit", settings.time_limit,
                   "seconds after which a run is stopped and counts as failed; 0: none")
       ->check(seconds_complaint)
       ->capture_default_str();
   command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
+  const std::string group = "On a Slurm cluster";
+  auto* slurm =
+      command
+          .add_flag(
+              "--slurm", settings.slurm,
+              "make the runs as tasks of job arrays; program and folder must have the same names on all "
+              "nodes. Ctrl-C leaves the tasks running, and the same command takes them over")
+          ->group(group);
+  command
+      .add_option("--slurm-option", settings.slurm_options,
+                  "a word for sbatch, such as --slurm-option=--partition=short; repeatable")
+      ->needs(slurm)
+      ->group(group);
 }
 
 std::string names_of(const doe::Problem& problem) {
@@ -296,7 +310,6 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
 int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
-  parsed.settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   parsed.settings.command = joined(argc, argv);
   parsed.settings.leading_words = study.leading_words;
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, study.name);

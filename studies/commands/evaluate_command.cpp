@@ -191,6 +191,7 @@ int evaluate_command(const Study& study, const PointSettings& given) {
       context_of(study, settings, settings.log.empty() ? temporary->path() / "run.h5" : settings.log,
                  shared_folder(study, settings, temporary));
   if (context.log.has_parent_path()) fs::create_directories(context.log.parent_path());
+  if (settings.result_descriptor >= 0) fs::remove(context.log);  // what an attempt that was killed has left
   const auto black_box = [&](const Eigen::VectorXd& point, doe::Seed seed) {
     return study.black_box(point, seed, context);
   };

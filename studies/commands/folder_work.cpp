@@ -7,6 +7,7 @@
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/runs/workers.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -18,6 +19,16 @@ namespace {
 std::string resume_message(const Folder& folder) {
   return "interrupted; every finished run is stored in " + folder.store().string() +
          "; give the same command again to go on\n";
+}
+
+/// Of the tasks that go on, if there are any.
+std::string slurm_message(const Folder& folder) {
+  const std::string arrays = arrays_of(folder);
+  if (arrays.empty()) return "";
+  return "the tasks that Slurm has go on, and the same command takes them over; to end them: scancel "
+         "--name=NAME "
+         "for each of " +
+         arrays + "\n";
 }
 
 }  // namespace
@@ -38,7 +49,7 @@ int work_in_folder(const Study& study, const Settings& settings,
     const EndsAtOnce now;
     return conclude(study, store, folder, settings);
   } catch (const Interrupted&) {
-    dprintf(STDERR_FILENO, "%s", resume_message(folder).c_str());
+    dprintf(STDERR_FILENO, "%s%s", resume_message(folder).c_str(), slurm_message(folder).c_str());
     return 130;
   }
 }

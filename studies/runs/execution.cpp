@@ -3,6 +3,7 @@
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/progress.h>
+#include <drawpoint/studies/runs/workers.h>
 #include <drawpoint/studies/store/run_logs.h>
 #include <drawpoint/studies/store/shared_files.h>
 
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <deque>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
@@ -23,7 +25,6 @@ using nlohmann::json;
 using std::chrono::milliseconds;
 
 constexpr milliseconds patience(100);  // between two looks at signals, time limits and progress
-constexpr milliseconds grace(2000);    // for children to end by themselves after an interruption
 
 /// The program's own file. The link in /proc works even when a rebuild has replaced the file; the real name
 /// looks better in `ps`.
@@ -32,6 +33,15 @@ std::string own_executable() {
   std::error_code error;
   const fs::path name = fs::read_symlink(link, error);
   return !error && fs::equivalent(name, link, error) ? name.string() : link.string();
+}
+
+/// A task on another machine knows no /proc of this process.
+void require_own_file() {
+  if (own_executable().starts_with("/proc/"))
+    throw std::runtime_error(
+        "studies: this program's file was replaced or removed since it started, and Slurm's tasks need it; "
+        "give "
+        "the same command again");
 }
 
 std::string joined(const Eigen::VectorXd& x) {
@@ -53,10 +63,10 @@ std::vector<std::string> whole_line(std::vector<std::string> leading, const std:
   return leading;
 }
 
-doe::Process process_for(const Run& run, const Folder& folder, const OptionValues& options,
+/// Equal runs are equal processes, wherever the command is given: names of files are whole.
+doe::Process process_for(const Run& run, const Folder& given, const OptionValues& options,
                          const Settings& settings) {
-  std::error_code ignored;
-  fs::remove(folder.unfinished_log(run.id), ignored);
+  const Folder folder{fs::absolute(given.path)};
   return {.id = run.id,
           .executable = own_executable(),
           .arguments = whole_line(settings.leading_words,
@@ -134,7 +144,7 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
   std::vector<doe::ProcessEnd> ends;
   while (ends.empty()) {
     if (InterruptGuard::requested()) {
-      pool.terminate(grace);
+      pool.terminate(time_to_end);
       throw Interrupted{};
     }
     ends = pool.wait(patience);
@@ -157,24 +167,29 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
   }
   if (InterruptGuard::requested()) throw Interrupted{};
   if (waiting.empty()) return;
-  doe::ProcessPool pool(settings.jobs);
+  if (settings.slurm) {
+    require_own_file();
+    dprintf(message_descriptor, "%zu runs go to Slurm\n", waiting.size());
+  }
+  const std::unique_ptr<Workers> workers = workers_for(folder, settings);
   Progress progress(message_descriptor, state_of(runs));
-  while (!waiting.empty() || pool.running() > 0) {
+  while (!waiting.empty() || workers->running() > 0) {
     if (InterruptGuard::requested()) {
-      pool.terminate(grace);
+      workers->leave();
       store.plan_again(false);
       throw Interrupted{};
     }
     const bool full = !waiting.empty() && disk_is_full(folder);
-    if (full && pool.running() == 0) stop_for_full_disk(folder);
-    while (!full && !waiting.empty() && !pool.full()) {
+    if (full && workers->running() == 0) stop_for_full_disk(folder);
+    while (!full && !waiting.empty() && !workers->full()) {
       store.mark_running(waiting.front()->id);
-      pool.start(process_for(*waiting.front(), folder, store.identity().options, settings));
+      workers->start(process_for(*waiting.front(), folder, store.identity().options, settings));
       waiting.pop_front();
     }
-    for (const auto& end : pool.wait(patience)) progress.finished_one(store_end(store, folder, end));
+    for (const auto& end : workers->wait(patience)) progress.finished_one(store_end(store, folder, end));
     progress.tick();
   }
+  workers->finish();
   std::error_code ignored;
   fs::remove_all(folder.unfinished(), ignored);  // with what processes that were killed have left
 }

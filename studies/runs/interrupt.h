@@ -8,9 +8,13 @@
 /// there (EndsAtOnce) the signal prints the message on how to go on and ends the process. Both end with exit
 /// code 130.
 
+#include <chrono>
 #include <string>
 
 namespace drawpoint::studies {
+
+/// That processes have to end by themselves after a signal.
+inline constexpr std::chrono::milliseconds time_to_end(2000);
 
 /// Thrown to leave a command after an interruption.
 struct Interrupted {};

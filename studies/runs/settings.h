@@ -50,9 +50,11 @@ struct Settings {
   double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
   ConfirmSettings confirm = {};
   ExportSettings exported = {};
-  OptionValues options = {};  ///< of the study, those given
-  int jobs = 1;               ///< processes at a time, 1 or more
-  double time_limit = 0.0;    ///< [s] a run may take; 0 means no limit
+  OptionValues options = {};     ///< of the study, those given
+  std::optional<int> jobs = {};  ///< processes or tasks at a time, 1 or more; empty: all there are
+  bool slurm = false;            ///< runs are tasks on a Slurm cluster
+  std::vector<std::string> slurm_options = {};  ///< words for sbatch
+  double time_limit = 0.0;                      ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;
   bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
   std::string command = {};                     ///< the command line as typed, for the report

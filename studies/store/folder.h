@@ -11,6 +11,7 @@
 ///     DIR/logs/run_0001.h5     run log, named by the run's id
 ///     DIR/logs/run_0001.txt    what the run printed, if anything
 ///     DIR/logs/unfinished/     logs of runs in flight
+///     DIR/slurm/               what passes between `run --slurm` and its tasks
 ///     DIR/.lock                held while a command works
 ///
 /// A file appears under its final name only when it is complete: it is written under another name beside it,
@@ -31,6 +32,7 @@ struct Folder {
   std::filesystem::path shared_checksums() const { return path / "shared.checksums"; }
   std::filesystem::path logs() const { return path / "logs"; }
   std::filesystem::path unfinished() const { return logs() / "unfinished"; }
+  std::filesystem::path slurm() const { return path / "slurm"; }
   std::filesystem::path log(std::int64_t id) const;  ///< logs/run_0001.h5
   std::filesystem::path unfinished_log(std::int64_t id) const;
   std::filesystem::path printed(std::int64_t id) const;  ///< logs/run_0001.txt

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// What is asked of a Slurm cluster, by the commands that its users have: sbatch, squeue, scancel, scontrol.
+
+#include <sys/wait.h>
+
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <drawpoint/doe/processes.hpp>
+
+namespace drawpoint::doe::detail {
+
+/// A command of Slurm that failed, with its own words.
+struct SlurmError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What the command prints. Throws SlurmError when it fails, is not there, or says nothing for a minute.
+inline std::string slurm_answer(const std::vector<std::string>& words) {
+  std::vector<std::string> arguments = {"-c", "exec \"$@\" >&3 2>&3", "sh"};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  ProcessPool pool(1);
+  pool.start({.executable = "sh", .arguments = std::move(arguments), .time_limit = 60.0});
+  std::vector<ProcessEnd> ends;
+  while (ends.empty()) ends = pool.wait(std::chrono::milliseconds(100));
+  const ProcessEnd& end = ends.front();
+  if (!end.timed_out && end.wait_status == 0) return end.reply;
+  const std::string said = end.reply.substr(0, end.reply.find_last_not_of(" \n") + 1);
+  throw SlurmError(words.front() + " " + describe(end) + (said.empty() ? "" : ": " + said));
+}
+
+/// The largest number of tasks in one job array.
+inline int most_tasks_per_array() {
+  const std::string config = slurm_answer({"scontrol", "show", "config"});
+  const std::string name = "MaxArraySize";
+  const std::size_t at = config.find(name);
+  const std::size_t from = at == config.npos ? at : config.find_first_of("0123456789", at);
+  int size = 0;
+  if (from != config.npos) std::from_chars(config.data() + from, config.data() + config.size(), size);
+  if (size < 2) throw SlurmError("scontrol show config names no MaxArraySize above 1: job arrays are off");
+  return size;
+}
+
+/// Submits tasks 0 to `tasks` - 1 of the script as one job array, at most `at_once` at a time (0: no bound).
+/// `options` are words for sbatch; those that say which array this is come from here.
+inline void submit_array(const std::string& name, const std::filesystem::path& script, int tasks, int at_once,
+                         const std::vector<std::string>& options) {
+  std::vector<std::string> words = {"sbatch"};
+  words.insert(words.end(), options.begin(), options.end());
+  const std::string bound = at_once > 0 ? "%" + std::to_string(at_once) : "";
+  for (const std::string& word :
+       {"--job-name=" + name, "--array=0-" + std::to_string(tasks - 1) + bound, std::string("--no-requeue"),
+        std::string("--output=/dev/null"), std::string("--error=/dev/null"), script.string()})
+    words.push_back(word);
+  slurm_answer(words);
+}
+
+/// State of each task that Slurm still knows, by array and index; it forgets tasks some minutes after their
+/// end.
+using TaskStates = std::map<std::pair<std::string, int>, std::string>;
+
+inline TaskStates task_states(const std::vector<std::string>& arrays) {
+  std::string names;
+  for (const std::string& name : arrays) names += (names.empty() ? "" : ",") + name;
+  const std::string table = slurm_answer(
+      {"squeue", "--noheader", "--array", "--states=all", "--name=" + names, "--format=%j %K %T"});
+  TaskStates states;
+  for (std::size_t from = 0, to; (to = table.find('\n', from)) != table.npos; from = to + 1) {
+    const std::string line = table.substr(from, to - from);
+    const std::size_t first = line.find(' '), second = line.find(' ', first + 1);
+    int index = 0;
+    if (second == line.npos) continue;  // a warning
+    if (std::from_chars(line.data() + first + 1, line.data() + second, index).ptr == line.data() + second)
+      states[{line.substr(0, first), index}] = line.substr(second + 1);
+  }
+  return states;
+}
+
+inline void cancel_array(const std::string& name) { slurm_answer({"scancel", "--name=" + name}); }
+
+}  // namespace drawpoint::doe::detail

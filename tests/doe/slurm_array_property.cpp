@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// A program as a black box on a Slurm cluster, a real one on the loopback device: outcomes are those of a
+/// pool of processes, lost nodes cost time only, and who comes after a dead caller goes on with its tasks.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <drawpoint/doe/evaluate.hpp>
+#include <drawpoint/doe/process_pool.hpp>
+#include <drawpoint/doe/slurm_array.hpp>
+#include <drawpoint/doe/uniform.hpp>
+#include <drawpoint/tests/doe/problems.hpp>
+#include <drawpoint/tests/support/slurm_cluster.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+using namespace drawpoint;
+using namespace drawpoint::doe;
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int nodes = 2;
+
+class SlurmArray : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    place_ = fs::temp_directory_path() / ("slurm_array_" + std::to_string(::getpid()));
+    cluster_ = std::make_unique<support::SlurmCluster>(place_ / "cluster", nodes);
+  }
+  static void TearDownTestSuite() {
+    cluster_.reset();
+    fs::remove_all(place_);
+  }
+
+  static SlurmOptions options() { return {.folder = place_ / "tasks", .poll = 0.5, .reply_delay = 1.0}; }
+  static std::vector<std::string> shell(const std::string& script) {
+    return {"sh", "-c", script, "run", "{x}", "{seed}"};
+  }
+  static std::string reason_of(const std::string& script, SlurmArrayOptions given = {}) {
+    given.slurm = options();
+    const Eigen::MatrixXd X{{0.25, 0.5}};
+    const Evaluations runs = evaluate(slurm_array(shell(script), given), support::unit_problem(2), X);
+    EXPECT_TRUE(runs.rows.front().outcome.failed());
+    return runs.rows.front().outcome.reason();
+  }
+  static void expect_nothing_left() {
+    EXPECT_TRUE(fs::is_empty(place_ / "tasks"));
+    EXPECT_EQ(cluster_->tasks(), 0);
+  }
+  /// A process that counts its starts in place_/ID.
+  static Process counted(int id, const std::string& rest) {
+    const std::string file = (place_ / std::to_string(id)).string();
+    return {.id = id, .executable = "sh", .arguments = {"-c", "echo start >>" + file + "; " + rest}};
+  }
+  static int starts(int id) {
+    int lines = 0;
+    for (const char c : support::contents(place_ / std::to_string(id))) lines += c == '\n';
+    return lines;
+  }
+
+  static inline fs::path place_;
+  static inline std::unique_ptr<support::SlurmCluster> cluster_;
+};
+
+TEST_F(SlurmArray, OutcomesAreThoseOfAPoolOfProcesses) {
+  const Problem problem = support::unit_problem(2, 3, Goal::record);
+  const Eigen::MatrixXd X = uniform_random(problem, 12);
+  const std::vector<std::string> command = shell("echo $1, $2 $3 >&3; echo \"it's $1\"");
+  const Evaluations here = evaluate(process_pool(command), problem, X);
+  const Evaluations there = evaluate(slurm_array(command, {.slurm = options()}), problem, X);
+  EXPECT_EQ(there.failed(), 0);
+  for (std::size_t k = 0; k < here.rows.size(); ++k)
+    EXPECT_EQ(there.rows[k].outcome.values(), here.rows[k].outcome.values());
+  expect_nothing_left();
+}
+
+TEST_F(SlurmArray, WhateverEndsARunIsItsReason) {
+  EXPECT_EQ(reason_of("echo failure the bucket is stuck >&3; exit 1"), "the bucket is stuck");
+  EXPECT_EQ(reason_of("exit 3"), "the run's process ended with exit code 3");
+  EXPECT_EQ(reason_of("echo 1 2 >&3"), "returned 2 values where the problem has 1 responses");
+  EXPECT_EQ(reason_of("kill -SEGV $$"), "the run's process ended by signal SIGSEGV (Segmentation fault)");
+  EXPECT_EQ(reason_of("echo 1 >&3; sleep 30", {.time_limit = 0.5}),
+            "the run's process stopped after 0.5 s, its time limit");
+  EXPECT_EQ(reason_of("echo before the end; exit 2", {.output = place_ / "printed"}),
+            "the run's process ended with exit code 2; it printed " + (place_ / "printed/0001.txt").string());
+}
+
+TEST_F(SlurmArray, WhoGoesOnForADeadCallerTakesItsTasksOver) {
+  const auto start_all = [&](SlurmJobs& jobs) {
+    jobs.start(counted(1, "echo 1 >&3"));
+    jobs.start(counted(2, "sleep 6; echo 2 >&3"));
+  };
+  const pid_t caller = fork();
+  if (caller == 0) {
+    SlurmJobs jobs(options());
+    start_all(jobs);
+    while (true) jobs.wait(100ms);  // gives the end of 1 to nobody
+  }
+  cluster_->await([&] { return starts(2) == 1; });
+  kill(caller, SIGKILL);
+  waitpid(caller, nullptr, 0);
+  SlurmJobs jobs(options());
+  start_all(jobs);
+  std::vector<ProcessEnd> ends;
+  while (jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(1s)) ends.push_back(end);
+  jobs.forget();
+  ASSERT_EQ(ends.size(), 2U);
+  EXPECT_EQ(ends[0].reply + ends[1].reply, "1\n2\n");
+  EXPECT_GE(ends[1].seconds, 6.0);
+  EXPECT_EQ(starts(1) + starts(2), 2);
+  expect_nothing_left();
+}
+
+TEST_F(SlurmArray, WhatNobodyGoesOnWithIsCancelled) {
+  {
+    SlurmJobs jobs(options());
+    jobs.start(counted(3, "sleep 60"));
+    jobs.wait(100ms);
+    cluster_->await([&] { return starts(3) == 1; });
+  }
+  SlurmJobs jobs(options());
+  jobs.start(counted(4, "echo 4 >&3"));
+  while (jobs.running() > 0) jobs.wait(1s);
+  jobs.forget();
+  cluster_->await([&] { return cluster_->tasks() == 0; });
+  expect_nothing_left();
+}
+
+TEST_F(SlurmArray, AStopCancelsWhatRuns) {
+  std::stop_source stop;
+  std::jthread soon([&] {
+    std::this_thread::sleep_for(1s);
+    stop.request_stop();
+  });
+  const auto f = slurm_array(shell("sleep 60"), {.slurm = options(), .stop = stop.get_token()});
+  const Evaluations runs = evaluate(f, support::unit_problem(2), Eigen::MatrixXd::Constant(5, 2, 0.5));
+  EXPECT_EQ(runs.rows.back().outcome.reason(), "not run: stopped");
+  cluster_->await([&] { return cluster_->tasks() == 0; });
+  expect_nothing_left();
+}
+
+TEST_F(SlurmArray, ATaskThatSomebodyCancelsHasFailedAndSaysSo) {
+  SlurmJobs jobs(options());
+  jobs.start(counted(5, "sleep 60"));
+  jobs.wait(100ms);
+  cluster_->await([&] { return starts(5) == 1; });
+  detail::cancel_array(*jobs.arrays().begin());
+  std::vector<ProcessEnd> ends;
+  while (jobs.running() > 0) ends = jobs.wait(1s);
+  jobs.forget();
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_EQ(describe(ends[0]), "ended without a reply, Slurm's state CANCELLED");
+  expect_nothing_left();
+}
+
+// Last, because it takes a node away.
+TEST_F(SlurmArray, TasksOfALostNodeAreSubmittedAgain) {
+  SlurmJobs jobs(options());
+  for (int id = 11; id <= 14; ++id)
+    jobs.start(counted(id, "sleep 4; echo $((10 * " + std::to_string(id) + ")) >&3"));
+  jobs.wait(100ms);
+  cluster_->await([&] { return starts(11) + starts(12) + starts(13) + starts(14) == 4; });
+  cluster_->lose(2);
+  std::map<std::int64_t, std::string> replies;
+  while (jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(1s)) replies[end.id] = end.reply;
+  jobs.forget();
+  EXPECT_EQ(replies, (std::map<std::int64_t, std::string>{
+                         {11, "110\n"}, {12, "120\n"}, {13, "130\n"}, {14, "140\n"}}));
+  EXPECT_EQ(starts(11) + starts(12) + starts(13) + starts(14), 6);  // two of them were on the lost node
+  expect_nothing_left();
+}
+
+TEST(SlurmJobs, FaultyOptionsAreRefused) {
+  using support::thrown_text;
+  EXPECT_EQ(thrown_text<std::invalid_argument>([] { slurm_array({"./simulate"}, {}); }),
+            "doe::slurm_array: no word of the command holds {x}; say where the point goes, such as --x={x}");
+  EXPECT_EQ(thrown_text<std::invalid_argument>([] { SlurmJobs jobs({}); }),
+            "doe::SlurmJobs: no folder; name one that all nodes reach");
+  EXPECT_EQ(thrown_text<std::invalid_argument>([] { SlurmJobs jobs({.folder = "f", .submissions = 0}); }),
+            "doe::SlurmJobs: submissions is 0; allowed is 1 or more");
+}
+
+}  // namespace
