@@ -6,7 +6,7 @@
 ///
 ///     FOLDER/NAME/task.sh     what Slurm runs for every task of the array NAME
 ///     FOLDER/NAME/12.sh       the process that is task 12
-///     FOLDER/NAME/12.reply    what it wrote to descriptor 3, then a line with its exit code, start and end [s]
+///     FOLDER/NAME/12.reply    what it wrote to descriptor 3, then a line: exit code, start and end [s]
 
 #include <array>
 #include <cstdio>

@@ -20,9 +20,9 @@ constexpr double rear_axle_share = 0.56;  // of the empty weight
 
 // Reference-pose points (x, z) of the linkage, all in the machine's middle plane.
 Vector3d at(double x, double z, double y = 0) { return {x, y, z}; }
-const Vector3d F = at(-0.60, 1.80), G = at(2.05, 0.50), K = at(3.85, 0.00), H = at(1.94, 1.07),
-               E = at(1.31, 1.42), Q = at(1.12, 2.32), P = at(1.18, 0.63), T = at(0.10, 1.68),
-               B = at(-0.65, 0.60), D = at(1.108, 0.628);
+const Vector3d F = at(-0.60, 1.80), G = at(2.05, 0.50), H = at(1.94, 1.07), E = at(1.31, 1.42),
+               Q = at(1.12, 2.32), P = at(1.18, 0.63), T = at(0.10, 1.68), B = at(-0.65, 0.60),
+               D = at(1.108, 0.628);
 
 // Solid box with its length along `along` (in the x-z plane), width along y.
 Matrix3d box_inertia(double mass, double length, double width, double height,
@@ -52,13 +52,13 @@ class Builder {
     lhd_.options = options;
     lhd_.F = F;
     lhd_.G = G;
-    lhd_.K = K;
+    lhd_.bucket_profile = bucket_profile(options.bucket);
+    lhd_.K = at(lhd_.bucket_profile.front().x(), lhd_.bucket_profile.front().y());
     lhd_.loaded_radius = 0.93;
     lhd_.tyre_radius = 1.01;
-    lhd_.bucket_width = 3.2;
+    lhd_.bucket_width = options.bucket.width;
     lhd_.payload = 21e3;
     lhd_.pin_spacing = 1.2;
-    lhd_.bucket_profile = {{3.85, 0}, {2.85, 1.75}, {2.30, 1.58}, {2.14, 1.15}, {2.16, 0.35}, {2.40, 0}};
     lhd_.bucket_volume = heaped_volume(lhd_);
   }
 
@@ -135,8 +135,11 @@ std::array<int, 2> Builder::add_cylinder(const std::string& name, const Vector3d
 void Builder::add_arm() {
   lhd_.boom = add(
       hinged("boom", lhd_.front, F, nose_up, 3600, at(0.78, 1.17), box_inertia(3600, 2.9, 1.3, 0.6, G - F)));
-  lhd_.bucket =
-      add(hinged("bucket", lhd_.boom, G, nose_up, 4800, at(2.60, 0.60), box_inertia(4800, 1.5, 3.2, 1.5)));
+  const BucketOptions& bucket = lhd_.options.bucket;
+  const double mass = bucket_mass(bucket), side = 1.5 * bucket.size;
+  const Vector2d centre = bucket_centre(bucket);
+  lhd_.bucket = add(hinged("bucket", lhd_.boom, G, nose_up, mass, at(centre.x(), centre.y()),
+                           box_inertia(mass, side, bucket.width, side)));
   lhd_.bell_crank = add(hinged("bell-crank", lhd_.boom, E, nose_up, 700, at(1.20, 1.46),
                                box_inertia(700, 1.7, 0.35, 0.3, Q - P)));
   lhd_.link = add(hinged("link", lhd_.bell_crank, P, nose_up, 350, 0.5 * (P + H),
@@ -290,28 +293,14 @@ bool inside_polygon(const std::vector<Vector2d>& polygon, const Vector2d& p) {
   return inside;
 }
 
-// Shoelace formula; positive counter-clockwise.
-double polygon_area(const std::vector<Vector2d>& polygon) {
-  double twice = 0;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-    twice += polygon[j].x() * polygon[i].y() - polygon[i].x() * polygon[j].y();
-  return twice / 2;
-}
-
 }  // namespace
 
 Lhd sandvik_lh621(const LhdOptions& options) { return Builder(options).build(); }
 
-std::vector<Vector2d> heaped_profile(const Lhd& lhd) {
-  const Vector2d edge = lhd.bucket_profile[0], lip = lhd.bucket_profile[1], opening = lip - edge;
-  const Vector2d outward = Vector2d(opening.y(), -opening.x()).normalized();
-  std::vector<Vector2d> heaped = lhd.bucket_profile;
-  heaped.insert(heaped.begin() + 1, edge + 0.5 * opening + outward * (opening.norm() / 4));
-  return heaped;
-}
+std::vector<Vector2d> heaped_profile(const Lhd& lhd) { return heaped(lhd.bucket_profile); }
 
-double struck_volume(const Lhd& lhd) { return polygon_area(lhd.bucket_profile) * lhd.bucket_width; }
-double heaped_volume(const Lhd& lhd) { return polygon_area(heaped_profile(lhd)) * lhd.bucket_width; }
+double struck_volume(const Lhd& lhd) { return area(lhd.bucket_profile) * lhd.bucket_width; }
+double heaped_volume(const Lhd& lhd) { return area(heaped_profile(lhd)) * lhd.bucket_width; }
 
 bool in_heaped_bucket(const Lhd& lhd, const Vector3d& p_M) {
   return std::abs(p_M.y()) <= lhd.bucket_width / 2 && inside_polygon(heaped_profile(lhd), {p_M.x(), p_M.z()});

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <drawpoint/engine/geometry/shape.hpp>
+#include <drawpoint/engine/loading/bucket.hpp>
 #include <drawpoint/engine/loading/drive_line.hpp>
 #include <drawpoint/engine/loading/hydraulics.hpp>
 #include <drawpoint/engine/loading/mine_materials.hpp>
@@ -41,6 +42,7 @@ struct LhdOptions {
   double tilt_torque = 673e3;   ///< [N m] at G, used with ArmDrive::hinges
   double wheel_torque = 81e3;   ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
   DriveLine drive_line;         ///< by default no engine: the source's wheel motors know none
+  BucketOptions bucket;  ///< with another the rear unit is ballasted anew, to the same share of each axle
 };
 
 /// A convex piece of one body, for contact and for pictures; in the body's frame.

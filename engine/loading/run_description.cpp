@@ -19,6 +19,7 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"rocks", static_cast<double>(site.world().rocks().size())},
                  {"density", s.pile.density},
                  {"payload", lhd.payload},
+                 {"bucket_width", lhd.bucket_width},
                  {"bucket_struck_volume", struck_volume(lhd)},
                  {"bucket_heaped_volume", heaped_volume(lhd)},
                  {"pin_spacing", lhd.pin_spacing},

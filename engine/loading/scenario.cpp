@@ -79,6 +79,9 @@ void check(const Scenario& s) {
   check(s.drift);
   check(s.machine.drive_line);
   check(s.machine.hydraulics);
+  check(s.machine.bucket);
+  require_setting(s.drift.width >= s.machine.bucket.width + 2 * s.columns.side_clearance, "drift width [m]",
+                  s.drift.width, "the bucket's width and its clearance on both sides, or more");
   require_setting(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
   require_setting(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
   require_setting(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");

@@ -13,7 +13,7 @@ using engine::ConvexPolyhedron;
 
 // The box that the machine fills behind its cutting edge, with 10 cm of room: rocks may not lie there at the
 // start.
-constexpr double machine_length = 12.2, machine_half_width = 1.7, machine_top = 2.0, room = 0.1;
+constexpr double machine_length = 12.2, least_half_width = 1.7, machine_top = 2.0, room = 0.1;
 
 const ConvexPolyhedron& polyhedron(const engine::Rock& rock) {
   return std::get<ConvexPolyhedron>(*rock.body.shape);
@@ -80,9 +80,10 @@ double Site::remove(const std::vector<int>& rocks) {
 }
 
 double Site::place_machine(double tip_x, double y, double back) {
+  const double half_width = std::max(least_half_width, 0.5 * lhd_.bucket_width + room);
   const auto in_lane = [&](const engine::Rock& rock) {
     return rock.present &&
-           std::abs(rock.pose.translation().y() - y) < machine_half_width + polyhedron(rock).radius() &&
+           std::abs(rock.pose.translation().y() - y) < half_width + polyhedron(rock).radius() &&
            rock.pose.translation().z() < machine_top;
   };
   const double nearest = tip_x - back;

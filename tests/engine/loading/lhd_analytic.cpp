@@ -216,3 +216,57 @@ TEST(HeapedBucket, VolumesAreAreasTimesTheWidth) {
   EXPECT_NEAR(struck_volume(lhd), 3.2 * 1.95215, 1e-12);
   EXPECT_NEAR(heaped_volume(lhd), 3.2 * (1.95215 + 4.0625 / 8), 1e-12);
 }
+
+// A section of 2.5 m² heaped, drawn larger by √(11 / (4 · A₁)), times 4 m is 11 m³; round-off of some sums.
+TEST(Bucket, HoldsWhatIsAskedAtAnyWidth) {
+  for (const double width : {3.1, 3.2, 4.0}) {
+    const Lhd lhd = sandvik_lh621({.bucket = bucket_of(width, 11)});
+    EXPECT_EQ(lhd.bucket_width, width);
+    EXPECT_NEAR(heaped_volume(lhd), 11, 1e-12);
+    EXPECT_EQ(lhd.K.z(), 0);
+  }
+  EXPECT_NEAR(bucket_of(3.2, heaped_volume(sandvik_lh621())).size, 1, 1e-15);
+}
+
+// Side walls of two sections, and five plates of the girth's length without the open side, each of the bucket's
+// width: 3.2 m of width more add as much plate as one girth times 3.2 m, whatever the size.
+TEST(Bucket, WeighsAsItsPlates) {
+  EXPECT_EQ(bucket_mass({}), 4800);
+  const double girth = std::hypot(0.55, 0.17) + std::hypot(0.16, 0.43) + std::hypot(0.02, 0.80) +
+                       std::hypot(0.24, 0.35) + 1.45;
+  const double plates = girth * 3.2 + 2 * 1.95215;
+  EXPECT_NEAR(bucket_mass({.width = 6.4}), 4800 * (1 + girth * 3.2 / plates), 1e-9);
+  EXPECT_NEAR(bucket_mass({.size = 2}), 4800 * (2 * girth * 3.2 + 8 * 1.95215) / plates, 1e-9);
+}
+
+// The back of the bucket stays where the arm holds it, and the machine its share of weight on each axle: empty, 44 %
+// in front.
+TEST(Bucket, AnotherOneHangsOnTheSameMachine) {
+  const Lhd lhd = sandvik_lh621({.bucket = {.width = 4, .size = 1.2}});
+  EXPECT_EQ(lhd.G, sandvik_lh621().G);
+  EXPECT_NEAR(lhd.bucket_profile[3].x(), 2.14, 1e-15);
+  double mass = 0, moment = 0;
+  for (const auto& body : lhd.spec.bodies) {
+    mass += body.mass;
+    moment += body.mass * body.centre.x();
+  }
+  EXPECT_NEAR(mass, 56800 - 4800 + bucket_mass({.width = 4, .size = 1.2}), 1e-6);
+  EXPECT_NEAR(moment / mass, -0.56 * 4.9, 1e-9);
+}
+
+TEST(Bucket, WhatNoLoaderCarriesIsRefused) {
+  const auto message = [](const BucketOptions& bucket) {
+    try {
+      check(bucket);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      message({.width = 2}),
+      "loading::BucketOptions: width [m] is 2.000000; allowed: 3.1 m (the wheels run in its track) to 5 m");
+  EXPECT_EQ(message({.size = 2}),
+            "loading::BucketOptions: size [1] is 2.000000; allowed: 0.7 to 1.3 of the machine's own bucket");
+  EXPECT_EQ(message({}), "");
+}
