@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// Bucket, speeds and strategy of an LHD together, what Lindmark (2016) leaves to later work: which bucket and which
-/// pump pay in this rock, driven how, and what do they cost in energy and in the pins?
+/// Bucket, speeds and strategy of an LHD together, what Lindmark (2016) leaves to later work: which bucket
+/// and which pump pay in this rock, driven how, and what do they cost in energy and in the pins?
 ///
-/// With the machine's own engine of 382 kW and with its hydraulics, whose pump goes with the speed of the arm. The
-/// strategy's place across the drift (gamma, weak everywhere) stays in the middle.
+/// With the machine's own engine of 382 kW and with its hydraulics, whose pump goes with the speed of the
+/// arm. The strategy's place across the drift (gamma, weak everywhere) stays in the middle.
 
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_headlines.h>
@@ -69,21 +69,24 @@ void set_design(Scenario& scenario, const Eigen::VectorXd& x) {
   scenario.strategy = {.alpha = x[4], .beta = x[5], .gamma = 0.5, .kappa = x[6]};
 }
 
-doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
-  Scenario scenario = scenario_of(run);
-  set_design(scenario, x);
-  scenario.seed = seed;
-  scenario.log_file = run.log;
-  const auto log = engine::loading::simulate(scenario);
+doe::Outcome responses_of(const engine::loading::LoadingLog& log) {
   if (!log.completed) return doe::Failure{log.message};
   const double loaded = 1e-3 * log.numbers.at("payload") * fill_factor(log);
   if (loaded == 0) return doe::Failure{"nothing was loaded, so energy per tonne is unknown"};
   return {production(log), energy_per_tonne(log), pin_load_range(log), loaded};
 }
 
+doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
+  Scenario scenario = scenario_of(run);
+  set_design(scenario, x);
+  scenario.seed = seed;
+  scenario.log_file = run.log;
+  return responses_of(engine::loading::simulate(scenario));
+}
+
 std::vector<studies::StudyOption> options() {
   std::vector<studies::StudyOption> options = studies::loading_options();
-  std::erase_if(options, [](const auto& option) { return option.name == "speeds"; });
+  std::erase_if(options, [](const auto& option) { return option.name == "speeds" || option.of_responses; });
   for (auto& option : options)
     if (option.name == "operator") option.value = "skilled";
   return options;
@@ -109,5 +112,7 @@ int main(int argc, char** argv) {
        .options = options(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,
+       .responses = [](const std::filesystem::path& log,
+                       const studies::OptionValues&) { return responses_of(engine::loading::read_log(log)); },
        .headlines = headlines});
 }

@@ -54,14 +54,17 @@ const doe::Problem problem{
          .description = "mass that the run has left before the pile, after a cycle, over the 10 t that would "
                         "stop the work"}}};
 
+doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
+  if (!log.completed) return doe::Failure{log.message};
+  return {production(log), joint_damage(log, studies::damage_options(options)), rock_spill(log)};
+}
+
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
   engine::loading::Scenario scenario = studies::loading_scenario(run);
   scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
   scenario.seed = seed;
   scenario.log_file = run.log;
-  const auto log = engine::loading::simulate(scenario);
-  if (!log.completed) return doe::Failure{log.message};
-  return {production(log), joint_damage(log), rock_spill(log)};
+  return responses_of(engine::loading::simulate(scenario), run.options);
 }
 
 int main(int argc, char** argv) {
@@ -76,6 +79,10 @@ int main(int argc, char** argv) {
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,
+       .responses =
+           [](const std::filesystem::path& log, const studies::OptionValues& options) {
+             return responses_of(engine::loading::read_log(log), options);
+           },
        .headlines = studies::loading_headlines,
        .findings = studies::loading_findings});
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/loading_headlines.h>
+#include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 
@@ -169,8 +170,10 @@ std::vector<RunMean> measures() {
 
 }  // namespace
 
-std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs) {
+std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs,
+                                        const OptionValues& options) {
   if (logs.empty()) return {};
+  const engine::loading::DamageOptions damaging = damage_options(options);
   double fill = 0, most_fill = 0, stalls = 0;
   Scatter production, damage, spill;
   Headline pile;
@@ -184,7 +187,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     most_fill = std::max(most_fill, of_run);
     stalls += stall_share(log) / static_cast<double>(logs.size());
     production.add(production_by_cycle(log), engine::loading::production(log));
-    damage.add(joint_damage_by_cycle(log), joint_damage(log));
+    damage.add(joint_damage_by_cycle(log, damaging), joint_damage(log, damaging));
     spill.add(rock_spill_by_cycle(log), rock_spill(log));
     breakdowns.add(log);
     for (RunMean& measure : others) measure.add(log);

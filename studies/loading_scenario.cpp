@@ -58,7 +58,14 @@ std::vector<StudyOption> loading_options() {
            "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
            "plan",
            {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
-          {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000}};
+          {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
+          {.name = "yield-torque",
+           .help = "kN m in the bucket's hinge, above which a joint is damaged: 145 in Lindmark (2016); "
+                   "benchmarks/yield_torque says what a crash gives for this machine",
+           .value = "145",
+           .least = 1,
+           .most = 1'000'000,
+           .of_responses = true}};
 }
 
 Scenario loading_scenario(const RunContext& run) {
@@ -72,6 +79,13 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.cycles = std::stoi(chosen(run, "cycles"));
   scenario.pile_file = run.shared / "pile.h5";
   return scenario;
+}
+
+engine::loading::DamageOptions damage_options(const OptionValues& options) {
+  engine::loading::DamageOptions damage;
+  if (const auto torque = options.find("yield-torque"); torque != options.end())
+    damage.tau_y = 1e3 * std::stod(torque->second);
+  return damage;
 }
 
 }  // namespace drawpoint::studies

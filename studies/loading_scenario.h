@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the options of the loading study choose: materials, solver, scene, speeds, operator and number of cycles, and
-/// the scenario that they make. The scene has a number of cycles of its own (thirty at the scale of Lindmark,
-/// 2016), which the study's option overrides: two, unless told.
+/// What the options of the loading study choose: materials, solver, scene, speeds, operator and number of
+/// cycles, and the scenario that they make. The scene has a number of cycles of its own (thirty at the scale
+/// of Lindmark, 2016), which the study's option overrides: two, unless told.
 
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <drawpoint/studies/study.hpp>
 
@@ -17,5 +18,9 @@ std::vector<StudyOption> loading_options();
 /// The scenario of all runs of a study, but for strategy, seed and log. Throws std::invalid_argument if an
 /// option has no value or one that it cannot have.
 engine::loading::Scenario loading_scenario(const RunContext& run);
+
+/// How joint damage is taken from a log: by the yield torque that the options give, or that of Lindmark
+/// (2016).
+engine::loading::DamageOptions damage_options(const OptionValues& options);
 
 }  // namespace drawpoint::studies

@@ -17,6 +17,9 @@ struct StudyOption {
   std::string value = {};  ///< default
   std::vector<std::string> choices = {};  ///< values there are; empty: whole numbers from `least` to `most`
   int least = 0, most = 0;
+  /// Decides what Study::responses makes of a log, and nothing in the simulation: `rerun-responses` may
+  /// change it.
+  bool of_responses = false;
 };
 
 /// A value per option.

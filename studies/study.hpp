@@ -8,10 +8,10 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, confirm, status, fit, validate, report, export and evaluate
-/// (docs/studies.md). Every run is a process of its own with one thread, so that a crash is one failed run;
-/// each finished run is stored before the next one starts. Equal (x, seed) must give equal outcomes: a run
-/// that was lost is simply run again.
+/// The program has the commands run, confirm, status, fit, validate, report, export, evaluate and
+/// rerun-responses (docs/studies.md). Every run is a process of its own with one thread, so that a crash is
+/// one failed run; each finished run is stored before the next one starts. Equal (x, seed) must give equal
+/// outcomes: a run that was lost is simply run again.
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
@@ -99,6 +99,35 @@ class StudyFunction {
   Erased f_;
 };
 
+/// Either of f(logs), f(logs, options) that gives headlines, behind one type.
+class HeadlineFunction {
+ public:
+  using Logs = std::vector<std::filesystem::path>;
+  using Erased = std::function<std::vector<Headline>(const Logs&, const OptionValues&)>;
+
+  HeadlineFunction() = default;
+
+  template <class F>
+  requires(!std::same_as<std::remove_cvref_t<F>, HeadlineFunction>) HeadlineFunction(F f)
+      : f_(erase(std::move(f))) {}
+
+  std::vector<Headline> operator()(const Logs& logs, const OptionValues& options) const {
+    return f_(logs, options);
+  }
+  explicit operator bool() const { return static_cast<bool>(f_); }
+
+ private:
+  template <class F>
+  static Erased erase(F f) {
+    if constexpr (std::is_invocable_r_v<std::vector<Headline>, const F&, const Logs&, const OptionValues&>)
+      return f;
+    else
+      return [f = std::move(f)](const Logs& logs, const OptionValues&) { return f(logs); };
+  }
+
+  Erased f_;
+};
+
 /// All that makes a study. Name: letters, digits, '_' and '-'; it names the default output folder
 /// results/<name>.
 struct Study {
@@ -119,8 +148,12 @@ struct Study {
   std::function<void(const RunContext& context)> prepare = {};
   /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
   std::function<nlohmann::json(const std::filesystem::path& log)> illustrate = {};
+  /// The responses as a function of a run's log and the study's options alone, equal to what the black box
+  /// gave: with it, `rerun-responses` takes them anew from the logs that there are, after a response or an
+  /// option of responses has changed. May return a doe::Failure, or throw.
+  std::function<doe::Outcome(const std::filesystem::path& log, const OptionValues& options)> responses = {};
   /// Figures from the logs of all runs that succeeded, said first in summary and report.
-  std::function<std::vector<Headline>(const std::vector<std::filesystem::path>& logs)> headlines = {};
+  HeadlineFunction headlines = {};
   /// What is claimed about the black box and whether its runs bear it out, said in summary and report.
   std::function<std::vector<Finding>(const StudyResults& results)> findings = {};
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <drawpoint/engine/base/eigen.hpp>
 #include <vector>
 
 /// The bucket of the loader as a design: how wide, how large, and what follows in volume, shape and mass.

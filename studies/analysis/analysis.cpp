@@ -113,14 +113,15 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<const 
 }
 
 std::vector<Headline> headlines_of(const Study& study, const std::vector<const Run*>& runs,
-                                   const Folder& folder, std::vector<std::string>& warnings) {
+                                   const OptionValues& options, const Folder& folder,
+                                   std::vector<std::string>& warnings) {
   if (!study.headlines) return {};
   std::vector<std::filesystem::path> logs;
   for (const Run* run : runs) {  // those that are spread over the whole box
     if (run->kind == Kind::training || run->kind == Kind::validation) logs.push_back(folder.log(run->id));
   }
   try {
-    return study.headlines(logs);
+    return study.headlines(logs, options);
   } catch (const std::exception& e) {
     warnings.push_back(std::string("What the study says first could not be told: ") + e.what());
     return {};
@@ -167,7 +168,8 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.confirmations = summary.confirmations =
       check_predictions(runs, study.problem, Kind::confirmation, store.sampling().rounds);
   const std::vector<const Run*> logged = runs_with_log(runs, folder, input.warnings);
-  input.headlines = summary.headlines = headlines_of(study, logged, folder, input.warnings);
+  input.headlines = summary.headlines =
+      headlines_of(study, logged, store.identity().options, folder, input.warnings);
   std::vector<std::string> ways;
   try {
     Models fitted = fit_models(tables);

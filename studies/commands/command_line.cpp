@@ -21,8 +21,9 @@ namespace {
 
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
-constexpr std::array<const char*, 9> commands = {"run",    "confirm", "status",   "fit",    "validate",
-                                                 "report", "export",  "evaluate", "prepare"};
+constexpr std::array<const char*, 10> commands = {"run",      "confirm", "status", "fit",
+                                                  "validate", "report",  "export", "rerun-responses",
+                                                  "evaluate", "prepare"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -74,7 +75,8 @@ std::vector<std::string> with_command(int argc, char** argv, std::size_t leading
   const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !named) {
     throw UsageError("unknown command \"" + first +
-                     "\"; the commands are run, confirm, status, fit, validate, report, export, evaluate");
+                     "\"; the commands are run, confirm, status, fit, validate, report, export, "
+                     "rerun-responses, evaluate");
   }
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
@@ -276,6 +278,19 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   exported->callback([&] { parsed.action = [&] { return export_command(study, parsed.settings); }; });
 }
 
+void define_rerun_responses(CLI::App& app, Parsed& parsed, const Study& study) {
+  auto* rerun = app.add_subcommand("rerun-responses",
+                                   "take the responses anew from the logs of another folder's runs, after "
+                                   "one has changed; nothing is simulated");
+  rerun
+      ->add_option("--from", parsed.settings.from, "folder of the study whose runs are taken; stays as it is")
+      ->required()
+      ->check(folder_complaint);
+  add_folder_options(*rerun, parsed.settings);
+  add_study_options(*rerun, study, parsed.settings.options, true);
+  rerun->callback([&] { parsed.action = [&] { return rerun_responses_command(study, parsed.settings); }; });
+}
+
 void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   const int most_runs = 1'000'000'000;
   auto* evaluate = app.add_subcommand("evaluate", "make one run in this process and print its responses");
@@ -319,6 +334,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   app.require_subcommand(1);
   app.footer(problem_text(study.problem));
   define_folder_commands(app, parsed, study);
+  define_rerun_responses(app, parsed, study);
   define_point_commands(app, parsed, study);
   auto words = with_command(argc, argv, study.leading_words.size());
   std::reverse(words.begin(), words.end());  // as CLI11 takes them

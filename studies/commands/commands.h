@@ -24,6 +24,8 @@ int validate_command(const Study& study, const Settings& settings);
 int report_command(const Study& study, const Settings& settings);
 /// The runs or the front as a table for other programs.
 int export_command(const Study& study, const Settings& settings);
+/// A new folder with the runs of another, their responses taken anew from the logs.
+int rerun_responses_command(const Study& study, const Settings& settings);
 /// One run in this process.
 int evaluate_command(const Study& study, const PointSettings& settings);
 /// Study::prepare in this process, for `run`.

@@ -93,7 +93,8 @@ Store open_store(const Study& study, const Folder& folder) {
   const std::string text = difference(stored.problem, study.problem);
   if (!text.empty()) refuse_folder(folder, text);
   // Values are the folder's own; only what options there are is the program's.
-  const std::string other = difference(stored.options, with_defaults(study.options, stored.options), false);
+  const OptionValues options = with_later_ones(study.options, stored.options);
+  const std::string other = difference(options, with_defaults(study.options, options), false);
   if (!other.empty()) refuse_folder(folder, other);
   return store;
 }

@@ -35,9 +35,10 @@ struct ExportSettings {
   std::filesystem::path file = {};  ///< empty: standard output
 };
 
-/// Options of the commands that work on an output folder: run, confirm, status, report.
+/// Options of the commands that work on an output folder: run, confirm, status, report and their like.
 struct Settings {
   std::filesystem::path out = {};
+  std::filesystem::path from = {};     ///< of rerun-responses: the folder whose runs are taken
   std::optional<int> runs = {};        ///< training points, 2 or more
   std::optional<int> validation = {};  ///< validation points, 0 or more
   std::optional<int> replicates = {};  ///< runs per training point, each with a seed of its own, 1 or more

@@ -11,9 +11,12 @@
 namespace drawpoint::studies {
 namespace {
 
-constexpr std::array taken = {"runs",   "validation",   "replicates", "jobs",    "seed",
-                              "out",    "json",         "time-limit", "x",       "log",
-                              "shared", "retry-failed", "help",       "version", "result-descriptor"};
+constexpr std::array taken = {"runs",   "validation",   "replicates",   "jobs",     "seed",
+                              "out",    "json",         "time-limit",   "x",        "log",
+                              "shared", "retry-failed", "help",         "version",  "result-descriptor",
+                              "import", "adaptive",     "batch",        "criteria", "target",
+                              "hours",  "slurm",        "slurm-option", "run",      "points",
+                              "rounds", "from",         "what",         "format",   "file"};
 
 bool whole_number_within(const std::string& text, int least, int most) {
   int value = 0;
@@ -63,6 +66,12 @@ OptionValues with_defaults(const std::vector<StudyOption>& options, const Option
     values[option.name] = found == given.end() ? option.value : found->second;
   }
   return values;
+}
+
+OptionValues with_later_ones(const std::vector<StudyOption>& options, OptionValues stored) {
+  for (const auto& option : options)
+    if (option.of_responses) stored.emplace(option.name, option.value);
+  return stored;
 }
 
 std::string difference(const OptionValues& there, const OptionValues& here, bool partly) {

@@ -19,6 +19,9 @@ std::string complaint(const StudyOption& option, const std::string& value);
 /// A value per option: the one given, or the default. What is given for no option is left out.
 OptionValues with_defaults(const std::vector<StudyOption>& options, const OptionValues& given);
 
+/// With the defaults of options of responses that came to the study after these values were stored.
+OptionValues with_later_ones(const std::vector<StudyOption>& options, OptionValues stored);
+
 /// The first difference in words ("option materials: calibrated there, lindmark2016 here"), or "". An option
 /// that is missing on one side differs; `here` may leave out what it takes from there when `partly`.
 std::string difference(const OptionValues& there, const OptionValues& here, bool partly);

@@ -204,8 +204,9 @@ void Store::set_sampling(const Sampling& sampling) {
 }
 
 void Store::add(const std::vector<Run>& runs) {
-  std::string columns = "id, kind, point, replicate, seed, status";
-  std::string marks = "?, ?, ?, ?, ?, ?";
+  std::string columns = "id, kind, point, replicate, seed, status, reason, seconds, started, finished, log";
+  std::string marks = "?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?";
+  constexpr std::size_t first_number = 12;  // of the columns that follow
   for (const auto* group :
        {&columns_.x, &columns_.y, &columns_.predicted, &columns_.lower, &columns_.upper}) {
     for (const auto& column : *group) {
@@ -225,12 +226,19 @@ void Store::add(const std::vector<Run>& runs) {
       insert.bind(4, run.replicate);
       insert.bind(5, std::to_string(run.seed));
       const std::size_t responses = columns_.y.size();
-      std::size_t group = 7 + columns_.x.size();
+      std::size_t group = first_number + columns_.x.size();
       const auto bind = [&](std::size_t first, const Eigen::VectorXd& values) {
         for (const double value : values) insert.bind(static_cast<int>(first++), value);
       };
       insert.bind(6, name_of(run.status));
-      bind(7, run.x);
+      if (run.status == Status::done || run.status == Status::failed) {
+        if (!run.reason.empty()) insert.bind(7, run.reason);
+        insert.bind(8, run.seconds);
+        insert.bind(9, run.started);
+        insert.bind(10, run.finished);
+        insert.bind(11, run.log);
+      }
+      bind(first_number, run.x);
       for (const auto* values : {&run.y, &run.predicted, &run.lower, &run.upper}) {
         bind(group, *values);
         group += responses;

@@ -92,7 +92,7 @@ class Store {
   std::vector<Run> runs() const;  ///< in order of id
 
   void set_sampling(const Sampling& sampling);
-  void add(const std::vector<Run>& runs);  ///< planned or done ones, all or none
+  void add(const std::vector<Run>& runs);  ///< planned ones, or ones that have ended elsewhere; all or none
   void mark_running(std::int64_t id);
   void mark_planned(std::int64_t id);
   void save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log = {});

@@ -25,6 +25,20 @@ std::string trouble() {
   return value == nullptr ? "" : value;
 }
 
+/// What the run measures, on its log: hours and wear, of which the responses follow.
+void write_measures(const std::filesystem::path& file, double x, double y) {
+  std::ofstream log(file);
+  log.precision(17);
+  log << x * x + y << ' ' << (x - 1.0) * (x - 1.0) + 0.5 * y << '\n';
+}
+
+doe::Outcome responses_of(const std::filesystem::path& file, const studies::OptionValues& options) {
+  std::ifstream log(file);
+  double hours = 0, wear = 0;
+  if (!(log >> hours >> wear)) throw std::runtime_error("the log ends early");
+  return {std::stod(options.at("price")) * hours, wear};
+}
+
 /// A run log of so many bytes.
 void write_log(const std::filesystem::path& file, std::size_t bytes) {
   std::ofstream log(file, std::ios::binary);
@@ -53,6 +67,11 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
   std::cout << (how == "print" ? "a black box that prints\n" : "");
   if (how == "options" && context.options.at("rock") == "waste") return doe::Failure{"only waste"};
   if (how == "slow") std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  if (how == "logged") {
+    if (x[0] > 0.9) return doe::Failure{"jammed"};
+    write_measures(context.log, x[0], x[1]);
+    return responses_of(context.log, context.options);
+  }
   if (how == "large") write_log(context.log, 300'000);
   if (how == "huge") write_log(context.log, 2'000'000);
   if (how == "shared" || how == "unprepared") {
@@ -80,5 +99,9 @@ int main(int argc, char** argv) {
   if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
+  if (trouble() == "logged") {
+    study.responses = responses_of;
+    study.options.push_back({.name = "price", .value = "1", .least = 1, .most = 9, .of_responses = true});
+  }
   return studies::run(argc, argv, study);
 }
