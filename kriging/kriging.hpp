@@ -15,6 +15,7 @@
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
+#include <drawpoint/kriging/outliers.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/kriging/radial.hpp>
 #include <drawpoint/kriging/reinterpolation.hpp>
@@ -53,6 +54,7 @@
 /// Validate:
 ///   validate.hpp                   how well a model predicts runs that it has not seen
 ///   cross_validation.hpp           leave-one-out, k-fold, hold-out
+///   outliers.hpp                   runs that do not belong to the others
 ///   score.hpp                      RMSE, NRMSE, Q2 and their kin
 ///   compare.hpp                    several ways to fit, scored alike, and the best of them
 ///

@@ -6,6 +6,7 @@
 #include <drawpoint/studies/analysis/findings.h>
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/analysis/suspects.h>
 #include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/store/run_logs.h>
@@ -173,6 +174,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   std::vector<std::string> ways;
   try {
     Models fitted = fit_models(tables);
+    for (std::string& sentence : suspects(fitted, tables)) input.warnings.push_back(std::move(sentence));
     input.models = std::move(fitted.models);
     input.validations = std::move(fitted.validations);
     ways = std::move(fitted.ways);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/model_report.h>
+#include <drawpoint/studies/analysis/suspects.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
@@ -23,11 +24,13 @@ void print(const std::string& study, const char* key, const nlohmann::ordered_js
 }  // namespace
 
 int fit_command(const Study& study, const Settings& settings) {
-  const Models fitted = models_or_reason(stored_tables(study, settings));
+  const Tables tables = stored_tables(study, settings);
+  const Models fitted = models_or_reason(tables);
   if (settings.json)
     print(study.name, "models", fit_json(fitted, study.problem));
   else
     std::fputs(fit_text(fitted, study.problem).c_str(), stdout);
+  for (const std::string& sentence : suspects(fitted, tables)) std::fprintf(stderr, "%s\n", sentence.c_str());
   return 0;
 }
 

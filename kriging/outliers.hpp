@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Runs that do not belong to the response that the others have: a simulator that hit a rock, a wrong unit, a
+/// disk that was full.
+///
+/// One such run spoils a model without a trace in its status: noise, or a short correlation, takes it up, and
+/// every prediction is as uncertain as it is wrong. The screen asks leave-one-out, on the scale of the model,
+/// for the run that the others put farthest from where it is. It is suspected if normal errors would put any
+/// run so far with less than `level` of chance, and if without it the others are predicted better: their
+/// leave-one-out errors fall, in root mean square, to `spoilt` of what they were or less. Then the model is
+/// fitted without it, and asked for the next. In the end each suspect is held against the model without all
+/// of them, and let go if that one reaches it. More than `most` of the runs are no outliers but noise that is
+/// not normal, or a step, and none is named.
+///
+/// Cost: one leave-one-out where nothing is found, a fit per suspect besides. Deterministic. Nothing is
+/// removed from anything: what a suspect is, its log must say.
+///
+/// Source: sequential deletion with a Bonferroni bound, as Cook, Weisberg 1982, "Residuals and Influence in
+/// Regression", section 2.2.2, with the leave-one-out errors of Kriging (Dubrule 1983) in place of
+/// studentised residuals.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/score.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace drawpoint::kriging {
+
+struct OutlierOptions {
+  double level = 0.01;  ///< chance that normal runs have a suspect by their distance alone, 0 to 1
+  double spoilt = 0.7;  ///< 0 to 1; 1: also those that do no harm
+  double most = 0.1;    ///< share of the runs, 0 to 0.5
+};
+
+struct Outlier {
+  Eigen::Index run = 0;               ///< row of X
+  double observed = 0, expected = 0;  ///< unit of y; expected by a model of the runs that are no outliers
+  double lower = 0, upper = 0;        ///< where that model expects 95 of 100 runs at this point, unit of y
+};
+
+namespace detail {
+
+/// The run farthest from where the others put it, and how far: in standard deviations on the model's scale.
+struct Farthest {
+  Eigen::Index run = 0;
+  double deviations = 0;
+};
+
+inline double deviations_of(const PredictedRun& p, double y) {
+  const double distance = std::abs(transformed(p.transform, y) - p.mean);
+  return p.deviation > 0 ? distance / p.deviation : 0;  // a model that knows no error suspects nobody
+}
+
+inline Farthest farthest_run(const Validation& left_out) {
+  Farthest found;
+  for (Eigen::Index i = 0; i < left_out.observed.size(); ++i) {
+    const double deviations = deviations_of(predicted_run(left_out, i), left_out.observed[i]);
+    if (deviations > found.deviations) found = {i, deviations};
+  }
+  return found;
+}
+
+/// Whether normal errors put any of n runs so far with less than this chance.
+inline bool too_far(double deviations, Eigen::Index n, double level) {
+  return std::log(2.0 * static_cast<double>(n)) + log_normal_probability(-deviations) < std::log(level);
+}
+
+/// Root mean square of the errors of these runs, unit of y.
+inline double error_of(const Validation& left_out, const std::vector<Eigen::Index>& rows) {
+  const Eigen::VectorXd error = entries_of(difference(left_out.observed, left_out.predicted), rows);
+  return std::sqrt(square(error) / static_cast<double>(rows.size()));
+}
+
+inline std::vector<Eigen::Index> first_rows(Eigen::Index n) {
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  return rows;
+}
+
+inline std::vector<Eigen::Index> without(std::vector<Eigen::Index> rows, Eigen::Index place) {
+  rows.erase(rows.begin() + place);
+  return rows;
+}
+
+}  // namespace detail
+
+/// Of the runs X (n x d, natural units), y (n) that `model` was fitted to, in order of rows; `fitter(X, y)`
+/// is how. Throws std::invalid_argument for options out of range and another number of runs, and as the
+/// fitter.
+template <class F>
+std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::MatrixXd& X,
+                                   const Eigen::VectorXd& y, const F& fitter,
+                                   const OutlierOptions& options = {}) {
+  const auto reject = [](const std::string& what) {
+    throw std::invalid_argument("kriging::find_outliers: " + what);
+  };
+  if (X.rows() != model.runs() || y.size() != model.runs())
+    reject(std::to_string(X.rows()) + " points and " + std::to_string(y.size()) +
+           " responses for a model of " + std::to_string(model.runs()) +
+           " runs; give those that it was fitted to");
+  for (const auto& [name, value, most] :
+       {std::tuple("level", options.level, 1.0), std::tuple("spoilt", options.spoilt, 1.0),
+        std::tuple("most", options.most, 0.5)})
+    if (!(value >= 0 && value <= most))
+      reject(std::string(name) + " is " + detail::text(value) + "; allowed is 0 to " + detail::text(most));
+
+  std::vector<Eigen::Index> rows = detail::first_rows(X.rows()), suspects;
+  TransformedModel best = model;
+  const Validation all = leave_one_out(model);
+  Validation left_out = all;
+  while (rows.size() >= 4) {
+    const detail::Farthest far = detail::farthest_run(left_out);
+    if (!detail::too_far(far.deviations, static_cast<Eigen::Index>(rows.size()), options.level)) break;
+    suspects.push_back(rows[static_cast<std::size_t>(far.run)]);
+    if (static_cast<double>(suspects.size()) > options.most * static_cast<double>(X.rows())) return {};
+    rows = detail::without(std::move(rows), far.run);
+    best = fitter(detail::rows_of(X, rows), detail::entries_of(y, rows));
+    left_out = leave_one_out(best);
+  }
+  const auto now = detail::first_rows(left_out.observed.size());
+  if (detail::error_of(left_out, now) > options.spoilt * detail::error_of(all, rows)) return {};
+
+  std::sort(suspects.begin(), suspects.end());
+  std::vector<Outlier> outliers;
+  if (suspects.empty()) return outliers;
+  const Eigen::MatrixXd P = detail::rows_of(X, suspects);
+  const Eigen::VectorXd mean = best.mean(P), lower = best.quantile(P, 0.025, Target::observation),
+                        upper = best.quantile(P, 0.975, Target::observation);
+  const Prediction scaled = best.model().predict(P, Target::observation);
+  for (std::size_t k = 0; k < suspects.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const detail::PredictedRun p{best.transform(), scaled.mean[i],
+                                 std::sqrt(std::max(scaled.variance[i], 0.0))};
+    if (detail::too_far(detail::deviations_of(p, y[suspects[k]]), X.rows(), options.level))
+      outliers.push_back({suspects[k], y[suspects[k]], mean[i], lower[i], upper[i]});
+  }
+  return outliers;
+}
+
+}  // namespace drawpoint::kriging

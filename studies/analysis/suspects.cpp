@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/suspects.h>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/outliers.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+
+namespace drawpoint::studies {
+namespace {
+
+/// The training runs that have values, in the order of the models' runs.
+std::vector<std::int64_t> trained_runs(const Tables& tables) {
+  std::vector<std::int64_t> runs;
+  for (const auto& row : tables.training.rows)
+    if (!row.outcome.failed()) runs.push_back(row.run);
+  return runs;
+}
+
+std::string sentence(const kriging::Outlier& outlier, const doe::Response& response, std::int64_t run) {
+  const std::string unit = response.unit.empty() || response.unit == "1" ? "" : " " + response.unit;
+  const auto bounded = [&](double y) { return doe::within_range(response, y); };
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "Run %lld has a %s of %.3g%s where the other runs put %.3g%s (95 of 100 runs: %.3g to %.3g)",
+                static_cast<long long>(run), response.name.c_str(), outlier.observed, unit.c_str(),
+                bounded(outlier.expected), unit.c_str(), bounded(outlier.lower), bounded(outlier.upper));
+  return std::string(text) +
+         ", and the model predicts them worse with it. Look at its log, and make it again "
+         "with evaluate --run " +
+         std::to_string(run) + ": a fault of the simulator, or a place where the response jumps.";
+}
+
+}  // namespace
+
+std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
+  const doe::Problem& problem = tables.training.problem;
+  const Eigen::MatrixXd X = tables.training.X();
+  const std::vector<std::int64_t> runs = trained_runs(tables);
+  std::vector<std::string> sentences;
+  for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    const doe::Response& response = problem.responses[j];
+    const kriging::TransformedModel& model = fitted.models[j];
+    const auto ways = ways_to_fit(problem, response, model.transform().scale);
+    const auto way = std::find_if(ways.begin(), ways.end(),
+                                  [&](const kriging::WayToFit& w) { return w.name == fitted.ways[j]; });
+    if (way == ways.end()) continue;
+    for (const kriging::Outlier& outlier :
+         kriging::find_outliers(model, X, tables.training.y(response.name), way->fitter))
+      sentences.push_back(sentence(outlier, response, runs[static_cast<std::size_t>(outlier.run)]));
+  }
+  return sentences;
+}
+
+}  // namespace drawpoint::studies
