@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -74,6 +75,7 @@ class SlurmJobs {
     if (const auto found = earlier_.find(task.script); found != earlier_.end()) {
       task.place = found->second;
       earlier_.erase(found);
+      accepted_ = true;  // then, by Slurm
     } else {
       queue_.push_back(process.id);
     }
@@ -103,8 +105,16 @@ class SlurmJobs {
     return ends;
   }
 
-  /// Removes the files of arrays whose ends have all been given: the caller has dealt with them.
+  /// The end of this process, given by the last wait(), does not count: whoever starts it again gets a new
+  /// one.
+  void discard(std::int64_t id) {
+    if (const auto found = given_.find(id); found != given_.end()) remove_files(found->second);
+  }
+
+  /// Removes the files of ends that have been given, and of arrays without others: the caller has dealt with
+  /// them.
   void forget() {
+    for (const auto& [id, place] : std::exchange(given_, {})) remove_files(place);
     std::set<std::string> needed;
     for (const auto& [id, task] : tasks_) needed.insert(task.place.array);
     for (const auto& [script, place] : earlier_) needed.insert(place.array);
@@ -151,6 +161,14 @@ class SlurmJobs {
       reject("at_once is " + std::to_string(options_.at_once) + "; allowed is 0 or more");
     if (options_.submissions < 1)
       reject("submissions is " + std::to_string(options_.submissions) + "; allowed is 1 or more");
+    const auto reject_clusters = [&](const std::string& word) {
+      reject(word +
+             " is for sbatch alone, and squeue would not find the tasks; set SLURM_CLUSTERS, which all "
+             "commands of Slurm follow");
+    };
+    for (const std::string& word : options_.options)
+      if (word.starts_with("-M") || word.starts_with("--clusters")) reject_clusters(word);
+    if (std::getenv("SBATCH_CLUSTERS") != nullptr) reject_clusters("SBATCH_CLUSTERS");
     if (!(options_.poll > 0.0))
       reject("poll is " + std::to_string(options_.poll) + " s; allowed is above 0 s");
   }
@@ -169,6 +187,13 @@ class SlurmJobs {
   }
   static std::filesystem::path reply(std::filesystem::path script) {
     return script.replace_extension(".reply");
+  }
+
+  /// The script first: without it nobody takes the reply over.
+  void remove_files(const Place& place) {
+    std::error_code ignored;
+    std::filesystem::remove(script(place), ignored);
+    std::filesystem::remove(reply(script(place)), ignored);
   }
 
   std::set<std::string>::iterator remove_files(std::set<std::string>::iterator array) {
@@ -201,8 +226,29 @@ class SlurmJobs {
     std::set<std::string> arrays;
     for (const auto& [script, place] : std::exchange(earlier_, {})) arrays.insert(place.array);
     for (const auto& [id, task] : tasks_) arrays.erase(task.place.array);
+    if (arrays.empty()) return;
     for (const std::string& array : arrays) detail::cancel_array(array);
-    if (!arrays.empty()) forget();
+    await_end(arrays);
+    forget();
+  }
+
+  /// Until none of their tasks runs, so that two processes of one run are never at work together; for a
+  /// minute at most: what a node holds beyond that Slurm has given up.
+  static void await_end(const std::set<std::string>& arrays) {
+    const auto patience = Clock::now() + seconds(60);
+    const auto runs = [](const auto& task) { return !is_over(task.second); };
+    while (Clock::now() < patience) {
+      const detail::TaskStates states = detail::task_states({arrays.begin(), arrays.end()});
+      if (std::none_of(states.begin(), states.end(), runs)) return;
+      ::poll(nullptr, 0, 500);
+    }
+  }
+
+  static bool is_over(const std::string& state) {
+    static const std::set<std::string> over = {"COMPLETED", "FAILED",    "NODE_FAIL",
+                                               "BOOT_FAIL", "PREEMPTED", "CANCELLED",
+                                               "TIMEOUT",   "DEADLINE",  "OUT_OF_MEMORY"};
+    return over.contains(state);
   }
 
   /// As many arrays as there is room for.
@@ -231,13 +277,17 @@ class SlurmJobs {
       detail::submit_array(array, folder(array) / "task.sh", static_cast<int>(ids.size()), options_.at_once,
                            options_.options);
     } catch (const detail::SlurmError& e) {
-      std::filesystem::remove_all(folder(array));
-      if (!accepted_)
-        throw std::runtime_error(std::string("doe::SlurmJobs: Slurm takes no job: ") + e.what());
-      bear(e);
-      next_submission_ = Clock::now() + seconds(options_.poll);
-      return false;
+      if (is_cancelled(array)) {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder(array), ignored);
+        if (!accepted_)
+          throw std::runtime_error(std::string("doe::SlurmJobs: Slurm takes no job: ") + e.what());
+        bear(e, refused_);
+        next_submission_ = Clock::now() + seconds(options_.poll);
+        return false;
+      }  // it may have taken the array all the same: squeue will tell
     }
+    refused_ = Clock::time_point::max();
     accepted_ = true;
     arrays_.insert(array);
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -247,6 +297,16 @@ class SlurmJobs {
       ++task.submissions;
     }
     return true;
+  }
+
+  /// sbatch may fail after Slurm has taken the array.
+  static bool is_cancelled(const std::string& array) {
+    try {
+      detail::cancel_array(array);
+      return true;
+    } catch (const detail::SlurmError&) {
+      return false;
+    }
   }
 
   /// Unique among all that were ever in the folder, and on the cluster.
@@ -280,6 +340,7 @@ class SlurmJobs {
         if (!end) continue;  // not all of it is seen yet
         detail::remove_if_empty(process.output);
         ends.push_back(*end);
+        given_[end->id] = found->first;
         tasks_.erase(found->second);
       }
     }
@@ -289,12 +350,13 @@ class SlurmJobs {
   /// Asks Slurm for the tasks without a reply. Those that have failed; lost ones are queued again.
   std::vector<ProcessEnd> ask() {
     next_question_ = Clock::now() + seconds(options_.poll);
+    if (arrays_.empty()) return {};
     detail::TaskStates states;
     try {
       states = detail::task_states({arrays_.begin(), arrays_.end()});
       unanswered_ = Clock::time_point::max();
     } catch (const detail::SlurmError& e) {
-      bear(e);
+      bear(e, unanswered_);
       return {};
     }
     std::vector<ProcessEnd> ends = collect();  // what ended before Slurm was asked and after the last look
@@ -305,7 +367,10 @@ class SlurmJobs {
       const std::string state = found == states.end() ? "unknown" : found->second;
       if (ended_without_reply(task, state)) judge(task, state, ends);
     }
-    for (const ProcessEnd& end : ends) tasks_.erase(end.id);
+    for (const ProcessEnd& end : ends) {
+      if (const auto task = tasks_.find(end.id); task != tasks_.end()) given_[end.id] = task->second.place;
+      tasks_.erase(end.id);
+    }
     return ends;
   }
 
@@ -316,11 +381,9 @@ class SlurmJobs {
   }
 
   bool ended_without_reply(Task& task, const std::string& state) const {
-    static const std::set<std::string> may_have_replied = {"COMPLETED", "FAILED", "unknown"};
-    static const std::set<std::string> ended = {"NODE_FAIL", "BOOT_FAIL", "PREEMPTED",    "CANCELLED",
-                                                "TIMEOUT",   "DEADLINE",  "OUT_OF_MEMORY"};
-    if (ended.contains(state)) return true;
-    if (!may_have_replied.contains(state)) {
+    const bool may_have_replied = state == "COMPLETED" || state == "FAILED" || state == "unknown";
+    if (is_over(state) && !may_have_replied) return true;
+    if (!may_have_replied) {
       task.ended = Clock::time_point::max();
       return false;
     }
@@ -344,11 +407,11 @@ class SlurmJobs {
   }
 
   /// Slurm may be out of reach for a while, as when its controller is restarted.
-  void bear(const detail::SlurmError& error) {
-    unanswered_ = std::min(unanswered_, Clock::now());
-    if (Clock::now() - unanswered_ > seconds(options_.out_of_reach))
+  void bear(const detail::SlurmError& error, Clock::time_point& since) const {
+    since = std::min(since, Clock::now());
+    if (Clock::now() - since > seconds(options_.out_of_reach))
       throw std::runtime_error(
-          std::string("doe::SlurmJobs: Slurm does not answer: ") + error.what() +
+          std::string("doe::SlurmJobs: Slurm does not answer, or takes no job: ") + error.what() +
           "; tasks that it has may still run, and their replies are not lost: start the same again later");
   }
 
@@ -366,7 +429,9 @@ class SlurmJobs {
   int serial_ = 0;
   Clock::time_point next_question_ = Clock::now() + seconds(options_.poll);
   Clock::time_point next_submission_ = Clock::now();
-  Clock::time_point unanswered_ = Clock::time_point::max();  // since when
+  Clock::time_point unanswered_ = Clock::time_point::max();  // since when; of squeue
+  Clock::time_point refused_ = Clock::time_point::max();     // since when; of sbatch
+  std::map<std::int64_t, Place> given_;                      // ends of the last wait()
 };
 
 }  // namespace drawpoint::doe

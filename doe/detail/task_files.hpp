@@ -81,8 +81,9 @@ inline std::optional<ProcessEnd> end_in(const std::string& text, const Process& 
   if (std::sscanf(text.c_str() + line, "%d %lf %lf", &code, &began, &ended) != 3) return std::nullopt;
   ProcessEnd end{.id = process.id, .reply = text.substr(0, line), .time_limit = process.time_limit};
   end.seconds = ended - began;
-  constexpr int ended_by_signal = 128;  // added to its number by the shell
-  end.wait_status = code > ended_by_signal ? code - ended_by_signal : code << 8;
+  constexpr int ended_by_signal = 128, most_signals = 64;  // the shell adds the first to a signal's number
+  const int signal = code - ended_by_signal;
+  end.wait_status = signal > 0 && signal <= most_signals ? signal : code << 8;
   constexpr int limit_reached = 124;  // timeout(1); 137 where it had to kill
   end.timed_out = process.time_limit > 0.0 && end.seconds >= process.time_limit &&
                   (code == limit_reached || code == ended_by_signal + SIGKILL);

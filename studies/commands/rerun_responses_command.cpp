@@ -18,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// "results/new/" is the folder "results/new".
+fs::path without_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
+
 void check_folders(const Folder& from, const Folder& to) {
   if (!fs::exists(from.store()))
     throw std::runtime_error("rerun-responses: there is no study in " + from.path.string() +
@@ -56,7 +59,7 @@ int rerun_responses_command(const Study& study, const Settings& settings) {
         "rerun-responses: this study does not say how its responses follow from a run's log "
         "(Study::responses), so "
         "only new runs give them");
-  const Folder from{settings.from}, to{settings.out};
+  const Folder from{settings.from}, to{without_slash(settings.out)};
   check_folders(from, to);
   const Store source = Store::open(from.store());
   require_same_simulation(study, source.identity(), settings.options);

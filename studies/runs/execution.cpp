@@ -78,14 +78,22 @@ doe::Process process_for(const Run& run, const Folder& given, const OptionValues
           .time_limit = settings.time_limit};
 }
 
-/// The log gets its final name before the run counts as done, so that each run that is done has its log.
-/// Returns its checksum; empty: there is none.
+/// The log gets its final name before the run counts as done, so that each run that is done has its log, and
+/// keeps the other one until then: who dies between leaves it for the next to publish. Returns its checksum;
+/// empty: there is none.
 std::string publish_log(const Folder& folder, std::int64_t id) {
-  std::error_code ignored;
-  if (!fs::exists(folder.unfinished_log(id), ignored)) return "";
+  std::error_code cannot;
+  fs::remove(folder.log(id), cannot);  // of an attempt that did not count
+  if (!fs::exists(folder.unfinished_log(id), cannot)) return "";
   const std::string checksum = file_checksum(folder.unfinished_log(id));
-  fs::rename(folder.unfinished_log(id), folder.log(id));
+  fs::create_hard_link(folder.unfinished_log(id), folder.log(id), cannot);
+  if (cannot) fs::copy_file(folder.unfinished_log(id), folder.log(id));
   return checksum;
+}
+
+void drop_unfinished_log(const Folder& folder, std::int64_t id) {
+  std::error_code ignored;
+  fs::remove(folder.unfinished_log(id), ignored);
 }
 
 [[noreturn]] void stop_for_full_disk(const Folder& folder) {
@@ -97,12 +105,12 @@ std::string publish_log(const Folder& folder, std::int64_t id) {
 bool disk_is_full(const Folder& folder) { return free_space(folder.path) < least_free_space; }
 
 /// True if the run failed.
-bool store_end(Store& store, const Folder& folder, const doe::ProcessEnd& end) {
+bool store_end(Store& store, const Folder& folder, Workers& workers, const doe::ProcessEnd& end) {
   const doe::Outcome outcome = outcome_of(end, folder.printed(end.id));
   if (outcome.failed() && disk_is_full(folder)) {
-    std::error_code ignored;
-    fs::remove(folder.unfinished_log(end.id), ignored);  // leaves the store room for the next line
+    drop_unfinished_log(folder, end.id);  // leaves the store room for the next line
     store.mark_planned(end.id);
+    workers.discard(end.id);
     stop_for_full_disk(folder);
   }
   const std::string log = publish_log(folder, end.id);
@@ -111,6 +119,7 @@ bool store_end(Store& store, const Folder& folder, const doe::ProcessEnd& end) {
   } else {
     store.save_done(end.id, outcome.values(), end.seconds, log);
   }
+  drop_unfinished_log(folder, end.id);
   return outcome.failed();
 }
 
@@ -186,7 +195,8 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
       workers->start(process_for(*waiting.front(), folder, store.identity().options, settings));
       waiting.pop_front();
     }
-    for (const auto& end : workers->wait(patience)) progress.finished_one(store_end(store, folder, end));
+    for (const auto& end : workers->wait(patience))
+      progress.finished_one(store_end(store, folder, *workers, end));
     progress.tick();
   }
   workers->finish();

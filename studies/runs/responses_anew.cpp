@@ -41,6 +41,7 @@ void take_anew(const Study& study, const Folder& from, const OptionValues& optio
   const doe::Outcome outcome = doe::detail::checked(
       doe::detail::guarded<doe::Outcome>([&] { return study.responses(from.log(run.id), options); }),
       study.problem);
+  if (outcome.failed() && run.status == Status::failed) return;  // what it failed of then says more
   run.status = outcome.failed() ? Status::failed : Status::done;
   run.reason = outcome.failed() ? outcome.reason() : "";
   if (!outcome.failed()) run.y = outcome.values();
@@ -62,10 +63,18 @@ void require_same_simulation(const Study& study, const Identity& from, const Opt
   if (other.empty()) other = difference(from.problem, simulated);
   if (other.empty() && from.simulator != study.simulator)
     other = "its runs were made by \"" + from.simulator + "\"";
-  OptionValues of_simulation = given;
-  for (const StudyOption& option : study.options)
-    if (option.of_responses) of_simulation.erase(option.name);
-  if (other.empty()) other = difference(from.options, of_simulation, true);
+  std::vector<StudyOption> options;
+  OptionValues stored = from.options, asked = given;
+  for (const StudyOption& option : study.options) {
+    if (!option.of_responses) {
+      options.push_back(option);
+      continue;
+    }
+    stored.erase(option.name);
+    asked.erase(option.name);
+  }
+  if (other.empty()) other = difference(stored, asked, true);
+  if (other.empty()) other = difference(stored, with_defaults(options, stored), false);
   if (!other.empty())
     throw UsageError("rerun-responses: the runs of --from cannot be those of this study: " + other);
 }
@@ -81,9 +90,11 @@ OptionValues options_anew(const Study& study, const Identity& from, const Option
 std::vector<Run> runs_with_responses_anew(const Study& study, const Folder& from,
                                           const std::vector<Run>& runs, const OptionValues& options) {
   if (const std::string lost = runs_without_log(from, runs); !lost.empty())
-    throw std::runtime_error("rerun-responses: no sound log of run " + lost +
-                             "; make it again with evaluate --run N --log " +
-                             from.log(0).parent_path().string() + "/run_N.h5, or bring it back");
+    throw std::runtime_error("rerun-responses: no sound log of run " + lost + " in " + from.logs().string() +
+                             "; bring it back, or make it again with the program as it was when the folder "
+                             "was made: evaluate --run N "
+                             "--out " +
+                             from.path.string() + " --log FILE, with the name that the others there have");
   std::vector<Run> anew = runs;
   const std::int64_t adaptive = count_points(runs, Kind::adaptive);
   for (Run& run : anew) {

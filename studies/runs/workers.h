@@ -8,6 +8,7 @@
 #include <drawpoint/doe/processes.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ class Workers {
   /// Ends that came since the last call; waits at most `patience` for the first. Those of the last call are
   /// taken as stored.
   virtual std::vector<doe::ProcessEnd> wait(std::chrono::milliseconds patience) = 0;
+  /// The end of this process, given by the last wait(), does not count: it is made again when it is started
+  /// again.
+  virtual void discard(std::int64_t id) = 0;
   /// After a signal: processes here are ended, those of a cluster go on.
   virtual void leave() = 0;
   /// All ends are stored.

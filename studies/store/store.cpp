@@ -298,7 +298,8 @@ void Store::save_failed(std::int64_t id, const std::string& reason, double secon
 }
 
 void Store::plan_again(bool failed) {
-  const std::string which = failed ? "('running', 'failed')" : "('running')";
+  // Points made elsewhere cannot be made here.
+  const std::string which = failed ? "('running', 'failed') AND kind != 'imported'" : "('running')";
   with_context(file_, [&] {
     SQLite::Transaction transaction(*database_);
     database_->exec(

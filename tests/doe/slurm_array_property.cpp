@@ -85,6 +85,7 @@ TEST_F(SlurmArray, WhateverEndsARunIsItsReason) {
   EXPECT_EQ(reason_of("echo failure the bucket is stuck >&3; exit 1"), "the bucket is stuck");
   EXPECT_EQ(reason_of("exit 3"), "the run's process ended with exit code 3");
   EXPECT_EQ(reason_of("echo 1 2 >&3"), "returned 2 values where the problem has 1 responses");
+  EXPECT_EQ(reason_of("exit 255"), "the run's process ended with exit code 255");
   EXPECT_EQ(reason_of("kill -SEGV $$"), "the run's process ended by signal SIGSEGV (Segmentation fault)");
   EXPECT_EQ(reason_of("echo 1 >&3; sleep 30", {.time_limit = 0.5}),
             "the run's process stopped after 0.5 s, its time limit");
@@ -101,7 +102,9 @@ TEST_F(SlurmArray, WhoGoesOnForADeadCallerTakesItsTasksOver) {
   if (caller == 0) {
     SlurmJobs jobs(options());
     start_all(jobs);
-    while (true) jobs.wait(100ms);  // gives the end of 1 to nobody
+    while (jobs.wait(100ms).empty()) {
+    }
+    while (true) std::this_thread::sleep_for(1s);  // with the end of 1 in hand, and nobody told
   }
   cluster_->await([&] { return starts(2) == 1; });
   kill(caller, SIGKILL);
@@ -116,6 +119,35 @@ TEST_F(SlurmArray, WhoGoesOnForADeadCallerTakesItsTasksOver) {
   EXPECT_EQ(ends[0].reply + ends[1].reply, "1\n2\n");
   EXPECT_GE(ends[1].seconds, 6.0);
   EXPECT_EQ(starts(1) + starts(2), 2);
+  expect_nothing_left();
+}
+
+TEST_F(SlurmArray, WhatWasDealtWithIsMadeAgainForWhoStartsItAgain) {
+  {
+    SlurmJobs jobs(options());
+    jobs.start(counted(21, "echo 21 >&3"));
+    jobs.start(counted(22, "sleep 60"));
+    while (jobs.wait(1s).empty()) {
+    }
+    jobs.wait(1ms);
+  }
+  {
+    SlurmJobs jobs(options());
+    jobs.start(counted(21, "echo 21 >&3"));
+    jobs.start(counted(22, "sleep 60"));
+    const std::vector<ProcessEnd> ends = jobs.wait(30s);
+    ASSERT_EQ(ends.size(), 1U);
+    EXPECT_EQ(starts(21), 2);
+    EXPECT_EQ(starts(22), 1);
+    jobs.discard(21);
+  }
+  SlurmJobs jobs(options());
+  jobs.start(counted(21, "echo 21 >&3"));
+  jobs.start(counted(22, "sleep 60"));
+  EXPECT_EQ(jobs.wait(30s).size(), 1U);
+  EXPECT_EQ(starts(21), 3);
+  jobs.cancel();
+  cluster_->await([&] { return cluster_->tasks() == 0; });
   expect_nothing_left();
 }
 
@@ -187,6 +219,10 @@ TEST(SlurmJobs, FaultyOptionsAreRefused) {
             "doe::SlurmJobs: no folder; name one that all nodes reach");
   EXPECT_EQ(thrown_text<std::invalid_argument>([] { SlurmJobs jobs({.folder = "f", .submissions = 0}); }),
             "doe::SlurmJobs: submissions is 0; allowed is 1 or more");
+  EXPECT_EQ(
+      thrown_text<std::invalid_argument>([] { SlurmJobs jobs({.folder = "f", .options = {"-Mfar"}}); }),
+      "doe::SlurmJobs: -Mfar is for sbatch alone, and squeue would not find the tasks; set SLURM_CLUSTERS, "
+      "which all commands of Slurm follow");
 }
 
 }  // namespace
