@@ -63,7 +63,7 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " export" + out(), 1, "there is no study in");
   expect_refused(study + " frobnicate", 2,
                  "unknown command \"frobnicate\"; the commands are run, confirm, status, fit, validate, "
-                 "report, export, evaluate");
+                 "report, export, rerun-responses, evaluate");
   expect_refused(study + " evaluate --x 0.5", 2, "--x: got 1 values, need 2: x, y");
   expect_refused(study + " evaluate --x=0.5,26", 2, "y = 26 deg is outside its range -5 to 25 deg");
   EXPECT_FALSE(std::filesystem::exists(dir()));
