@@ -89,7 +89,7 @@ class SlurmCluster {
       if (condition()) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    throw std::runtime_error("the Slurm cluster of the test was not there within a minute:\n" +
+    throw std::runtime_error("the Slurm cluster of the test was not so far within a minute:\n" +
                              contents(folder_ / "log" / "slurmctld.log"));
   }
 
