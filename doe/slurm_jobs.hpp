@@ -228,27 +228,8 @@ class SlurmJobs {
     for (const auto& [id, task] : tasks_) arrays.erase(task.place.array);
     if (arrays.empty()) return;
     for (const std::string& array : arrays) detail::cancel_array(array);
-    await_end(arrays);
+    detail::await_end(arrays);
     forget();
-  }
-
-  /// Until none of their tasks runs, so that two processes of one run are never at work together; for a
-  /// minute at most: what a node holds beyond that Slurm has given up.
-  static void await_end(const std::set<std::string>& arrays) {
-    const auto patience = Clock::now() + seconds(60);
-    const auto runs = [](const auto& task) { return !is_over(task.second); };
-    while (Clock::now() < patience) {
-      const detail::TaskStates states = detail::task_states({arrays.begin(), arrays.end()});
-      if (std::none_of(states.begin(), states.end(), runs)) return;
-      ::poll(nullptr, 0, 500);
-    }
-  }
-
-  static bool is_over(const std::string& state) {
-    static const std::set<std::string> over = {"COMPLETED", "FAILED",    "NODE_FAIL",
-                                               "BOOT_FAIL", "PREEMPTED", "CANCELLED",
-                                               "TIMEOUT",   "DEADLINE",  "OUT_OF_MEMORY"};
-    return over.contains(state);
   }
 
   /// As many arrays as there is room for.
@@ -277,7 +258,7 @@ class SlurmJobs {
       detail::submit_array(array, folder(array) / "task.sh", static_cast<int>(ids.size()), options_.at_once,
                            options_.options);
     } catch (const detail::SlurmError& e) {
-      if (is_cancelled(array)) {
+      if (detail::is_cancelled(array)) {
         std::error_code ignored;
         std::filesystem::remove_all(folder(array), ignored);
         if (!accepted_)
@@ -297,16 +278,6 @@ class SlurmJobs {
       ++task.submissions;
     }
     return true;
-  }
-
-  /// sbatch may fail after Slurm has taken the array.
-  static bool is_cancelled(const std::string& array) {
-    try {
-      detail::cancel_array(array);
-      return true;
-    } catch (const detail::SlurmError&) {
-      return false;
-    }
   }
 
   /// Unique among all that were ever in the folder, and on the cluster.
@@ -382,7 +353,7 @@ class SlurmJobs {
 
   bool ended_without_reply(Task& task, const std::string& state) const {
     const bool may_have_replied = state == "COMPLETED" || state == "FAILED" || state == "unknown";
-    if (is_over(state) && !may_have_replied) return true;
+    if (detail::is_over(state) && !may_have_replied) return true;
     if (!may_have_replied) {
       task.ended = Clock::time_point::max();
       return false;

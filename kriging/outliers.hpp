@@ -8,11 +8,11 @@
 /// One such run spoils a model without a trace in its status: noise, or a short correlation, takes it up, and
 /// every prediction is as uncertain as it is wrong. The screen asks leave-one-out, on the scale of the model,
 /// for the run that the others put farthest from where it is. It is suspected if normal errors would put any
-/// run so far with less than `level` of chance, and if without it the others are predicted better: their
-/// leave-one-out errors fall, in root mean square, to `spoilt` of what they were or less. Then the model is
-/// fitted without it, and asked for the next. In the end each suspect is held against the model without all
-/// of them, and let go if that one reaches it. More than `most` of the runs are no outliers but noise that is
-/// not normal, or a step, and none is named.
+/// run so far with less than `level` of chance; then the model is fitted without it, and asked for the next.
+/// In the end the others must be predicted better without the suspects: their leave-one-out errors fall, in
+/// root mean square, to `spoilt` of what they were or less; else none is named. And each suspect is held
+/// against the model without all of them, and let go if that one reaches it. More than `most` of the runs are
+/// no outliers but noise that is not normal, or a step, and none is named either.
 ///
 /// Cost: one leave-one-out where nothing is found, a fit per suspect besides. Deterministic. Nothing is
 /// removed from anything: what a suspect is, its log must say.
@@ -80,12 +80,6 @@ inline double error_of(const Validation& left_out, const std::vector<Eigen::Inde
   return std::sqrt(square(error) / static_cast<double>(rows.size()));
 }
 
-inline std::vector<Eigen::Index> first_rows(Eigen::Index n) {
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  return rows;
-}
-
 inline std::vector<Eigen::Index> without(std::vector<Eigen::Index> rows, Eigen::Index place) {
   rows.erase(rows.begin() + place);
   return rows;
@@ -113,7 +107,8 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
     if (!(value >= 0 && value <= most))
       reject(std::string(name) + " is " + detail::text(value) + "; allowed is 0 to " + detail::text(most));
 
-  std::vector<Eigen::Index> rows = detail::first_rows(X.rows()), suspects;
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(X.rows())), suspects;
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   TransformedModel best = model;
   const Validation all = leave_one_out(model);
   Validation left_out = all;
@@ -126,12 +121,10 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
     best = fitter(detail::rows_of(X, rows), detail::entries_of(y, rows));
     left_out = leave_one_out(best);
   }
-  const auto now = detail::first_rows(left_out.observed.size());
-  if (detail::error_of(left_out, now) > options.spoilt * detail::error_of(all, rows)) return {};
+  if (suspects.empty() || left_out.rmse > options.spoilt * detail::error_of(all, rows)) return {};
 
   std::sort(suspects.begin(), suspects.end());
   std::vector<Outlier> outliers;
-  if (suspects.empty()) return outliers;
   const Eigen::MatrixXd P = detail::rows_of(X, suspects);
   const Eigen::VectorXd mean = best.mean(P), lower = best.quantile(P, 0.025, Target::observation),
                         upper = best.quantile(P, 0.975, Target::observation);

@@ -4,12 +4,15 @@
 
 /// What is asked of a Slurm cluster, by the commands that its users have: sbatch, squeue, scancel, scontrol.
 
+#include <poll.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -86,5 +89,35 @@ inline TaskStates task_states(const std::vector<std::string>& arrays) {
 }
 
 inline void cancel_array(const std::string& name) { slurm_answer({"scancel", "--name=" + name}); }
+
+/// Whether it is; sbatch may fail after Slurm has taken the array.
+inline bool is_cancelled(const std::string& name) {
+  try {
+    cancel_array(name);
+    return true;
+  } catch (const SlurmError&) {
+    return false;
+  }
+}
+
+/// Of a task's state: that nothing of it runs or will.
+inline bool is_over(const std::string& state) {
+  static const std::set<std::string> over = {"COMPLETED", "FAILED",  "NODE_FAIL", "BOOT_FAIL",    "PREEMPTED",
+                                             "CANCELLED", "TIMEOUT", "DEADLINE",  "OUT_OF_MEMORY"};
+  return over.contains(state);
+}
+
+/// Until no task of these arrays runs, so that two processes of one run are never at work together; for a
+/// minute at most: what a node holds beyond that Slurm has given up.
+inline void await_end(const std::set<std::string>& arrays) {
+  using Clock = std::chrono::steady_clock;
+  const auto patience = Clock::now() + std::chrono::seconds(60);
+  const auto runs = [](const auto& task) { return !is_over(task.second); };
+  while (Clock::now() < patience) {
+    const TaskStates states = task_states({arrays.begin(), arrays.end()});
+    if (std::none_of(states.begin(), states.end(), runs)) return;
+    poll(nullptr, 0, 500);
+  }
+}
 
 }  // namespace drawpoint::doe::detail

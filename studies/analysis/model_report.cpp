@@ -52,14 +52,6 @@ std::string noise_text(const kriging::TransformedModel& model, const std::string
   return number(noise) + " on the scale " + std::string(to_string(model.transform().scale));
 }
 
-/// The validation runs that have values, in the order of Validation's entries.
-std::vector<std::int64_t> runs_of(const Tables& tables) {
-  std::vector<std::int64_t> runs;
-  for (const auto& row : tables.validation.rows)
-    if (!row.outcome.failed()) runs.push_back(row.run);
-  return runs;
-}
-
 }  // namespace
 
 std::string fit_text(const Models& fitted, const doe::Problem& problem) {
@@ -101,7 +93,7 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
 
 std::string validation_text(const Models& fitted, const Tables& tables) {
   const auto& responses = tables.training.problem.responses;
-  const std::vector<std::int64_t> runs = runs_of(tables);
+  const std::vector<std::int64_t> runs = runs_with_values(tables.validation);
   std::string text;
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
     const kriging::Validation& v = fitted.validations[j];
@@ -119,7 +111,7 @@ std::string validation_text(const Models& fitted, const Tables& tables) {
 
 Json validation_json(const Models& fitted, const Tables& tables) {
   const auto& responses = tables.training.problem.responses;
-  const std::vector<std::int64_t> runs = runs_of(tables);
+  const std::vector<std::int64_t> runs = runs_with_values(tables.validation);
   Json all = Json::object();
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
     const kriging::Validation& v = fitted.validations[j];

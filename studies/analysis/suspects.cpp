@@ -11,14 +11,6 @@
 namespace drawpoint::studies {
 namespace {
 
-/// The training runs that have values, in the order of the models' runs.
-std::vector<std::int64_t> trained_runs(const Tables& tables) {
-  std::vector<std::int64_t> runs;
-  for (const auto& row : tables.training.rows)
-    if (!row.outcome.failed()) runs.push_back(row.run);
-  return runs;
-}
-
 std::string sentence(const kriging::Outlier& outlier, const doe::Response& response, std::int64_t run) {
   const std::string unit = response.unit.empty() || response.unit == "1" ? "" : " " + response.unit;
   const auto bounded = [&](double y) { return doe::within_range(response, y); };
@@ -38,7 +30,7 @@ std::string sentence(const kriging::Outlier& outlier, const doe::Response& respo
 std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
   const doe::Problem& problem = tables.training.problem;
   const Eigen::MatrixXd X = tables.training.X();
-  const std::vector<std::int64_t> runs = trained_runs(tables);
+  const std::vector<std::int64_t> runs = runs_with_values(tables.training);
   std::vector<std::string> sentences;
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
     const doe::Response& response = problem.responses[j];

@@ -22,4 +22,11 @@ Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem) {
   return tables;
 }
 
+std::vector<std::int64_t> runs_with_values(const doe::Evaluations& table) {
+  std::vector<std::int64_t> runs;
+  for (const auto& row : table.rows)
+    if (!row.outcome.failed()) runs.push_back(row.run);
+  return runs;
+}
+
 }  // namespace drawpoint::studies

@@ -6,6 +6,7 @@
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/doe/evaluations.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -17,5 +18,8 @@ struct Tables {
 };
 
 Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem);
+
+/// Numbers of the runs that have not failed, in the order of the rows of X(), y() and Validation.
+std::vector<std::int64_t> runs_with_values(const doe::Evaluations& table);
 
 }  // namespace drawpoint::studies

@@ -82,12 +82,11 @@ doe::Process process_for(const Run& run, const Folder& given, const OptionValues
 /// keeps the other one until then: who dies between leaves it for the next to publish. Returns its checksum;
 /// empty: there is none.
 std::string publish_log(const Folder& folder, std::int64_t id) {
-  std::error_code cannot;
-  fs::remove(folder.log(id), cannot);  // of an attempt that did not count
-  if (!fs::exists(folder.unfinished_log(id), cannot)) return "";
+  std::error_code ignored;
+  fs::remove(folder.log(id), ignored);  // of an attempt that did not count
+  if (!fs::exists(folder.unfinished_log(id), ignored)) return "";
   const std::string checksum = file_checksum(folder.unfinished_log(id));
-  fs::create_hard_link(folder.unfinished_log(id), folder.log(id), cannot);
-  if (cannot) fs::copy_file(folder.unfinished_log(id), folder.log(id));
+  link_or_copy(folder.unfinished_log(id), folder.log(id));
   return checksum;
 }
 

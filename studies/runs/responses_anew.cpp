@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 namespace drawpoint::studies {
 namespace {
@@ -24,8 +23,8 @@ std::string runs_without_log(const Folder& from, const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.kind == Kind::imported || !has_ended(run)) continue;
     const LogState state = log_state(from, run);
-    const bool lost = state == LogState::other || (state == LogState::none && run.status == Status::done) ||
-                      (state == LogState::none && !run.log.empty());
+    const bool should_be_there = run.status == Status::done || !run.log.empty();
+    const bool lost = state == LogState::other || (state == LogState::none && should_be_there);
     if (lost) text += (text.empty() ? "" : ", ") + std::to_string(run.id);
   }
   return text;
@@ -45,12 +44,6 @@ void take_anew(const Study& study, const Folder& from, const OptionValues& optio
   run.status = outcome.failed() ? Status::failed : Status::done;
   run.reason = outcome.failed() ? outcome.reason() : "";
   if (!outcome.failed()) run.y = outcome.values();
-}
-
-void link_or_copy(const fs::path& file, const fs::path& to) {
-  std::error_code cannot;
-  fs::create_hard_link(file, to, cannot);
-  if (cannot) fs::copy_file(file, to);
 }
 
 }  // namespace

@@ -73,6 +73,12 @@ void make_writable(const Folder& folder) {
   if (free_space(folder.path) < least_free_space) refuse(folder.path, ENOSPC);
 }
 
+void link_or_copy(const fs::path& file, const fs::path& to) {
+  std::error_code cannot;
+  fs::create_hard_link(file, to, cannot);
+  if (cannot) fs::copy_file(file, to);
+}
+
 std::uintmax_t free_space(const fs::path& path) {
   std::error_code error;
   const auto space = fs::space(path, error);

@@ -42,6 +42,9 @@ struct Folder {
 /// in the way: a file of that name, no permission, a read-only file system, a full disk.
 void make_writable(const Folder& folder);
 
+/// The file under a second name, by a link where the file system can. Throws std::filesystem::filesystem_error.
+void link_or_copy(const std::filesystem::path& file, const std::filesystem::path& to);
+
 /// Free space [bytes] for this user on the file system of `path`; the largest number where it cannot be told.
 std::uintmax_t free_space(const std::filesystem::path& path);
 
