@@ -22,6 +22,7 @@
 #include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/kriging/sample_paths.hpp>
 #include <drawpoint/kriging/score.hpp>
+#include <drawpoint/kriging/success_model.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/kriging/transform.hpp>
@@ -41,6 +42,7 @@
 ///   polynomial.hpp                 polynomial regression
 ///   radial.hpp                     radial basis functions
 ///   fit_radial.hpp                 their fit
+///   success_model.hpp              how likely a run succeeds, from runs that did and that failed
 ///
 /// Use:
 ///   model.hpp                      prediction, variance, gradients; a value that threads may share

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// A short climb of the likelihood in a box, to tell good starts from bad ones before Ipopt polishes the
-/// best.
+/// A short climb of a likelihood in a box, by value(p) and gradient(p): for Kriging, to tell good starts from
+/// bad ones before Ipopt polishes the best.
 ///
 /// Projected quasi-Newton steps: parameters at a bound that the gradient pushes outward are held, the others
 /// move by B⁻¹g, clipped to the box and to e^2.5 per step, shortened until the gain is 1e-4 of the promised one
@@ -15,12 +15,14 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/detail/cholesky.hpp>
-#include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/kriging/detail/dense.hpp>
 #include <limits>
 #include <utility>
 #include <vector>
 
 namespace drawpoint::kriging {
+
+class Likelihood;
 
 struct Box {
   Eigen::VectorXd lower, upper;
@@ -95,9 +97,10 @@ inline Eigen::VectorXd moved(const Box& box, const Eigen::VectorXd& p, double le
   return at;
 }
 
-class Climb {
+template <class Objective>
+class BoxClimb {
  public:
-  Climb(Likelihood& likelihood, const Box& box, Eigen::VectorXd start)
+  BoxClimb(Objective& likelihood, const Box& box, Eigen::VectorXd start)
       : likelihood_(&likelihood), box_(&box), p_(std::move(start)), value_(likelihood.value(p_)) {}
 
   const Eigen::VectorXd& p() const { return p_; }
@@ -159,13 +162,15 @@ class Climb {
     return false;
   }
 
-  Likelihood* likelihood_;
+  Objective* likelihood_;
   const Box* box_;
   Eigen::VectorXd p_, g_, first_p_, first_g_;
   double value_;
   Curvature curvature_;
   bool scaled_ = false, done_ = false;
 };
+
+using Climb = BoxClimb<Likelihood>;
 
 }  // namespace detail
 }  // namespace drawpoint::kriging

@@ -41,10 +41,22 @@ std::string failure_warning(const doe::Evaluations& training, const doe::Evaluat
   return text;
 }
 
-void warn(ReportInput& input, const std::vector<Run>& runs) {
+void warn_of_places(ReportInput& input, const Failures& failures) {
+  if (failures.none()) return;
+  input.warnings.push_back(failures.text() +
+                           ". Fronts and adaptive runs keep away from where a run is likelier to fail.");
+  const auto doubtful = (input.success.array() < 0.9).count();
+  if (doubtful > 0)
+    input.warnings.push_back(
+        "At " + std::to_string(doubtful) + " of " + std::to_string(input.success.size()) +
+        " points of the front a run fails with a chance of more than 10 %: see its table.");
+}
+
+void warn(ReportInput& input, const std::vector<Run>& runs, const Failures& places) {
   const std::string failures = failure_warning(input.training, input.validation);
   if (!failures.empty())
     input.warnings.push_back("Runs that failed are left out of the models. " + failures + ".");
+  warn_of_places(input, places);
   const auto missing = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
     return run.status == Status::planned || run.status == Status::running;
   });
@@ -187,6 +199,8 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     summary.nrmse[j].second = input.validations[j].nrmse;
   PredictedFront predicted = predicted_front(input.models, tables, store.identity().seed);
+  if (!predicted.failures.none() && predicted.found.front.X.rows() > 0)
+    input.success = predicted.failures.probability_of_success(predicted.found.front.X);
   input.front = std::move(predicted.found.front);
   input.polishing = std::move(predicted.found.polishing);
   if (predicted.found.status == pareto::PolishedFrontStatus::not_polished)
@@ -198,7 +212,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   input.facts = facts(store, runs);
   for (std::size_t j = 0; j < ways.size(); ++j)
     input.facts.emplace_back("Model of " + study.problem.responses[j].name, ways[j]);
-  warn(input, runs);
+  warn(input, runs, predicted.failures);
   illustrate(input, study, logged, folder);
   summary.findings = hold_findings(input, study, logged, folder);
   write_report(folder.report(), input);

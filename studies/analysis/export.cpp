@@ -70,18 +70,22 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
   const doe::Problem& problem = identity.problem;
   const Tables tables = tables_of(runs, problem);
   const Models fitted = models_or_reason(tables);
-  const pareto::Front front = predicted_front(fitted.models, tables, identity.seed).found.front;
+  const PredictedFront predicted = predicted_front(fitted.models, tables, identity.seed);
+  const pareto::Front& front = predicted.found.front;
   ExportTable table;
   append_variables(table, problem);
   for (const char* ending : {"", "_lower", "_upper"}) append_responses(table, problem, ending);
+  table.columns.push_back({"success", "1"});
   if (front.X.rows() == 0) return table;
   const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
+  const Eigen::VectorXd success = predicted.failures.probability_of_success(front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;
     append_numbers(row, front.X.row(i));
     append_numbers(row, front.responses.row(i));
     append_numbers(row, points.lower.row(i));
     append_numbers(row, points.upper.row(i));
+    row.push_back(number_or_nothing(success[i]));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -43,20 +43,20 @@ void append(pareto::PolishedFront& found, const pareto::Front& searched) {
 }  // namespace
 
 pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& models,
-                               const doe::Problem& problem, doe::Seed seed, const FailedPlaces& failed) {
+                               const doe::Problem& problem, doe::Seed seed, const Failures& failures) {
   const kriging::Surrogates means(models);
   const auto avoiding = [&](const Eigen::MatrixXd& X, std::span<const doe::Seed> seeds) {
     std::vector<doe::Outcome> outcomes = means(X, seeds);
-    const std::vector<bool> beside = failed.beside(X);
+    const std::vector<bool> avoided = failures.avoided(X);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (beside[i]) outcomes[i] = doe::Failure{"the nearest run failed"};
+      if (avoided[i]) outcomes[i] = doe::Failure{"a run would fail"};
     }
     return outcomes;
   };
   const pareto::Front searched = pareto::nsga2(avoiding, problem, {.search = {.seed = seed}});
   auto found = pareto::polished_front(means, problem, searched);
-  if (!failed.empty()) {  // what polishing led into the failures must not push out what it came from
-    leave_out_failed(found, failed);
+  if (!failures.none()) {  // what polishing led into the failures must not push out what it came from
+    leave_out_failed(found, failures);
     append(found, searched);
   }
   keep_within_range(found, problem);
@@ -71,11 +71,15 @@ bool has_objective(const doe::Problem& problem) {
 PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& models, const Tables& tables,
                                doe::Seed seed) {
   const doe::Problem& problem = tables.training.problem;
-  if (!has_objective(problem)) return {.found = {}, .missing = "no response is to be minimized or maximized"};
-  PredictedFront predicted{.found = front_of(models, problem, seed, FailedPlaces(tables))};
+  PredictedFront predicted{.found = {}, .failures = Failures(tables)};
+  if (!has_objective(problem)) {
+    predicted.missing = "no response is to be minimized or maximized";
+    return predicted;
+  }
+  predicted.found = front_of(models, problem, seed, predicted.failures);
   if (predicted.found.front.X.rows() > 0) return predicted;
   predicted.missing = predicted.found.front.message;
-  if (predicted.missing.empty()) predicted.missing = "every point found lies beside a failed run";
+  if (predicted.missing.empty()) predicted.missing = "every point found lies where runs fail";
   return predicted;
 }
 
@@ -92,12 +96,12 @@ void keep_within_range(pareto::PolishedFront& found, const doe::Problem& problem
   keep_rows(found, pareto::non_dominated(problem, front.Y));
 }
 
-void leave_out_failed(pareto::PolishedFront& found, const FailedPlaces& failed) {
-  if (failed.empty() || found.front.X.rows() == 0) return;
-  const std::vector<bool> beside = failed.beside(found.front.X);
+void leave_out_failed(pareto::PolishedFront& found, const Failures& failures) {
+  if (failures.none() || found.front.X.rows() == 0) return;
+  const std::vector<bool> avoided = failures.avoided(found.front.X);
   std::vector<int> kept;
-  for (std::size_t i = 0; i < beside.size(); ++i) {
-    if (!beside[i]) kept.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < avoided.size(); ++i) {
+    if (!avoided[i]) kept.push_back(static_cast<int>(i));
   }
   keep_rows(found, kept);
 }

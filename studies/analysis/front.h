@@ -3,11 +3,10 @@
 #pragma once
 /// The trade-offs that a study's models predict: NSGA-II searches the means of the models, and
 /// pareto/polished_front.hpp finishes what it finds with their exact gradients. What a model predicts outside
-/// of a response's range counts as the bound there; points that are then dominated are left out. Points
-/// beside failed runs (failed_places.h) count as failed in the search, and are left out where polishing leads
-/// there.
+/// of a response's range counts as the bound there; points that are then dominated are left out. Where runs
+/// fail (failures.h) points count as failed in the search, and are left out where polishing leads there.
 
-#include <drawpoint/studies/analysis/failed_places.h>
+#include <drawpoint/studies/analysis/failures.h>
 #include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
@@ -21,7 +20,7 @@ namespace drawpoint::studies {
 /// models: one per response, in order, of the problem's variables. Deterministic: the seed is that of the
 /// search.
 pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& models,
-                               const doe::Problem& problem, doe::Seed seed, const FailedPlaces& failed = {});
+                               const doe::Problem& problem, doe::Seed seed, const Failures& failures = {});
 
 /// Whether there is anything to search for.
 bool has_objective(const doe::Problem& problem);
@@ -29,6 +28,7 @@ bool has_objective(const doe::Problem& problem);
 /// The front of a study, or why it has none.
 struct PredictedFront {
   pareto::PolishedFront found;
+  Failures failures = {};
   std::string missing = {};  ///< empty where there is a front
 };
 PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& models, const Tables& tables,
@@ -37,7 +37,7 @@ PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& mod
 /// Takes what is predicted as values that the responses can have.
 void keep_within_range(pareto::PolishedFront& found, const doe::Problem& problem);
 
-/// Leaves out the points beside failures.
-void leave_out_failed(pareto::PolishedFront& found, const FailedPlaces& failed);
+/// Leaves out the points that are avoided.
+void leave_out_failed(pareto::PolishedFront& found, const Failures& failures);
 
 }  // namespace drawpoint::studies

@@ -91,6 +91,29 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
   return all;
 }
 
+std::string success_text(const Failures& failures, const doe::Problem& problem) {
+  if (failures.none()) return "";
+  const Eigen::VectorXd lengths = failures.model()->length_scales();
+  std::string text = "success: " + failures.text() + "\n  length scales, of the ranges:";
+  for (std::size_t k = 0; k < problem.variables.size(); ++k)
+    text +=
+        (k ? ", " : " ") + problem.variables[k].name + " " + number(lengths[static_cast<Eigen::Index>(k)]);
+  return text + "\n";
+}
+
+Json success_json(const Failures& failures, const doe::Problem& problem) {
+  if (failures.none()) return Json();
+  const kriging::SuccessModel& model = *failures.model();
+  Json lengths = Json::object();
+  for (std::size_t k = 0; k < problem.variables.size(); ++k)
+    lengths[problem.variables[k].name] = model.length_scales()[static_cast<Eigen::Index>(k)];
+  return {{"runs", model.runs()},
+          {"failed", model.failures()},
+          {"left_out_score", model.left_out_score()},
+          {"share_score", model.share_score()},
+          {"length_scales", lengths}};
+}
+
 std::string validation_text(const Models& fitted, const Tables& tables) {
   const auto& responses = tables.training.problem.responses;
   const std::vector<std::int64_t> runs = runs_with_values(tables.validation);

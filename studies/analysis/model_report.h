@@ -3,6 +3,7 @@
 #pragma once
 /// What the commands fit and validate say of a study's models, as text for people and as JSON for scripts.
 
+#include <drawpoint/studies/analysis/failures.h>
 #include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/analysis/tables.h>
 
@@ -15,6 +16,11 @@ namespace drawpoint::studies {
 /// are predicted without themselves.
 std::string fit_text(const Models& fitted, const doe::Problem& problem);
 nlohmann::ordered_json fit_json(const Models& fitted, const doe::Problem& problem);
+
+/// Where runs fail: their number, whether the place tells, and over which distances (shares of the ranges) a
+/// run tells of its surroundings. Empty, null, while none has failed.
+std::string success_text(const Failures& failures, const doe::Problem& problem);
+nlohmann::ordered_json success_json(const Failures& failures, const doe::Problem& problem);
 
 /// Per response: the errors on the validation runs, then each of these beside its 95 % interval.
 std::string validation_text(const Models& fitted, const Tables& tables);

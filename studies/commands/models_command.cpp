@@ -16,8 +16,7 @@ Tables stored_tables(const Study& study, const Settings& settings) {
   return tables_of(open_store(study, Folder{settings.out}).runs(), study.problem);
 }
 
-void print(const std::string& study, const char* key, const nlohmann::ordered_json& content) {
-  const nlohmann::ordered_json line = {{"study", study}, {key, content}};
+void print(const nlohmann::ordered_json& line) {
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
@@ -26,10 +25,13 @@ void print(const std::string& study, const char* key, const nlohmann::ordered_js
 int fit_command(const Study& study, const Settings& settings) {
   const Tables tables = stored_tables(study, settings);
   const Models fitted = models_or_reason(tables);
+  const Failures failures(tables);
   if (settings.json)
-    print(study.name, "models", fit_json(fitted, study.problem));
+    print({{"study", study.name},
+           {"models", fit_json(fitted, study.problem)},
+           {"success", success_json(failures, study.problem)}});
   else
-    std::fputs(fit_text(fitted, study.problem).c_str(), stdout);
+    std::fputs((fit_text(fitted, study.problem) + success_text(failures, study.problem)).c_str(), stdout);
   for (const std::string& sentence : suspects(fitted, tables)) std::fprintf(stderr, "%s\n", sentence.c_str());
   return 0;
 }
@@ -41,7 +43,7 @@ int validate_command(const Study& study, const Settings& settings) {
     throw std::runtime_error(
         "studies: there is no validation run to judge the models by; add some with run --validation 10");
   if (settings.json)
-    print(study.name, "validations", validation_json(fitted, tables));
+    print({{"study", study.name}, {"validations", validation_json(fitted, tables)}});
   else
     std::fputs(validation_text(fitted, tables).c_str(), stdout);
   return 0;

@@ -163,6 +163,7 @@ json front_json(const ReportInput& input) {
           {"upper", to_json(ends_of_intervals(input, 0.5 + 0.5 * stated_level))},
           {"X", to_json(front.X)},
           {"Y", to_json(front.Y)},
+          {"success", to_json(input.success)},
           {"balanced", balanced_point(input.problem, front)},
           {"evaluations", front.evaluations}};
 }
@@ -218,6 +219,9 @@ void check_results(const ReportInput& input) {
                  f.Y.cols() != static_cast<Eigen::Index>(objectives(input.problem).size()) ||
                  f.X.cols() != static_cast<Eigen::Index>(input.problem.variables.size())))
     reject("the front does not belong to the problem; give what the search on this problem returned");
+  if (input.success.size() != 0 && input.success.size() != f.X.rows())
+    reject(std::to_string(input.success.size()) + " probabilities of success for " +
+           std::to_string(f.X.rows()) + " points of the front; give one each or none");
   const Eigen::Index residuals = input.polishing.residual.size();
   if (residuals != 0 && residuals != f.X.rows())
     reject(std::to_string(residuals) + " residuals for " + std::to_string(f.X.rows()) +

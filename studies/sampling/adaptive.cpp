@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/failed_places.h>
+#include <drawpoint/studies/analysis/failures.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/criteria.h>
@@ -27,16 +27,17 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
                          (nrmse.empty() ? "" : "; " + nrmse)};
   if (target_met(sampling, fitted.validations)) return batch;
   const doe::Seed seed = seed_of_choice(identity, runs.size());
+  const Failures failures(tables);
   const Eigen::MatrixXd X =
-      doe::propose(tables.training, mix_of(criteria_from(sampling.criteria), fitted.models, seed),
+      doe::propose(tables.training, mix_of(criteria_from(sampling.criteria), fitted.models, failures, seed),
                    {.seed = seed,
                     .batch = std::min(missing, sampling.batch),
-                    .allowed = [failed = FailedPlaces(tables)](const Eigen::VectorXd& x) {
-                      return failed.empty() || !failed.beside(x.transpose()).front();
+                    .allowed = [&failures](const Eigen::VectorXd& x) {
+                      return !failures.avoided(x.transpose()).front();
                     }});
   if (X.rows() == 0) {
     batch.status = BatchStatus::exhausted;
-    batch.message = "no place is left where a run would be new and the nearest run did not fail";
+    batch.message = "no place is left where a run would be new and likely to succeed";
     return batch;
   }
   batch.status = BatchStatus::planned;

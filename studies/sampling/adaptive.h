@@ -15,8 +15,8 @@
 
 namespace drawpoint::studies {
 
-/// Places beside failures (failed_places.h) are not chosen: the models learn nothing there and would ask for
-/// them for ever.
+/// Places where runs fail (failures.h) are not chosen: the models learn nothing there and would ask for them
+/// for ever. Elsewhere a place counts as much as a run there is likely to succeed.
 enum class BatchStatus {
   planned,
   complete,    ///< all points that are wanted are there

@@ -98,6 +98,15 @@ doe::Sampler sampler_named(const std::string& name, const std::vector<kriging::T
   };
 }
 
+/// Scores times the probability of success; scores of every sampler here are 0 or more.
+doe::Sampler where_runs_succeed(doe::Sampler sampler, const Failures& failures) {
+  if (failures.none()) return sampler;
+  return [sampler = std::move(sampler), failures](const doe::Evaluations& runs) {
+    return kriging::product_of_criteria(
+        {sampler(runs), [failures](const Eigen::MatrixXd& X) { return failures.probability_of_success(X); }});
+  };
+}
+
 }  // namespace
 
 std::vector<CriterionShare> criteria_from(const std::string& text) {
@@ -118,9 +127,11 @@ void check_criteria(const std::string& text, const doe::Problem& problem) {
 }
 
 doe::Mix mix_of(const std::vector<CriterionShare>& shares,
-                const std::vector<kriging::TransformedModel>& models, doe::Seed seed) {
+                const std::vector<kriging::TransformedModel>& models, const Failures& failures,
+                doe::Seed seed) {
   std::vector<doe::Share> parts;
-  for (const auto& share : shares) parts.push_back({share.weight, sampler_named(share.name, models, seed)});
+  for (const auto& share : shares)
+    parts.push_back({share.weight, where_runs_succeed(sampler_named(share.name, models, seed), failures)});
   return doe::Mix(std::move(parts));
 }
 

@@ -4,6 +4,7 @@
 /// The criteria by which a study chooses its adaptive points, by name: several take turns, each for its
 /// share.
 
+#include <drawpoint/studies/analysis/failures.h>
 #include <drawpoint/doe/criterion.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 
@@ -29,8 +30,10 @@ std::vector<CriterionShare> criteria_from(const std::string& text);
 /// Throws UsageError for criteria that the problem does not allow: improvement without an objective.
 void check_criteria(const std::string& text, const doe::Problem& problem);
 
-/// models: one per response, of the runs so far. `seed` is that of LOLA-Voronoi's test points.
+/// models: one per response, of the runs so far. Each score is multiplied by the probability that a run
+/// succeeds. `seed` is that of LOLA-Voronoi's test points.
 doe::Mix mix_of(const std::vector<CriterionShare>& shares,
-                const std::vector<kriging::TransformedModel>& models, doe::Seed seed);
+                const std::vector<kriging::TransformedModel>& models, const Failures& failures,
+                doe::Seed seed);
 
 }  // namespace drawpoint::studies

@@ -91,6 +91,27 @@ TEST_F(BadInput, WrongBounds) {
 }
 
 TEST_F(BadInput, RunsThatThrow) { expect_failed_runs("throw", "the bucket is stuck"); }
+
+// Everything beyond x = 0.5 fails: fit, page and exported front say so, and no point of the front lies there. (wear
+// is least at x = 1, so that without the failures the front would reach there.)
+TEST_F(BadInput, WhereRunsFailIsKnown) {
+  const Ended end = run(with("throw") + "--runs 24 --validation 8 --json" + out());
+  ASSERT_EQ(end.code, 0) << end.err;
+  const auto success = run(study + " fit --json" + out()).json()["success"];
+  EXPECT_EQ(success["runs"], 32);
+  EXPECT_EQ(success["failed"], count("status = 'failed'"));
+  EXPECT_GT(success["left_out_score"], success["share_score"]);
+  EXPECT_LT(success["length_scales"]["x"], success["length_scales"]["y"]);
+  const std::string page = contents(dir() / "report.html");
+  EXPECT_TRUE(contains(page, "of 32 runs failed; the place tells which"));
+  const auto front = run(study + " export --what front --format json" + out()).json();
+  EXPECT_EQ(front["columns"].back()["name"], "success");
+  ASSERT_GT(front["rows"].size(), 0u);
+  for (const auto& row : front["rows"]) {
+    EXPECT_LT(row[0].get<double>(), 0.6);
+    EXPECT_GE(row.back().get<double>(), 0.5);
+  }
+}
 TEST_F(BadInput, RunsThatAreNotFinite) { expect_failed_runs("nan", "response \"wear\" is nan"); }
 TEST_F(BadInput, RunsWithAWrongCount) {
   expect_failed_runs("count", "returned 3 values where the problem has 2 responses");

@@ -4,7 +4,7 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/analysis/failed_places.h>
+#include <drawpoint/studies/analysis/failures.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/sampling/adaptive.h>
@@ -124,7 +124,7 @@ TEST_F(Adaptive, NoRunIsSpentBesideFailures) {
   const Tables tables = tables_of(runs, identity_.problem);
   const auto chosen = next_batch(identity_, {.points = 8, .criteria = "variance,error"}, runs).runs;
   ASSERT_EQ(chosen.size(), 8u);
-  for (const auto& run : chosen) EXPECT_FALSE(FailedPlaces(tables).beside(run.x.transpose()).front());
+  for (const auto& run : chosen) EXPECT_FALSE(Failures(tables).avoided(run.x.transpose()).front());
 }
 
 // Two whole numbers of two values are four places.

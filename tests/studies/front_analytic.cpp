@@ -150,29 +150,48 @@ TEST(Front, WhatIsPredictedIsPossible) {
   EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(2, 3, 4));
 }
 
-// Of five front points on a line with runs at 0, 0.4 (failed twice), 0.6 (failed once of twice) and 1: those
-// nearest to 0.4 go, those nearest to 0.6 stay.
-TEST(Front, NothingBesideAFailedRunIsRecommended) {
-  const doe::Problem problem{.variables = {{"x", "m", 0, 10}},
-                             .responses = {{"mass", "kg", Goal::maximize}, {"spill", "1", Goal::minimize}}};
-  const auto row = [](double x, bool failed) {
-    doe::Evaluation run{.x = Eigen::VectorXd::Constant(1, x)};
-    run.outcome = failed ? doe::Outcome(doe::Failure{"stuck"}) : doe::Outcome{1.0, 2.0};
-    return run;
-  };
-  const Tables tables{.training = {problem, {row(0, false), row(4, true), row(6, true), row(6, false)}},
-                      .validation = {problem, {row(4, true), row(10, false)}}};
+/// A run at x in m that failed or gave two values.
+doe::Evaluation run_at(double x, bool failed) {
+  doe::Evaluation run{.x = Eigen::VectorXd::Constant(1, x)};
+  run.outcome = failed ? doe::Outcome(doe::Failure{"stuck"}) : doe::Outcome{1.0, 2.0};
+  return run;
+}
+
+const doe::Problem line{.variables = {{"x", "m", 0, 10}},
+                        .responses = {{"mass", "kg", Goal::maximize}, {"spill", "1", Goal::minimize}}};
+
+// Of 21 runs at every half metre those beyond 6 m fail, every second one of them a validation run, and so
+// does one of two at 2 m and the only one at 4 m. Front points deep on either side are clear; 4.1 m lies
+// within 2 % of the range of a place where every run failed, 2 m does not.
+TEST(Front, NothingIsRecommendedWhereRunsFail) {
+  Tables tables{.training = {line, {run_at(2, true)}}, .validation = {line, {}}};
+  for (int i = 0; i <= 20; ++i) {
+    auto& table = i % 2 ? tables.validation : tables.training;
+    table.rows.push_back(run_at(0.5 * i, i > 12 || i == 8));
+  }
   pareto::PolishedFront found;
-  found.front.X = (Eigen::VectorXd(5) << 1.9, 2.1, 4.9, 5.1, 9).finished();
+  found.front.X = (Eigen::VectorXd(5) << 2, 4.1, 5, 8.2, 9).finished();
   found.front.Y = found.front.responses = Eigen::MatrixXd::Random(5, 2);
   found.polishing.residual = Eigen::VectorXd::LinSpaced(5, 1, 5);
   const Eigen::MatrixXd Y = found.front.Y;
-  leave_out_failed(found, FailedPlaces(tables));
-  EXPECT_EQ(found.front.X, Eigen::Vector3d(1.9, 5.1, 9));
-  EXPECT_EQ(found.polishing.residual, Eigen::Vector3d(1, 4, 5));
-  EXPECT_EQ(found.front.Y.row(1), Y.row(3));
-  leave_out_failed(found, FailedPlaces(tables));
-  EXPECT_EQ(found.front.X.rows(), 3);
+  const Failures failures(tables);
+  leave_out_failed(found, failures);
+  EXPECT_EQ(found.front.X, Eigen::Vector2d(2, 5));
+  EXPECT_EQ(found.polishing.residual, Eigen::Vector2d(1, 3));
+  EXPECT_EQ(found.front.Y.row(1), Y.row(2));
+  leave_out_failed(found, failures);
+  EXPECT_EQ(found.front.X.rows(), 2);
+  EXPECT_NE(failures.text().find("10 of 22 runs failed; the place tells which"), std::string::npos)
+      << failures.text();
+}
+
+TEST(Front, WithoutAFailureEveryPlaceIsSafe) {
+  const Failures none(
+      Tables{.training = {line, {run_at(2, false), run_at(3, false)}}, .validation = {line, {}}});
+  EXPECT_TRUE(none.none());
+  EXPECT_EQ(none.probability_of_success(Eigen::Vector3d(1, 2, 9)), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(none.avoided(Eigen::Vector2d(1, 9)), std::vector<bool>(2, false));
+  EXPECT_EQ(none.text(), "");
 }
 
 // |x - a|² and |x - b|² with failures all along the middle of the segment from a to b: the front keeps its
@@ -195,7 +214,7 @@ TEST(Front, IsSearchedAroundFailures) {
   int around = 0;
   for (Eigen::Index i = 0; i < predicted.found.front.X.rows(); ++i) {
     const Eigen::Vector3d x = predicted.found.front.X.row(i);
-    EXPECT_FALSE(FailedPlaces(tables).beside(x.transpose()).front());
+    EXPECT_FALSE(Failures(tables).avoided(x.transpose()).front());
     around += distance_to_segment(x) > 0.01;
   }
   EXPECT_GT(around, 0);

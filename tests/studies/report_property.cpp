@@ -7,6 +7,7 @@
 #include <drawpoint/studies/analysis/findings.h>
 #include <drawpoint/studies/report/page.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
+#include <drawpoint/tests/support/told.hpp>
 #include <regex>
 
 using namespace drawpoint;
@@ -160,6 +161,15 @@ TEST_F(Report, CarriesTheCertificateOfEveryPoint) {
     EXPECT_STREQ(e.what(),
                  "studies::write_report: 5 residuals for 8 points of the front; give one each or none");
   }
+}
+
+TEST_F(Report, SaysHowLikelyARunSucceeds) {
+  ReportInput in = input(2, 2, 8, 0);
+  EXPECT_TRUE(written(in).at("front").at("success").empty());
+  in.success = Eigen::VectorXd::LinSpaced(8, 0.6, 0.95);
+  EXPECT_EQ(written(in).at("front").at("success").at(7), 0.95);
+  in.success.resize(5);
+  support::expect_told([&] { written(in); }, {"5 probabilities of success for 8 points of the front"});
 }
 
 TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {

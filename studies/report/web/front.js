@@ -3,7 +3,7 @@
 // The trade-offs: projections of the front on pairs of objectives, and its points as a table.
 
 import {el, figure, section, select, table} from './dom.js';
-import {axisLabel, colour, labelled, number, pretty, scale, setting, settingWithUnit, ticks, withUnit} from './format.js';
+import {axisLabel, colour, labelled, number, percent, pretty, scale, setting, settingWithUnit, ticks, withUnit} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
 
 const mostProjections = 6;
@@ -114,11 +114,12 @@ function confirmations(data, a, b) {
 const goal = (response) => axisLabel(response) + (response.goal === 'maximize' ? ' →' : ' ←');
 
 function pointTable(data, objectives, chosen) {
-  const {lower, upper} = data.front;
+  const {lower, upper, success} = data.front;
   const values = objectives.flatMap((item) => [{title: labelled(item), format: number}, ...lower.length ? [{title: '95 % of runs', text: true}] : []]);
   const interval = (i, k) => lower.length ? [interval95(lower[i][k], upper[i][k])] : [];
-  const columns = [{title: 'Point', format: String}, ...values, ...data.problem.variables.map((item) => ({title: labelled(item), format: (value) => setting(value, item)}))];
-  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => [y, ...interval(i, k)]), ...x]);
+  const chance = success.length ? [{title: 'a run succeeds', format: percent}] : [];
+  const columns = [{title: 'Point', format: String}, ...values, ...chance, ...data.problem.variables.map((item) => ({title: labelled(item), format: (value) => setting(value, item)}))];
+  const rows = data.front.X.map((x, i) => [i + 1, ...data.front.Y[i].flatMap((y, k) => [y, ...interval(i, k)]), ...success.slice(i, i + 1), ...x]);
   const detail = el('p', {class: 'note'});
   const {node, select: mark} = table(columns, rows, {onselect: (i) => chosen.select(chosen.selected === i ? -1 : i), tall: true});
   const update = () => {
@@ -133,5 +134,6 @@ function pointTable(data, objectives, chosen) {
 function describe(data, objectives, i) {
   const y = objectives.map((r, k) => `${pretty(r.name)} ${withUnit(data.front.Y[i][k], r)}`);
   const x = data.problem.variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(data.front.X[i][k], v)}`);
-  return `Point ${i + 1}: ${y.join(', ')} at ${x.join(', ')}.`;
+  const chance = data.front.success.length ? ` A run there succeeds with a chance of ${percent(data.front.success[i])}, as the runs that failed say.` : '';
+  return `Point ${i + 1}: ${y.join(', ')} at ${x.join(', ')}.${chance}`;
 }
