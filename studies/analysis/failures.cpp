@@ -65,10 +65,8 @@ std::string Failures::text() const {
   std::snprintf(scores, sizeof scores,
                 " (mean log probability of left-out runs %.2f, by their share alone %.2f)",
                 model_->left_out_score(), model_->share_score());
-  const std::string counts =
-      std::to_string(model_->failures()) + " of " + std::to_string(model_->runs()) + " runs failed";
   const bool tells = model_->left_out_score() > model_->share_score();
-  return counts + (tells ? "; the place tells which" : "; the place does not tell which") + scores;
+  return std::string(tells ? "The place tells" : "The place does not tell") + " which runs fail" + scores;
 }
 
 }  // namespace drawpoint::studies

@@ -30,7 +30,7 @@ class Failures {
   std::vector<bool> avoided(const Eigen::MatrixXd& X) const;
   /// Empty while no run has failed.
   const std::optional<kriging::SuccessModel>& model() const { return model_; }
-  /// How many failed, and whether the place tells: a sentence; empty while none has failed.
+  /// Whether the place tells which runs fail, without a full stop; empty while none has failed.
   std::string text() const;
 
  private:

@@ -94,7 +94,9 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
 std::string success_text(const Failures& failures, const doe::Problem& problem) {
   if (failures.none()) return "";
   const Eigen::VectorXd lengths = failures.model()->length_scales();
-  std::string text = "success: " + failures.text() + "\n  length scales, of the ranges:";
+  std::string text = "success: " + std::to_string(failures.model()->failures()) + " of " +
+                     std::to_string(failures.model()->runs()) + " runs failed. " + failures.text() +
+                     "\n  length scales, of the ranges:";
   for (std::size_t k = 0; k < problem.variables.size(); ++k)
     text +=
         (k ? ", " : " ") + problem.variables[k].name + " " + number(lengths[static_cast<Eigen::Index>(k)]);

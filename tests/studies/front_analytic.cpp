@@ -181,8 +181,7 @@ TEST(Front, NothingIsRecommendedWhereRunsFail) {
   EXPECT_EQ(found.front.Y.row(1), Y.row(2));
   leave_out_failed(found, failures);
   EXPECT_EQ(found.front.X.rows(), 2);
-  EXPECT_NE(failures.text().find("10 of 22 runs failed; the place tells which"), std::string::npos)
-      << failures.text();
+  EXPECT_EQ(failures.text().find("The place tells which runs fail ("), 0u) << failures.text();
 }
 
 TEST(Front, WithoutAFailureEveryPlaceIsSafe) {
