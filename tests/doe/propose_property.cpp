@@ -78,20 +78,22 @@ TEST(Propose, ACellGivesOnePointUntilAllHaveGivenOne) {
 }
 
 // Inside a cell the farthest candidate wins: no other candidate of the same draw, there or with more points
-// asked for, can be farther from the runs.
+// asked for, can be farther from the runs. Of candidates alone: only the distance would climb.
 TEST(Propose, PlacesThePointFarthestFromAllRuns) {
   const Evaluations runs = some_runs();
   const auto flat = [](const Evaluations&) -> Criterion {
     return [](const Eigen::MatrixXd& X) -> Eigen::VectorXd { return Eigen::VectorXd::Ones(X.rows()); };
   };
-  const Eigen::MatrixXd by_tie = propose(runs, flat), by_score = propose(runs, distance_to_runs);
+  const Eigen::MatrixXd by_tie = propose(runs, flat),
+                        by_score = propose(runs, distance_to_runs, {.climb = false});
   EXPECT_EQ(by_tie, by_score);
 }
 
-// Each choice has the highest (score − lowest) Π min(1, |x − c|²/r_c²) of all candidates, worked out anew.
+// Each choice has the highest (score − lowest) Π min(1, |x − c|²/r_c²) of all candidates, worked out anew;
+// none climbs.
 TEST(Propose, PenaltyIsItsFormula) {
   const Evaluations runs = some_runs(3);
-  const ProposeOptions options{.batch = 6, .candidates = 2000, .rule = BatchRule::penalty};
+  const ProposeOptions options{.batch = 6, .candidates = 2000, .rule = BatchRule::penalty, .climb = false};
   const Eigen::MatrixXd X = propose(runs, peaked, options);
   ASSERT_EQ(X.rows(), 6);
   std::uint64_t counter = 0;
