@@ -26,6 +26,7 @@
 #include <drawpoint/doe/process_pool.hpp>
 #include <drawpoint/doe/processes.hpp>
 #include <drawpoint/doe/propose.hpp>
+#include <drawpoint/doe/propose_options.hpp>
 #include <drawpoint/doe/quality.hpp>
 #include <drawpoint/doe/region.hpp>
 #include <drawpoint/doe/remembered.hpp>
@@ -79,7 +80,8 @@
 ///   adaptive.hpp                     first design, then batches where a criterion says, until it suffices
 ///   criterion.hpp                    what scores a candidate point, and mixes of criteria
 ///   lola_voronoi.hpp                 run more where the response bends and where there are holes
-///   propose.hpp                      the best of many candidates, kept apart
+///   propose.hpp                      the best of many candidates, moved uphill, kept apart
+///   propose_options.hpp              batch, candidates, rule, where it is allowed
 ///
 /// What the inputs do:
 ///   main_effects.hpp                 how the mean of a response moves with one input
