@@ -21,7 +21,6 @@
 /// standard input, and the caller's working directory and environment. Linux only.
 
 #include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -37,9 +36,9 @@
 #include <utility>
 #include <vector>
 
-#include <drawpoint/doe/detail/hash.hpp>
 #include <drawpoint/doe/detail/slurm_commands.hpp>
 #include <drawpoint/doe/detail/task_files.hpp>
+#include <drawpoint/doe/detail/task_folder.hpp>
 #include <drawpoint/doe/processes.hpp>
 
 namespace drawpoint::doe {
@@ -59,13 +58,11 @@ class SlurmJobs {
  public:
   /// Throws std::invalid_argument for options out of range, std::runtime_error where there is no Slurm or no
   /// folder.
-  explicit SlurmJobs(SlurmOptions options) : options_(std::move(options)) {
-    check();
-    options_.folder = std::filesystem::absolute(options_.folder);
-    most_tasks_ = most_tasks();
-    std::filesystem::create_directories(options_.folder);
-    read_earlier();
-  }
+  explicit SlurmJobs(SlurmOptions options)
+      : options_(checked(std::move(options))),
+        most_tasks_(most_tasks()),
+        folder_(options_.folder),
+        earlier_(folder_.take_over()) {}
   SlurmJobs(const SlurmJobs&) = delete;
   SlurmJobs& operator=(const SlurmJobs&) = delete;
 
@@ -108,23 +105,24 @@ class SlurmJobs {
   /// The end of this process, given by the last wait(), does not count: whoever starts it again gets a new
   /// one.
   void discard(std::int64_t id) {
-    if (const auto found = given_.find(id); found != given_.end()) remove_files(found->second);
+    if (const auto found = given_.find(id); found != given_.end()) folder_.remove(found->second);
   }
 
   /// Removes the files of ends that have been given, and of arrays without others: the caller has dealt with
   /// them.
   void forget() {
-    for (const auto& [id, place] : std::exchange(given_, {})) remove_files(place);
+    for (const auto& [id, place] : std::exchange(given_, {})) folder_.remove(place);
     std::set<std::string> needed;
     for (const auto& [id, task] : tasks_) needed.insert(task.place.array);
     for (const auto& [script, place] : earlier_) needed.insert(place.array);
-    for (auto array = arrays_.begin(); array != arrays_.end();)
-      array = needed.contains(*array) ? std::next(array) : remove_files(array);
+    const std::set<std::string> arrays = folder_.arrays();
+    for (const std::string& array : arrays)
+      if (!needed.contains(array)) folder_.remove(array);
   }
 
   /// Cancels all that still runs or waits; its ends are dropped.
   void cancel() {
-    for (const std::string& array : arrays_) detail::cancel_array(array);
+    for (const std::string& array : arrays()) detail::cancel_array(array);
     tasks_.clear();
     queue_.clear();
     earlier_.clear();
@@ -132,18 +130,32 @@ class SlurmJobs {
   }
 
   /// Names of the job arrays, as in squeue --name and scancel --name.
-  const std::set<std::string>& arrays() const { return arrays_; }
+  const std::set<std::string>& arrays() const { return folder_.arrays(); }
+
+  /// Where the tasks stand, as Slurm last said: "3 at work, 40 waiting (Resources)", with the most frequent
+  /// reason for waiting in Slurm's words; empty before the first answer, and while none waits.
+  std::string standing() const {
+    int waiting = 0, at_work = 0;
+    std::map<std::string, int> reasons;
+    for (const auto& [id, task] : tasks_) {
+      const auto found = states_.find({task.place.array, task.place.index});
+      if (found == states_.end()) continue;
+      at_work += found->second.state == "RUNNING";
+      if (found->second.state != "PENDING") continue;
+      ++waiting;
+      ++reasons[found->second.reason];
+    }
+    if (waiting == 0) return "";
+    const auto often = std::max_element(reasons.begin(), reasons.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    return std::to_string(at_work) + " at work, " + std::to_string(waiting) + " waiting (" + often->first +
+           ")";
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr const char* own_prefix = "drawpoint-";
-  static constexpr const char* unfinished = ".unfinished";
+  using Place = detail::TaskPlace;
 
-  struct Place {
-    std::string array;
-    int index = 0;
-    auto operator<=>(const Place&) const = default;
-  };
   struct Task {
     Process process;
     std::string script;
@@ -152,25 +164,25 @@ class SlurmJobs {
     Clock::time_point ended = Clock::time_point::max();  // first seen without a reply
   };
 
-  void check() const {
+  static SlurmOptions checked(SlurmOptions options) {
     const auto reject = [](const std::string& what) {
       throw std::invalid_argument("doe::SlurmJobs: " + what);
     };
-    if (options_.folder.empty()) reject("no folder; name one that all nodes reach");
-    if (options_.at_once < 0)
-      reject("at_once is " + std::to_string(options_.at_once) + "; allowed is 0 or more");
-    if (options_.submissions < 1)
-      reject("submissions is " + std::to_string(options_.submissions) + "; allowed is 1 or more");
+    if (options.folder.empty()) reject("no folder; name one that all nodes reach");
+    if (options.at_once < 0)
+      reject("at_once is " + std::to_string(options.at_once) + "; allowed is 0 or more");
+    if (options.submissions < 1)
+      reject("submissions is " + std::to_string(options.submissions) + "; allowed is 1 or more");
     const auto reject_clusters = [&](const std::string& word) {
       reject(word +
              " is for sbatch alone, and squeue would not find the tasks; set SLURM_CLUSTERS, which all "
              "commands of Slurm follow");
     };
-    for (const std::string& word : options_.options)
+    for (const std::string& word : options.options)
       if (word.starts_with("-M") || word.starts_with("--clusters")) reject_clusters(word);
     if (std::getenv("SBATCH_CLUSTERS") != nullptr) reject_clusters("SBATCH_CLUSTERS");
-    if (!(options_.poll > 0.0))
-      reject("poll is " + std::to_string(options_.poll) + " s; allowed is above 0 s");
+    if (!(options.poll > 0.0)) reject("poll is " + std::to_string(options.poll) + " s; allowed is above 0 s");
+    return options;
   }
 
   static int most_tasks() {
@@ -178,47 +190,6 @@ class SlurmJobs {
       return std::min(detail::most_tasks_per_array(), 1000);
     } catch (const detail::SlurmError& e) {
       throw std::runtime_error(std::string("doe::SlurmJobs: there is no Slurm cluster here: ") + e.what());
-    }
-  }
-
-  std::filesystem::path folder(const std::string& array) const { return options_.folder / array; }
-  std::filesystem::path script(const Place& place) const {
-    return folder(place.array) / (std::to_string(place.index) + ".sh");
-  }
-  static std::filesystem::path reply(std::filesystem::path script) {
-    return script.replace_extension(".reply");
-  }
-
-  /// The script first: without it nobody takes the reply over.
-  void remove_files(const Place& place) {
-    std::error_code ignored;
-    std::filesystem::remove(script(place), ignored);
-    std::filesystem::remove(reply(script(place)), ignored);
-  }
-
-  std::set<std::string>::iterator remove_files(std::set<std::string>::iterator array) {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder(*array), ignored);
-    return arrays_.erase(array);
-  }
-
-  /// Tasks that another object has left here, by their scripts.
-  void read_earlier() {
-    for (const auto& entry : std::filesystem::directory_iterator(options_.folder)) {
-      const std::string array = entry.path().filename();
-      if (!array.starts_with(own_prefix) || !entry.is_directory()) continue;
-      if (entry.path().extension() == unfinished) {
-        std::filesystem::remove_all(entry.path());
-        continue;
-      }
-      arrays_.insert(array);
-      for (const auto& file : std::filesystem::directory_iterator(entry.path())) {
-        const std::string stem = file.path().stem();
-        if (file.path().extension() != ".sh" || stem == "task") continue;
-        const Place place{array, std::stoi(stem)};
-        const auto [found, is_new] = earlier_.emplace(detail::text_of(file.path()), place);
-        if (!is_new && std::filesystem::exists(reply(file.path()))) found->second = place;
-      }
     }
   }
 
@@ -247,20 +218,15 @@ class SlurmJobs {
   }
 
   bool submit(const std::vector<std::int64_t>& ids) {
-    const std::string array = new_name();
-    const std::filesystem::path draft = folder(array).string() + unfinished;
-    std::filesystem::create_directories(draft);
-    for (std::size_t k = 0; k < ids.size(); ++k)
-      detail::put_text(draft / (std::to_string(k) + ".sh"), tasks_.at(ids[k]).script);
-    detail::put_text(draft / "task.sh", detail::script_of_array(folder(array)));
-    std::filesystem::rename(draft, folder(array));
+    std::vector<std::string> scripts;
+    for (const std::int64_t id : ids) scripts.push_back(tasks_.at(id).script);
+    const std::string array = folder_.write(scripts);
     try {
-      detail::submit_array(array, folder(array) / "task.sh", static_cast<int>(ids.size()), options_.at_once,
-                           options_.options);
+      detail::submit_array(array, folder_.script_of_all(array), static_cast<int>(ids.size()),
+                           options_.at_once, options_.options);
     } catch (const detail::SlurmError& e) {
       if (detail::is_cancelled(array)) {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder(array), ignored);
+        folder_.remove(array);
         if (!accepted_)
           throw std::runtime_error(std::string("doe::SlurmJobs: Slurm takes no job: ") + e.what());
         bear(e, refused_);
@@ -270,7 +236,7 @@ class SlurmJobs {
     }
     refused_ = Clock::time_point::max();
     accepted_ = true;
-    arrays_.insert(array);
+    folder_.add(array);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       Task& task = tasks_.at(ids[k]);
       task.place = {array, static_cast<int>(k)};
@@ -278,16 +244,6 @@ class SlurmJobs {
       ++task.submissions;
     }
     return true;
-  }
-
-  /// Unique among all that were ever in the folder, and on the cluster.
-  std::string new_name() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
-    return own_prefix +
-           detail::checksum(options_.folder.string() + " " + std::to_string(getpid()) + " " +
-                            std::to_string(now))
-               .substr(0, 8) +
-           "-" + std::to_string(++serial_);
   }
 
   std::map<Place, std::int64_t> ids_by_place() const {
@@ -299,21 +255,19 @@ class SlurmJobs {
 
   /// Those whose replies are there.
   std::vector<ProcessEnd> collect() {
-    std::vector<ProcessEnd> ends;
     const std::map<Place, std::int64_t> ids = ids_by_place();
-    for (const std::string& array : arrays_) {
-      for (const auto& file : std::filesystem::directory_iterator(folder(array))) {
-        if (file.path().extension() != ".reply") continue;
-        const auto found = ids.find({array, std::stoi(file.path().stem())});
-        if (found == ids.end()) continue;
-        const Process& process = tasks_.at(found->second).process;
-        const std::optional<ProcessEnd> end = detail::end_in(detail::text_of(file.path()), process);
-        if (!end) continue;  // not all of it is seen yet
-        detail::remove_if_empty(process.output);
-        ends.push_back(*end);
-        given_[end->id] = found->first;
-        tasks_.erase(found->second);
-      }
+    std::set<Place> wanted;
+    for (const auto& [place, id] : ids) wanted.insert(place);
+    std::vector<ProcessEnd> ends;
+    for (const auto& [place, text] : folder_.replies_of(wanted)) {
+      const std::int64_t id = ids.at(place);
+      const Process& process = tasks_.at(id).process;
+      const std::optional<ProcessEnd> end = detail::end_in(text, process);
+      if (!end) continue;  // not all of it is seen yet
+      detail::remove_if_empty(process.output);
+      ends.push_back(*end);
+      given_[id] = place;
+      tasks_.erase(id);
     }
     return ends;
   }
@@ -321,10 +275,9 @@ class SlurmJobs {
   /// Asks Slurm for the tasks without a reply. Those that have failed; lost ones are queued again.
   std::vector<ProcessEnd> ask() {
     next_question_ = Clock::now() + seconds(options_.poll);
-    if (arrays_.empty()) return {};
-    detail::TaskStates states;
+    if (arrays().empty()) return {};
     try {
-      states = detail::task_states({arrays_.begin(), arrays_.end()});
+      states_ = detail::task_states({arrays().begin(), arrays().end()});
       unanswered_ = Clock::time_point::max();
     } catch (const detail::SlurmError& e) {
       bear(e, unanswered_);
@@ -334,8 +287,8 @@ class SlurmJobs {
     for (const std::int64_t id : ids_in_order()) {
       Task& task = tasks_.at(id);
       if (task.place.array.empty()) continue;
-      const auto found = states.find({task.place.array, task.place.index});
-      const std::string state = found == states.end() ? "unknown" : found->second;
+      const auto found = states_.find({task.place.array, task.place.index});
+      const std::string state = found == states_.end() ? "unknown" : found->second.state;
       if (ended_without_reply(task, state)) judge(task, state, ends);
     }
     for (const ProcessEnd& end : ends) {
@@ -366,8 +319,7 @@ class SlurmJobs {
     static const std::set<std::string> final_word = {"CANCELLED", "TIMEOUT", "DEADLINE", "OUT_OF_MEMORY"};
     const bool of_another_time = task.submissions == 0;  // what became of it then does not count
     if (of_another_time || (!final_word.contains(state) && task.submissions < options_.submissions)) {
-      std::error_code ignored;
-      std::filesystem::remove(script(task.place), ignored);  // so that it is taken for no earlier task
+      folder_.remove_script(task.place);
       task.place = {};
       queue_.push_back(task.process.id);
       return;
@@ -391,13 +343,13 @@ class SlurmJobs {
   }
 
   SlurmOptions options_;
-  int most_tasks_ = 1;  // of one array
-  std::map<std::int64_t, Task> tasks_;
-  std::deque<std::int64_t> queue_;        // tasks to submit
-  std::set<std::string> arrays_;          // those that have a folder
+  int most_tasks_;  // of one array
+  detail::TaskFolder folder_;
   std::map<std::string, Place> earlier_;  // by script
-  bool accepted_ = false;                 // an array of this object, by Slurm
-  int serial_ = 0;
+  std::map<std::int64_t, Task> tasks_;
+  std::deque<std::int64_t> queue_;  // tasks to submit
+  detail::TaskStates states_;       // as last asked for
+  bool accepted_ = false;           // an array of this object, by Slurm
   Clock::time_point next_question_ = Clock::now() + seconds(options_.poll);
   Clock::time_point next_submission_ = Clock::now();
   Clock::time_point unanswered_ = Clock::time_point::max();  // since when; of squeue

@@ -67,23 +67,29 @@ inline void submit_array(const std::string& name, const std::filesystem::path& s
   slurm_answer(words);
 }
 
-/// State of each task that Slurm still knows, by array and index; it forgets tasks some minutes after their
-/// end.
-using TaskStates = std::map<std::pair<std::string, int>, std::string>;
+/// Where a task stands, in Slurm's words, and why it waits.
+struct TaskState {
+  std::string state, reason;
+};
+
+/// Of each task that Slurm still knows, by array and index; it forgets tasks some minutes after their end.
+using TaskStates = std::map<std::pair<std::string, int>, TaskState>;
 
 inline TaskStates task_states(const std::vector<std::string>& arrays) {
   std::string names;
   for (const std::string& name : arrays) names += (names.empty() ? "" : ",") + name;
   const std::string table = slurm_answer(
-      {"squeue", "--noheader", "--array", "--states=all", "--name=" + names, "--format=%j %K %T"});
+      {"squeue", "--noheader", "--array", "--states=all", "--name=" + names, "--format=%j %K %T %r"});
   TaskStates states;
   for (std::size_t from = 0, to; (to = table.find('\n', from)) != table.npos; from = to + 1) {
     const std::string line = table.substr(from, to - from);
-    const std::size_t first = line.find(' '), second = line.find(' ', first + 1);
+    const std::size_t first = line.find(' '), second = line.find(' ', first + 1),
+                      third = line.find(' ', second + 1);
     int index = 0;
-    if (second == line.npos) continue;  // a warning
+    if (second == line.npos || third == line.npos) continue;  // a warning
     if (std::from_chars(line.data() + first + 1, line.data() + second, index).ptr == line.data() + second)
-      states[{line.substr(0, first), index}] = line.substr(second + 1);
+      states[{line.substr(0, first), index}] = {line.substr(second + 1, third - second - 1),
+                                                line.substr(third + 1)};
   }
   return states;
 }
@@ -112,7 +118,7 @@ inline bool is_over(const std::string& state) {
 inline void await_end(const std::set<std::string>& arrays) {
   using Clock = std::chrono::steady_clock;
   const auto patience = Clock::now() + std::chrono::seconds(60);
-  const auto runs = [](const auto& task) { return !is_over(task.second); };
+  const auto runs = [](const auto& task) { return !is_over(task.second.state); };
   while (Clock::now() < patience) {
     const TaskStates states = task_states({arrays.begin(), arrays.end()});
     if (std::none_of(states.begin(), states.end(), runs)) return;

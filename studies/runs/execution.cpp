@@ -196,7 +196,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
     }
     for (const auto& end : workers->wait(patience))
       progress.finished_one(store_end(store, folder, *workers, end));
-    progress.tick();
+    progress.tick(workers->standing());
   }
   workers->finish();
   std::error_code ignored;

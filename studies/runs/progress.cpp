@@ -48,6 +48,7 @@ std::string progress_text(const ProgressState& state) {
     text += ", " + (rate < 1.0 ? number(60.0 * rate, "per minute") : number(rate, "per second"));
     if (state.done < state.total) text += ", " + duration_text((state.total - state.done) / rate) + " left";
   }
+  if (!state.standing.empty()) text += "; " + state.standing;
   return text;
 }
 
@@ -71,7 +72,8 @@ void Progress::finished_one(bool failed) {
   if (state_.done == state_.total) show(true);
 }
 
-void Progress::tick() {
+void Progress::tick(const std::string& standing) {
+  state_.standing = standing;
   if (seconds_since(shown_) >= (live_ ? live_interval : plain_interval)) show(false);
 }
 

@@ -19,6 +19,7 @@ struct ProgressState {
   int total = 0;
   int session = 0;  ///< finished since `seconds` ago
   double seconds = 0.0;
+  std::string standing = {};  ///< of the tasks of a cluster, "2 at work, 40 waiting (Resources)"
 };
 std::string progress_text(const ProgressState& state);
 
@@ -29,7 +30,7 @@ class Progress {
   ~Progress();  ///< leaves the cursor on a fresh line
 
   void finished_one(bool failed);
-  void tick();  ///< call a few times per second
+  void tick(const std::string& standing);  ///< call a few times per second
 
  private:
   void show(bool last);

@@ -24,6 +24,7 @@ class LocalWorkers : public Workers {
   int running() const override { return pool_.running(); }
   void start(const doe::Process& process) override { pool_.start(process); }
   std::vector<doe::ProcessEnd> wait(milliseconds patience) override { return pool_.wait(patience); }
+  std::string standing() const override { return ""; }
   void discard(std::int64_t) override {}
   void leave() override { pool_.terminate(time_to_end); }
   void finish() override {}
@@ -41,6 +42,7 @@ class SlurmWorkers : public Workers {
   int running() const override { return jobs_.running(); }
   void start(const doe::Process& process) override { jobs_.start(process); }
   std::vector<doe::ProcessEnd> wait(milliseconds patience) override { return jobs_.wait(patience); }
+  std::string standing() const override { return jobs_.standing(); }
   void discard(std::int64_t id) override { jobs_.discard(id); }
   void leave() override {}
   void finish() override {
