@@ -1,5 +1,7 @@
 # Install, export and packages. A component is one module: its headers, its library if it has one, its export file.
-# The component `common` is what all need: the package config and the licence.
+# The component `common` is what all need: the package config and the licence. The component `programs` is the
+# studies to run, with what studies/front/CMakeLists.txt adds to them; `everything` is a package that brings all
+# modules.
 
 if(NOT DRAWPOINT_INSTALL OR NOT DRAWPOINT_BUILD_TOOLKIT)
   return()
@@ -42,6 +44,18 @@ if(DRAWPOINT_BUILD_ENGINE)
 endif()
 if(DRAWPOINT_BUILD_STUDIES)
   drawpoint_install(studies)
+  install(FILES studies/throw.json studies/throw.py DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint/examples COMPONENT programs EXCLUDE_FROM_ALL)
+  install(FILES CHANGELOG.md docs/studies.md docs/writing-a-study.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint
+          COMPONENT programs EXCLUDE_FROM_ALL)
+  # Of what the programs hold: the report's libraries, and Debian's packages of headers and of a static library.
+  foreach(library plotly.js-dist-min three)
+    install(FILES ${PROJECT_BINARY_DIR}/studies/report/npm/node_modules/${library}/LICENSE RENAME copyright.${library}
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint COMPONENT programs EXCLUDE_FROM_ALL)
+  endforeach()
+  foreach(package libeigen3-dev libcli11-dev nlohmann-json3-dev libsqlitecpp-dev)
+    install(FILES /usr/share/doc/${package}/copyright RENAME copyright.${package}
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint COMPONENT programs EXCLUDE_FROM_ALL OPTIONAL)
+  endforeach()
 endif()
 
 # Which of the header-only modules hand Ipopt on to their users, so that the config looks for it there only.
@@ -103,7 +117,8 @@ install(FILES ${PROJECT_BINARY_DIR}/DrawpointConfig.cmake ${PROJECT_BINARY_DIR}/
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint
         COMPONENT common)
 
-# One Debian package a component: cpack -G DEB in the build directory.
+# One Debian package per component: cpack -G DEB in the build directory. Each has its licence in the file
+# "copyright", as Debian wants it.
 set(CPACK_PACKAGE_VENDOR "Drawpoint contributors")
 set(CPACK_PACKAGE_CONTACT "Drawpoint contributors")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
@@ -111,13 +126,21 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENTS_ALL common doe kriging pareto)
+set(CPACK_COMPONENTS_ALL common doe kriging pareto everything)
+set(CPACK_STRIP_FILES ON)
 
 # drawpoint_deb(COMPONENT SUMMARY DEPENDENCY...): the name, summary and dependencies of the component's package.
 function(drawpoint_deb component summary)
   string(TOUPPER ${component} key)
   list(JOIN ARGN ", " depends)
-  set(CPACK_DEBIAN_${key}_PACKAGE_NAME libdrawpoint-${component}-dev PARENT_SCOPE)
+  set(package libdrawpoint-${component}-dev)
+  if(component STREQUAL "everything")
+    set(package libdrawpoint-dev)
+  elseif(component STREQUAL "programs")
+    set(package drawpoint)
+  endif()
+  set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${package} PARENT_SCOPE)
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
   set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
   set(CPACK_COMPONENT_${key}_DESCRIPTION "${summary}" PARENT_SCOPE)
 endfunction()
@@ -143,5 +166,14 @@ if(DRAWPOINT_BUILD_STUDIES)
   list(APPEND CPACK_COMPONENTS_ALL studies)
   drawpoint_deb(studies "Drawpoint: a study as a program (library and headers)" "libdrawpoint-kriging-dev ${same_version}"
                 "libdrawpoint-pareto-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev)
+  list(APPEND CPACK_COMPONENTS_ALL programs)
+  drawpoint_deb(programs "Drawpoint: explore machine designs and strategies by simulation (programs)")
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "bash-completion, python3, slurm-client")
 endif()
+set(modules ${CPACK_COMPONENTS_ALL})
+list(REMOVE_ITEM modules common everything programs)
+list(TRANSFORM modules REPLACE "(.+)" "libdrawpoint-\\1-dev ${same_version}")
+drawpoint_deb(everything "Drawpoint: everything to build on (brings all libdrawpoint-*-dev)" ${modules})
 include(CPack)

@@ -5,7 +5,7 @@
 /// The table of evaluated runs: one row per run and replicate, failed ones with their reason.
 ///
 /// On disk it is a CSV file with the header
-///   run,replicate,seed,status,<variable> [unit],...,<response> [unit],...,seconds,failure
+/// `run,replicate,seed,status,<variable> [unit],...,<response> [unit],...,seconds,failure`;
 /// status is "ok" or "failed"; a failed row has empty responses and its reason in `failure`. Every double
 /// comes back from the file bit for bit. Writing is atomic; reading checks the header against the problem and
 /// every field.

@@ -6,7 +6,7 @@
 /// the same call goes on where it stopped.
 ///
 /// Each line is a row of the table of evaluations.hpp and its checksum (FNV-1a, 64 bits, in hexadecimal); the
-/// first line is that table's header. Line breaks and backslashes in reasons are written as \n, \r and \\.
+/// first line is that table's header. Line breaks and backslashes in reasons are written as `\n`, `\r` and `\\`.
 /// Lines are only ever appended, each by one call of the system, so a killed process loses at most the runs
 /// in flight; the disk is told to sync once a second, so a power cut loses a second more. A torn last line is
 /// cut off when the file is opened; damage elsewhere is an error that names the line. One process at a time:

@@ -42,7 +42,7 @@ constexpr Seed run_seed(Seed study, std::uint64_t run, std::uint64_t replicate) 
   return detail::mix(of_run + (replicate + 1) * detail::golden_gamma);
 }
 
-/// A stream of random numbers: a seed and a counter, cheap to copy, usable with <random>'s distributions.
+/// A stream of random numbers: a seed and a counter, cheap to copy, usable with the distributions of `<random>`.
 class RandomStream {
  public:
   using result_type = std::uint64_t;

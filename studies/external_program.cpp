@@ -6,34 +6,66 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace drawpoint;
 
 namespace {
 
+constexpr const char* about =
+    "A study from a JSON file, whose simulator is a program in any language: docs/writing-a-study.md.";
+
 constexpr const char* usage =
-    R"(usage: external_program STUDY.json [COMMAND] [OPTIONS]
+    R"(usage: %s STUDY.json [COMMAND] [OPTIONS]
 
 Makes the runs of the study that STUDY.json describes: each starts the file's command, a program in any
 language, with a request to read and a reply to write. docs/writing-a-study.md shows both files.
 
-  external_program throw.json --runs 40 --validation 10   # plan, run, fit, report
-  external_program throw.json confirm                     # simulate what the front promises
-  external_program throw.json --help                      # all commands and options
+  %s throw.json --runs 40 --validation 10   # plan, run, fit, report
+  %s throw.json confirm                     # simulate what the front promises
+  %s throw.json --help                      # all commands and options
 )";
+
+int run_study(std::vector<std::string> words, const studies::Study& study) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  return studies::run(static_cast<int>(argv.size()), argv.data(), study);
+}
+
+/// What the program says of itself before it has a study.
+int of_any_study(const std::string& program, const std::string& question) {
+  const studies::Study any{.name = "NAME",
+                           .problem = {.variables = {{"VALUE", "1", 0, 1}}, .responses = {{"RESPONSE", "1"}}},
+                           .black_box = [](const Eigen::VectorXd&) { return doe::Failure{"no study"}; },
+                           .about = about,
+                           .leading_words = {"STUDY.json"}};
+  return run_study({program, "STUDY.json", question}, any);
+}
+
+/// `complete STUDY.json WORD...` is asked of the study. The name of the file itself is the shell's.
+int completed(std::vector<std::string> words) {
+  if (words.size() < 4) return 0;
+  std::swap(words[1], words[2]);
+  return run_study(words, studies::study_from(words[1]));
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
-  if (first == "--help" || first == "-h") return std::fputs(usage, stdout) < 0;
-  if (first == "--version") return std::puts("Drawpoint " DRAWPOINT_VERSION) < 0;
-  if (first.empty() || first[0] == '-') {
-    std::fputs(usage, stderr);
-    return 2;
+  const std::string program = std::filesystem::path(argv[0]).filename().string();
+  const bool help = first == "--help" || first == "-h";
+  if (help || first.empty() || (first[0] == '-' && first != "--version")) {
+    const char* name = program.c_str();
+    std::fprintf(help ? stdout : stderr, usage, name, name, name, name);
+    return help ? 0 : 2;
   }
   try {
+    if (first == "--version" || first == "man-page" || first == "about") return of_any_study(argv[0], first);
+    if (first == "complete") return completed({argv, argv + argc});
     return studies::run(argc, argv, studies::study_from(first));
   } catch (const std::exception& e) {
     std::fprintf(stderr, "external_program: %s\n", e.what());

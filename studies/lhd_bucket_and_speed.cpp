@@ -9,6 +9,7 @@
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/engine/loading/libraries.hpp>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
@@ -110,6 +111,7 @@ int main(int argc, char** argv) {
        .about = "Bucket, speeds and strategy of an LHD together, in a drift.",
        .defaults = {.runs = 60, .validation = 12},
        .options = options(),
+       .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,
        .responses = [](const std::filesystem::path& log,

@@ -7,6 +7,7 @@
 #include <drawpoint/studies/loading_findings.h>
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/engine/loading/libraries.hpp>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/studies/study.hpp>
 
@@ -76,6 +77,7 @@ int main(int argc, char** argv) {
        .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
        .defaults = {.runs = 40, .validation = 12},
        .options = studies::loading_options(),
+       .libraries = engine::loading::libraries(),
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,

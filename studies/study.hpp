@@ -129,7 +129,7 @@ class HeadlineFunction {
 };
 
 /// All that makes a study. Name: letters, digits, '_' and '-'; it names the default output folder
-/// results/<name>.
+/// `results/<name>`.
 struct Study {
   std::string name = {};
   doe::Problem problem = {};
@@ -143,6 +143,8 @@ struct Study {
   /// What makes the runs where that is not this program alone, such as another program and its checksum: a
   /// folder never mixes runs of two.
   std::string simulator = {};
+  /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for --version.
+  std::vector<std::string> libraries = {};
   /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
   /// writes is kept or nothing.
   std::function<void(const RunContext& context)> prepare = {};

@@ -51,7 +51,7 @@ struct LhdSurface {
   engine::Shape shape;
   SurfaceKind kind;
   bool touches = false;  ///< takes part in contacts; the others are only drawn
-  std::string color;     ///< #rrggbb
+  std::string color;     ///< `#rrggbb`
 };
 
 struct Lhd {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/confirmations.h>
 #include <drawpoint/studies/analysis/facts.h>
+#include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/progress.h>
 #include <sys/utsname.h>
@@ -83,12 +84,11 @@ std::vector<std::pair<std::string, std::string>> facts(const Store& store, const
   std::vector<std::pair<std::string, std::string>> all = {{"Design", design(store, runs)},
                                                           {"Seed", std::to_string(identity.seed)}};
   for (const auto& [name, value] : identity.options) all.emplace_back("Option " + name, value);
-  all.insert(all.end(),
-             {{"Runs made", time_span(runs)},
-              {"Time in runs", time_in_runs(runs)},
-              {"Machine", machine()},
-              {"System", system_name()},
-              {"Program", std::string("Drawpoint ") + DRAWPOINT_VERSION + ", compiler " + __VERSION__}});
+  all.insert(all.end(), {{"Runs made", time_span(runs)},
+                         {"Time in runs", time_in_runs(runs)},
+                         {"Machine", machine()},
+                         {"System", system_name()},
+                         {"Program", program_version()}});
   const CheckedRuns adaptive = check_predictions(runs, identity.problem, Kind::adaptive);
   if (!adaptive.runs.empty())
     all.emplace_back("Adaptive runs, predicted before they were made", text(adaptive));

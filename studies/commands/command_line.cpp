@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/problem_text.h>
+#include <drawpoint/studies/commands/questions.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <CLI/CLI.hpp>
@@ -67,9 +69,13 @@ std::string criteria_complaint(const std::string& text) {
   }
 }
 
-/// `prog --runs 5` means `prog run --runs 5`. The first `leading` words are the study's.
-std::vector<std::string> with_command(int argc, char** argv, std::size_t leading) {
-  std::vector<std::string> words(argv + std::min(argc, 1 + static_cast<int>(leading)), argv + argc);
+/// Behind the program and the study's leading words.
+std::vector<std::string> typed_words(int argc, char** argv, const Study& study) {
+  return {argv + std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv + argc};
+}
+
+/// `prog --runs 5` means `prog run --runs 5`.
+std::vector<std::string> with_command(std::vector<std::string> words) {
   const std::string first = words.empty() ? "" : words.front();
   const bool help = first == "--help" || first == "-h" || first == "--version";
   const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
@@ -82,13 +88,20 @@ std::vector<std::string> with_command(int argc, char** argv, std::size_t leading
   return words;
 }
 
-std::string joined(int argc, char** argv) {
+/// The first `count` words of the command line. `drawpoint NAME` is the first where that program started this
+/// one.
+std::string joined(int count, char** argv) {
   std::string text;
-  for (int i = 0; i < argc; ++i) {
+  for (int i = 0; i < count; ++i) {
     if (i > 0) text += ' ';
     text += i == 0 ? std::filesystem::path(argv[0]).filename().string() : argv[i];
   }
   return text;
+}
+
+/// What is typed before a command.
+std::string program_of(int argc, char** argv, const Study& study) {
+  return joined(std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv);
 }
 
 void add_folder_options(CLI::App& command, Settings& settings) {
@@ -327,22 +340,25 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.command = joined(argc, argv);
   parsed.settings.leading_words = study.leading_words;
-  CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, study.name);
+  const std::string program = program_of(argc, argv, study);
+  CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, program);
   app.set_help_flag();
   app.set_help_all_flag("-h,--help", "show this text");
-  app.set_version_flag("--version", std::string("Drawpoint ") + DRAWPOINT_VERSION);
+  app.set_version_flag("--version", version_text(study), "say what this program is made of");
   app.require_subcommand(1);
   app.footer(problem_text(study.problem));
   define_folder_commands(app, parsed, study);
   define_rerun_responses(app, parsed, study);
   define_point_commands(app, parsed, study);
-  auto words = with_command(argc, argv, study.leading_words.size());
+  const std::vector<std::string> typed = typed_words(argc, argv, study);
+  if (answered(app, typed, joined(std::min(argc, 1), argv), study)) return 0;
+  auto words = with_command(typed);
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {
     app.parse(words);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    std::fprintf(stderr, "%s: %s; see %s --help\n", study.name.c_str(), e.what(), study.name.c_str());
+    std::fprintf(stderr, "%s: %s; see %s --help\n", study.name.c_str(), e.what(), program.c_str());
     return wrong_usage;
   }
   return parsed.action();

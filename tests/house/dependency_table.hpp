@@ -90,6 +90,7 @@ inline const std::vector<Row>& dependency_table() {
        study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "sampling"}),
        {"Eigen", "nlohmann-json"},
        {}},
+      {"studies/front/", {"studies/commands/option_tree.h"}, {}, {"CLI11"}},
       {"studies/commands/",
        study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "commands"}),
        {"Eigen", "nlohmann-json"},
@@ -103,7 +104,7 @@ inline std::optional<std::string> package_of(const std::string& header) {
   static const std::vector<std::pair<std::regex, std::string>> packages{
       {std::regex("(Eigen|unsupported/Eigen)/.*"), "Eigen"},
       {std::regex("(coin/)?IpStdCInterface\\.h"), "Ipopt's C interface"},
-      {std::regex("coin(-or)?/.*|Ip[A-Z].*\\.hpp"), "Ipopt"},
+      {std::regex("coin(-or)?/.*|Ip[A-Z].*\\.hpp|IpoptConfig\\.h"), "Ipopt"},
       {std::regex("[Ss]imbody.*|SimTK.*"), "Simbody"},
       {std::regex("(fcl|ccd|octomap)/.*"), "FCL"},
       {std::regex("(oneapi/)?tbb/.*"), "oneTBB"},

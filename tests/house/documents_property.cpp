@@ -41,7 +41,21 @@ std::vector<std::string> dead_links(const std::string& text, const std::filesyst
   return found;
 }
 
+// What the first match of the expression has in its brackets; empty without one.
+std::string found_in(const std::filesystem::path& file, const std::string& expression) {
+  const std::string text = read_text(file);
+  std::smatch match;
+  return std::regex_search(text, match, std::regex(expression)) ? match[1].str() : "";
+}
+
 }  // namespace
+
+TEST(Documents, TheCitationNamesTheVersionOfTheProject) {
+  const std::string version =
+      found_in(root / "CMakeLists.txt", "project\\(Drawpoint VERSION ([0-9]+\\.[0-9]+\\.[0-9]+)");
+  ASSERT_FALSE(version.empty());
+  EXPECT_EQ(found_in(root / "CITATION.cff", "\nversion: (\\S+)\n"), version);
+}
 
 TEST(Documents, EveryLinkLeadsSomewhere) {
   const auto all = documents();

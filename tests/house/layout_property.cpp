@@ -51,6 +51,8 @@ std::vector<std::string> strangers(const std::set<std::string>& entries) {
                                              "README.md",
                                              "CHANGELOG.md",
                                              "CONTRIBUTING.md",
+                                             "CITATION.cff",
+                                             "SECURITY.md",
                                              "LICENSE",
                                              "run-study",
                                              "run-tests",

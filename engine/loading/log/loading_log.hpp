@@ -35,7 +35,7 @@ struct CycleRecord {
 
 struct SceneBody {
   int shape = 0;                  ///< index into SceneRecord::shapes
-  std::string color = "#808080";  ///< #rrggbb
+  std::string color = "#808080";  ///< `#rrggbb`
   double opacity = 1.0;
   std::string name;
 };
