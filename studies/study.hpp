@@ -8,10 +8,10 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, confirm, status, fit, validate, report, export, evaluate and
-/// rerun-responses (docs/studies.md). Every run is a process of its own with one thread, so that a crash is
-/// one failed run; each finished run is stored before the next one starts. Equal (x, seed) must give equal
-/// outcomes: a run that was lost is simply run again.
+/// The program has the commands run, confirm, status, fit, validate, front, compare, report, replay, export,
+/// evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one thread, so that
+/// a crash is one failed run; each finished run is stored before the next one starts. Equal (x, seed) must
+/// give equal outcomes: a run that was lost is simply run again.
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label

@@ -9,7 +9,7 @@
 namespace drawpoint::studies {
 namespace {
 
-constexpr double same_place = 0.02;  // of each range
+constexpr double nearby = 0.02;  // of each range
 
 using Place = std::vector<double>;
 
@@ -54,7 +54,7 @@ std::vector<bool> Failures::avoided(const Eigen::MatrixXd& X) const {
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     const auto distance = (lost_.rowwise() - U.row(i)).cwiseAbs().rowwise().maxCoeff();
     answer[static_cast<std::size_t>(i)] =
-        P[i] < 0.5 || (lost_.rows() > 0 && distance.minCoeff() <= same_place);
+        P[i] < 0.5 || (lost_.rows() > 0 && distance.minCoeff() <= nearby);
   }
   return answer;
 }

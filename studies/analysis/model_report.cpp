@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/report/stated_interval.h>
+#include <drawpoint/studies/report/text.h>
 #include <drawpoint/kriging/cross_validation.hpp>
 
 #include <cmath>
@@ -22,10 +23,6 @@ std::string number(double value) {
 
 std::string with_unit(double value, const std::string& unit) {
   return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
-}
-
-std::string heading(const doe::Response& response) {
-  return response.name + (response.unit.empty() || response.unit == "1" ? "" : " [" + response.unit + "]");
 }
 
 /// Errors of predictions against runs that the model did not know.
@@ -59,7 +56,8 @@ std::string fit_text(const Models& fitted, const doe::Problem& problem) {
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
     const kriging::TransformedModel& model = fitted.models[j];
     const doe::Response& response = problem.responses[j];
-    text += heading(response) + ": " + fitted.ways[j] + ", " + std::to_string(model.runs()) + " runs\n";
+    text += detail::labelled(response.name, response.unit) + ": " + fitted.ways[j] + ", " +
+            std::to_string(model.runs()) + " runs\n";
     text += "  " + std::string(to_string(model.status())) + ": " + model.message() + "\n";
     text += "  runs predicted without themselves: " + errors_text(leave_one_out(model), response) + "\n";
     text += "  noise of a run: " + noise_text(model, response.unit) + "\n  theta:";
@@ -122,7 +120,8 @@ std::string validation_text(const Models& fitted, const Tables& tables) {
   std::string text;
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
     const kriging::Validation& v = fitted.validations[j];
-    text += heading(responses[j]) + ": " + errors_text(v, responses[j]) + "\n";
+    text +=
+        detail::labelled(responses[j].name, responses[j].unit) + ": " + errors_text(v, responses[j]) + "\n";
     for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
       const Interval interval = stated_interval(v, i, responses[j]);
       const bool outside = !interval.holds(v.observed[i]);

@@ -48,6 +48,16 @@ std::string front_text(const Summary& summary) {
 
 }  // namespace
 
+nlohmann::ordered_json confirmed_json(const CheckedRuns& checked) {
+  return {{"points", checked.runs.size()},
+          {"values", checked.values},
+          {"within", checked.within},
+          {"failed", checked.failed},
+          {"dominated", checked.dominated},
+          {"breaking", checked.breaking},
+          {"agree", !checked.runs.empty() && checked.last_round().agree()}};
+}
+
 std::string json_line(const Summary& summary) {
   nlohmann::ordered_json line = {{"study", summary.study}, {"runs", 0}};
   for (const Kind kind : all_kinds) {
@@ -69,14 +79,7 @@ std::string json_line(const Summary& summary) {
     line["nrmse"][response] = number_or_null(value);
   }
   line["front"] = summary.front;
-  const CheckedRuns& checked = summary.confirmations;
-  line["confirmed"] = {{"points", checked.runs.size()},
-                       {"values", checked.values},
-                       {"within", checked.within},
-                       {"failed", checked.failed},
-                       {"dominated", checked.dominated},
-                       {"breaking", checked.breaking},
-                       {"agree", !checked.runs.empty() && checked.last_round().agree()}};
+  line["confirmed"] = confirmed_json(summary.confirmations);
   const pareto::Polishing& polishing = summary.polishing;
   line["certified"] = polishing.residual.size() > 0 ? nlohmann::ordered_json(polishing.certified())
                                                     : nlohmann::ordered_json();

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,9 @@ struct Summary {
 /// "report": path or null}, and "not_polished" and "error", which say why, if there is something to say.
 /// `runs` counts those that ended.
 std::string json_line(const Summary& summary);
+
+/// The entry "confirmed".
+nlohmann::ordered_json confirmed_json(const CheckedRuns& checked);
 
 /// Several lines, each with its end.
 std::string text(const Summary& summary);

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/commands/questions.h>
+#include <drawpoint/studies/commands/reading_commands.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <CLI/CLI.hpp>
@@ -23,9 +24,10 @@ namespace {
 
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
-constexpr std::array<const char*, 10> commands = {"run",      "confirm", "status", "fit",
-                                                  "validate", "report",  "export", "rerun-responses",
-                                                  "evaluate", "prepare"};
+/// Those that are told; prepare is for `run` alone.
+constexpr std::array<const char*, 12> commands = {"run",      "confirm", "status",          "fit",
+                                                  "validate", "front",   "compare",         "report",
+                                                  "replay",   "export",  "rerun-responses", "evaluate"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -56,10 +58,6 @@ std::string hours_complaint(const std::string& text) {
   return "Value " + text + " is no time; give 0 hours or more";
 }
 
-std::string folder_complaint(const std::string& text) {
-  return text.empty() ? "an empty name; give the folder of the study" : "";
-}
-
 std::string criteria_complaint(const std::string& text) {
   try {
     criteria_from(text);
@@ -74,16 +72,20 @@ std::vector<std::string> typed_words(int argc, char** argv, const Study& study) 
   return {argv + std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv + argc};
 }
 
+std::string names_of_commands() {
+  std::string names;
+  for (const char* command : commands) names += (names.empty() ? "" : ", ") + std::string(command);
+  return names;
+}
+
 /// `prog --runs 5` means `prog run --runs 5`.
 std::vector<std::string> with_command(std::vector<std::string> words) {
   const std::string first = words.empty() ? "" : words.front();
   const bool help = first == "--help" || first == "-h" || first == "--version";
-  const bool named = std::find(commands.begin(), commands.end(), first) != commands.end();
-  if (!first.empty() && first[0] != '-' && !named) {
-    throw UsageError("unknown command \"" + first +
-                     "\"; the commands are run, confirm, status, fit, validate, report, export, "
-                     "rerun-responses, evaluate");
-  }
+  const bool named =
+      first == "prepare" || std::find(commands.begin(), commands.end(), first) != commands.end();
+  if (!first.empty() && first[0] != '-' && !named)
+    throw UsageError("unknown command \"" + first + "\"; the commands are " + names_of_commands());
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
 }
@@ -102,14 +104,6 @@ std::string joined(int count, char** argv) {
 /// What is typed before a command.
 std::string program_of(int argc, char** argv, const Study& study) {
   return joined(std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv);
-}
-
-void add_folder_options(CLI::App& command, Settings& settings) {
-  command.add_option("--out", settings.out, "folder of the study: store, run logs, report")
-      ->check(folder_complaint)
-      ->capture_default_str();
-  command.add_flag("--json", settings.json,
-                   "last line of standard output is one JSON object; everything else goes to standard error");
 }
 
 void add_run_options(CLI::App& command, Settings& settings, const Defaults& defaults) {
@@ -214,16 +208,6 @@ void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe
       ->delimiter(',');
 }
 
-void add_export_options(CLI::App& command, ExportSettings& settings) {
-  command.add_option("--what", settings.what, "every run, or the front that the models predict")
-      ->check(CLI::IsMember({"runs", "front"}))
-      ->capture_default_str();
-  command.add_option("--format", settings.format, "comma-separated values, or one JSON object")
-      ->check(CLI::IsMember({"csv", "json"}))
-      ->capture_default_str();
-  command.add_option("--file", settings.file, "file to write (default: standard output)");
-}
-
 /// Those that the study declares; what is given goes to `values`.
 void add_study_options(CLI::App& command, const Study& study, OptionValues& values, bool kept) {
   for (const auto& option : study.options) {
@@ -254,7 +238,7 @@ struct Parsed {
   std::function<int()> action;
 };
 
-void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
+void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study) {
   auto* run =
       app.add_subcommand("run", "make the runs that are missing, then the report (also without a command)");
   add_folder_options(*run, parsed.settings);
@@ -270,25 +254,6 @@ void define_folder_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   add_execution_options(*confirm, parsed.settings);
   add_confirm_options(*confirm, parsed.settings.confirm, study.problem);
   confirm->callback([&] { parsed.action = [&] { return confirm_command(study, parsed.settings); }; });
-  auto* status = app.add_subcommand("status", "say how many runs are planned, done and failed, and why");
-  add_folder_options(*status, parsed.settings);
-  status->callback([&] { parsed.action = [&] { return status_command(study, parsed.settings); }; });
-  auto* fit = app.add_subcommand(
-      "fit", "say how each response is fitted, and how well runs are predicted without themselves");
-  add_folder_options(*fit, parsed.settings);
-  fit->callback([&] { parsed.action = [&] { return fit_command(study, parsed.settings); }; });
-  auto* validate = app.add_subcommand("validate", "hold the models against the validation runs, one by one");
-  add_folder_options(*validate, parsed.settings);
-  validate->callback([&] { parsed.action = [&] { return validate_command(study, parsed.settings); }; });
-  auto* report = app.add_subcommand("report", "make the report again from the stored runs");
-  add_folder_options(*report, parsed.settings);
-  report->callback([&] { parsed.action = [&] { return report_command(study, parsed.settings); }; });
-  auto* exported = app.add_subcommand("export", "write the runs or the front as a table for other programs");
-  exported->add_option("--out", parsed.settings.out, "folder of the study")
-      ->check(folder_complaint)
-      ->capture_default_str();
-  add_export_options(*exported, parsed.settings.exported);
-  exported->callback([&] { parsed.action = [&] { return export_command(study, parsed.settings); }; });
 }
 
 void define_rerun_responses(CLI::App& app, Parsed& parsed, const Study& study) {
@@ -347,7 +312,8 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   app.set_version_flag("--version", version_text(study), "say what this program is made of");
   app.require_subcommand(1);
   app.footer(problem_text(study.problem));
-  define_folder_commands(app, parsed, study);
+  define_commands_that_run(app, parsed, study);
+  define_reading_commands(app, study, parsed.settings, parsed.action);
   define_rerun_responses(app, parsed, study);
   define_point_commands(app, parsed, study);
   const std::vector<std::string> typed = typed_words(argc, argv, study);

@@ -20,6 +20,12 @@ int status_command(const Study& study, const Settings& settings);
 int fit_command(const Study& study, const Settings& settings);
 /// The models against the validation runs, one by one.
 int validate_command(const Study& study, const Settings& settings);
+/// The predicted front in the terminal.
+int front_command(const Study& study, const Settings& settings);
+/// What another folder of the study gives in place of this one; neither is changed.
+int compare_command(const Study& study, const Settings& settings);
+/// One run as a page of its own.
+int replay_command(const Study& study, const Settings& settings);
 /// The report again, from the stored runs.
 int report_command(const Study& study, const Settings& settings);
 /// The runs or the front as a table for other programs.

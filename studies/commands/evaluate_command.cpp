@@ -100,23 +100,19 @@ int pass_on(const Study& study, const PointSettings& settings, const doe::Outcom
 }
 
 /// A run of a study, and what it takes to make it again.
-struct StoredRun {
+struct RunToRepeat {
   Run run;
   PointSettings settings;
 };
 
-StoredRun stored_run(const Study& study, const PointSettings& given) {
+RunToRepeat run_to_repeat(const Study& study, const PointSettings& given) {
   if (!given.options.empty())
     throw UsageError("--run " + std::to_string(*given.run) + ": its options are the study's; leave out --" +
                      given.options.begin()->first);
   const Folder folder{given.out};
   const Store store = open_store(study, folder);
   require_same_simulator(study, store, folder);
-  const std::vector<Run> runs = store.runs();
-  if (*given.run > static_cast<std::int64_t>(runs.size()))
-    throw UsageError("--run " + std::to_string(*given.run) + ": the study in " + folder.path.string() +
-                     " has runs 1 to " + std::to_string(runs.size()));
-  StoredRun stored{runs[static_cast<std::size_t>(*given.run) - 1], given};
+  RunToRepeat stored{stored_run(store, folder, *given.run), given};
   if (stored.run.kind == Kind::imported)
     throw UsageError("--run " + std::to_string(*given.run) +
                      ": it was made elsewhere and imported; give its point with --x to simulate it here");
@@ -178,8 +174,8 @@ fs::path shared_folder(const Study& study, const PointSettings& settings,
 int evaluate_command(const Study& study, const PointSettings& given) {
   if (!given.run && given.x.empty())
     throw UsageError("evaluate: give a point with --x, or a run of a study with --run; see evaluate --help");
-  std::optional<StoredRun> stored;
-  if (given.run) stored = stored_run(study, given);
+  std::optional<RunToRepeat> stored;
+  if (given.run) stored = run_to_repeat(study, given);
   const PointSettings& settings = stored ? stored->settings : given;
   const Eigen::MatrixXd points = checked_points(study.problem, settings.x);
   if (points.rows() > 1) throw UsageError("--x: got " + std::to_string(points.rows()) + " points; give one");

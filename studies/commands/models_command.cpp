@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/analysis/suspects.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/json_output.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
 
@@ -16,10 +17,6 @@ Tables stored_tables(const Study& study, const Settings& settings) {
   return tables_of(open_store(study, Folder{settings.out}).runs(), study.problem);
 }
 
-void print(const nlohmann::ordered_json& line) {
-  std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
-}
-
 }  // namespace
 
 int fit_command(const Study& study, const Settings& settings) {
@@ -27,9 +24,9 @@ int fit_command(const Study& study, const Settings& settings) {
   const Models fitted = models_or_reason(tables);
   const Failures failures(tables);
   if (settings.json)
-    print({{"study", study.name},
-           {"models", fit_json(fitted, study.problem)},
-           {"success", success_json(failures, study.problem)}});
+    print_json({{"study", study.name},
+                {"models", fit_json(fitted, study.problem)},
+                {"success", success_json(failures, study.problem)}});
   else
     std::fputs((fit_text(fitted, study.problem) + success_text(failures, study.problem)).c_str(), stdout);
   for (const std::string& sentence : suspects(fitted, tables)) std::fprintf(stderr, "%s\n", sentence.c_str());
@@ -43,7 +40,7 @@ int validate_command(const Study& study, const Settings& settings) {
     throw std::runtime_error(
         "studies: there is no validation run to judge the models by; add some with run --validation 10");
   if (settings.json)
-    print({{"study", study.name}, {"validations", validation_json(fitted, tables)}});
+    print_json({{"study", study.name}, {"validations", validation_json(fitted, tables)}});
   else
     std::fputs(validation_text(fitted, tables).c_str(), stdout);
   return 0;

@@ -28,15 +28,6 @@ json to_json(const Eigen::MatrixXd& rows) {
   return all;
 }
 
-json described(const doe::Problem& problem) {
-  json all = to_json(problem);
-  for (std::size_t i = 0; i < problem.variables.size(); ++i)
-    all["variables"][i]["description"] = problem.variables[i].description;
-  for (std::size_t j = 0; j < problem.responses.size(); ++j)
-    all["responses"][j]["description"] = problem.responses[j].description;
-  return all;
-}
-
 json to_json(const doe::Evaluations& table, const ReportInput& input) {
   json rows = json::array();
   for (const doe::Evaluation& e : table.rows) {
@@ -229,6 +220,15 @@ void check_results(const ReportInput& input) {
 }
 
 }  // namespace
+
+json described(const doe::Problem& problem) {
+  json all = to_json(problem);
+  for (std::size_t i = 0; i < problem.variables.size(); ++i)
+    all["variables"][i]["description"] = problem.variables[i].description;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    all["responses"][j]["description"] = problem.responses[j].description;
+  return all;
+}
 
 json report_data(const ReportInput& input) {
   doe::check(input.problem);

@@ -9,6 +9,9 @@
 
 namespace drawpoint::studies::detail {
 
+/// With the descriptions, which are no part of a problem's identity.
+nlohmann::json described(const doe::Problem& problem);
+
 /// Throws std::invalid_argument when the parts of the input do not belong together.
 nlohmann::json report_data(const ReportInput& input);
 

@@ -239,7 +239,7 @@ json grade(const ReportInput& input, std::size_t j) {
   return verdict;
 }
 
-void caution_about_models(const ReportInput& input, json& all) {
+void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {
   for (std::size_t j = 0; j < input.validations.size(); ++j) {
     const kriging::Validation& v = input.validations[j];
     const std::string name = pretty(input.problem.responses[j].name);
@@ -255,7 +255,7 @@ void caution_about_models(const ReportInput& input, json& all) {
   }
 }
 
-void caution_about_extrapolation(const ReportInput& input, json& all) {
+void caution_about_extrapolation(const ReportInput& input, std::vector<std::string>& all) {
   const auto chosen = objectives(input.problem);
   for (std::size_t k = 0; k < chosen.size() && input.front.Y.rows() > 0; ++k) {
     const doe::Response& r = input.problem.responses[chosen[k]];
@@ -272,7 +272,7 @@ void caution_about_extrapolation(const ReportInput& input, json& all) {
   }
 }
 
-void caution_about_confirmations(const ReportInput& input, json& all) {
+void caution_about_confirmations(const ReportInput& input, std::vector<std::string>& all) {
   const CheckedRuns& checked = input.confirmations;
   const CheckedRuns last = checked.last_round();
   if (!last.may_be_chance())
@@ -286,25 +286,6 @@ void caution_about_confirmations(const ReportInput& input, json& all) {
   if (checked.failed > 0)
     all.push_back(std::to_string(checked.failed) + " of " + counted(checked.runs.size(), "point") +
                   " of predicted fronts failed when simulated.");
-}
-
-json cautions(const ReportInput& input) {
-  json all = input.warnings;
-  const std::size_t runs = input.training.rows.size() + input.validation.rows.size();
-  const auto failed = static_cast<std::size_t>(input.training.failed() + input.validation.failed());
-  if (failed > 0)
-    all.push_back(std::to_string(failed) + " of " + counted(runs, "run") + " failed (" +
-                  percent(static_cast<double>(failed) / static_cast<double>(runs)) +
-                  "); the section on the runs shows where.");
-  const Eigen::Index points =
-      static_cast<Eigen::Index>(input.validation.rows.size()) - input.validation.failed();
-  if (points > 0 && points < enough_points)
-    all.push_back("Only " + counted(static_cast<std::size_t>(points), "validation point") +
-                  ": the errors stated here are rough; use 10 or more.");
-  caution_about_models(input, all);
-  caution_about_extrapolation(input, all);
-  caution_about_confirmations(input, all);
-  return all;
 }
 
 }  // namespace
@@ -337,6 +318,25 @@ Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& fr
   Eigen::Index row = 0;
   distance.minCoeff(&row);
   return row;
+}
+
+std::vector<std::string> cautions(const ReportInput& input) {
+  std::vector<std::string> all = input.warnings;
+  const std::size_t runs = input.training.rows.size() + input.validation.rows.size();
+  const auto failed = static_cast<std::size_t>(input.training.failed() + input.validation.failed());
+  if (failed > 0)
+    all.push_back(std::to_string(failed) + " of " + counted(runs, "run") + " failed (" +
+                  percent(static_cast<double>(failed) / static_cast<double>(runs)) +
+                  "); the section on the runs shows where.");
+  const Eigen::Index points =
+      static_cast<Eigen::Index>(input.validation.rows.size()) - input.validation.failed();
+  if (points > 0 && points < enough_points)
+    all.push_back("Only " + counted(static_cast<std::size_t>(points), "validation point") +
+                  ": the errors stated here are rough; use 10 or more.");
+  caution_about_models(input, all);
+  caution_about_extrapolation(input, all);
+  caution_about_confirmations(input, all);
+  return all;
 }
 
 json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {

@@ -26,6 +26,9 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
 /// Places in Problem::responses of the objectives, the order of the front's columns.
 std::vector<std::size_t> objectives(const doe::Problem& problem);
 
+/// Why to be careful, in sentences, the warnings first.
+std::vector<std::string> cautions(const ReportInput& input);
+
 /// {cards, sentences, trust, cautions}. influence: one vector per model, as many as input.models.
 nlohmann::json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence);
 

@@ -45,22 +45,24 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-namespace {
-
-std::string setting(const doe::Variable& v, double x) {
-  if (v.kind == doe::VariableKind::real) return number_with_unit(x, v.unit);
-  const long long whole = std::llround(x);
-  if (v.kind == doe::VariableKind::categorical) return pretty(v.levels[static_cast<std::size_t>(whole)]);
-  return std::to_string(whole) + (v.unit.empty() || v.unit == "1" ? "" : " " + v.unit);
+std::string labelled(const std::string& name, const std::string& unit) {
+  return name + (unit.empty() || unit == "1" ? "" : " [" + unit + "]");
 }
 
-}  // namespace
+std::string setting(const doe::Variable& variable, double x) {
+  if (variable.kind == doe::VariableKind::real) return number(x);
+  const long long whole = std::llround(x);
+  if (variable.kind == doe::VariableKind::integer) return std::to_string(whole);
+  return pretty(variable.levels[static_cast<std::size_t>(whole)]);
+}
 
 std::string point_text(const doe::Problem& problem, const Eigen::VectorXd& x) {
   std::string text;
   for (std::size_t k = 0; k < problem.variables.size(); ++k) {
     const doe::Variable& v = problem.variables[k];
-    text += (k ? ", " : "") + pretty(v.name) + " = " + setting(v, x[static_cast<Eigen::Index>(k)]);
+    const bool unit = v.kind != doe::VariableKind::categorical && !v.unit.empty() && v.unit != "1";
+    text += (k ? ", " : "") + pretty(v.name) + " = " + setting(v, x[static_cast<Eigen::Index>(k)]) +
+            (unit ? " " + v.unit : "");
   }
   return text;
 }

@@ -15,8 +15,12 @@ std::string number(double value);
 
 std::string number_with_unit(double value, const std::string& unit);
 std::string percent(double share);
-std::string pretty(const std::string& name);                       ///< underscores become spaces
-std::string counted(std::size_t count, const std::string& thing);  ///< "1 run", "2 runs"
+std::string pretty(const std::string& name);                             ///< underscores become spaces
+std::string counted(std::size_t count, const std::string& thing);        ///< "1 run", "2 runs"
+std::string labelled(const std::string& name, const std::string& unit);  ///< "lip [m]", "fill"
+
+/// Of a variable, without its unit: "1.2", "3", "ore".
+std::string setting(const doe::Variable& variable, double x);
 
 /// "alpha = 1.2, bolts = 3, rock = ore".
 std::string point_text(const doe::Problem& problem, const Eigen::VectorXd& x);

@@ -99,6 +99,14 @@ Store open_store(const Study& study, const Folder& folder) {
   return store;
 }
 
+Run stored_run(const Store& store, const Folder& folder, std::int64_t id) {
+  const std::vector<Run> runs = store.runs();
+  if (id < 1 || id > static_cast<std::int64_t>(runs.size()))
+    throw UsageError("--run " + std::to_string(id) + ": the study in " + folder.path.string() +
+                     " has runs 1 to " + std::to_string(runs.size()));
+  return runs[static_cast<std::size_t>(id) - 1];
+}
+
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
   const std::string& stored = store.identity().simulator;
   if (stored != study.simulator)

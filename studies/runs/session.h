@@ -8,11 +8,16 @@
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
+#include <cstdint>
+
 namespace drawpoint::studies {
 
 /// The existing store. Throws std::runtime_error if there is none or it is unsound, UsageError if it belongs
 /// to another study or to another problem, saying what differs.
 Store open_store(const Study& study, const Folder& folder);
+
+/// The run of that number, from 1. Throws UsageError that names --run and says which there are.
+Run stored_run(const Store& store, const Folder& folder, std::int64_t id);
 
 /// Before runs are made: throws UsageError where another simulator made those in the folder.
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder);

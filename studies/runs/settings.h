@@ -35,6 +35,18 @@ struct ExportSettings {
   std::filesystem::path file = {};  ///< empty: standard output
 };
 
+/// Options of `front`.
+struct FrontSettings {
+  int limit = 6;             ///< points shown, 1 or more: as many as a round of `confirm` simulates
+  bool every_point = false;  ///< all of them
+};
+
+/// Options of `replay`.
+struct ReplaySettings {
+  std::int64_t run = 0;
+  std::filesystem::path file = {};  ///< empty: replay_0001.html in the folder
+};
+
 /// Options of the commands that work on an output folder: run, confirm, status, report and their like.
 struct Settings {
   std::filesystem::path out = {};
@@ -51,9 +63,12 @@ struct Settings {
   double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
   ConfirmSettings confirm = {};
   ExportSettings exported = {};
-  OptionValues options = {};     ///< of the study, those given
-  std::optional<int> jobs = {};  ///< processes or tasks at a time, 1 or more; empty: all there are
-  bool slurm = false;            ///< runs are tasks on a Slurm cluster
+  FrontSettings front = {};
+  ReplaySettings replay = {};
+  std::filesystem::path with = {};  ///< of compare: the folder that `out` is compared with
+  OptionValues options = {};        ///< of the study, those given
+  std::optional<int> jobs = {};     ///< processes or tasks at a time, 1 or more; empty: all there are
+  bool slurm = false;               ///< runs are tasks on a Slurm cluster
   std::vector<std::string> slurm_options = {};  ///< words for sbatch
   double time_limit = 0.0;                      ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;

@@ -18,11 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string stem(std::int64_t id) {
+std::string numbered(const char* what, std::int64_t id) {
   char name[40];
-  std::snprintf(name, sizeof name, "run_%04lld", static_cast<long long>(id));
+  std::snprintf(name, sizeof name, "%s_%04lld", what, static_cast<long long>(id));
   return name;
 }
+
+std::string stem(std::int64_t id) { return numbered("run", id); }
 
 [[noreturn]] void refuse(const fs::path& place, int error) {
   std::string advice = "choose another folder with --out";
@@ -61,6 +63,7 @@ void write_probe(const fs::path& folder) {
 
 }  // namespace
 
+fs::path Folder::replay(std::int64_t id) const { return path / (numbered("replay", id) + ".html"); }
 fs::path Folder::log(std::int64_t id) const { return logs() / (stem(id) + ".h5"); }
 fs::path Folder::unfinished_log(std::int64_t id) const { return unfinished() / (stem(id) + ".h5"); }
 fs::path Folder::printed(std::int64_t id) const { return logs() / (stem(id) + ".txt"); }

@@ -6,6 +6,7 @@
 ///
 ///     DIR/study.db             the store
 ///     DIR/report.html          the report
+///     DIR/replay_0001.html     the replay of a run, where the command replay has made it
 ///     DIR/shared/              from Study::prepare
 ///     DIR/shared.checksums     of its files
 ///     DIR/logs/run_0001.h5     run log, named by the run's id
@@ -28,6 +29,7 @@ struct Folder {
 
   std::filesystem::path store() const { return path / "study.db"; }
   std::filesystem::path report() const { return path / "report.html"; }
+  std::filesystem::path replay(std::int64_t id) const;  ///< replay_0001.html
   std::filesystem::path shared() const { return path / "shared"; }
   std::filesystem::path shared_checksums() const { return path / "shared.checksums"; }
   std::filesystem::path logs() const { return path / "logs"; }

@@ -16,7 +16,8 @@ constexpr std::array taken = {"runs",   "validation",   "replicates",   "jobs", 
                               "shared", "retry-failed", "help",         "version",  "result-descriptor",
                               "import", "adaptive",     "batch",        "criteria", "target",
                               "hours",  "slurm",        "slurm-option", "run",      "points",
-                              "rounds", "from",         "what",         "format",   "file"};
+                              "rounds", "from",         "what",         "format",   "file",
+                              "with",   "limit",        "all"};
 
 bool whole_number_within(const std::string& text, int least, int most) {
   int value = 0;

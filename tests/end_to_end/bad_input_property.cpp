@@ -63,7 +63,13 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " export" + out(), 1, "there is no study in");
   expect_refused(study + " frobnicate", 2,
                  "unknown command \"frobnicate\"; the commands are run, confirm, status, fit, validate, "
-                 "report, export, rerun-responses, evaluate");
+                 "front, compare, report, replay, export, rerun-responses, evaluate");
+  expect_refused(study + " front --limit 0" + out(), 2, "--limit");
+  expect_refused(study + " front" + out(), 1, "there is no study in");
+  expect_refused(study + " compare" + out(), 2, "--with is required");
+  expect_refused(study + " compare --with ''" + out(), 2, "--with: an empty name");
+  expect_refused(study + " replay" + out(), 2, "--run is required");
+  expect_refused(study + " replay --run 1" + out(), 2, "does not say what to draw of a run's log");
   expect_refused(study + " evaluate --x 0.5", 2, "--x: got 1 values, need 2: x, y");
   expect_refused(study + " evaluate --x=0.5,26", 2, "y = 26 deg is outside its range -5 to 25 deg");
   EXPECT_FALSE(std::filesystem::exists(dir()));

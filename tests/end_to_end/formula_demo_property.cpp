@@ -137,6 +137,23 @@ TEST_F(FormulaDemo, ExportsRunsAndFront) {
   for (const auto& row : front["rows"]) EXPECT_LT(row[7].get<double>(), row[10].get<double>());
 }
 
+TEST_F(FormulaDemo, ShowsTheFrontInTheTerminal) {
+  ASSERT_EQ(run(demo + " --runs 20 --validation 0" + out()).code, 0);
+  const Ended shown = run(demo + " front --limit 4" + out());
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  for (const std::string part : {"4 shown", "highest production", "lowest joint_damage", "balanced choice",
+                                 "nothing yet; the command confirm",
+                                 "Caution: Without a validation run, nothing tells how good the models are."})
+    EXPECT_TRUE(contains(shown.out, part));
+  const auto front = run(demo + " front --json" + out()).json();
+  const auto exported = run(demo + " export --what front --format json" + out()).json()["rows"];
+  ASSERT_EQ(front["points"].size(), exported.size());
+  EXPECT_EQ(front["points"][2]["x"]["beta"], exported[2][1]);
+  EXPECT_EQ(front["points"][2]["predicted"]["production"]["lower"], exported[2][7]);
+  const std::string all = run(demo + " front --all" + out()).out;
+  EXPECT_GT(std::count(all.begin(), all.end(), '\n'), static_cast<std::ptrdiff_t>(exported.size()));
+}
+
 TEST_F(FormulaDemo, SaysHowItIsFittedAndHowThatHolds) {
   ASSERT_EQ(run(demo + " --runs 20 --validation 6" + out()).code, 0);
   const auto fit = run(demo + " fit --json" + out()).json()["models"]["production"];
@@ -183,11 +200,14 @@ TEST_F(FormulaDemo, GrowsAndReplicates) {
 TEST_F(FormulaDemo, HelpAndVersion) {
   const Ended help = run(demo + " --help");
   EXPECT_EQ(help.code, 0);
-  for (const std::string word :
-       {"run", "status", "report", "evaluate", "--validation", "--json", "--retry-failed"}) {
+  for (const std::string word : {"run", "status", "front", "compare", "replay", "report", "evaluate",
+                                 "--validation", "--json", "--retry-failed"}) {
     EXPECT_TRUE(contains(help.out, word));
   }
   EXPECT_EQ(run(demo + " --version").code, 0);
+  for (const std::string command : {"front", "compare", "replay"})
+    EXPECT_TRUE(contains(run(demo + " " + command + " --help").out, "Example: formula_demo " + command));
+  EXPECT_TRUE(contains(run(demo + " compare --help").out, "Give both studies the same --seed"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -72,6 +73,11 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
     write_measures(context.log, x[0], x[1]);
     return responses_of(context.log, context.options);
   }
+  if (how == "drawn") {
+    if (x[0] > 0.9) return doe::Failure{"jammed"};
+    write_measures(context.log, x[0], x[1]);
+    return x[0] > 0.5 ? doe::Outcome(doe::Failure{"spilled"}) : good(x[0], x[1]);
+  }
   if (how == "large") write_log(context.log, 300'000);
   if (how == "huge") write_log(context.log, 2'000'000);
   if (how == "shared" || how == "unprepared") {
@@ -79,6 +85,18 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
     write_log(context.log, 10);
   }
   return x[0] > 0.5 || how == "all" ? misbehave(how == "all" ? "throw" : how, x[0], x[1]) : good(x[0], x[1]);
+}
+
+/// A table of what the log has.
+nlohmann::json illustrate(const std::filesystem::path& file) {
+  std::ifstream log(file);
+  double hours = 0, wear = 0;
+  if (!(log >> hours >> wear)) throw std::runtime_error("the log ends early");
+  return nlohmann::json::array({{{"type", "table"},
+                                 {"title", "measured"},
+                                 {"caption", "all"},
+                                 {"columns", {"hours", "wear"}},
+                                 {"rows", {{hours, wear}}}}});
 }
 
 void prepare(const studies::RunContext& context) {
@@ -99,6 +117,7 @@ int main(int argc, char** argv) {
   if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
+  if (trouble() == "drawn") study.illustrate = illustrate;
   if (trouble() == "logged") {
     study.responses = responses_of;
     study.options.push_back({.name = "price", .value = "1", .least = 1, .most = 9, .of_responses = true});

@@ -86,13 +86,17 @@ inline const std::vector<Row>& dependency_table() {
        study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis"}),
        {"Eigen", "nlohmann-json"},
        {}},
+      {"studies/comparison/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "comparison"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
       {"studies/sampling/",
        study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "sampling"}),
        {"Eigen", "nlohmann-json"},
        {}},
       {"studies/front/", {"studies/commands/option_tree.h"}, {}, {"CLI11"}},
       {"studies/commands/",
-       study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "commands"}),
+       study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "comparison", "commands"}),
        {"Eigen", "nlohmann-json"},
        {"CLI11"}}};
   return table;

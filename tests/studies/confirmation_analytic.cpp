@@ -5,7 +5,7 @@
 #include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/analysis/confirmations.h>
-#include <drawpoint/studies/sampling/confirmation.h>
+#include <drawpoint/studies/analysis/decision_points.h>
 
 #include <algorithm>
 #include <cmath>

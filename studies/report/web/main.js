@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Assembles the page from the data embedded in it.
+// Assembles the page from the data embedded in it: the report of a study, or the replay of one run.
 
 import {choose} from './choice.js';
 import {summary, header, navigation, facts} from './summary.js';
 import {findings} from './findings.js';
 import {panels} from './panels.js';
+import {oneRun} from './replay.js';
 import {tradeOffs} from './front.js';
 import {surfaces} from './surfaces.js';
 import {validation} from './validation.js';
@@ -29,7 +30,8 @@ function attempt(build) {
   }
 }
 
-const sections = [summary, findings, panels, tradeOffs, surfaces, validation, runs, facts].map(attempt).filter(Boolean);
+const builders = data.replay ? [oneRun, panels, facts] : [summary, findings, panels, tradeOffs, surfaces, validation, runs, facts];
+const sections = builders.map(attempt).filter(Boolean);
 page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}));
 document.getElementById('main').append(...sections);
 fitPlotsToPrint();

@@ -8,7 +8,7 @@ import {labelled, number, setting} from './format.js';
 
 export function header(data) {
   return el('header', {}, el('div', {class: 'inner'},
-    el('p', {class: 'kicker'}, 'Drawpoint study report'), el('h1', {}, data.study), data.about ? el('p', {class: 'about'}, data.about) : null));
+    el('p', {class: 'kicker'}, data.replay ? 'Drawpoint replay of a run' : 'Drawpoint study report'), el('h1', {}, data.study), data.about ? el('p', {class: 'about'}, data.about) : null));
 }
 
 export function navigation(sections) {
@@ -41,7 +41,7 @@ export function facts(data) {
   const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}, ...told(responses)],
     responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit)), ...words(r, responses)]), {sortable: false});
   const rows = [...data.facts];
-  const search = certificate(data.polishing);
+  const search = data.polishing ? certificate(data.polishing) : '';
   if (search) rows.push(['Search for the front', search]);
   if (data.command) rows.unshift(['Command', el('code', {}, data.command)]);
   return section('making', 'How it was made', null, el('div', {class: 'columns'}, inputs.node, outputs.node),

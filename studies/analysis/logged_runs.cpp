@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/logged_runs.h>
+#include <drawpoint/studies/store/run_logs.h>
+
+#include <filesystem>
+
+namespace drawpoint::studies {
+
+std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder& folder,
+                                      std::vector<std::string>& warnings) {
+  std::vector<const Run*> sound;
+  std::string others;
+  for (const auto& run : runs) {
+    if (run.status != Status::done) continue;
+    const LogState state = log_state(folder, run);
+    if (state == LogState::sound) sound.push_back(&run);
+    if (state == LogState::other)
+      others += (others.empty() ? "" : ", ") + folder.log(run.id).filename().string();
+  }
+  if (!others.empty())
+    warnings.push_back(
+        "Logs that are damaged, or not what their run wrote, are left out: " + others +
+        ". The responses in the store stand; evaluate --run N --log logs/run_000N.h5 makes one again.");
+  return sound;
+}
+
+std::vector<Headline> headlines_of(const Study& study, const std::vector<const Run*>& runs,
+                                   const OptionValues& options, const Folder& folder,
+                                   std::vector<std::string>& warnings) {
+  if (!study.headlines) return {};
+  std::vector<std::filesystem::path> logs;
+  for (const Run* run : runs) {  // those that are spread over the whole box
+    if (run->kind == Kind::training || run->kind == Kind::validation) logs.push_back(folder.log(run->id));
+  }
+  try {
+    return study.headlines(logs, options);
+  } catch (const std::exception& e) {
+    warnings.push_back(std::string("What the study says first could not be told: ") + e.what());
+    return {};
+  }
+}
+
+}  // namespace drawpoint::studies

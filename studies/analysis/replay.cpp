@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/replay.h>
+#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/report/replay.h>
+#include <drawpoint/studies/report/text.h>
+#include <drawpoint/studies/store/run_logs.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace drawpoint::studies {
+namespace {
+
+std::string made_again(const Folder& folder, const Run& run) {
+  return "; make it again with evaluate --run " + std::to_string(run.id) + " --log " +
+         folder.log(run.id).string();
+}
+
+void require_log(const Folder& folder, const Run& run) {
+  const std::string name = "replay: run " + std::to_string(run.id);
+  const std::string log = folder.log(run.id).string();
+  if (run.status != Status::done && run.status != Status::failed)
+    throw std::runtime_error(name + " has not ended; make it with the command run");
+  const std::string failure = run.status == Status::failed ? " It failed: " + run.reason + "." : "";
+  if (run.log.empty()) throw std::runtime_error(name + " wrote no log." + failure + " Choose a run that did");
+  switch (log_state(folder, run)) {
+    case LogState::none:
+      throw std::runtime_error(name + ": its log " + log + " is gone" + made_again(folder, run));
+    case LogState::other:
+      throw std::runtime_error(name + ": " + log + " is damaged, or not what the run wrote" +
+                               made_again(folder, run));
+    case LogState::sound:
+      return;
+  }
+}
+
+nlohmann::json illustrated(const Study& study, const Folder& folder, const Run& run) {
+  try {
+    return study.illustrate(folder.log(run.id));
+  } catch (const std::exception& e) {
+    throw std::runtime_error("replay: run " + std::to_string(run.id) + " could not be shown: " + e.what());
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of_run(const Identity& identity, const Folder& folder,
+                                                              const Run& run) {
+  std::vector<std::pair<std::string, std::string>> all = {{"Log", folder.log(run.id).filename().string()},
+                                                          {"Seed", std::to_string(run.seed)}};
+  for (const auto& [name, value] : identity.options) all.emplace_back("Option " + name, value);
+  all.emplace_back("Made", run.started + " to " + run.finished);
+  all.emplace_back("Time", detail::number_with_unit(run.seconds, "s"));
+  all.emplace_back("Page made by", std::string("Drawpoint ") + DRAWPOINT_VERSION);
+  return all;
+}
+
+}  // namespace
+
+void replay(const Study& study, const Store& store, const Folder& folder, const Run& run,
+            const std::filesystem::path& file, const std::string& command) {
+  require_log(folder, run);
+  const Tables tables = tables_of({run}, study.problem);
+  const auto& rows = run.kind == Kind::validation ? tables.validation.rows : tables.training.rows;
+  write_replay(file, {.study = study.name,
+                      .about = study.about,
+                      .command = command,
+                      .problem = study.problem,
+                      .run = rows.front(),
+                      .kind = name_of(run.kind),
+                      .panels = illustrated(study, folder, run),
+                      .facts = facts_of_run(store.identity(), folder, run)});
+}
+
+}  // namespace drawpoint::studies

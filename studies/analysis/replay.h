@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The replay of one run of a study, from its log.
+
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/study.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace drawpoint::studies {
+
+/// Writes the page to `file`. `command` is the command line that it shows. Throws std::runtime_error where
+/// the run has no log, the log is not what the run wrote, or nothing can be drawn of it. Requires
+/// Study::illustrate.
+void replay(const Study& study, const Store& store, const Folder& folder, const Run& run,
+            const std::filesystem::path& file, const std::string& command);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/confirmations.h>
+#include <drawpoint/studies/analysis/front.h>
+#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/analysis/report_input.h>
+#include <drawpoint/studies/analysis/suspects.h>
+#include <drawpoint/studies/analysis/tables.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace drawpoint::studies {
+namespace {
+
+std::map<std::int64_t, std::string> kinds_of(const std::vector<Run>& runs) {
+  std::map<std::int64_t, std::string> kinds;
+  for (const auto& run : runs) kinds[run.id] = name_of(run.kind);
+  return kinds;
+}
+
+/// How likely a run succeeds at the points of the front, and what to be careful about.
+void tell_of_failures(ReportInput& input, const Failures& failures) {
+  if (input.front.X.rows() > 0) input.success = failures.probability_of_success(input.front.X);
+  input.warnings.push_back(failures.text() +
+                           ". Fronts and adaptive runs keep away from where a run is likelier to fail.");
+  const auto doubtful = (input.success.array() < 0.9).count();
+  if (doubtful > 0)
+    input.warnings.push_back(
+        "At " + std::to_string(doubtful) + " of " + std::to_string(input.success.size()) +
+        " points of the front a run fails with a chance of more than 10 %: see its table.");
+}
+
+}  // namespace
+
+ReportInput input_of(const Study& study, const Store& store, const std::vector<Run>& runs) {
+  ReportInput input;
+  input.study = study.name;
+  input.about = study.about;
+  input.problem = study.problem;
+  Tables tables = tables_of(runs, study.problem);
+  input.training = std::move(tables.training);
+  input.validation = std::move(tables.validation);
+  input.kinds = kinds_of(runs);
+  input.confirmations = check_predictions(runs, study.problem, Kind::confirmation, store.sampling().rounds);
+  return input;
+}
+
+void add_models(ReportInput& input, doe::Seed seed) {
+  const Tables tables{input.training, input.validation};
+  if (const std::string failed = failure_warning(input); !failed.empty())
+    input.warnings.push_back("Runs that failed are left out of the models. " + failed + ".");
+  Models fitted = fit_models(tables);
+  for (std::string& sentence : suspects(fitted, tables)) input.warnings.push_back(std::move(sentence));
+  input.models = std::move(fitted.models);
+  input.validations = std::move(fitted.validations);
+  for (std::size_t j = 0; j < fitted.ways.size(); ++j)
+    input.facts.emplace_back("Model of " + input.problem.responses[j].name, fitted.ways[j]);
+  PredictedFront predicted = predicted_front(input.models, tables, seed);
+  input.front = std::move(predicted.found.front);
+  if (!predicted.failures.none()) tell_of_failures(input, predicted.failures);
+  input.polishing = std::move(predicted.found.polishing);
+  if (predicted.found.status == pareto::PolishedFrontStatus::not_polished)
+    input.not_polished = std::move(predicted.found.message);
+  input.no_front = std::move(predicted.missing);
+}
+
+void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
+  const auto missing = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
+    return run.status == Status::planned || run.status == Status::running;
+  });
+  if (missing > 0) input.warnings.push_back(std::to_string(missing) + " planned runs are not finished yet.");
+  for (std::size_t j = 0; j < input.models.size(); ++j) {
+    if (input.models[j].status() == kriging::Status::converged) continue;
+    input.warnings.push_back("Model of " + input.problem.responses[j].name + ": " +
+                             input.models[j].message() + ".");
+  }
+  if (!input.no_front.empty() && has_objective(input.problem))
+    input.warnings.push_back("There is no front: " + input.no_front + ".");
+  if (input.validation.X().rows() == 0) {
+    input.warnings.push_back("Without a validation run, nothing tells how good the models are.");
+  }
+}
+
+std::string failure_warning(const ReportInput& input) {
+  std::map<std::string, int> reasons;
+  for (const auto* table : {&input.training, &input.validation}) {
+    for (const auto& row : table->rows) {
+      if (row.outcome.failed()) ++reasons[row.outcome.reason()];
+    }
+  }
+  const int most = 5;  // crashes name their output, so their reasons differ
+  int shown = 0;
+  std::string text;
+  for (const auto& [reason, count] : reasons) {
+    if (shown++ == most) return text + "; and others, which the command status lists";
+    text += (text.empty() ? "" : "; ") + std::to_string(count) + " failed: " + reason;
+  }
+  return text;
+}
+
+}  // namespace drawpoint::studies

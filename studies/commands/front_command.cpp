@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/front.h>
+#include <drawpoint/studies/analysis/front_report.h>
+#include <drawpoint/studies/analysis/report_input.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/json_output.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/folder.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace drawpoint::studies {
+namespace {
+
+/// With models and a front, or std::runtime_error that says what to do.
+ReportInput input_with_front(const Study& study, const Settings& settings) {
+  const Store store = open_store(study, Folder{settings.out});
+  const std::vector<Run> runs = store.runs();
+  ReportInput input = input_of(study, store, runs);
+  try {
+    add_models(input, store.identity().seed);
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error("front: there are no models: " + std::string(e.what()) +
+                             "; make more runs with the command run");
+  }
+  if (!input.no_front.empty())
+    throw std::runtime_error("front: there is none: " + input.no_front +
+                             "; make more runs with the command run, or loosen the limits of the study");
+  add_warnings(input, runs);
+  return input;
+}
+
+}  // namespace
+
+int front_command(const Study& study, const Settings& settings) {
+  if (!has_objective(study.problem))
+    throw UsageError("front: no response is minimized or maximized, so there is no front");
+  const ReportInput input = input_with_front(study, settings);
+  const FrontSettings& wanted = settings.front;
+  if (settings.json) {
+    nlohmann::ordered_json line = {{"study", study.name}};
+    line.update(front_points_json(input, wanted.limit));
+    print_json(line);
+  } else {
+    std::fputs(front_points_text(input, wanted.limit, wanted.every_point).c_str(), stdout);
+  }
+  return 0;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/reading_commands.h>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr int most_points = 1'000'000;
+constexpr int most_run = 1'000'000'000;
+
+void add_out_option(CLI::App& command, Settings& settings) {
+  command.add_option("--out", settings.out, "folder of the study")
+      ->check(folder_complaint)
+      ->capture_default_str();
+}
+
+void add_export_options(CLI::App& command, ExportSettings& settings) {
+  command.add_option("--what", settings.what, "every run, or the front that the models predict")
+      ->check(CLI::IsMember({"runs", "front"}))
+      ->capture_default_str();
+  command.add_option("--format", settings.format, "comma-separated values, or one JSON object")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->capture_default_str();
+  command.add_option("--file", settings.file, "file to write (default: standard output)");
+}
+
+void add_front_options(CLI::App& command, const Study& study, FrontSettings& settings) {
+  command
+      .add_option("--limit", settings.limit,
+                  "points shown, those that confirm would simulate first: the best of each objective, the "
+                  "balanced one, knees, then others far apart")
+      ->check(CLI::Range(1, most_points))
+      ->capture_default_str();
+  command.add_flag("--all", settings.every_point, "show every point");
+  command.footer("Example: " + study.name + " front --limit 10");
+}
+
+void add_compare_options(CLI::App& command, const Study& study, Settings& settings) {
+  command
+      .add_option("--with", settings.with, "folder B of the same study; --out is A, and neither is changed")
+      ->required()
+      ->check(folder_complaint);
+  command.footer(
+      "Runs at equal points are paired. Give both studies the same --seed: then they have equal points and "
+      "equal random numbers.\nExample: " +
+      study.name + " compare --out results/one --with results/other");
+}
+
+void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& settings) {
+  command.add_option("--run", settings.run, "number of the run")->required()->check(CLI::Range(1, most_run));
+  command.add_option("--file", settings.file, "file to write (default: replay_0007.html in the folder)");
+  command.footer("Example: " + study.name + " replay --run 7 --file run_7.html");
+}
+
+using Command = int (*)(const Study&, const Settings&);
+
+/// A command with a name, a line of help, and what it does.
+class Reader {
+ public:
+  Reader(CLI::App& app, const Study& study, Settings& settings, std::function<int()>& action)
+      : app_(app), study_(study), settings_(settings), action_(action) {}
+
+  CLI::App& add(const std::string& name, const std::string& help, Command command) const {
+    CLI::App& added = *app_.add_subcommand(name, help);
+    added.callback([command, &study = study_, &settings = settings_, &action = action_] {
+      action = [command, &study, &settings] { return command(study, settings); };
+    });
+    return added;
+  }
+  /// The same, with --out and --json.
+  CLI::App& add_with_json(const std::string& name, const std::string& help, Command command) const {
+    CLI::App& added = add(name, help, command);
+    add_folder_options(added, settings_);
+    return added;
+  }
+
+ private:
+  CLI::App& app_;
+  const Study& study_;
+  Settings& settings_;
+  std::function<int()>& action_;
+};
+
+}  // namespace
+
+std::string folder_complaint(const std::string& text) {
+  return text.empty() ? "an empty name; give the folder of the study" : "";
+}
+
+void add_folder_options(CLI::App& command, Settings& settings) {
+  command.add_option("--out", settings.out, "folder of the study: store, run logs, report")
+      ->check(folder_complaint)
+      ->capture_default_str();
+  command.add_flag("--json", settings.json,
+                   "last line of standard output is one JSON object; everything else goes to standard error");
+}
+
+void define_reading_commands(CLI::App& app, const Study& study, Settings& settings,
+                             std::function<int()>& action) {
+  const Reader commands(app, study, settings, action);
+  commands.add_with_json("status", "say how many runs are planned, done and failed, and why", status_command);
+  commands.add_with_json(
+      "fit", "say how each response is fitted, and how well runs are predicted without themselves",
+      fit_command);
+  commands.add_with_json("validate", "hold the models against the validation runs, one by one",
+                         validate_command);
+  add_front_options(
+      commands.add_with_json("front", "show the predicted front, and how far to trust it", front_command),
+      study, settings.front);
+  add_compare_options(commands.add_with_json("compare",
+                                             "say what another folder of this study, made with another "
+                                             "choice, changes on average and on the front",
+                                             compare_command),
+                      study, settings);
+  commands.add_with_json("report", "make the report again from the stored runs", report_command);
+  CLI::App& replay = commands.add("replay", "write one run as a page with its figures", replay_command);
+  add_out_option(replay, settings);
+  add_replay_options(replay, study, settings.replay);
+  CLI::App& exported =
+      commands.add("export", "write the runs or the front as a table for other programs", export_command);
+  add_out_option(exported, settings);
+  add_export_options(exported, settings.exported);
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/replay.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/runs/session.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace drawpoint::studies {
+
+int replay_command(const Study& study, const Settings& settings) {
+  const ReplaySettings& wanted = settings.replay;
+  if (!study.illustrate)
+    throw UsageError("replay: this study does not say what to draw of a run's log (Study::illustrate)");
+  const Folder folder{settings.out};
+  const Store store = open_store(study, folder);
+  const Run run = stored_run(store, folder, wanted.run);
+  const std::filesystem::path file = wanted.file.empty() ? folder.replay(run.id) : wanted.file;
+  replay(study, store, folder, run, file, settings.command);
+  std::printf("%s\n", std::filesystem::absolute(file).lexically_normal().c_str());
+  return 0;
+}
+
+}  // namespace drawpoint::studies

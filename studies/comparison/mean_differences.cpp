@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/comparison/mean_differences.h>
+#include <drawpoint/doe/detail/students_t.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr double level_of_differences = 0.95;
+
+/// s²/n.
+double variance_of_mean(const Eigen::VectorXd& y) {
+  const double n = static_cast<double>(y.size());
+  return (y.array() - y.mean()).square().sum() / (n - 1.0) / n;
+}
+
+/// No variance: no interval.
+MeanDifference with_interval(double a, double b, double variance, double degrees_of_freedom) {
+  MeanDifference difference{.a = a, .b = b, .degrees_of_freedom = degrees_of_freedom};
+  const double half =
+      variance > 0.0
+          ? doe::detail::students_t_within(level_of_differences, degrees_of_freedom) * std::sqrt(variance)
+          : 0.0;
+  difference.lower = difference.value() - half;
+  difference.upper = difference.value() + half;
+  return difference;
+}
+
+}  // namespace
+
+MeanDifference paired_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  assert(a.size() == b.size() && a.size() >= 2);
+  return with_interval(a.mean(), b.mean(), variance_of_mean(b - a), static_cast<double>(a.size() - 1));
+}
+
+MeanDifference independent_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  assert(a.size() >= 2 && b.size() >= 2);
+  const double of_a = variance_of_mean(a), of_b = variance_of_mean(b), both = of_a + of_b;
+  const double m = static_cast<double>(a.size() - 1), n = static_cast<double>(b.size() - 1);
+  const double degrees = both * both / (of_a * of_a / m + of_b * of_b / n);
+  // Rounding must not push it below the least that it can be; without variance it is unknown.
+  return with_interval(a.mean(), b.mean(), both, both > 0.0 ? std::max(degrees, std::min(m, n)) : 0.0);
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/report/page.h>
+#include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/replay.h>
+#include <drawpoint/doe/detail/atomic_file.hpp>
+
+#include <stdexcept>
+
+namespace drawpoint::studies {
+namespace {
+
+std::string name_of_run(const ReplayInput& input) { return "run " + std::to_string(input.run.run); }
+
+nlohmann::json values_of(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+
+nlohmann::json run_json(const ReplayInput& input, const std::vector<std::string>& cautions) {
+  const doe::Outcome& outcome = input.run.outcome;
+  return {
+      {"run", input.run.run},        {"kind", input.kind},
+      {"x", values_of(input.run.x)}, {"y", outcome.failed() ? nlohmann::json() : values_of(outcome.values())},
+      {"reason", outcome.reason()},  {"cautions", cautions}};
+}
+
+/// Panels that can be drawn, one at least.
+nlohmann::json drawn_panels(const ReplayInput& input, std::vector<std::string>& cautions) {
+  nlohmann::json panels = detail::checked_panels(input.panels, cautions);
+  if (!panels.empty()) return panels;
+  std::string why;
+  for (const std::string& caution : cautions) why += " " + caution;
+  throw std::runtime_error("replay: the study draws no figure of the log of " + name_of_run(input) +
+                           (why.empty() ? "; choose another run" : ":" + why));
+}
+
+}  // namespace
+
+void write_replay(const std::filesystem::path& path, const ReplayInput& input) {
+  std::vector<std::string> cautions;
+  nlohmann::json panels = drawn_panels(input, cautions);
+  const nlohmann::json data = {{"study", input.study},
+                               {"about", input.about},
+                               {"command", input.command},
+                               {"problem", detail::described(input.problem)},
+                               {"replay", run_json(input, cautions)},
+                               {"illustrations", std::move(panels)},
+                               {"facts", input.facts}};
+  doe::write_file(path, detail::page(input.study + ", " + name_of_run(input), data));
+}
+
+}  // namespace drawpoint::studies
