@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <drawpoint/studies/analysis/findings.h>
+#include <drawpoint/studies/report/assets.h>
 #include <drawpoint/studies/report/page.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 #include <drawpoint/tests/support/told.hpp>
@@ -68,6 +69,22 @@ TEST_F(Report, LoadsNothing) {
   EXPECT_NE(tags.find("content=\"default-src 'none'; script-src 'unsafe-inline'"), std::string::npos)
       << "the page forbids the browser any network";
   EXPECT_EQ(page.find("@DRAWPOINT_"), std::string::npos) << "every place is filled";
+}
+
+// Opened as a file, a page may not store anything.
+TEST_F(Report, KeepsNothingInTheBrowser) {
+  const std::string_view app = detail::app_asset();
+  for (const char* store : {"localStorage", "sessionStorage", "indexedDB", "document.cookie"})
+    EXPECT_EQ(app.find(store), std::string_view::npos) << store;
+}
+
+TEST_F(Report, IsForScreensOfEitherColourAndForPaper) {
+  write_report(file(), input(2, 2, 8, 4));
+  const std::string page = text_of(file());
+  for (const char* part :
+       {"content=\"light dark\"", ":root[data-theme=\"dark\"]", "@media print", "prefers-color-scheme: dark",
+        "Clear selection", "Save as SVG", "Parallel coordinates of all designs", "Side by side"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 
 TEST_F(Report, NoTextBecomesMarkup) {

@@ -1,13 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers, units and names as text, and the palette that all figures share.
-
-export const colour = {
-  ink: '#1c2733', muted: '#5f6e7c', grid: '#e6eaee', training: '#2b6592', validation: '#d9822b',
-  accent: '#b4531a', failed: '#b3372f', soil: '#cbb79c',
-};
-export const series = ['#2b6592', '#d9822b', '#4d8f63', '#8a5a9e', '#b3372f', '#6c7a86', '#b8992c', '#3f9aa8'];
-export const scale = 'Viridis';
+// Numbers, units and names as text.
 
 export function number(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return 'n/a';

@@ -3,24 +3,32 @@
 // Assembles the page from the data embedded in it: the report of a study, or the replay of one run.
 
 import {choose} from './choice.js';
+import {collect} from './designs.js';
 import {summary, header, navigation, facts} from './summary.js';
 import {findings} from './findings.js';
 import {panels} from './panels.js';
 import {oneRun} from './replay.js';
 import {tradeOffs} from './front.js';
+import {parallelCoordinates} from './parallel.js';
 import {surfaces} from './surfaces.js';
 import {validation} from './validation.js';
-import {fitPlotsToPrint} from './plot.js';
 import {runs} from './runs.js';
+import {selecting} from './selection.js';
+import {selectionBar} from './selection_bar.js';
 
 const data = JSON.parse(document.getElementById('report-data').textContent);
 const page = document.getElementById('report');
-const chosen = choose(data);
+/// What the sections of a report share; rows: by set of designs, what shows the row of one in its table.
+const shared = data.replay ? {} : sharing(collect(data));
+
+function sharing(designs) {
+  return {designs, chosen: choose(data, designs), selection: selecting(designs), rows: {}};
+}
 
 /// A section that cannot be drawn says so and leaves the others standing.
 function attempt(build) {
   try {
-    return build(data, chosen);
+    return build(data, shared);
   } catch (error) {
     console.error(error);
     const note = document.createElement('p');
@@ -30,10 +38,9 @@ function attempt(build) {
   }
 }
 
-const builders = data.replay ? [oneRun, panels, facts] : [summary, findings, panels, tradeOffs, surfaces, validation, runs, facts];
+const builders = data.replay ? [oneRun, panels, facts] : [summary, findings, panels, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
 const sections = builders.map(attempt).filter(Boolean);
-page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}));
+page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}), data.replay ? '' : selectionBar(shared));
 document.getElementById('main').append(...sections);
-fitPlotsToPrint();
 window.dispatchEvent(new Event('resize'));
 document.documentElement.dataset.ready = 'true';

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One run: its point and what came out of it.
 
-import {el, section, table} from './dom.js';
+import {el, section} from './dom.js';
 import {labelled, number, setting} from './format.js';
+import {table} from './table.js';
 
 export function oneRun(data) {
   const {run, kind, x, y, reason, cautions} = data.replay;

@@ -8,6 +8,7 @@ import {choice, el} from './dom.js';
 import {number} from './format.js';
 import {Poses} from './poses.js';
 import {groups, lights} from './scene_parts.js';
+import {colour, onTheme} from './theme.js';
 
 const speeds = [1, 3, 10];
 
@@ -30,7 +31,7 @@ class View {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer.shadowMap.enabled = true;
     this.scene = new THREE.Scene();
-    this.scene.background = new THREE.Color('#e9edf0');
+    this.scene.background = new THREE.Color(colour.sky);
     this.parts = groups(panel);
     this.parts.forEach((part) => this.scene.add(part.mesh, ...part.edges));
     this.setTime(poses.times[panel.poster_frame ?? 0] ?? poses.times[0], false);
@@ -44,6 +45,7 @@ class View {
     this.controls.addEventListener('change', () => this.render());
     stage.append(this.renderer.domElement);
     new ResizeObserver(() => this.resize(stage)).observe(stage);
+    onTheme(() => this.tint());
   }
 
   /// Sphere around what is solid now.
@@ -94,6 +96,11 @@ class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  tint() {
+    this.scene.background.set(colour.sky);
     this.render();
   }
 

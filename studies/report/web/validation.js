@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How good the surrogates are: a table, and predicted against simulated values.
 
-import {el, figure, section, table} from './dom.js';
-import {colour, labelled, number, percent, plain, pretty} from './format.js';
+import {inputsText} from './designs.js';
+import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
+import {el, figure, section} from './dom.js';
+import {labelled, number, percent, plain, pretty} from './format.js';
 import {axis, draw, plotBox} from './plot.js';
+import {table} from './table.js';
+import {colour} from './theme.js';
 
-export function validation(data) {
+export function validation(data, shared) {
   const {variables, responses} = data.problem;
   const columns = [{title: 'Response', text: true}, {title: 'RMSE', format: number}, {title: 'Range', format: number},
     {title: 'NRMSE', format: percent}, {title: 'Points', format: String},
@@ -22,7 +26,7 @@ export function validation(data) {
     'Scale: what was fitted, the response itself or its square root, logarithm or logit, chosen by leave-one-out; ' +
     'ϑ, nugget and process σ are of that scale. ϑ: how fast the response changes along an input scaled to [-1, 1]; larger is livelier. Nugget: share of run-to-run noise, relative to the process variance.')));
   const known = responses.map((_, j) => j).filter((j) => data.validations[j]?.observed.length);
-  if (known.length) node.append(figure(el('div', {class: 'grid'}, known.map((j) => parity(responses[j], data.validations[j]))),
+  if (known.length) node.append(figure(el('div', {class: 'grid'}, known.map((j) => parity(data, j, shared))),
     'Predicted against simulated value of each validation run. A perfect surrogate puts every point on the dashed line; the bars are its own 95 % intervals, and about 19 of 20 should reach the line.'));
   return node;
 }
@@ -32,18 +36,30 @@ function row(name, model, check, inputs) {
   return [name, ...(check ? [check.rmse, check.range, check.nrmse, check.observed.length] : [null, null, null, 0]), ...fit];
 }
 
-function parity(response, {observed, predicted, lower, upper, nrmse}) {
+/// Index of each validation run that ended, in the order of the checks.
+const checkedRuns = ({runs}) => runs.map((_, i) => i).filter((i) => runs[i].kind === 'validation' && runs[i].y);
+
+function parity(data, j, shared) {
+  const {designs, chosen, selection} = shared, response = data.problem.responses[j];
+  const {observed, predicted, lower, upper, nrmse} = data.validations[j];
+  const indices = checkedRuns(designs), known = link('runs', indices);
   const box = plotBox(340, 'Predicted against simulated ' + response.name);
   const low = Math.min(...observed, ...predicted, ...lower), high = Math.max(...observed, ...predicted, ...upper);
   const pad = 0.04 * (high - low || Math.abs(high) || 1);
   const range = [low - pad, high + pad];
-  draw(box, [
-    {x: range, y: range, mode: 'lines', line: {color: '#9aa7b2', dash: 'dash', width: 1.5}, hoverinfo: 'skip'},
-    {x: observed, y: predicted, mode: 'markers', marker: {color: colour.validation, size: 8, line: {color: '#fff', width: 1}},
+  const rings = () => {
+    const i = indices.indexOf(chosen.marked('runs'));
+    return i < 0 ? [] : [ring(observed[i], predicted[i])];
+  };
+  draw(box, (saved) => ({traces: [
+    {x: range, y: range, mode: 'lines', line: {color: colour.guide, dash: 'dash', width: 1.5}, hoverinfo: 'skip'},
+    {x: observed, y: predicted, mode: 'markers', marker: {color: colour.validation, size: 8, line: {color: colour.paper, width: 1}, opacity: opacities(selection, known, observed.length, saved)},
       error_y: {type: 'data', symmetric: false, array: upper.map((u, i) => u - predicted[i]), arrayminus: predicted.map((p, i) => p - lower[i]), color: 'rgba(217,130,43,0.45)', thickness: 1.5, width: 3},
-      hovertemplate: 'simulated %{x:.4g}<br>predicted %{y:.4g}<extra></extra>'},
-  ], {showlegend: false, margin: {l: 60, r: 16, t: 36, b: 52},
+      text: indices.map((i) => `<b>run ${designs.runs[i].run}</b><br>${inputsText(data.problem, designs.runs[i].x)}`), hovertemplate: '%{text}<br>simulated %{x:.4g}<br>predicted %{y:.4g}<extra></extra>'},
+  ], layout: {showlegend: false, margin: {l: 60, r: 16, t: 36, b: 52}, shapes: rings(),
     title: {text: plain(labelled(response)) + (nrmse === null ? '' : `  <span style="color:${colour.muted};font-weight:400">NRMSE ${percent(nrmse)}</span>`), font: {size: 14}, x: 0, xanchor: 'left', xref: 'paper'},
-    xaxis: axis('simulated', {range}), yaxis: axis('predicted', {range})});
+    xaxis: axis('simulated', {range: [...range]}), yaxis: axis('predicted', {range: [...range]})}}));
+  linkPoints(box, [undefined, known], shared);
+  ringMarked(box, chosen, rings);
   return box;
 }
