@@ -53,8 +53,7 @@ std::vector<bool> Failures::avoided(const Eigen::MatrixXd& X) const {
   const Eigen::MatrixXd U = doe::detail::to_unit_box(X, problem_);
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     const auto distance = (lost_.rowwise() - U.row(i)).cwiseAbs().rowwise().maxCoeff();
-    answer[static_cast<std::size_t>(i)] =
-        P[i] < 0.5 || (lost_.rows() > 0 && distance.minCoeff() <= nearby);
+    answer[static_cast<std::size_t>(i)] = P[i] < 0.5 || (lost_.rows() > 0 && distance.minCoeff() <= nearby);
   }
   return answer;
 }

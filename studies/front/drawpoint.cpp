@@ -79,7 +79,8 @@ void describe(CLI::App& app, const fs::path& folder, const std::vector<std::stri
 }
 
 int start(const fs::path& program, char** words) {
-  std::string name = "drawpoint " + program.filename().string();
+  std::string name = "drawpoint ";
+  name += program.filename().string();
   words[0] = name.data();
   execv(program.c_str(), words);
   std::fprintf(stderr, "drawpoint: cannot start %s; install the package drawpoint again\n", program.c_str());

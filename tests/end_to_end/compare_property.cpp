@@ -65,8 +65,12 @@ TEST_F(Compare, PairsWhatHasTheSamePoints) {
   EXPECT_EQ(wear["equal"], good);
   EXPECT_EQ(line["left_out"].size(), static_cast<std::size_t>(16 - good));
   for (const auto& point : line["left_out"]) EXPECT_EQ(point["failed"], "both");
-  // Where the cost is cheaper more is dominated.
-  EXPECT_GT(line["fronts"]["share"][0], line["fronts"]["share"][1]);
+  // The least cost is that of x = 0, y = -5: below 0, and lower still at three times the price, so that B's front
+  // dominates more. The models meet these responses to some 1e-6.
+  const auto fronts = line["fronts"];
+  EXPECT_NEAR(fronts["best"]["cost"][0].get<double>(), -5.0, 1e-3);
+  EXPECT_NEAR(fronts["best"]["cost"][1].get<double>(), -15.0, 3e-3);
+  EXPECT_LT(fronts["share"][0], fronts["share"][1]);
 
   const std::string text = run(command()).out;
   for (const std::string part :
