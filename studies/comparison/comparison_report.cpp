@@ -48,7 +48,9 @@ std::string headlines_text(const ComparedFolders& compared) {
 }
 
 /// Of B, where the interval leaves 0 out.
-std::string verdict_text(const MeanDifference& mean, const doe::Response& response) {
+std::string verdict_text(const Comparison& runs, std::size_t j, const doe::Response& response) {
+  const auto& [mean, larger, equal] = runs.responses[j];
+  if (runs.paired && equal == runs.pairs) return "equal";
   if (!mean.is_told_apart()) return "not told apart";
   const bool higher = mean.value() > 0;
   if (!doe::is_objective(response.goal)) return higher ? "B higher" : "B lower";
@@ -69,7 +71,7 @@ std::string responses_text(const ComparedFolders& compared) {
     if (compared.runs.paired)
       table.back().push_back(detail::percent(static_cast<double>(larger) / compared.runs.pairs) +
                              (equal > 0 ? " (" + std::to_string(equal) + " equal)" : std::string()));
-    table.back().push_back(verdict_text(mean, response));
+    table.back().push_back(verdict_text(compared.runs, j, response));
   }
   return "\n" + text_table(table);
 }
@@ -106,7 +108,7 @@ std::string pairs_text(const Comparison& runs) {
     text += "Most points have no pair; studies with the same --seed have the same points.\n";
   if (runs.with_other_seeds > 0)
     text += "At " + std::to_string(runs.with_other_seeds) +
-            " of them the seeds differ, so that the noise does not cancel.\n";
+            " of them not all seeds are the same, so that noise does not cancel fully.\n";
   return text;
 }
 
@@ -127,9 +129,9 @@ std::string compared_runs_text(const ComparedFolders& compared) {
   text += left_out_text(runs.left_out);
   if (runs.responses.empty()) return text;
   text += responses_text(compared);
-  return text + "Of the mean over these points, by Student's t" +
+  return text + "Intervals are of the mean over these points, by Student's t" +
          (runs.paired ? " on the differences" : " (Welch)") +
-         "; at a single point, or on the front, it may be otherwise.\n";
+         ".\nAt a single point, or on the front, the difference may be another.\n";
 }
 
 std::string no_front_text(const char* name, const ComparedSide& side) {
@@ -138,10 +140,11 @@ std::string no_front_text(const char* name, const ComparedSide& side) {
 }
 
 std::string shares_text(const FrontComparison& fronts) {
-  if (!fronts.share_a) return "";
-  return "Share that each dominates of the box around both (hypervolume): A " +
-         detail::number(*fronts.share_a) + ", B " + detail::number(*fronts.share_b) +
-         ".\nPredicted by models, without an interval; confirm both before relying on it.\n";
+  std::string text;
+  if (fronts.share_a)
+    text = "Share that each dominates of the box around both (hypervolume): A " +
+           detail::number(*fronts.share_a) + ", B " + detail::number(*fronts.share_b) + ".\n";
+  return text + "Predicted by models, without an interval; confirm both before relying on it.\n";
 }
 
 std::string fronts_text(const ComparedFolders& compared) {
