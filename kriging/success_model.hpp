@@ -64,6 +64,10 @@ class SuccessModel {
   /// where the first is the higher one.
   double left_out_score() const { return left_out_score_; }
   double share_score() const { return share_score_; }
+  /// Whether places tell which runs fail: over all runs the first score is more than 3 above the second. So
+  /// it is in 87 to 100 of 100 designs of 20 to 100 runs with an edge or a corner that fails, and in 2 to 20
+  /// of 100 where failures follow no place, since the covariance has seen the runs that are left out.
+  bool place_tells() const { return static_cast<double>(runs()) * (left_out_score_ - share_score_) > 3.0; }
 
   /// Whether expectation propagation met its stopping rule.
   bool converged() const { return posterior_.converged; }

@@ -6,6 +6,7 @@
 #include <drawpoint/pareto/knees.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace drawpoint::studies {
@@ -46,7 +47,10 @@ DecisionPoints decision_points(const pareto::Front& front, const doe::Problem& p
     points.best.push_back(best);
   }
   points.balanced = static_cast<int>(detail::balanced_point(problem, front));
-  points.knees = pareto::knees(problem, front, {.neighbours = 15}).rows;
+  for (const int row : pareto::knees(problem, front, {.neighbours = 15}).rows) {
+    if (std::find(points.best.begin(), points.best.end(), row) == points.best.end())
+      points.knees.push_back(row);
+  }
   return points;
 }
 

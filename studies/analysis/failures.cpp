@@ -49,11 +49,13 @@ Eigen::VectorXd Failures::probability_of_success(const Eigen::MatrixXd& X) const
 std::vector<bool> Failures::avoided(const Eigen::MatrixXd& X) const {
   std::vector<bool> answer(static_cast<std::size_t>(X.rows()), false);
   if (none()) return answer;
+  const bool tells = model_->place_tells() || model_->failures() == model_->runs();
   const Eigen::VectorXd P = model_->probability(X);
   const Eigen::MatrixXd U = doe::detail::to_unit_box(X, problem_);
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     const auto distance = (lost_.rowwise() - U.row(i)).cwiseAbs().rowwise().maxCoeff();
-    answer[static_cast<std::size_t>(i)] = P[i] < 0.5 || (lost_.rows() > 0 && distance.minCoeff() <= nearby);
+    answer[static_cast<std::size_t>(i)] =
+        (tells && P[i] < 0.5) || (lost_.rows() > 0 && distance.minCoeff() <= nearby);
   }
   return answer;
 }
@@ -64,8 +66,8 @@ std::string Failures::text() const {
   std::snprintf(scores, sizeof scores,
                 " (mean log probability of left-out runs %.2f, by their share alone %.2f)",
                 model_->left_out_score(), model_->share_score());
-  const bool tells = model_->left_out_score() > model_->share_score();
-  return std::string(tells ? "The place tells" : "The place does not tell") + " which runs fail" + scores;
+  return std::string(model_->place_tells() ? "The place tells" : "The place does not tell") +
+         " which runs fail" + scores;
 }
 
 }  // namespace drawpoint::studies

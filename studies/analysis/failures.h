@@ -4,9 +4,9 @@
 /// Where runs fail: models of responses are blind to it, so a model of success (kriging/success_model.hpp),
 /// of all runs, those for validation too, tells fronts and adaptive runs where not to go.
 ///
-/// A place is avoided when a run is likelier to fail there than to succeed, or when every run failed within 2
-/// % of each variable's range of it: a failure that follows no place, such as a machine that went down,
-/// forbids its own surroundings and no more.
+/// A place is avoided when a run is likelier to fail there than to succeed, if places tell at all which runs
+/// fail, or when every run failed within 2 % of each variable's range of it: failures that follow no place,
+/// such as a machine that went down, forbid their own surroundings and no more, however many they are.
 
 #include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/kriging/success_model.hpp>

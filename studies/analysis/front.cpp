@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <span>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -40,6 +42,24 @@ void append(pareto::PolishedFront& found, const pareto::Front& searched) {
   residual.tail(front.X.rows() - known).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// The first of points that are equal, as whole and categorical variables make them.
+void keep_different(pareto::PolishedFront& found) {
+  std::set<std::vector<double>> seen;
+  std::vector<int> kept;
+  for (Eigen::Index i = 0; i < found.front.X.rows(); ++i) {
+    const Eigen::VectorXd x = found.front.X.row(i);
+    if (seen.emplace(x.begin(), x.end()).second) kept.push_back(static_cast<int>(i));
+  }
+  if (static_cast<Eigen::Index>(kept.size()) < found.front.X.rows()) keep_rows(found, kept);
+}
+
+bool fails_everywhere(const Failures& failures, const Tables& tables) {
+  const auto avoided = [&](const doe::Evaluation& row) {
+    return failures.avoided(row.x.transpose()).front();
+  };
+  return !failures.none() && std::all_of(tables.training.rows.begin(), tables.training.rows.end(), avoided);
+}
+
 }  // namespace
 
 pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& models,
@@ -49,7 +69,7 @@ pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& mod
     std::vector<doe::Outcome> outcomes = means(X, seeds);
     const std::vector<bool> avoided = failures.avoided(X);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (avoided[i]) outcomes[i] = doe::Failure{"a run would fail"};
+      if (avoided[i]) outcomes[i] = doe::Failure{"a run is likely to fail"};
     }
     return outcomes;
   };
@@ -60,6 +80,7 @@ pareto::PolishedFront front_of(const std::vector<kriging::TransformedModel>& mod
     append(found, searched);
   }
   keep_within_range(found, problem);
+  keep_different(found);
   return found;
 }
 
@@ -79,6 +100,8 @@ PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& mod
   predicted.found = front_of(models, problem, seed, predicted.failures);
   if (predicted.found.front.X.rows() > 0) return predicted;
   predicted.missing = predicted.found.front.message;
+  if (fails_everywhere(predicted.failures, tables))
+    predicted.missing = "a run is likely to fail wherever one was made; " + predicted.failures.text();
   if (predicted.missing.empty()) predicted.missing = "every point found lies where runs fail";
   return predicted;
 }

@@ -88,13 +88,15 @@ std::vector<const CheckedRun*> simulations_at(const FrontView& view, int row) {
 
 bool is_told(const doe::Response& response) { return response.goal != doe::Goal::record; }
 
-Cells front_heads(const doe::Problem& problem) {
+Cells front_heads(const ReportInput& input) {
+  const doe::Problem& problem = input.problem;
   Cells heads = {"point"};
   for (const auto& variable : problem.variables)
     heads.push_back(detail::labelled(variable.name, variable.unit));
   for (const auto& response : problem.responses) {
     if (is_told(response)) heads.push_back(detail::labelled(response.name, response.unit));
   }
+  if (input.success.size() > 0) heads.push_back("a run succeeds");
   heads.push_back("what it is");
   return heads;
 }
@@ -112,6 +114,7 @@ Cells predicted_cells(const FrontView& view, int row, const std::vector<int>& sh
                     detail::number(view.points.lower(row, column)) + " to " +
                     detail::number(view.points.upper(row, column)) + ")");
   }
+  if (view.input.success.size() > 0) cells.push_back(detail::percent(view.input.success[row]));
   cells.push_back(marks_text(view, row, shown));
   return cells;
 }
@@ -136,6 +139,7 @@ Cells simulated_cells(const FrontView& view, const CheckedRun& run) {
                            : detail::number(run.outcome.values()[static_cast<Eigen::Index>(j)]) +
                                  (run.within[j] ? "" : " outside"));
   }
+  if (view.input.success.size() > 0) cells.emplace_back();
   cells.push_back(simulation_note(run));
   return cells;
 }
@@ -188,6 +192,7 @@ nlohmann::ordered_json point_json(const FrontView& view, int row, const std::vec
   return {{"point", row + 1},
           {"x", std::move(x)},
           {"predicted", predicted_json(view, row)},
+          {"success", view.input.success.size() > 0 ? view.input.success[row] : 1.0},
           {"best", std::move(best)},
           {"balanced", view.decision.balanced == row},
           {"knee", holds(view.decision.knees, row)},
@@ -200,7 +205,7 @@ nlohmann::ordered_json point_json(const FrontView& view, int row, const std::vec
 std::string front_points_text(const ReportInput& input, int most, bool every_point) {
   const FrontView view(input);
   const std::vector<int> shown = every_point ? every_row(input) : rows_shown(input, most);
-  std::vector<Cells> table = {front_heads(input.problem)};
+  std::vector<Cells> table = {front_heads(input)};
   for (const int row : shown) {
     table.push_back(predicted_cells(view, row, shown));
     for (const CheckedRun* run : simulations_at(view, row)) table.push_back(simulated_cells(view, *run));

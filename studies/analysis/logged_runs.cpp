@@ -3,9 +3,23 @@
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/store/run_logs.h>
 
+#include <drawpoint/doe/detail/task_files.hpp>
+
 #include <filesystem>
 
 namespace drawpoint::studies {
+namespace {
+
+std::string made_again(const Folder& folder, const std::string& run, const std::string& log) {
+  return "evaluate --run " + run + " --out " + doe::detail::quoted_for_shell(folder.path.string()) +
+         " --log " + doe::detail::quoted_for_shell((folder.logs() / log).string());
+}
+
+}  // namespace
+
+std::string made_again(const Folder& folder, std::int64_t run) {
+  return made_again(folder, std::to_string(run), folder.log(run).filename().string());
+}
 
 std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder& folder,
                                       std::vector<std::string>& warnings) {
@@ -19,9 +33,9 @@ std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder
       others += (others.empty() ? "" : ", ") + folder.log(run.id).filename().string();
   }
   if (!others.empty())
-    warnings.push_back(
-        "Logs that are damaged, or not what their run wrote, are left out: " + others +
-        ". The responses in the store stand; evaluate --run N --log logs/run_000N.h5 makes one again.");
+    warnings.push_back("Logs that are damaged, or not what their run wrote, are left out: " + others +
+                       ". The responses in the store stand; one is made again by " +
+                       made_again(folder, "N", "run_000N.h5") + ".");
   return sound;
 }
 

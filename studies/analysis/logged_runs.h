@@ -7,10 +7,14 @@
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace drawpoint::studies {
+
+/// The words by which the log of a run is made again, as a shell takes them.
+std::string made_again(const Folder& folder, std::int64_t run);
 
 /// Of the runs that are done, those whose log is as they wrote it; what is wrong with others becomes a
 /// warning.

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/studies/report/replay.h>
@@ -12,11 +13,6 @@
 namespace drawpoint::studies {
 namespace {
 
-std::string made_again(const Folder& folder, const Run& run) {
-  return "; make it again with evaluate --run " + std::to_string(run.id) + " --log " +
-         folder.log(run.id).string();
-}
-
 void require_log(const Folder& folder, const Run& run) {
   const std::string name = "replay: run " + std::to_string(run.id);
   const std::string log = folder.log(run.id).string();
@@ -26,10 +22,12 @@ void require_log(const Folder& folder, const Run& run) {
   if (run.log.empty()) throw std::runtime_error(name + " wrote no log." + failure + " Choose a run that did");
   switch (log_state(folder, run)) {
     case LogState::none:
-      throw std::runtime_error(name + ": its log " + log + " is gone" + made_again(folder, run));
+      throw std::runtime_error(name + ": its log " + log + " is gone; make it again with " +
+                               made_again(folder, run.id));
     case LogState::other:
-      throw std::runtime_error(name + ": " + log + " is damaged, or not what the run wrote" +
-                               made_again(folder, run));
+      throw std::runtime_error(name + ": " + log +
+                               " is damaged, or not what the run wrote; make it again with " +
+                               made_again(folder, run.id));
     case LogState::sound:
       return;
   }

@@ -23,13 +23,15 @@ std::map<std::int64_t, std::string> kinds_of(const std::vector<Run>& runs) {
 /// How likely a run succeeds at the points of the front, and what to be careful about.
 void tell_of_failures(ReportInput& input, const Failures& failures) {
   if (input.front.X.rows() > 0) input.success = failures.probability_of_success(input.front.X);
-  input.warnings.push_back(failures.text() +
-                           ". Fronts and adaptive runs keep away from where a run is likelier to fail.");
+  input.warnings.push_back(
+      failures.text() + (failures.model()->place_tells()
+                             ? ". Front and adaptive runs keep away from where a run is likelier to fail."
+                             : ". Front and adaptive runs keep away from the places of failed runs alone."));
   const auto doubtful = (input.success.array() < 0.9).count();
   if (doubtful > 0)
-    input.warnings.push_back(
-        "At " + std::to_string(doubtful) + " of " + std::to_string(input.success.size()) +
-        " points of the front a run fails with a chance of more than 10 %: see its table.");
+    input.warnings.push_back("At " + std::to_string(doubtful) + " of " +
+                             std::to_string(input.success.size()) +
+                             " points of the front a run fails with a chance of more than 10 %.");
 }
 
 }  // namespace

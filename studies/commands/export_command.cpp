@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/export.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/output_file.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
@@ -12,8 +13,10 @@
 namespace drawpoint::studies {
 
 int export_command(const Study& study, const Settings& settings) {
-  const Store store = open_store(study, Folder{settings.out});
+  const Folder folder{settings.out};
+  const Store store = open_store(study, folder);
   const ExportSettings& wanted = settings.exported;
+  if (!wanted.file.empty()) check_output_file(folder, wanted.file);
   const ExportTable table = wanted.what == "front" ? front_table(store.identity(), store.runs())
                                                    : runs_table(store.identity(), store.runs());
   const std::string text = wanted.format == "json" ? as_json(study.name, table) : as_csv(table);

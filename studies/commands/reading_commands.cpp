@@ -42,7 +42,8 @@ void add_compare_options(CLI::App& command, const Study& study, Settings& settin
       ->required()
       ->check(folder_complaint);
   command.footer(
-      "Runs at equal points are paired. Give both studies the same --seed: then they have equal points and "
+      "Runs at equal points are paired. Give both studies the same --seed and --runs: then they have equal "
+      "points and "
       "equal random numbers.\nExample: " +
       study.name + " compare --out results/one --with results/other");
 }

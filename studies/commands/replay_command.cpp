@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/output_file.h>
 #include <drawpoint/studies/runs/session.h>
 
 #include <cstdio>
@@ -17,6 +18,7 @@ int replay_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   const Run run = stored_run(store, folder, wanted.run);
+  if (!wanted.file.empty()) check_output_file(folder, wanted.file);
   const std::filesystem::path file = wanted.file.empty() ? folder.replay(run.id) : wanted.file;
   replay(study, store, folder, run, file, settings.command);
   std::printf("%s\n", std::filesystem::absolute(file).lexically_normal().c_str());

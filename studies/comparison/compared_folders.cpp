@@ -24,7 +24,8 @@ void add_front(ComparedSide& side, const std::vector<Run>& runs, const Identity&
     side.no_front = std::move(predicted.missing);
     if (side.no_front.empty()) side.front = std::move(predicted.found.front);
   } catch (const std::invalid_argument& e) {
-    side.no_front = std::string("there are no models: ") + e.what();
+    side.no_front = tables.training.X().rows() == 0 ? "no training run has given values"
+                                                    : std::string("there are no models: ") + e.what();
   }
 }
 

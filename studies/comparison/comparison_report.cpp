@@ -51,10 +51,16 @@ std::string headlines_text(const ComparedFolders& compared) {
 std::string verdict_text(const Comparison& runs, std::size_t j, const doe::Response& response) {
   const auto& [mean, larger, equal] = runs.responses[j];
   if (runs.paired && equal == runs.pairs) return "equal";
+  if (!mean.has_interval()) return runs.paired ? "the same in every pair" : "no scatter to judge by";
   if (!mean.is_told_apart()) return "not told apart";
   const bool higher = mean.value() > 0;
   if (!doe::is_objective(response.goal)) return higher ? "B higher" : "B lower";
   return (response.goal == doe::Goal::maximize) == higher ? "B better" : "B worse";
+}
+
+std::string interval_text(const MeanDifference& mean) {
+  if (!mean.has_interval()) return " (no interval)";
+  return " (" + detail::number(mean.lower) + " to " + detail::number(mean.upper) + ")";
 }
 
 std::string responses_text(const ComparedFolders& compared) {
@@ -65,9 +71,7 @@ std::string responses_text(const ComparedFolders& compared) {
     const auto& [mean, larger, equal] = compared.runs.responses[j];
     const doe::Response& response = compared.problem.responses[j];
     table.push_back({detail::labelled(response.name, response.unit), detail::number(mean.a),
-                     detail::number(mean.b),
-                     detail::number(mean.value()) + " (" + detail::number(mean.lower) + " to " +
-                         detail::number(mean.upper) + ")"});
+                     detail::number(mean.b), detail::number(mean.value()) + interval_text(mean)});
     if (compared.runs.paired)
       table.back().push_back(detail::percent(static_cast<double>(larger) / compared.runs.pairs) +
                              (equal > 0 ? " (" + std::to_string(equal) + " equal)" : std::string()));
@@ -105,7 +109,7 @@ std::string pairs_text(const Comparison& runs) {
                      " of runs at equal points, of the " + std::to_string(runs.points_a) +
                      " points of A and the " + std::to_string(runs.points_b) + " of B with a value.\n";
   if (2 * runs.pairs < std::min(runs.points_a, runs.points_b))
-    text += "Most points have no pair; studies with the same --seed have the same points.\n";
+    text += "Most points have no pair; studies with the same --seed and --runs have the same points.\n";
   if (runs.with_other_seeds > 0)
     text += "At " + std::to_string(runs.with_other_seeds) +
             " of them not all seeds are the same, so that noise does not cancel fully.\n";
@@ -113,8 +117,10 @@ std::string pairs_text(const Comparison& runs) {
 }
 
 std::string without_pairs_text(const Comparison& runs) {
-  std::string text = "\nToo few equal points to pair runs: " + std::to_string(runs.pairs) +
-                     ", and 2 are needed; studies with the same --seed have the same.\n";
+  std::string text =
+      "\nToo few pairs of runs at equal points: " + std::to_string(runs.pairs) + ", and 2 are needed; ";
+  text += runs.left_out.empty() ? "studies with the same --seed and --runs have the same points.\n"
+                                : "at the others a side failed.\n";
   if (runs.responses.empty())
     return text + "Too few other points to compare means: A has " + std::to_string(runs.points_a) + ", B " +
            std::to_string(runs.points_b) + ", and 2 are needed.\n";
@@ -194,8 +200,8 @@ ComparisonJson responses_json(const ComparedFolders& compared) {
         {"a", mean.a},
         {"b", mean.b},
         {"difference", mean.value()},
-        {"lower", mean.lower},
-        {"upper", mean.upper},
+        {"lower", number_or_null(mean.lower)},
+        {"upper", number_or_null(mean.upper)},
         {"larger", runs.paired ? ComparisonJson(larger) : ComparisonJson()},
         {"equal", runs.paired ? ComparisonJson(equal) : ComparisonJson()}};
   }

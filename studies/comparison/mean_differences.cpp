@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace drawpoint::studies {
 namespace {
@@ -18,13 +19,14 @@ double variance_of_mean(const Eigen::VectorXd& y) {
   return (y.array() - y.mean()).square().sum() / (n - 1.0) / n;
 }
 
-/// No variance: no interval.
+/// Without variance only equal means have an interval: two values that differ alike prove nothing.
 MeanDifference with_interval(double a, double b, double variance, double degrees_of_freedom) {
   MeanDifference difference{.a = a, .b = b, .degrees_of_freedom = degrees_of_freedom};
+  const double none = a == b ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   const double half =
       variance > 0.0
           ? doe::detail::students_t_within(level_of_differences, degrees_of_freedom) * std::sqrt(variance)
-          : 0.0;
+          : none;
   difference.lower = difference.value() - half;
   difference.upper = difference.value() + half;
   return difference;
@@ -41,7 +43,8 @@ MeanDifference independent_difference(const Eigen::VectorXd& a, const Eigen::Vec
   assert(a.size() >= 2 && b.size() >= 2);
   const double of_a = variance_of_mean(a), of_b = variance_of_mean(b), both = of_a + of_b;
   const double m = static_cast<double>(a.size() - 1), n = static_cast<double>(b.size() - 1);
-  const double degrees = both * both / (of_a * of_a / m + of_b * of_b / n);
+  const double share = of_a / both;  // squares of variances may leave the range of numbers
+  const double degrees = 1.0 / (share * share / m + (1.0 - share) * (1.0 - share) / n);
   // Rounding must not push it below the least that it can be; without variance it is unknown.
   return with_interval(a.mean(), b.mean(), both, both > 0.0 ? std::max(degrees, std::min(m, n)) : 0.0);
 }

@@ -8,17 +8,19 @@
 /// (Welch 1947). The intervals hold for normal values, and nearly for means of many others.
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace drawpoint::studies {
 
 /// Unit of the values.
 struct MeanDifference {
   double a = 0, b = 0;          ///< the means
-  double lower = 0, upper = 0;  ///< of the interval of b - a
+  double lower = 0, upper = 0;  ///< of the interval of b - a; NaN where values do not scatter and differ
   double degrees_of_freedom = 0;
 
   double value() const { return b - a; }
-  /// Whether the interval leaves 0 out.
+  bool has_interval() const { return std::isfinite(lower); }
+  /// Whether there is an interval, and it leaves 0 out.
   bool is_told_apart() const { return lower > 0 || upper < 0; }
 };
 

@@ -46,8 +46,8 @@ constexpr Quantile quantiles[] = {
 
 // Half a unit of the thirteenth digit is 5e-13 of t. Simpson's error is h⁴/180 times the change of the third
 // derivative of cos^p, p = ν - 1. Near π/2, δ away from it, that is p(p-1)(p-2) δ^(p-3); dividing by δ^p
-// gives the error of θ, by δ that of t relatively. Largest here for p = 0.5: 1.8e-10 at level 0.95 (h = 0.0034,
-// δ = 0.20), 1.9e-8 at 0.99 (h = 0.0038, δ = 0.069).
+// gives the error of θ, by δ that of t relatively. Largest here for p = 0.5: 1.8e-10 at level 0.95 (h =
+// 0.0034, δ = 0.20), 1.9e-8 at 0.99 (h = 0.0038, δ = 0.069).
 TEST(StudentsT, QuantilesAreThoseOfAnotherProgram) {
   for (const auto& [level, degrees_of_freedom, t] : quantiles)
     EXPECT_NEAR(doe::detail::students_t_within(level, degrees_of_freedom) / t, 1.0,
@@ -63,6 +63,17 @@ TEST(StudentsT, KnownInClosedForm) {
     EXPECT_NEAR(doe::detail::students_t_within(level, 2.0) / (level * std::sqrt(2.0 / (1.0 - level * level))),
                 1.0, 1e-11);
   }
+}
+
+// On both sides of 1e4 degrees of freedom, where the method changes, t differs by its slope in 1/nu alone,
+// (z^3 + z)/4 times 2e-8/1e4; and far beyond it is the normal quantile, to (z^3 + z)/(4 nu).
+TEST(StudentsT, NearsTheNormalQuantile) {
+  const double z = 1.959963984540054;
+  EXPECT_NEAR(doe::detail::students_t_within(0.95, 1e4 * (1 - 1e-8)),
+              doe::detail::students_t_within(0.95, 1e4 * (1 + 1e-8)), 2e-9);
+  for (const double freedom : {1e5, 5e5, 1e6, 1e9})
+    EXPECT_NEAR(doe::detail::students_t_within(0.95, freedom), z + (z * z * z + z) / (4 * freedom), 1e-9)
+        << freedom;
 }
 
 TEST(StudentsT, WhatItCannotTellIsRefused) {

@@ -90,6 +90,16 @@ TEST_F(BadInput, OptionsOfTheStudy) {
   expect_refused(study + " --rock waste" + out(), 2, "option rock: ore there, waste here");
 }
 
+// A table is not written over what the study is.
+TEST_F(BadInput, OutputWhereTheStudyKeepsItsOwn) {
+  ASSERT_EQ(run(study + " --runs 12 --validation 0" + out()).code, 0);
+  const std::string before = contents(dir() / "study.db");
+  for (const std::string own : {"/study.db", "/logs/run_0001.h5", "/logs/../study.db"})
+    expect_refused(study + " export --file " + dir().string() + own + out(), 2,
+                   "is where the study keeps its own");
+  EXPECT_EQ(contents(dir() / "study.db"), before);
+}
+
 TEST_F(BadInput, WrongBounds) {
   expect_refused(with("bounds") + out(), 1,
                  "variable \"y\": lower bound 25 deg is not below upper bound -5 deg; swap them");
@@ -98,8 +108,8 @@ TEST_F(BadInput, WrongBounds) {
 
 TEST_F(BadInput, RunsThatThrow) { expect_failed_runs("throw", "the bucket is stuck"); }
 
-// Everything beyond x = 0.5 fails: fit, page and exported front say so, and no point of the front lies there. (wear
-// is least at x = 1, so that without the failures the front would reach there.)
+// Everything beyond x = 0.5 fails: fit, page and exported front say so, and no point of the front lies there.
+// (wear is least at x = 1, so that without the failures the front would reach there.)
 TEST_F(BadInput, WhereRunsFailIsKnown) {
   const Ended end = run(with("throw") + "--runs 24 --validation 8 --json" + out());
   ASSERT_EQ(end.code, 0) << end.err;
@@ -110,6 +120,9 @@ TEST_F(BadInput, WhereRunsFailIsKnown) {
   EXPECT_LT(success["length_scales"]["x"], success["length_scales"]["y"]);
   const std::string page = contents(dir() / "report.html");
   EXPECT_TRUE(contains(page, "The place tells which runs fail ("));
+  for (const auto& point : run(study + " front --json" + out()).json()["points"])
+    EXPECT_GE(point["success"].get<double>(), 0.5);
+  EXPECT_TRUE(contains(run(study + " front" + out()).out, "a run succeeds"));
   const auto front = run(study + " export --what front --format json" + out()).json();
   EXPECT_EQ(front["columns"].back()["name"], "success");
   ASSERT_GT(front["rows"].size(), 0u);

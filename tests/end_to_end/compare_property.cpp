@@ -65,8 +65,8 @@ TEST_F(Compare, PairsWhatHasTheSamePoints) {
   EXPECT_EQ(wear["equal"], good);
   EXPECT_EQ(line["left_out"].size(), static_cast<std::size_t>(16 - good));
   for (const auto& point : line["left_out"]) EXPECT_EQ(point["failed"], "both");
-  // The least cost is that of x = 0, y = -5: below 0, and lower still at three times the price, so that B's front
-  // dominates more. The models meet these responses to some 1e-6.
+  // The least cost is that of x = 0, y = -5: below 0, and lower still at three times the price, so that B's
+  // front dominates more. The models meet these responses to some 1e-6.
   const auto fronts = line["fronts"];
   EXPECT_NEAR(fronts["best"]["cost"][0].get<double>(), -5.0, 1e-3);
   EXPECT_NEAR(fronts["best"]["cost"][1].get<double>(), -15.0, 3e-3);
@@ -107,7 +107,7 @@ TEST_F(Compare, OtherDesignsAreComparedWithoutPairsAndThatIsSaid) {
   EXPECT_TRUE(line["responses"]["wear"]["larger"].is_null());
   const std::string text = run(command()).out;
   EXPECT_TRUE(contains(text, "seed (A 1, B 2)"));
-  EXPECT_TRUE(contains(text, "Too few equal points to pair runs: 0"));
+  EXPECT_TRUE(contains(text, "Too few pairs of runs at equal points: 0"));
   EXPECT_TRUE(contains(text, "The designs differ, so a difference mixes design and choice."));
   EXPECT_TRUE(contains(text, "(Welch)"));
 }
@@ -119,7 +119,8 @@ TEST_F(Compare, DesignsThatShareTheCornersAloneArePairedThere) {
   EXPECT_TRUE(contains(text, "2 pairs of runs at equal points"));
   EXPECT_TRUE(
       contains(text, "At 2 of them not all seeds are the same, so that noise does not cancel fully."));
-  EXPECT_TRUE(contains(text, "Most points have no pair; studies with the same --seed have the same points."));
+  EXPECT_TRUE(contains(
+      text, "Most points have no pair; studies with the same --seed and --runs have the same points."));
 }
 
 TEST_F(Compare, AnotherProblemIsRefused) {
@@ -139,7 +140,7 @@ TEST_F(Compare, ASideWithoutModelsHasNoFront) {
   ASSERT_NE(make_other(" --runs 12 --validation 4", "env TROUBLE=all " TROUBLED_STUDY).code, 0);
   const Ended end = run(command());
   EXPECT_EQ(end.code, 0) << end.err;
-  EXPECT_TRUE(contains(end.out, "No predicted front of B: there are no models"));
+  EXPECT_TRUE(contains(end.out, "No predicted front of B: no training run has given values"));
   EXPECT_TRUE(contains(end.out, "Too few other points to compare means: A has "));
 }
 

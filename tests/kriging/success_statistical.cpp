@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// How well the model decides where runs fail, over designs: against the nearest run, and where failures follow no
-/// place. The table over more regions is benchmarks/toolkit/success_table.cpp.
+/// How well the model decides where runs fail, over designs: against the nearest run, and where failures
+/// follow no place. The table over more regions is benchmarks/toolkit/success_table.cpp.
 
 #include <gtest/gtest.h>
 
@@ -76,8 +76,8 @@ Mean over_designs(const Chance& chance, const F& f) {
   return mean_of(values);
 }
 
-// Fewer wrong decisions than by the nearest run, paired over the designs, by four standard errors: half of them
-// or less where the region is simple.
+// Fewer wrong decisions than by the nearest run, paired over the designs, by four standard errors: half of
+// them or less where the region is simple.
 TEST(SuccessModelOverDesigns, DecidesBetterThanTheNearestRun) {
   const Chance edge = [](const VectorXd& x) { return x[0] + x[1] < 1.4 ? 1.0 : 0.0; };
   const Chance corner = [](const VectorXd& x) { return x[0] > 0.6 && x[1] > 0.6 ? 0.0 : 1.0; };
@@ -88,14 +88,33 @@ TEST(SuccessModelOverDesigns, DecidesBetterThanTheNearestRun) {
   }
 }
 
-// One run in ten fails, anywhere. Nothing decides better than to go on, which is wrong at one in ten places; the
-// nearest run is wrong at 2 · 0.1 · 0.9. Halfway between, and no bias beyond four standard errors and the 0.02
-// that a share of 50 runs plus one of both kinds is off.
+// One run in ten fails, anywhere. Nothing decides better than to go on, which is wrong at one in ten places;
+// the nearest run is wrong at 2 · 0.1 · 0.9. Halfway between, and no bias beyond four standard errors and the
+// 0.02 that a share of 50 runs plus one of both kinds is off.
 TEST(SuccessModelOverDesigns, FailuresWithoutAPlaceForbidNoPlace) {
   const Chance anywhere = [](const VectorXd&) { return 0.9; };
   EXPECT_LT(over_designs(anywhere, [](const Judged& j) { return j.wrong; }).value, 0.14);
   const Mean bias = over_designs(anywhere, [](const Judged& j) { return j.mean - j.truth; });
   EXPECT_LT(std::abs(bias.value), 0.02 + 4.0 * bias.error);
+}
+
+// Places tell in all designs of an edge, and in few of failures without a place (a fifth at most; more than 8
+// of 20 with a probability below 1 %).
+TEST(SuccessModelOverDesigns, SaysWhetherPlacesTell) {
+  const auto told = [](const Chance& chance) {
+    int count = 0;
+    for (doe::Seed seed = 1; seed <= 20; ++seed) {
+      doe::RandomStream random(91 * seed);
+      const MatrixXd X = uniform_points(random, 50);
+      std::vector<bool> succeeded;
+      for (Eigen::Index i = 0; i < X.rows(); ++i) succeeded.push_back(random.uniform() < chance(X.row(i)));
+      count += fit_success(X, succeeded, {VectorXd::Zero(3), VectorXd::Ones(3)}).place_tells();
+    }
+    return count;
+  };
+  EXPECT_EQ(told([](const VectorXd& x) { return x[0] > 0.8 ? 0.0 : 1.0; }), 20);
+  EXPECT_LE(told([](const VectorXd&) { return 0.4; }), 8);
+  EXPECT_LE(told([](const VectorXd&) { return 0.9; }), 8);
 }
 
 }  // namespace

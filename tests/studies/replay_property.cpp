@@ -116,7 +116,8 @@ TEST_F(Replay, SaysWhyThereIsNone) {
 }
 
 TEST_F(Replay, ALogThatDoesNotFitItsRunIsNotShown) {
-  const std::string again = "; make it again with evaluate --run 1 --log " + folder_.log(1).string();
+  const std::string again = "; make it again with evaluate --run 1 --out '" + folder_.path.string() +
+                            "' --log '" + folder_.log(1).string() + "'";
   test::write_file(folder_.log(1), "raw?");
   EXPECT_EQ(refusal(),
             "replay: run 1: " + folder_.log(1).string() + " is damaged, or not what the run wrote" + again);

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <drawpoint/studies/store/folder.h>
+
+#include <filesystem>
+
+namespace drawpoint::studies {
+
+/// Of a file that a command is told to write with --file. Throws UsageError where a study keeps its own: the
+/// store, run logs, what runs share.
+void check_output_file(const Folder& folder, const std::filesystem::path& file);
+
+}  // namespace drawpoint::studies
