@@ -10,7 +10,7 @@
 /// With sites of precision τ and shift ν, S = diag τ:
 ///   B = I + S^½ K S^½ = L Lᵀ,  W = S^½ B⁻¹ S^½,  b = ν − W K ν,  m = K b,  Σ = K − K W K
 ///   at a new x, with k = cov(f(x), f):  mean kᵀb, variance cov(f(x), f(x)) − kᵀW k
-/// B is well conditioned whatever K is. Cost: 4n³/3 a sweep over all runs, some 5 to 30 sweeps. Sites move
+/// B is well conditioned whatever K is. Cost: 4n³/3 per sweep over all runs, some 5 to 30 sweeps. Sites move
 /// together; steps are halved after 20 sweeps. Error: of two runs at nearly one place ln Z is 0.014 low where
 /// f has variance 4, 0.06 where it has 50; of six runs it and their probabilities are within 0.01 of exact
 /// ones (tests/kriging/success_analytic.cpp). Source: Rasmussen, Williams 2006, "Gaussian Processes for

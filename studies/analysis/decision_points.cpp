@@ -27,15 +27,15 @@ bool is_among(const Eigen::VectorXd& x, const Eigen::MatrixXd& X, const doe::Pro
   return false;
 }
 
-void append_place(Eigen::MatrixXd& X, const Eigen::RowVectorXd& x) {
-  X.conservativeResize(X.rows() + 1, x.size());
-  X.bottomRows(1) = x;
-}
-
 }  // namespace
 
 bool is_same_place(const doe::Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return detail::largest_difference(problem, a, b) <= same_place;
+}
+
+void append_place(Eigen::MatrixXd& X, const Eigen::RowVectorXd& x) {
+  X.conservativeResize(X.rows() + 1, x.size());
+  X.bottomRows(1) = x;
 }
 
 DecisionPoints decision_points(const pareto::Front& front, const doe::Problem& problem) {

@@ -18,6 +18,9 @@ inline constexpr double same_place = 0.02;
 
 bool is_same_place(const doe::Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
+/// x as one more row of X.
+void append_place(Eigen::MatrixXd& X, const Eigen::RowVectorXd& x);
+
 /// Rows of a front.
 struct DecisionPoints {
   std::vector<int> best;  ///< where each objective is best, in order

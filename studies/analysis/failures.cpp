@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/decision_points.h>
 #include <drawpoint/studies/analysis/failures.h>
 #include <drawpoint/doe/detail/unit_box.hpp>
 
@@ -8,8 +9,6 @@
 
 namespace drawpoint::studies {
 namespace {
-
-constexpr double nearby = 0.02;  // of each range
 
 using Place = std::vector<double>;
 
@@ -55,7 +54,7 @@ std::vector<bool> Failures::avoided(const Eigen::MatrixXd& X) const {
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     const auto distance = (lost_.rowwise() - U.row(i)).cwiseAbs().rowwise().maxCoeff();
     answer[static_cast<std::size_t>(i)] =
-        (tells && P[i] < 0.5) || (lost_.rows() > 0 && distance.minCoeff() <= nearby);
+        (tells && P[i] < 0.5) || (lost_.rows() > 0 && distance.minCoeff() <= same_place);
   }
   return answer;
 }

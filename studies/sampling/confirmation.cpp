@@ -14,15 +14,10 @@ bool is_row(const Eigen::RowVectorXd& x, const Eigen::MatrixXd& X) {
   return false;
 }
 
-void append_row(Eigen::MatrixXd& X, const Eigen::RowVectorXd& x) {
-  X.conservativeResize(X.rows() + 1, x.size());
-  X.bottomRows(1) = x;
-}
-
 Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dimension) {
   Eigen::MatrixXd X(0, dimension);
   for (const Run& run : runs) {
-    if (run.kind == Kind::confirmation) append_row(X, run.x.transpose());
+    if (run.kind == Kind::confirmation) append_place(X, run.x.transpose());
   }
   return X;
 }
@@ -38,12 +33,12 @@ RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, con
   Eigen::MatrixXd X = confirmed_places(runs, static_cast<Eigen::Index>(problem.variables.size()));
   const Eigen::Index before = X.rows();
   for (Eigen::Index i = 0; i < named.rows(); ++i) {
-    if (!is_row(named.row(i), X.topRows(before))) append_row(X, named.row(i));
+    if (!is_row(named.row(i), X.topRows(before))) append_place(X, named.row(i));
   }
   RoundPlan plan{.round = {.first = static_cast<std::int64_t>(runs.size()) + 1,
                            .named = static_cast<int>(X.rows() - before)}};
   for (const int row : points_to_confirm(predicted.found.front, problem, X, points))
-    append_row(X, predicted.found.front.X.row(row));
+    append_place(X, predicted.found.front.X.row(row));
   if (X.rows() == before) {
     plan.nothing = predicted.missing.empty() ? "every point of the front that matters has been simulated"
                                              : "there is no front: " + predicted.missing;

@@ -16,13 +16,6 @@ std::string with(const std::string& trouble) { return "env TROUBLE=" + trouble +
 
 class BadInput : public StudyTest {
  protected:
-  void expect_refused(const std::string& line, int code, const std::string& words) {
-    const Ended end = run(line);
-    EXPECT_EQ(end.code, code) << line << "\n" << end.err;
-    EXPECT_TRUE(contains(end.err, words));
-    EXPECT_EQ(end.out, "");
-  }
-
   /// The study ends well; its runs beyond x = 0.5 have failed, with this reason.
   void expect_failed_runs(const std::string& trouble, const std::string& reason,
                           const std::string& options = "") {

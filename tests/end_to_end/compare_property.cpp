@@ -32,13 +32,6 @@ class Compare : public StudyTest {
       files[entry.path().string()] = entry.is_regular_file() ? contents(entry.path()) : "";
     return files;
   }
-  void expect_refused(const std::string& line, int code, const std::string& words) const {
-    const Ended end = run(line);
-    EXPECT_EQ(end.code, code);
-    EXPECT_TRUE(contains(end.err, words));
-    EXPECT_EQ(end.out, "");
-  }
-
   Ended made_;
 };
 

@@ -84,6 +84,11 @@ class Command {
   pid_t pid_ = -1;
 };
 
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "\"" << part << "\" is not in:\n" << text;
+}
+
 /// A test with a folder of its own, in which a study "study" may lie.
 class StudyTest : public testing::Test {
  protected:
@@ -98,6 +103,13 @@ class StudyTest : public testing::Test {
   }
 
   Ended run(const std::string& line) const { return Command(line, place_).wait(); }
+  /// Ends with this code, these words on standard error and nothing on standard output.
+  void expect_refused(const std::string& line, int code, const std::string& words) const {
+    const Ended end = run(line);
+    EXPECT_EQ(end.code, code) << line << "\n" << end.err;
+    EXPECT_TRUE(contains(end.err, words));
+    EXPECT_EQ(end.out, "");
+  }
   std::filesystem::path dir() const { return place_ / "study"; }
   std::string out() const { return " --out " + dir().string(); }
   std::filesystem::path database() const { return dir() / "study.db"; }
@@ -122,10 +134,5 @@ class StudyTest : public testing::Test {
 
   std::filesystem::path place_;
 };
-
-inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "\"" << part << "\" is not in:\n" << text;
-}
 
 }  // namespace drawpoint::test
