@@ -44,7 +44,8 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
           options.correlation,
           options.exponent,
           doe::detail::thread_count(options.threads),
-          options.estimation == Estimation::penalized_likelihood};
+          options.estimation == Estimation::penalized_likelihood,
+          options.nugget_power};
 }
 
 /// Bounds of (ln θ, exponents, ln λ). An input that never varies has no θ to estimate: it is fixed.
@@ -152,8 +153,8 @@ inline double response_roundoff(const TrainingData& data) {
   return 64.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, size / data.y_scale);
 }
 
-/// The trend and round-off, where the trend alone meets all runs; empty where it does not. There is nothing to
-/// correlate then, and the likelihood has no bound.
+/// The trend and round-off, where the trend alone meets all runs; empty where it does not. There is nothing
+/// to correlate then, and the likelihood has no bound.
 inline std::optional<Model> exact_trend(const TrainingData& data, const FitOptions& options) {
   if (data.trend.is_constant() || data.known_noise > 0) return {};
   Likelihood likelihood(likelihood_problem(data, options));

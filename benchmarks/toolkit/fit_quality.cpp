@@ -32,6 +32,7 @@ predictions are off and how often their intervals hold 500 new observations.
 
   fit_quality
   fit_quality --functions friedman5,waves5 --designs corners --runs 60
+  fit_quality --runs 40 --noise 0.01 --ways default,expect-none
   fit_quality --runs 50,100 --write cases     # for the same table of another library
 
 One row per function, design, number of runs and way to fit; medians over the seeds. NRMSE is the error of the
@@ -41,7 +42,7 @@ intervals, the noise that was found over the true one (without noise: over the r
 how many fits did not converge.
 
 Ways: `default`; `plug-in`, the same with its parameters taken as known; `likeliest`, plain maximum likelihood
-with its parameters taken as known.
+with its parameters taken as known; `expect-none`, the default with nugget_power 0, which expects no noise.
 
 Designs: `latin`, a random Latin hypercube; `maximin`, an optimised one; `lattice`, the same from a lattice
 where that lies farther apart; `discrepancy`, optimised by centred discrepancy; `corners`, maximin with the 2^d
@@ -53,9 +54,10 @@ struct Way {
 };
 
 std::vector<Way> ways() {
-  std::vector<Way> all{{"default", {}}, {"plug-in", {}}, {"likeliest", {}}};
+  std::vector<Way> all{{"default", {}}, {"plug-in", {}}, {"likeliest", {}}, {"expect-none", {}}};
   all[1].options.parameter_uncertainty = all[2].options.parameter_uncertainty = false;
   all[2].options.estimation = Estimation::maximum_likelihood;
+  all[3].options.nugget_power = 0;
   return all;
 }
 
@@ -78,6 +80,7 @@ bool too_many_corners(const std::string& kind, int variables, int runs) {
 struct Case {
   Eigen::MatrixXd X, Z;
   Eigen::VectorXd y, truth, observed;
+  double noise = 0;
 };
 
 Eigen::VectorXd values(const reference::TestFunction& f, const Eigen::MatrixXd& X, doe::Seed draw) {
@@ -91,11 +94,16 @@ Eigen::VectorXd with_noise(const Eigen::VectorXd& y, double deviation, doe::Seed
   return noisy;
 }
 
-Case make_case(const reference::TestFunction& f, const std::string& kind, int runs, doe::Seed seed) {
+double deviation(const Eigen::VectorXd& y) { return std::sqrt((y.array() - y.mean()).square().mean()); }
+
+/// `share`: noise of functions without any, over their deviation.
+Case make_case(const reference::TestFunction& f, const std::string& kind, int runs, doe::Seed seed,
+               double share) {
   Case c{design(kind, f.variables, runs, seed), reference::design(500, f.variables, 1000 + seed), {}, {}, {}};
-  c.y = with_noise(values(f, c.X, seed), f.noise, 2000 + seed);
   c.truth = values(f, c.Z, seed);
-  c.observed = with_noise(c.truth, f.noise, 3000 + seed);
+  c.noise = f.noise > 0 ? f.noise : share * deviation(c.truth);
+  c.y = with_noise(values(f, c.X, seed), c.noise, 2000 + seed);
+  c.observed = with_noise(c.truth, c.noise, 3000 + seed);
   return c;
 }
 
@@ -114,22 +122,22 @@ struct Row {
   int unsettled = 0;
 };
 
-void add(Row& row, const Case& c, const Way& way, double noise) {
+void add(Row& row, const Case& c, const Way& way) {
   const double start = benchmarks::cpu_seconds();
   const Model model = fit(c.X, c.y, way.options);
   row.seconds.push_back(benchmarks::cpu_seconds() - start);
   if (model.status() != Status::converged) ++row.unsettled;
   const Validation v = validate(model, c.Z, c.observed);
-  const double range = c.truth.maxCoeff() - c.truth.minCoeff(), unit = range > 0 ? range : noise;
+  const double range = c.truth.maxCoeff() - c.truth.minCoeff(), unit = range > 0 ? range : c.noise;
   row.nrmse.push_back(std::sqrt((v.predicted - c.truth).squaredNorm() / static_cast<double>(c.truth.size())) /
                       unit);
-  row.noise.push_back(std::sqrt(model.noise_variance()) / (noise > 0 ? noise : unit));
+  row.noise.push_back(std::sqrt(model.noise_variance()) / (c.noise > 0 ? c.noise : unit));
   const double levels[] = {0.5, 0.8, 0.95};
   for (int k = 0; k < 3; ++k) row.coverage[k].push_back(100.0 * score(v, ErrorFunction::coverage, levels[k]));
 }
 
 void print(const std::string& place, const std::string& way, const Row& row) {
-  std::printf("%s %-9s %9.5f %9.5f  %5.1f %5.1f %5.1f  %7.4f %7.3f %4d\n", place.c_str(), way.c_str(),
+  std::printf("%s %-11s %9.5f %9.5f  %5.1f %5.1f %5.1f  %7.4f %7.3f %4d\n", place.c_str(), way.c_str(),
               median(row.nrmse), *std::max_element(row.nrmse.begin(), row.nrmse.end()),
               median(row.coverage[0]), median(row.coverage[1]), median(row.coverage[2]), median(row.noise),
               median(row.seconds), row.unsettled);
@@ -157,13 +165,14 @@ struct Settings {
       designs{"latin", "maximin", "corners", "sobol"};
   std::vector<int> runs{50, 100, 200};
   int seeds = 11;
+  double noise = 0;
   std::string folder;
 };
 
 void measure(const Settings& settings, const reference::TestFunction& f, const std::string& kind, int runs) {
   std::vector<Row> rows(ways().size());
   for (int seed = 1; seed <= settings.seeds; ++seed) {
-    const Case c = make_case(f, kind, runs, static_cast<doe::Seed>(seed));
+    const Case c = make_case(f, kind, runs, static_cast<doe::Seed>(seed), settings.noise);
     if (!settings.folder.empty()) {
       const std::string stem = settings.folder + "/" + f.name + "-" + kind + "-" + std::to_string(runs) +
                                "-" + std::to_string(seed);
@@ -172,7 +181,7 @@ void measure(const Settings& settings, const reference::TestFunction& f, const s
       continue;
     }
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (contains(settings.ways, ways()[k].name)) add(rows[k], c, ways()[k], f.noise);
+      if (contains(settings.ways, ways()[k].name)) add(rows[k], c, ways()[k]);
   }
   if (!settings.folder.empty()) return;
   char place[64];
@@ -195,7 +204,7 @@ Settings settings_of(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--ways", settings.ways, "with commas between")
       ->delimiter(',')
-      ->check(CLI::IsMember(settings.ways))
+      ->check(CLI::IsMember({"default", "plug-in", "likeliest", "expect-none"}))
       ->capture_default_str();
   app.add_option("--runs", settings.runs, "of a design")
       ->delimiter(',')
@@ -204,6 +213,8 @@ Settings settings_of(int argc, char** argv) {
   app.add_option("--seeds", settings.seeds, "designs of each kind")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_option("--noise", settings.noise, "of functions that have none, over their standard deviation")
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--write", settings.folder, "write the cases to FOLDER as CSV instead of fitting them");
   try {
     app.parse(argc, argv);
@@ -222,7 +233,7 @@ int main(int argc, char** argv) {
     if (!settings.folder.empty())
       std::filesystem::create_directories(settings.folder);
     else
-      std::printf("%-12s %-8s %4s %-9s %9s %9s  %5s %5s %5s  %7s %7s %4s\n", "function", "design", "runs",
+      std::printf("%-12s %-8s %4s %-11s %9s %9s  %5s %5s %5s  %7s %7s %4s\n", "function", "design", "runs",
                   "way", "NRMSE", "worst", "50 %", "80 %", "95 %", "noise", "CPU s", "not");
     for (const reference::TestFunction& f : reference::test_functions())
       if (contains(settings.functions, f.name))

@@ -51,7 +51,8 @@ struct LikelihoodProblem {
   Correlation family = Correlation::gaussian;
   Eigen::VectorXd exponent;  ///< given p of power_exponential, d entries; empty: parameters
   int threads = 1;
-  bool prior = false;  ///< LL + ln π instead of LL
+  bool prior = false;       ///< LL + ln π instead of LL
+  double nugget_power = 0;  ///< of λ in π
 };
 
 /// Remembers the last point, so that value, gradient and Hessian at one p share their factorisation. Not for
@@ -63,7 +64,7 @@ class Likelihood {
     f_.family = in_.family;
     f_.exponent = in_.exponent;
     estimated_exponents_ = in_.family == Correlation::power_exponential && in_.exponent.size() == 0;
-    if (in_.prior) prior_.emplace(runs(), varying(), in_.known_noise == 0);
+    if (in_.prior) prior_.emplace(runs(), varying(), in_.known_noise == 0, in_.nugget_power);
   }
 
   /// Gaussian correlation, constant trend, the same noise everywhere.

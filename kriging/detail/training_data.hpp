@@ -150,6 +150,9 @@ inline void check_options(const FitOptions& options, Eigen::Index d) {
   check_bounds("theta", options.theta_lower, options.theta_upper);
   check_bounds("nugget", options.nugget_lower, options.nugget_upper);
   check_box(options, d);
+  if (!std::isfinite(options.nugget_power) || options.nugget_power < 0)
+    reject("nugget_power is " + text(options.nugget_power) +
+           "; allowed are finite numbers from 0 on; use 0.5, or 0 for a simulator without noise");
   if (options.starts < 1)
     reject("starts is " + std::to_string(options.starts) + "; allowed is 1 or more; use 8");
   if (options.candidates < options.starts)

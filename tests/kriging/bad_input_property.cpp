@@ -93,6 +93,12 @@ TEST(BadInput, Options) {
   EXPECT_EQ(
       refusal([](Call& c) { c.options.nugget_upper = 1e-12; }),
       "kriging::fit: nugget_upper is 1e-12; allowed are finite numbers from nugget_lower 1e-10 on; raise it");
+  EXPECT_EQ(refusal([](Call& c) { c.options.nugget_power = -1; }),
+            "kriging::fit: nugget_power is -1; allowed are finite numbers from 0 on; use 0.5, or 0 for a "
+            "simulator without noise");
+  EXPECT_EQ(refusal([](Call& c) { c.options.nugget_power = not_a_number; }),
+            "kriging::fit: nugget_power is nan; allowed are finite numbers from 0 on; use 0.5, or 0 for a "
+            "simulator without noise");
   EXPECT_EQ(refusal([](Call& c) { c.options.starts = 0; }),
             "kriging::fit: starts is 0; allowed is 1 or more; use 8");
   EXPECT_EQ(refusal([](Call& c) { c.options.candidates = 4; }),

@@ -91,6 +91,7 @@ TEST(Likelihood, DerivativesOfAllKindsAreDifferenceQuotients) {
           problem.F << VectorXd::Ones(100), problem.X;
         }
         problem.prior = universal;
+        problem.nugget_power = 0.5;
         problem.noise = universal ? VectorXd::LinSpaced(100, 0.2, 1.8) : VectorXd();
         Likelihood likelihood(problem);
         VectorXd p = VectorXd::Constant(likelihood.parameters(), 1.7);

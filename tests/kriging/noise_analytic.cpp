@@ -27,15 +27,17 @@ const MatrixXd points = reference::design(50, 2, 33);
 
 }  // namespace
 
-// The nugget's fit maximises over (θ, λ, s²) at once. Known noise restricts λs² to τ²: given the τ² that the
-// nugget's fit found, the restricted maximum is the same point. Both searches end with less than 1e-3 to
+// The nugget's fit maximises over (θ, λ, s²) at once, here without a power of λ in its prior, which known
+// noise does not have. Known noise restricts λs² to τ²: given the τ² that the nugget's fit found, the
+// restricted maximum is the same point. Both searches end with less than 1e-3 to
 // gain, where curvatures of about n/2 leave ln λ within √(2e-3/20) = 0.01, predictions within a hundredth of
 // the noise.
 TEST(Noise, KnownAsTheNuggetWasEstimatedGivesTheSameModel) {
   const MatrixXd X = reference::design(40, 2, 21);
   const VectorXd y = noisy(X, 0.2, 4);
-  const Model nugget = fit(X, y);
   FitOptions options;
+  options.nugget_power = 0;
+  const Model nugget = fit(X, y, options);
   options.noise = Noise::known;
   options.noise_variance = VectorXd::Constant(40, nugget.noise_variance());
   const Model known = fit(X, y, options);

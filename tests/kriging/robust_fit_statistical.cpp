@@ -94,3 +94,22 @@ TEST(DefaultFit, SaysThatNoiseIsNoise) {
   }
   EXPECT_LT(of_pure_noise(4, likeliest()).noise, 0.5) << "plain maximum likelihood no longer shows the fault";
 }
+
+// 40 runs of draws of the process that a fit takes for granted, deviation 1, with noise of 0.05. Runs so far
+// apart can hardly tell it from a rough response: without a power of λ in the prior most of eleven fits find
+// less than a tenth of it. With one, each finds it to within a factor of 3.
+TEST(DefaultFit, FindsNoiseThatFewRunsHide) {
+  int unseen = 0;
+  for (doe::Seed seed = 1; seed <= 11; ++seed) {
+    const MatrixXd X = reference::design(40, 4, seed);
+    const VectorXd y = reference::values([&](const VectorXd& x) { return reference::process4(x, seed); }, X) +
+                       0.05 * noise(40, 200 + seed);
+    FitOptions none;
+    none.nugget_power = 0;
+    if (fit(X, y, none).noise_variance() < std::pow(0.1 * 0.05, 2)) ++unseen;
+    const double found = std::sqrt(fit(X, y).noise_variance());
+    EXPECT_GT(found, 0.05 / 3) << "seed " << seed;
+    EXPECT_LT(found, 0.05 * 3) << "seed " << seed;
+  }
+  EXPECT_GE(unseen, 4) << "the designs no longer show what this test is about";
+}

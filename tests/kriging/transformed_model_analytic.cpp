@@ -139,7 +139,9 @@ TEST(TransformedModel, IsReinterpolatedInSearches) {
                        {.name = "b", .unit = "m", .lower = 0, .upper = 1}};
   problem.responses = {{.name = "y", .unit = "t", .goal = doe::Goal::minimize}};
   const VectorXd score = constrained_hypervolume_improvement(problem, std::vector{y})(r.X);
-  EXPECT_EQ(score, VectorXd::Zero(30)) << "nothing is won where all is known";
+  // The mean of a run is a sum of 30 terms below 1e3, so it repeats to 30 · 1e3 · 1e-16.
+  EXPECT_GE(score.minCoeff(), 0.0);
+  EXPECT_LT(score.maxCoeff(), 3e-12) << "nothing is won where all is known";
 }
 
 // Multiplicative noise of 0.6 about a response that varies by a factor of 50, and noise of 0.3 added to one
