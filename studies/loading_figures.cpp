@@ -187,6 +187,24 @@ json forces_panel(const LoadingLog& log, const CycleRecord& cycle) {
       {"series", series}};
 }
 
+json bucket_panel(const LoadingLog& log, const CycleRecord& cycle) {
+  std::vector<double> t, mass;
+  for (const auto& frame : log.scene.frames) {
+    if (frame.cycle != cycle.number || std::isnan(frame.bucket_mass)) continue;
+    t.push_back(frame.t - cycle.t_start);
+    mass.push_back(1e-3 * frame.bucket_mass);
+  }
+  return {{"type", "lines"},
+          {"title", "Rock in the bucket"},
+          {"caption", name_of(cycle) +
+                          " of the run shown: the mass of all rocks whose centre is in the heaped bucket, "
+                          "also while the bucket only passes round them. At the end it carried " +
+                          fixed(1e-3 * cycle.loaded_mass, 1) + " t."},
+          {"x_label", "time [s]"},
+          {"y_label", "mass [t]"},
+          {"series", {{{"name", "rock in the bucket"}, {"x", rounded(t)}, {"y", rounded(mass)}}}}};
+}
+
 json cycles_panel(const LoadingLog& log) {
   json rows = json::array();
   for (const CycleRecord& c : log.cycles) {
@@ -232,8 +250,11 @@ json loading_figures(const std::filesystem::path& log_file) {
   const LoadingLog log = engine::loading::read_log(log_file);
   if (log.cycles.empty()) return json::array();
   const CycleRecord& cycle = log.cycles.front();
-  return json::array(
-      {path_panel(log, cycle), scene_panel(log, cycle), forces_panel(log, cycle), cycles_panel(log)});
+  json panels = {path_panel(log, cycle), scene_panel(log, cycle), forces_panel(log, cycle)};
+  json bucket = bucket_panel(log, cycle);
+  if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
+  panels.push_back(cycles_panel(log));
+  return panels;
 }
 
 }  // namespace drawpoint::studies

@@ -37,11 +37,11 @@ enum class ArmDrive {
 
 struct LhdOptions {
   ArmDrive arm_drive = ArmDrive::cylinders;
-  Hydraulics hydraulics;  ///< of ArmDrive::cylinders; by default any flow: the source's motors know none
+  Hydraulics hydraulics = {};  ///< of ArmDrive::cylinders; by default any flow: the source's motors know none
   double lift_torque = 1696e3;  ///< [N m] at F, used with ArmDrive::hinges
   double tilt_torque = 673e3;   ///< [N m] at G, used with ArmDrive::hinges
   double wheel_torque = 81e3;   ///< each of four [N m]: 350 kN at the tyres, the torque converter near stall
-  DriveLine drive_line;         ///< by default no engine: the source's wheel motors know none
+  DriveLine drive_line = {};    ///< by default no engine: the source's wheel motors know none
   BucketOptions bucket;  ///< with another the rear unit is ballasted anew, to the same share of each axle
 };
 

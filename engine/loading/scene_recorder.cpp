@@ -73,12 +73,13 @@ int SceneRecorder::shape_of(const granular::RockSpec& spec) {
 
 void SceneRecorder::add_rocks(const Site& site) {
   for (; rocks_ < site.world().rocks().size(); ++rocks_)
-    scene_.bodies.push_back({shape_of(site.specs()[rocks_]), rock_colors[rocks_ % 6], 1.0, "rock"});
+    scene_.bodies.push_back({shape_of(site.specs()[rocks_]), rock_colors[rocks_ % 6], 1.0, "rock",
+                             site.world().rocks()[rocks_].body.mass});
 }
 
 void SceneRecorder::frame(const Site& site, int cycle, const std::string& label) {
   add_rocks(site);
-  SceneFrame frame{site.world().time(), cycle, label, {}};
+  SceneFrame frame{site.world().time(), cycle, label, {}, site.mass_in_bucket()};
   for (std::size_t k = 0; k < machine_bodies_; ++k)
     append_pose(frame.poses, site.machine().pose(site.lhd().surfaces[k].body));
   for (std::size_t k = 0; k < fixed_bodies_; ++k) append_pose(frame.poses, Eigen::Isometry3d::Identity());

@@ -12,26 +12,42 @@ std::string identifier(std::string name) {
   return name;
 }
 
+// All but the wrenches of the joints.
+std::vector<record::Column> columns_of(bool cylinders) {
+  const char *speed = cylinders ? "m/s" : "rad/s", *force = cylinders ? "N" : "N m";
+  return {{"time", "s", "at the end of the step, from the start of the run"},
+          {"cycle", "1", "number of the cycle, from 1"},
+          {"stage", "1", "1 drive-in, 2 lift, 3 curl, 4 back out; 0 between cycles"},
+          {"progress", "1", "of the stage, 0 to 1"},
+          {"tip_x", "m", "middle of the cutting edge, world: into the drift"},
+          {"tip_y", "m", "middle of the cutting edge, world: to the left"},
+          {"tip_z", "m", "middle of the cutting edge, world: above the floor"},
+          {"bucket_angle", "rad", "of the bucket's bottom against the floor, edge up positive"},
+          {"axle_x", "m", "front axle, world: into the drift"},
+          {"axle_z", "m", "front axle, world: above the floor"},
+          {"drive_set", "m/s", "speed of the machine that the executor asked for, forward positive"},
+          {"drive_speed", "m/s", "speed of the machine, forward positive"},
+          {"boom_set", "rad/s", "rate of the boom that the executor asked for, up positive"},
+          {"boom_rate", "rad/s", "rate of the boom, up positive"},
+          {"tilt_set", "rad/s", "rate of the bucket against the boom that the executor asked for"},
+          {"tilt_rate", "rad/s", "rate of the bucket against the boom"},
+          {"lift_speed", speed, "of the lift drive"},
+          {"lift_force", force, "of the lift drive"},
+          {"tilt_speed", speed, "of the tilt drive"},
+          {"tilt_force", force, "of the tilt drive"},
+          {"wheel_torque", "N m", "sum over the wheels"},
+          {"wheel_power", "W", "sum over the wheels"},
+          {"machine_energy", "J", "kinetic and potential energy of the machine"},
+          {"rock_energy", "J", "kinetic and potential energy of the rocks"},
+          {"contacts", "1", "contact points of the step"},
+          {"solver_change", "1", "of the contact solver's last iteration, relative to the normal load"},
+          {"overlap", "m", "largest of a contact in the step"}};
+}
+
 }  // namespace
 
 SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints, record::Table& table) : table_(table) {
-  table_.columns = {
-      {"time", "s"},         {"cycle", "1"},         {"stage", "1"},        {"progress", "1"},
-      {"tip_x", "m"},        {"tip_y", "m"},         {"tip_z", "m"},        {"bucket_angle", "rad"},
-      {"axle_x", "m"},       {"axle_z", "m"},        {"drive_set", "m/s"},  {"drive_speed", "m/s"},
-      {"boom_set", "rad/s"}, {"boom_rate", "rad/s"}, {"tilt_set", "rad/s"}, {"tilt_rate", "rad/s"}};
-  const bool cylinders = lhd.options.arm_drive == ArmDrive::cylinders;
-  for (const char* axis : {"lift", "tilt"}) {
-    table_.columns.push_back({std::string(axis) + "_speed", cylinders ? "m/s" : "rad/s"});
-    table_.columns.push_back({std::string(axis) + "_force", cylinders ? "N" : "N m"});
-  }
-  table_.columns.push_back({"wheel_torque", "N m"});
-  table_.columns.push_back({"wheel_power", "W"});
-  table_.columns.push_back({"machine_energy", "J"});
-  table_.columns.push_back({"rock_energy", "J"});
-  table_.columns.push_back({"contacts", "1"});
-  table_.columns.push_back({"solver_change", "1"});
-  table_.columns.push_back({"overlap", "m"});
+  table_.columns = columns_of(lhd.options.arm_drive == ArmDrive::cylinders);
   for (std::size_t b = 0; b < lhd.spec.bodies.size(); ++b) {
     if (lhd.spec.bodies[b].joint == machine::JointKind::free) continue;
     if (!all_joints && static_cast<int>(b) != lhd.bucket) continue;
@@ -39,9 +55,11 @@ SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints, record::Table& t
     const std::string joint =
         static_cast<int>(b) == lhd.bucket ? "hinge_G" : identifier(lhd.spec.bodies[b].name) + "_joint";
     for (const char* part : {"_torque_x", "_torque_y", "_torque_z"})
-      table_.columns.push_back({joint + part, "N m"});
+      table_.columns.push_back(
+          {joint + part, "N m", "on the child by its parent, in the child's axes, mean over the step"});
     for (const char* part : {"_force_x", "_force_y", "_force_z"})
-      table_.columns.push_back({joint + part, "N"});
+      table_.columns.push_back(
+          {joint + part, "N", "on the child by its parent, in the child's axes, mean over the step"});
   }
 }
 

@@ -54,6 +54,15 @@ bool Site::in_bucket(int rock) const {
   return in_heaped_bucket(lhd_, driver_.in_bucket_frame(world_.rocks()[rock].pose.translation()));
 }
 
+double Site::mass_in_bucket() const {
+  double mass = 0;
+  for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
+    const engine::Rock& rock = world_.rocks()[k];
+    if (rock.present && in_bucket(static_cast<int>(k))) mass += rock.body.mass;
+  }
+  return mass;
+}
+
 Site::Load Site::load(const std::vector<bool>& free_of_pile) const {
   std::vector<bool> allowed = free_of_pile;
   std::vector<int> heaped;

@@ -27,11 +27,12 @@ class Site {
   std::vector<PosedRock> rocks(bool with_bucket = true) const;
   const std::vector<granular::RockSpec>& specs() const { return specs_; }
   bool in_bucket(int rock) const;  ///< its centre within the heaped bucket
+  double mass_in_bucket() const;   ///< of the rocks that are [kg]
 
   /// What the machine would take away as it stands: `in_bucket` the rocks in the heaped bucket and, of those
-  /// `free_of_pile` (by number), the ones that hang together with these or with the bucket and not with the ground;
-  /// `elsewhere` the ones that hang so on the rest of it. By the contact forces of the last step: a rock that hops
-  /// in it, beside the heaped bucket, is missed.
+  /// `free_of_pile` (by number), the ones that hang together with these or with the bucket and not with the
+  /// ground; `elsewhere` the ones that hang so on the rest of it. By the contact forces of the last step: a
+  /// rock that hops in it, beside the heaped bucket, is missed.
   struct Load {
     std::vector<int> in_bucket, elsewhere;
   };

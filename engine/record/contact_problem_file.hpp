@@ -11,11 +11,11 @@
 /// A contact problem in a file: everything that a method needs to solve it again, bit for bit.
 ///
 /// Format "drawpoint contact problem", version 3, in the form of record/file.hpp (HDF5, checksummed, written
-/// whole or not at all). The root has the step [s], a note and the law in words; /bodies, /pairs, /points and,
-/// with a machine, /machine hold one array per field of contact_problem.hpp, the index of the body, pair or
-/// point first, float64 or int32, each with attributes "unit" and "description". What solving puts out is not
-/// in the file. docs/contact-solving.md lists the fields. Versions 1 and 2, which are read still, store matrices
-/// by columns; version 1 calls bodies/external_velocity_change bodies/push.
+/// whole or not at all). The root has the step [s], a note and the law in words; /bodies, /pairs, /points
+/// and, with a machine, /machine hold one array per field of contact_problem.hpp, the index of the body, pair
+/// or point first, float64 or int32, each with attributes "unit" and "description". What solving puts out is
+/// not in the file. docs/contact-solving.md lists the fields. Versions 1 and 2, which are read still, store
+/// matrices by columns; version 1 calls bodies/external_velocity_change bodies/push.
 ///
 /// A problem is checked when written and when read: counts agree, indices are in range, numbers are finite,
 /// the step is positive, normals are unit, limits are ordered. Size: about 150 bytes per point.
@@ -37,8 +37,8 @@ void write_contact_problem(const std::filesystem::path& path, const engine::Cont
 /// is damaged or holds no sound problem.
 RecordedProblem read_contact_problem(const std::filesystem::path& path);
 
-/// The same arrays in a plain file (record/file.hpp), for and from other programs. Errors as above; an import is
-/// checked as a problem, but has no checksum that shows damage.
+/// The same arrays in a plain file (record/file.hpp), for and from other programs. Errors as above; an import
+/// is checked as a problem, but has no checksum that shows damage.
 void export_contact_problem(const std::filesystem::path& path, const engine::ContactProblem& problem,
                             const std::string& note = {});
 RecordedProblem import_contact_problem(const std::filesystem::path& path);

@@ -61,8 +61,10 @@ class Writer {
   void texts(const std::string& path, const std::vector<std::string>& values);
   void table(const std::string& path, const Table& table);
   void group(const std::string& path);
-  /// Attributes "unit" and "description" of data that is written.
-  void describe(const std::string& path, const std::string& unit, const std::string& description);
+  /// Attributes "unit", "description" and, where there is one, "frame" of data that is written: the axes that
+  /// its numbers are in.
+  void describe(const std::string& path, const std::string& unit, const std::string& description,
+                const std::string& frame = {});
 
   /// Writes the target; afterwards the writer is spent. Without it nothing appears on the disk.
   void commit();

@@ -286,10 +286,14 @@ Table Reader::table(const std::string& path) const {
   const Library library;
   const std::vector<std::string> names = texts(path + "/columns"), units = texts(path + "/units");
   Array<double> values = doubles(path + "/values");
-  if (names.size() != units.size() || values.shape.size() != 2 || values.shape[1] != names.size())
+  std::vector<std::string> descriptions(names.size());  // files of before have none
+  if (has(path + "/descriptions")) descriptions = texts(path + "/descriptions");
+  if (names.size() != units.size() || names.size() != descriptions.size() || values.shape.size() != 2 ||
+      values.shape[1] != names.size())
     state_->fail("has a table at \"" + path + "\" whose parts do not fit; another program wrote it");
   Table table;
-  for (std::size_t k = 0; k < names.size(); ++k) table.columns.push_back({names[k], units[k]});
+  for (std::size_t k = 0; k < names.size(); ++k)
+    table.columns.push_back({names[k], units[k], descriptions[k]});
   table.values = std::move(values.values);
   return table;
 }

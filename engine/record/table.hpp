@@ -12,6 +12,7 @@ namespace drawpoint::engine::record {
 
 struct Column {
   std::string name, unit;
+  std::string description = {};  ///< what it is and in which axes, for people
 };
 
 struct Table {

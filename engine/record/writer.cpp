@@ -225,13 +225,15 @@ void Writer::table(const std::string& path, const Table& table) {
     throw std::invalid_argument("record::Writer: table \"" + path + "\" has " +
                                 std::to_string(table.values.size()) + " values in " +
                                 std::to_string(table.columns.size()) + " columns; append whole rows");
-  std::vector<std::string> names, units;
+  std::vector<std::string> names, units, descriptions;
   for (const Column& column : table.columns) {
     names.push_back(column.name);
     units.push_back(column.unit);
+    descriptions.push_back(column.description);
   }
   texts(path + "/columns", names);
   texts(path + "/units", units);
+  texts(path + "/descriptions", descriptions);
   array(path + "/values", std::span(table.values), {table.rows(), table.columns.size()});
 }
 
@@ -241,7 +243,8 @@ void Writer::group(const std::string& path) {
   state_->group(detail::plain_path(path));
 }
 
-void Writer::describe(const std::string& data, const std::string& unit, const std::string& description) {
+void Writer::describe(const std::string& data, const std::string& unit, const std::string& description,
+                      const std::string& frame) {
   const Library library;
   state_->require_open();
   const std::string path = detail::plain_path(data);
@@ -251,6 +254,8 @@ void Writer::describe(const std::string& data, const std::string& unit, const st
                                 "\" to describe; write it first");
   state_->attribute(object.get(), "unit", Element::text, std::as_bytes(std::span(unit)));
   state_->attribute(object.get(), "description", Element::text, std::as_bytes(std::span(description)));
+  if (!frame.empty())
+    state_->attribute(object.get(), "frame", Element::text, std::as_bytes(std::span(frame)));
 }
 
 void Writer::commit() {

@@ -10,9 +10,9 @@
 
 /// How the signals of a run log belong to its cycles, and a low-pass over them.
 ///
-/// A sample stands for the time since the one before it in the same cycle, a cycle's first sample for the time
-/// to the next; a cycle's only one for none. Low-pass of a vector: y += (1 − exp(−2π f Δt)) (x − y) on each
-/// component, started anew with each cycle.
+/// A sample stands for the time since the one before it in the same cycle, a cycle's first sample for the
+/// time to the next; a cycle's only one for none. Low-pass of a vector: y += (1 − exp(−2π f Δt)) (x − y) on
+/// each component, started anew with each cycle.
 namespace drawpoint::engine::loading {
 
 class CycleSamples {
@@ -26,8 +26,8 @@ class CycleSamples {
   bool begins(std::size_t row) const;
   /// The time that a sample stands for [s].
   double weight(std::size_t row) const;
-  /// Index of the cycle that a sample counts for; none between cycles. A sample at the start of a cycle stands
-  /// for the time before it, unless it is the first of its samples.
+  /// Index of the cycle that a sample counts for; none between cycles. A sample at the start of a cycle
+  /// stands for the time before it, unless it is the first of its samples.
   std::optional<std::size_t> cycle(std::size_t row) const;
 
  private:

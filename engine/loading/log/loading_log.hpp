@@ -6,6 +6,7 @@
 #include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <drawpoint/engine/record/table.hpp>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct SceneBody {
   std::string color = "#808080";  ///< `#rrggbb`
   double opacity = 1.0;
   std::string name;
+  double mass =
+      std::numeric_limits<double>::quiet_NaN();  ///< of a rock [kg]; NaN: no rock, or of a log of version 4
 };
 
 inline constexpr std::size_t values_per_pose = 7;
@@ -49,6 +52,8 @@ struct SceneFrame {
   /// x y z qw qx qy qz per body, to a millimetre and half a thousandth; NaN: not shown. In the file: body,
   /// number, frame.
   std::vector<float> poses;
+  /// Of rocks whose centre is in the heaped bucket, resting there or not [kg]; NaN in logs of version 4.
+  double bucket_mass = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct SceneRecord {
@@ -60,10 +65,10 @@ struct SceneRecord {
 struct LoadingLog {
   bool completed = false;  ///< all cycles were run; some may have broken down (`lost_cycles`)
   std::string message;     ///< why not, or empty
-  /// The scenario's parameters, and of the run: mass at first, present at the end, emitted, cleared away for the machine
-  /// and of rock that left the drift [kg], cycles that broke down, steps that had to be done again in parts, the most
-  /// contact points of a step and the iterations per substep that `iteration_budget` left for these, and the largest
-  /// overlap of a rock and loop error while the machine worked [m].
+  /// The scenario's parameters, and of the run: mass at first, present at the end, emitted, cleared away for
+  /// the machine and of rock that left the drift [kg], cycles that broke down, steps that had to be done
+  /// again in parts, the most contact points of a step and the iterations per substep that `iteration_budget`
+  /// left for these, and the largest overlap of a rock and loop error while the machine worked [m].
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;  ///< its choices, versions, why cycles broke down
   record::Table signals;
@@ -75,7 +80,8 @@ struct LoadingLog {
 /// std::invalid_argument if the log contradicts itself.
 void write_log(const std::filesystem::path& path, const LoadingLog& log);
 
-/// Throws std::runtime_error if the file is missing, truncated, damaged or no loading log.
+/// Of this version and of version 4. Throws std::runtime_error if the file is missing, truncated, damaged or
+/// no loading log.
 LoadingLog read_log(const std::filesystem::path& path);
 
 }  // namespace drawpoint::engine::loading

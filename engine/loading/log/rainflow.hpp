@@ -15,13 +15,14 @@ struct CountedRange {
   double count = 1;  ///< 1 or 1/2
 };
 
-/// Rainflow counting of ASTM E1049-85 (2017), section 5.4.4: the history's turning points, its first and last value
-/// among them; a range that the next one reaches is a cycle, or half of one if it holds the history's start; what
-/// is left at the end counts half. Empty for fewer than two different values. Cost: one pass. Values must be finite.
+/// Rainflow counting of ASTM E1049-85 (2017), section 5.4.4: the history's turning points, its first and last
+/// value among them; a range that the next one reaches is a cycle, or half of one if it holds the history's
+/// start; what is left at the end counts half. Empty for fewer than two different values. Cost: one pass.
+/// Values must be finite.
 std::vector<CountedRange> rainflow(std::span<const double> history);
 
-/// Miner's sum for an S-N line of slope `exponent`: Σ count · range^exponent, in the history's unit to that power. The
-/// 1/exponent-th power of it is the range of a single cycle that does the same damage.
+/// Miner's sum for an S-N line of slope `exponent`: Σ count · range^exponent, in the history's unit to that
+/// power. The 1/exponent-th power of it is the range of a single cycle that does the same damage.
 double miner_sum(std::span<const CountedRange> ranges, double exponent);
 
 }  // namespace drawpoint::engine::loading

@@ -12,10 +12,10 @@
 ///
 /// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the torque in bucket hinge G,
 /// or of its two components across the pin (those twist the bucket; the third is the tilt's own load). Summed
-/// over the cycles of the run; one that broke down counts with the mean of the others. A sample stands for the
-/// time since the one before it in the same cycle, a cycle's first sample for the time to the next. Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each
-/// component, started anew with each cycle: a rigid impact's peak grows as 1/Δt, and unfiltered it would make
-/// the response a function of the time step.
+/// over the cycles of the run; one that broke down counts with the mean of the others. A sample stands for
+/// the time since the one before it in the same cycle, a cycle's first sample for the time to the next.
+/// Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each component, started anew with each cycle: a rigid
+/// impact's peak grows as 1/Δt, and unfiltered it would make the response a function of the time step.
 ///
 /// rock_spill: c₃ = mean over cycles of m_spill / m_max [1], m_spill the rocks in front of the pile after the
 /// cycle that this run left there: what lay there before the machine first came does not count. Rocks that

@@ -6,24 +6,26 @@
 #include <vector>
 
 /// What a run costs and how it goes, beside its responses (responses.hpp): pure functions of the run log, one
-/// value per cycle, in order. All throw std::invalid_argument naming what the log lacks (logs of older versions
-/// lack tyre radius and bucket volumes). A sample has the weight that it has in joint_damage. Cost: one pass.
+/// value per cycle, in order. All throw std::invalid_argument naming what the log lacks (logs of older
+/// versions lack tyre radius and bucket volumes). A sample has the weight that it has in joint_damage. Cost:
+/// one pass.
 ///
-/// energy: ∫ Σ max(P, 0) dt over lift, tilt (P = force · speed) and drive (P = torque of the wheels / tyre's free
-/// radius · speed of the body, so without what spinning wheels burn). Holding and braking recover nothing.
-/// tracking error: √(∫ D² dt / ∫ dt) over stages 1 to 3, D the tip's distance from the planned path up to the
-/// end of the curl, early or late. wheel slip: mean over time of 1 − v / v_set while the drive is set to more
-/// than 0.05 m/s, the share of the set speed that the body lacks; the wheels' own speed is not logged, so it is
-/// slip where they turn as set and a drive at its torque limit where they do not. Gaining speed counts. 0 for a
-/// cycle that never drives forward. peak force in the pin: largest magnitude of hinge G's force, low-passed as
-/// the torque is in joint_damage; the bucket's own weight is in it. pin load range: what fatigue sees of the bucket's
-/// hinge, unlike joint_damage, which sums the excess of its torque. The hinge is two pins, `pin_spacing` apart, that
-/// share force F and off-axis torque M as two simple supports do (left: F/2 and M_x / spacing, −M_z / spacing). The
-/// force across a pin's axis, in directions of the bucket 15° apart, is counted over all cycles by rainflow.hpp and
-/// summed by Miner's rule; given is the range that does the same damage once per loading cycle, in the worse pin and its
-/// worst direction. solid fill: volume of the loaded rocks,
-/// without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with porosity n. struck
-/// fill: solid fill over that, with the porosity of loose_ore_porosity: what a miner calls the fill factor,
+/// energy: ∫ Σ max(P, 0) dt over lift, tilt (P = force · speed) and drive (P = torque of the wheels / tyre's
+/// free radius · speed of the body, so without what spinning wheels burn). Holding and braking recover
+/// nothing. tracking error: √(∫ D² dt / ∫ dt) over stages 1 to 3, D the tip's distance from the planned path
+/// up to the end of the curl, early or late. wheel slip: mean over time of 1 − v / v_set while the drive is
+/// set to more than 0.05 m/s, the share of the set speed that the body lacks; the wheels' own speed is not
+/// logged, so it is slip where they turn as set and a drive at its torque limit where they do not. Gaining
+/// speed counts. 0 for a cycle that never drives forward. peak force in the pin: largest magnitude of hinge
+/// G's force, low-passed as the torque is in joint_damage; the bucket's own weight is in it. pin load range:
+/// what fatigue sees of the bucket's hinge, unlike joint_damage, which sums the excess of its torque. The
+/// hinge is two pins, `pin_spacing` apart, that share force F and off-axis torque M as two simple supports do
+/// (left: F/2 and M_x / spacing, −M_z / spacing). The force across a pin's axis, in directions of the bucket
+/// 15° apart, is counted over all cycles by rainflow.hpp and summed by Miner's rule; given is the range that
+/// does the same damage once per loading cycle, in the worse pin and its worst direction. solid fill: volume
+/// of the loaded rocks, without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with
+/// porosity n. struck fill: solid fill over that, with the porosity of loose_ore_porosity: what a miner calls
+/// the fill factor,
 /// 0.8 to 1.1 for loaders in well blasted ore.
 namespace drawpoint::engine::loading {
 

@@ -71,20 +71,33 @@ LoadingLog example_log() {
   log.signals.columns = {{"time", "s"},
                          {"cycle", "1"},
                          {"hinge_G_torque_x", "N m"},
-                         {"hinge_G_torque_y", "N m"},
+                         {"hinge_G_torque_y", "N m", "about the pin"},
                          {"hinge_G_torque_z", "N m"}};
   for (int k = 1; k < 8000; ++k)
     log.signals.append_row(
         std::vector<double>{0.01 * k, k < 3000 ? 1.0 : 2.0, torque(bits), torque(bits), torque(bits)});
   log.cycles = {example_cycle(bits, 0), example_cycle(bits, 1)};
   log.scene.shapes = {engine::box({1, 2, 3}), engine::prism(1, 0.5, 8)};
-  log.scene.bodies = {{0, "#e0b040", 1.0, "boom"}, {1, "#303030", 0.5, "front left wheel"}};
+  log.scene.bodies = {{0, "#e0b040", 1.0, "boom"}, {1, "#303030", 0.5, "front left wheel", 42.5}};
   for (int k = 0; k < 3; ++k) {
-    SceneFrame frame{0.5 * k, 1, "lift", std::vector<float>(14, 0.25f * static_cast<float>(k))};
+    SceneFrame frame{0.5 * k, 1, "lift", std::vector<float>(14, 0.25f * static_cast<float>(k)), 1000.5 * k};
     frame.poses[13] = std::numeric_limits<float>::quiet_NaN();
     log.scene.frames.push_back(frame);
   }
   return log;
+}
+
+// Paths of all arrays: what has no children, but for the two groups that hold attributes alone.
+std::vector<std::string> arrays_below(const record::Reader& file, const std::string& group) {
+  std::vector<std::string> paths;
+  for (const std::string& name : file.children(group)) {
+    const std::string path = group.empty() ? name : group + "/" + name;
+    if (path == "numbers" || path == "texts") continue;
+    const std::vector<std::string> below = arrays_below(file, path);
+    paths.insert(paths.end(), below.begin(), below.end());
+    if (below.empty()) paths.push_back(path);
+  }
+  return paths;
 }
 
 template <class T>
@@ -141,6 +154,7 @@ TEST(LoadingLog, SurvivesTheDisk) {
   EXPECT_TRUE(same_bits(back.signals.values, log.signals.values));
   EXPECT_EQ(back.signals.columns[3].name, "hinge_G_torque_y");
   EXPECT_EQ(back.signals.columns[3].unit, "N m");
+  EXPECT_EQ(back.signals.columns[3].description, "about the pin");
   ASSERT_EQ(back.cycles.size(), 2u);
   for (int k = 0; k < 2; ++k) expect_same(back.cycles[k], log.cycles[k]);
   EXPECT_EQ(production(back), production(log));
@@ -160,12 +174,68 @@ TEST(LoadingLog, KeepsTheScene) {
   EXPECT_EQ(scene.bodies[1].name, "front left wheel");
   EXPECT_EQ(scene.bodies[1].color, "#303030");
   EXPECT_EQ(scene.bodies[1].opacity, 0.5);
+  EXPECT_EQ(scene.bodies[1].mass, 42.5);
+  EXPECT_TRUE(std::isnan(scene.bodies[0].mass));
   ASSERT_EQ(scene.frames.size(), 3u);
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(scene.frames[k].t, 0.5 * k);
     EXPECT_EQ(scene.frames[k].label, "lift");
+    EXPECT_EQ(scene.frames[k].bucket_mass, 1000.5 * k);
     EXPECT_TRUE(same_bits(scene.frames[k].poses, log.scene.frames[k].poses));
   }
+}
+
+// Who opens the file in another program finds at every array what it is; a table's lists of names, units and
+// descriptions are that themselves.
+TEST(LoadingLog, EveryArraySaysWhatItIs) {
+  const Folder folder;
+  write_log(folder.path / "run.h5", example_log());
+  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 5});
+  const std::vector<std::string> arrays = arrays_below(file, "");
+  EXPECT_EQ(arrays.size(), 4u + 2 * 11 + 2 + 5 + 5) << "signals, two cycles, shapes, bodies, frames";
+  for (const std::string& path : arrays) {
+    const std::string name = path.substr(path.rfind('/') + 1);
+    if (name == "columns" || name == "units" || name == "descriptions") continue;
+    const std::vector<std::string> said = file.attributes(path);
+    ASSERT_GE(said.size(), 2u) << path;
+    EXPECT_NE(file.text(path, "unit"), "") << path;
+    EXPECT_NE(file.text(path, "description"), "") << path;
+  }
+  EXPECT_EQ(file.text("scene/frames/poses", "frame"),
+            "world: x from the machine into the drift, y to the left, z up, floor at z = 0");
+  EXPECT_EQ(file.text("cycles/0001/column_heights_m", "unit"), "m");
+}
+
+// As version 4 wrote it: no descriptions, no masses. What is missing is not a number.
+TEST(LoadingLog, OfTheVersionBeforeIsRead) {
+  const Folder folder;
+  record::Writer file(folder.path / "old.h5", {"drawpoint loading log", 4});
+  file.integer("/", "completed", 1);
+  file.text("/", "message", "");
+  for (const char* group : {"numbers", "texts", "cycles"}) file.group(group);
+  file.texts("signals/columns", {"time"});
+  file.texts("signals/units", {"s"});
+  file.array("signals/values", std::span<const double>(std::vector<double>{0.01, 0.02}), {2, 1});
+  file.array("scene/shapes/0000",
+             std::span<const double>(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}), {4, 3});
+  file.array("scene/bodies/shape", std::span<const std::int32_t>(std::vector<std::int32_t>{0}));
+  file.array("scene/bodies/opacity", std::span<const double>(std::vector<double>{1}));
+  file.texts("scene/bodies/color", {"#808080"});
+  file.texts("scene/bodies/name", {"rock"});
+  file.array("scene/frames/t_s", std::span<const double>(std::vector<double>{0.5}));
+  file.array("scene/frames/cycle", std::span<const std::int32_t>(std::vector<std::int32_t>{1}));
+  file.texts("scene/frames/label", {"lift"});
+  file.array("scene/frames/poses", std::span<const float>(std::vector<float>{1, 2, 3, 1, 0, 0, 0}),
+             {1, 7, 1});
+  file.commit();
+  const LoadingLog log = read_log(folder.path / "old.h5");
+  EXPECT_EQ(log.signals.columns.front().name, "time");
+  EXPECT_EQ(log.signals.columns.front().description, "");
+  EXPECT_EQ(log.signals.values, (std::vector<double>{0.01, 0.02}));
+  ASSERT_EQ(log.scene.bodies.size(), 1u);
+  EXPECT_TRUE(std::isnan(log.scene.bodies.front().mass));
+  ASSERT_EQ(log.scene.frames.size(), 1u);
+  EXPECT_TRUE(std::isnan(log.scene.frames.front().bucket_mass));
 }
 
 TEST(LoadingLog, AnEmptyLogIsALog) {

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/log/log_parts.h>
+#include <algorithm>
+#include <stdexcept>
+
+namespace drawpoint::engine::loading {
+namespace {
+
+using record::Reader;
+using record::Table;
+using record::Writer;
+
+// One list of the plan's and the cycle's numbers serves writing and reading.
+template <class PlanOrConst, class Visit>
+void visit_numbers(PlanOrConst& plan, Visit&& visit) {
+  visit("y_m", plan.y);
+  visit("depth_m", plan.depth);
+  visit("height_m", plan.height);
+  visit("tilt_rad", plan.tilt);
+  visit("slope_rad", plan.slope);
+  visit("toe_m", plan.toe);
+  visit("volume_centre_m", plan.volume_centre);
+  visit("crest_m", plan.crest);
+  visit("height_limit_m", plan.height_limit);
+  visit("area_m2", plan.area);
+  visit("phi_max_rad", plan.phi_max);
+}
+
+template <class CycleOrConst, class Visit>
+void visit_cycle_numbers(CycleOrConst& cycle, Visit&& visit) {
+  visit("t_start_s", cycle.t_start);
+  visit("t_end_s", cycle.t_end);
+  visit("loaded_mass_kg", cycle.loaded_mass);
+  visit("front_mass_kg", cycle.front_mass);
+  visit("spilled_mass_kg", cycle.spilled_mass);
+}
+
+struct ArrayName {
+  const char *name, *unit, *description;
+};
+
+template <class CycleOrConst, class Visit>
+void visit_arrays(CycleOrConst& cycle, Visit&& visit) {
+  visit({"loaded_rock_masses_kg", "kg", "of each rock that the bucket carried away"},
+        cycle.loaded_rock_masses);
+  visit({"planned_x_m", "m", "planned path of the bucket's tip, x"}, cycle.planned_x);
+  visit({"planned_z_m", "m", "planned path of the bucket's tip, z"}, cycle.planned_z);
+  visit({"contour_x_m", "m", "pile along the attacked row at the start, x"}, cycle.contour_x);
+  visit({"contour_z_m", "m", "pile along the attacked row at the start, height"}, cycle.contour_z);
+}
+
+void write_plan(Writer& file, const std::string& group, const Plan& plan) {
+  visit_numbers(plan, [&](const char* name, double value) { file.number(group, name, value); });
+  file.text(group, "message", plan.message);
+  file.integer(group, "feasible", plan.feasible);
+  file.integer(group, "limited", plan.limited);
+  file.integer(group, "row", plan.row);
+  file.integer(group, "curl", static_cast<int>(plan.curl));
+  file.integer(group, "lift", static_cast<int>(plan.lift));
+  std::vector<double> corners;
+  for (const TipPose& corner : plan.corners) corners.insert(corners.end(), {corner.x, corner.z, corner.phi});
+  const std::string path = group + "/corners_x_z_phi";
+  file.array(path, std::span<const double>(corners), {plan.corners.size(), 3});
+  file.describe(
+      path, "m, m, rad",
+      "corners A to E of the planned path: tip x and z, angle of the bucket's bottom, nose up positive",
+      world_frame);
+}
+
+Plan read_plan(const Reader& file, const std::string& group) {
+  Plan plan;
+  visit_numbers(plan, [&](const char* name, double& value) { value = file.number(group, name); });
+  plan.message = file.text(group, "message");
+  plan.feasible = file.integer(group, "feasible") != 0;
+  plan.limited = file.integer(group, "limited") != 0;
+  plan.row = static_cast<int>(file.integer(group, "row"));
+  plan.curl = static_cast<CurlMode>(file.integer(group, "curl"));
+  plan.lift = static_cast<LiftGoal>(file.integer(group, "lift"));
+  const auto corners = file.doubles(group + "/corners_x_z_phi").values;
+  require_fit(file, corners.size() == 3 * plan.corners.size(), group + "/corners_x_z_phi",
+              std::to_string(plan.corners.size()) + " rows of 3");
+  for (std::size_t k = 0; k < plan.corners.size(); ++k)
+    plan.corners[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
+  return plan;
+}
+
+Table stage_table(const std::vector<StageResult>& stages) {
+  Table table;
+  table.columns = {{"stage", "1", "1 drive-in, 2 lift, 3 curl, 4 back out"},
+                   {"reason", "1", "why it ended: 0 goal, 1 time-out, 2 a drive too slow"},
+                   {"t_start", "s"},
+                   {"t_end", "s"},
+                   {"progress", "1"},
+                   {"start_x", "m"},
+                   {"start_z", "m"},
+                   {"start_phi", "rad"},
+                   {"end_x", "m"},
+                   {"end_z", "m"},
+                   {"end_phi", "rad"}};
+  for (const StageResult& s : stages)
+    table.append_row(std::vector<double>{static_cast<double>(s.stage), static_cast<double>(s.reason),
+                                         s.t_start, s.t_end, s.progress, s.start.x, s.start.z, s.start.phi,
+                                         s.end.x, s.end.z, s.end.phi});
+  return table;
+}
+
+std::vector<StageResult> stages_of(const Table& table) {
+  std::vector<StageResult> stages;
+  for (std::size_t k = 0; k < table.rows(); ++k) {
+    const auto at = [&](const char* name) { return table.at(k, table.index(name)); };
+    stages.push_back({.stage = static_cast<Stage>(static_cast<int>(at("stage"))),
+                      .reason = static_cast<StageEnd>(static_cast<int>(at("reason"))),
+                      .t_start = at("t_start"),
+                      .t_end = at("t_end"),
+                      .progress = at("progress"),
+                      .start = {at("start_x"), at("start_z"), at("start_phi")},
+                      .end = {at("end_x"), at("end_z"), at("end_phi")}});
+  }
+  return stages;
+}
+
+}  // namespace
+
+void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycle) {
+  const auto nx = static_cast<std::size_t>(std::max(cycle.columns_x, 0));
+  const auto ny = static_cast<std::size_t>(std::max(cycle.columns_y, 0));
+  if (cycle.column_heights.size() != nx * ny)
+    contradiction(group + " has " + std::to_string(cycle.column_heights.size()) + " column heights for " +
+                  std::to_string(nx) + " x " + std::to_string(ny) + " columns");
+  file.integer(group, "number", cycle.number);
+  visit_cycle_numbers(cycle, [&](const char* name, double value) { file.number(group, name, value); });
+  visit_arrays(cycle, [&](const ArrayName& data, const std::vector<double>& values) {
+    const std::string path = group + "/" + data.name;
+    file.array(path, std::span(values));
+    file.describe(path, data.unit, data.description, data.unit == std::string("m") ? world_frame : "");
+  });
+  const std::string heights = group + "/column_heights_m", stages = group + "/stages";
+  file.array(heights, std::span(cycle.column_heights), {ny, nx});
+  file.describe(heights, "m",
+                "top of the pile at the start, mean over each column: rows along y, columns along x",
+                world_frame);
+  file.table(stages, stage_table(cycle.stages));
+  file.describe(stages + "/values", "stages/units",
+                "a row per stage of the cycle, a column per name in stages/columns", world_frame);
+  write_plan(file, group + "/plan", cycle.plan);
+}
+
+CycleRecord read_cycle(const Reader& file, const std::string& group) {
+  CycleRecord cycle;
+  cycle.number = static_cast<int>(file.integer(group, "number"));
+  visit_cycle_numbers(cycle, [&](const char* name, double& value) { value = file.number(group, name); });
+  visit_arrays(cycle, [&](const ArrayName& data, std::vector<double>& values) {
+    values = file.doubles(group + "/" + data.name).values;
+  });
+  auto heights = file.doubles(group + "/column_heights_m");
+  require_fit(file, heights.shape.size() == 2, group + "/column_heights_m", "a matrix, ny x nx");
+  cycle.columns_y = static_cast<int>(heights.shape[0]);
+  cycle.columns_x = static_cast<int>(heights.shape[1]);
+  cycle.column_heights = std::move(heights.values);
+  cycle.stages = stages_of(file.table(group + "/stages"));
+  cycle.plan = read_plan(file, group + "/plan");
+  return cycle;
+}
+
+}  // namespace drawpoint::engine::loading
