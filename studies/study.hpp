@@ -8,10 +8,10 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, confirm, status, fit, validate, front, compare, report, replay, export,
-/// evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one thread, so that
-/// a crash is one failed run; each finished run is stored before the next one starts. Equal (x, seed) must
-/// give equal outcomes: a run that was lost is simply run again.
+/// The program has the commands run, confirm, ask, tell, status, fit, validate, front, compare, report,
+/// replay, export, evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one
+/// thread, so that a crash is one failed run; each finished run is stored before the next one starts. Equal
+/// (x, seed) must give equal outcomes: a run that was lost is simply run again.
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
@@ -133,8 +133,8 @@ class HeadlineFunction {
 struct Study {
   std::string name = {};
   doe::Problem problem = {};
-  StudyFunction black_box = {};
-  std::string about = {};  ///< one or two sentences for the report's head
+  StudyFunction black_box = {};  ///< empty: runs are made elsewhere, by ask and tell
+  std::string about = {};        ///< one or two sentences for the report's head
   Defaults defaults = {};
   std::vector<StudyOption> options = {};
   /// Words that stand before the command on the command line, such as the file that the study was read from.
@@ -143,7 +143,8 @@ struct Study {
   /// What makes the runs where that is not this program alone, such as another program and its checksum: a
   /// folder never mixes runs of two.
   std::string simulator = {};
-  /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for --version.
+  /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for
+  /// --version.
   std::vector<std::string> libraries = {};
   /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
   /// writes is kept or nothing.

@@ -235,12 +235,18 @@ Study study_from(const std::string& word) {
   in.allow_only({"name", "about", "variables", "responses", "command", "attempts", "time_limit", "defaults"});
   Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
-  const Command command = command_from(in, fs::absolute(file).parent_path());
+  const bool elsewhere = !in.has("command");
+  if (elsewhere && (in.has("attempts") || in.has("time_limit")))
+    in.fail(
+        "attempts and time_limit are of a command, and there is none; give \"command\", or leave them out: "
+        "then runs are made elsewhere");
+  const Command command = elsewhere ? Command{} : command_from(in, fs::absolute(file).parent_path());
   const std::string checksum = doe::detail::checksum(content.dump() + command.simulator);
   if (!expected.empty() && expected != checksum)
     in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
   study.simulator = command.simulator;
   study.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
+  if (elsewhere) return study;
   const ExternalProgram program{.command = command.words,
                                 .time_limit = in.number("time_limit", 0.0),
                                 .attempts = in.integer("attempts", 1, 1)};

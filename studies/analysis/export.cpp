@@ -66,6 +66,18 @@ ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs) {
   return table;
 }
 
+ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs) {
+  ExportTable table{.columns = {{"run", ""}, {"kind", ""}, {"point", ""}, {"replicate", ""}, {"seed", ""}},
+                    .rows = {}};
+  append_variables(table, identity.problem);
+  for (const Run& run : runs) {
+    std::vector<json> row = {run.id, name_of(run.kind), run.point, run.replicate, std::to_string(run.seed)};
+    append_numbers(row, run.x);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) {
   const doe::Problem& problem = identity.problem;
   const Tables tables = tables_of(runs, problem);

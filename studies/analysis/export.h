@@ -24,6 +24,9 @@ struct ExportTable {
 /// the variables, the responses, and of each response what was predicted and the ends of its 95 % interval.
 ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs);
 
+/// Runs to be made elsewhere: run, kind, point, replicate, seed, then the variables.
+ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs);
+
 /// The predicted front of the present models: the variables, the responses, and of each response the ends
 /// of the 95 % interval of one run. Throws std::runtime_error if the runs do not allow models.
 ExportTable front_table(const Identity& identity, const std::vector<Run>& runs);

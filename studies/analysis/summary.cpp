@@ -95,7 +95,7 @@ std::string text(const Summary& summary) {
   std::string result =
       summary.study + ": " + runs_text(summary) + ", " + std::to_string(summary.failed) + " failed";
   if (summary.unfinished > 0)
-    result += "; " + std::to_string(summary.unfinished) + " more to be made (command run)";
+    result += "; " + std::to_string(summary.unfinished) + " more to be made (command run, or ask and tell)";
   const auto adaptive = summary.ended.find(Kind::adaptive);
   const int made = adaptive == summary.ended.end() ? 0 : adaptive->second;
   if (made < summary.adaptive_wanted)

@@ -25,9 +25,9 @@ namespace {
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
 /// Those that are told; prepare is for `run` alone.
-constexpr std::array<const char*, 12> commands = {"run",      "confirm", "status",          "fit",
-                                                  "validate", "front",   "compare",         "report",
-                                                  "replay",   "export",  "rerun-responses", "evaluate"};
+constexpr std::array<const char*, 14> commands = {
+    "run",     "confirm", "ask",    "tell",   "status",          "fit",     "validate", "front",
+    "compare", "report",  "replay", "export", "rerun-responses", "evaluate"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -152,11 +152,15 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
                   "never)")
       ->check(target_complaint)
       ->group(group);
+}
+
+/// Beside those of sampling, for the command that makes runs itself.
+void add_hours_option(CLI::App& command, Settings& settings) {
   command
       .add_option("--hours", settings.hours,
                   "begin no batch later than this after the start (default: no end)")
       ->check(hours_complaint)
-      ->group(group);
+      ->group("Adaptive sampling");
 }
 
 void add_execution_options(CLI::App& command, Settings& settings) {
@@ -245,6 +249,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_run_options(*run, parsed.settings, study.defaults);
   add_execution_options(*run, parsed.settings);
   add_sampling_options(*run, parsed.settings, study.defaults);
+  add_hours_option(*run, parsed.settings);
   add_study_options(*run, study, parsed.settings.options, true);
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
   auto* confirm = app.add_subcommand(
@@ -254,6 +259,39 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_execution_options(*confirm, parsed.settings);
   add_confirm_options(*confirm, parsed.settings.confirm, study.problem);
   confirm->callback([&] { parsed.action = [&] { return confirm_command(study, parsed.settings); }; });
+}
+
+/// For those who make the runs themselves.
+void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
+  Settings& settings = parsed.settings;
+  auto* ask =
+      app.add_subcommand("ask",
+                         "give the runs that are to be made elsewhere, as a table; the same again until "
+                         "tell has taken what came out");
+  add_folder_option(*ask, settings);
+  add_table_options(*ask, settings.exported);
+  ask->add_option("--count", settings.ask.count, "runs at most (default: all that are planned)")
+      ->check(CLI::Range(1, 1'000'000));
+  ask->add_flag("--confirm", settings.ask.confirm,
+                "where none is planned: points of the predicted front, as confirm chooses them, in place of "
+                "an adaptive batch");
+  ask->add_option("--points", settings.confirm.points, "with --confirm: points of the front")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  ask->add_flag("--retry-failed", settings.retry_failed, "give the failed runs again");
+  add_run_options(*ask, settings, study.defaults);
+  add_sampling_options(*ask, settings, study.defaults);
+  add_study_options(*ask, study, settings.options, true);
+  ask->footer("Example: " + study.name + " ask --file runs.csv; then add the responses as columns, and " +
+              study.name + " tell --file runs.csv");
+  ask->callback([&] { parsed.action = [&] { return ask_command(study, settings); }; });
+  auto* tell = app.add_subcommand("tell", "take what came out of runs made elsewhere");
+  add_folder_options(*tell, settings);
+  tell->add_option("--file", settings.told,
+                   "table with the columns run and every response; status (done or failed), reason and "
+                   "seconds if you like")
+      ->required();
+  tell->callback([&] { parsed.action = [&] { return tell_command(study, settings); }; });
 }
 
 void define_rerun_responses(CLI::App& app, Parsed& parsed, const Study& study) {
@@ -313,6 +351,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   app.require_subcommand(1);
   app.footer(problem_text(study.problem));
   define_commands_that_run(app, parsed, study);
+  define_asking_commands(app, parsed, study);
   define_reading_commands(app, study, parsed.settings, parsed.action);
   define_rerun_responses(app, parsed, study);
   define_point_commands(app, parsed, study);
@@ -342,8 +381,6 @@ void check_study(const Study& study) {
     throw std::invalid_argument("studies::Study: name \"" + study.name +
                                 "\" cannot name a folder; use letters, digits, '_' and '-'");
   }
-  if (!study.black_box)
-    throw std::invalid_argument("studies::Study: no black_box; give the function that makes one run");
   doe::check(study.problem);
   check(study.options);
 }

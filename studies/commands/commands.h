@@ -5,6 +5,7 @@
 /// a failed run or study), throws UsageError (exit code 2), Interrupted (130) or another std::exception (1).
 /// Messages go to standard output, or to standard error when that is kept for JSON.
 
+#include <drawpoint/studies/analysis/export.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/study.hpp>
 
@@ -14,6 +15,10 @@ namespace drawpoint::studies {
 int run_command(const Study& study, const Settings& settings);
 /// Simulates points of the predicted front until prediction and simulation agree, then the report.
 int confirm_command(const Study& study, const Settings& settings);
+/// The runs that are to be made elsewhere, as a table; plans the next ones where none is left.
+int ask_command(const Study& study, const Settings& settings);
+/// Takes what came out of runs made elsewhere.
+int tell_command(const Study& study, const Settings& settings);
 /// What the output folder holds.
 int status_command(const Study& study, const Settings& settings);
 /// How each response is fitted, and how well runs are predicted without themselves.
@@ -28,6 +33,9 @@ int compare_command(const Study& study, const Settings& settings);
 int replay_command(const Study& study, const Settings& settings);
 /// The report again, from the stored runs.
 int report_command(const Study& study, const Settings& settings);
+/// Writes a table to the file of the settings, or to standard output.
+void write_table(const Study& study, const ExportTable& table, const ExportSettings& settings);
+
 /// The runs or the front as a table for other programs.
 int export_command(const Study& study, const Settings& settings);
 /// A new folder with the runs of another, their responses taken anew from the logs.

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
+#include <drawpoint/studies/commands/planning.h>
 #include <drawpoint/studies/commands/points.h>
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
@@ -17,38 +18,6 @@
 
 namespace drawpoint::studies {
 namespace {
-
-Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings& settings) {
-  if (settings.x.empty()) return Eigen::MatrixXd(0, static_cast<Eigen::Index>(problem.variables.size()));
-  return checked_points(problem, settings.x);
-}
-
-/// Plans a round on the front of this moment. False when there is nothing to simulate.
-bool add_round(Store& store, const Settings& settings, int round) {
-  const int messages = message_descriptor(settings);
-  const std::vector<Run> runs = store.runs();
-  dprintf(messages, "fitting the models, choosing points of their front ...\n");
-  RoundPlan plan;
-  {
-    const EndsAtOnce now;
-    plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings.confirm),
-                      settings.confirm.points);
-  }
-  if (plan.runs.empty()) {
-    dprintf(messages, "%s\n", plan.nothing.c_str());
-    return false;
-  }
-  const int points = count_points(plan.runs, Kind::confirmation) - count_points(runs, Kind::confirmation);
-  dprintf(messages, "round %d: %d %s to simulate\n", round, points, points == 1 ? "point" : "points");
-  Sampling sampling = store.sampling();
-  auto& rounds = sampling.rounds;
-  if (!rounds.empty() && rounds.back().first == plan.round.first)
-    rounds.pop_back();  // died before its runs came
-  rounds.push_back(plan.round);
-  store.set_sampling(sampling);
-  store.add(plan.runs);
-  return true;
-}
 
 /// Whether the last round came out as predicted; says so.
 bool judge_round(const Store& store, int messages, int round) {
@@ -87,6 +56,7 @@ void confirm_front(Store& store, const Folder& folder, const Settings& settings)
 }  // namespace
 
 int confirm_command(const Study& study, const Settings& settings) {
+  require_simulator(study);
   if (settings.confirm.x.empty() && !has_objective(study.problem))
     throw UsageError(
         "confirm: no response is minimized or maximized, so there is no front; name points with --x");

@@ -172,6 +172,7 @@ fs::path shared_folder(const Study& study, const PointSettings& settings,
 }  // namespace
 
 int evaluate_command(const Study& study, const PointSettings& given) {
+  require_simulator(study);
   if (!given.run && given.x.empty())
     throw UsageError("evaluate: give a point with --x, or a run of a study with --run; see evaluate --help");
   std::optional<RunToRepeat> stored;

@@ -12,20 +12,25 @@
 
 namespace drawpoint::studies {
 
+void write_table(const Study& study, const ExportTable& table, const ExportSettings& settings) {
+  const std::string text = settings.format == "json" ? as_json(study.name, table) : as_csv(table);
+  if (settings.file.empty()) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return;
+  }
+  doe::write_file(settings.file, text);
+  std::fprintf(stderr, "%zu rows in %s\n", table.rows.size(), settings.file.c_str());
+}
+
 int export_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   const ExportSettings& wanted = settings.exported;
   if (!wanted.file.empty()) check_output_file(folder, wanted.file);
-  const ExportTable table = wanted.what == "front" ? front_table(store.identity(), store.runs())
-                                                   : runs_table(store.identity(), store.runs());
-  const std::string text = wanted.format == "json" ? as_json(study.name, table) : as_csv(table);
-  if (wanted.file.empty()) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    return 0;
-  }
-  doe::write_file(wanted.file, text);
-  std::fprintf(stderr, "%zu rows in %s\n", table.rows.size(), wanted.file.c_str());
+  write_table(study,
+              wanted.what == "front" ? front_table(store.identity(), store.runs())
+                                     : runs_table(store.identity(), store.runs()),
+              wanted);
   return 0;
 }
 

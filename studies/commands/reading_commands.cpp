@@ -9,20 +9,11 @@ namespace {
 constexpr int most_points = 1'000'000;
 constexpr int most_run = 1'000'000'000;
 
-void add_out_option(CLI::App& command, Settings& settings) {
-  command.add_option("--out", settings.out, "folder of the study")
-      ->check(folder_complaint)
-      ->capture_default_str();
-}
-
 void add_export_options(CLI::App& command, ExportSettings& settings) {
   command.add_option("--what", settings.what, "every run, or the front that the models predict")
       ->check(CLI::IsMember({"runs", "front"}))
       ->capture_default_str();
-  command.add_option("--format", settings.format, "comma-separated values, or one JSON object")
-      ->check(CLI::IsMember({"csv", "json"}))
-      ->capture_default_str();
-  command.add_option("--file", settings.file, "file to write (default: standard output)");
+  add_table_options(command, settings);
 }
 
 void add_front_options(CLI::App& command, const Study& study, FrontSettings& settings) {
@@ -89,6 +80,19 @@ std::string folder_complaint(const std::string& text) {
   return text.empty() ? "an empty name; give the folder of the study" : "";
 }
 
+void add_folder_option(CLI::App& command, Settings& settings) {
+  command.add_option("--out", settings.out, "folder of the study")
+      ->check(folder_complaint)
+      ->capture_default_str();
+}
+
+void add_table_options(CLI::App& command, ExportSettings& settings) {
+  command.add_option("--format", settings.format, "comma-separated values, or one JSON object")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->capture_default_str();
+  command.add_option("--file", settings.file, "file to write (default: standard output)");
+}
+
 void add_folder_options(CLI::App& command, Settings& settings) {
   command.add_option("--out", settings.out, "folder of the study: store, run logs, report")
       ->check(folder_complaint)
@@ -116,11 +120,11 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
                       study, settings);
   commands.add_with_json("report", "make the report again from the stored runs", report_command);
   CLI::App& replay = commands.add("replay", "write one run as a page with its figures", replay_command);
-  add_out_option(replay, settings);
+  add_folder_option(replay, settings);
   add_replay_options(replay, study, settings.replay);
   CLI::App& exported =
       commands.add("export", "write the runs or the front as a table for other programs", export_command);
-  add_out_option(exported, settings);
+  add_folder_option(exported, settings);
   add_export_options(exported, settings.exported);
 }
 

@@ -16,6 +16,12 @@ namespace drawpoint::studies {
 /// What is wrong with the name of a folder, or "".
 std::string folder_complaint(const std::string& text);
 
+/// --out alone.
+void add_folder_option(CLI::App& command, Settings& settings);
+
+/// --format and --file of a table.
+void add_table_options(CLI::App& command, ExportSettings& settings);
+
 /// --out and --json.
 void add_folder_options(CLI::App& command, Settings& settings);
 

@@ -107,6 +107,13 @@ Run stored_run(const Store& store, const Folder& folder, std::int64_t id) {
   return runs[static_cast<std::size_t>(id) - 1];
 }
 
+void require_simulator(const Study& study) {
+  if (!study.black_box)
+    throw UsageError("the study " + study.name +
+                     " has no simulator: its runs are made elsewhere; the command ask gives them, tell takes "
+                     "what came out");
+}
+
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
   const std::string& stored = store.identity().simulator;
   if (stored != study.simulator)

@@ -19,6 +19,9 @@ Store open_store(const Study& study, const Folder& folder);
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.
 Run stored_run(const Store& store, const Folder& folder, std::int64_t id);
 
+/// Throws UsageError for a study whose runs are made elsewhere: it has no black box.
+void require_simulator(const Study& study);
+
 /// Before runs are made: throws UsageError where another simulator made those in the folder.
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder);
 

@@ -28,7 +28,13 @@ struct ConfirmSettings {
   std::vector<double> x = {};  ///< points besides those of the front, one after the other, natural units
 };
 
-/// Options of `export`.
+/// Options of `ask`.
+struct AskSettings {
+  std::optional<int> count = {};  ///< runs at most, 1 or more
+  bool confirm = false;           ///< points of the front in place of an adaptive batch
+};
+
+/// Options of `export`; of `ask` but for `what`.
 struct ExportSettings {
   std::string what = "runs";        ///< or front
   std::string format = "csv";       ///< or json
@@ -62,6 +68,8 @@ struct Settings {
   std::filesystem::path imported = {};                     ///< table of points made elsewhere; empty: none
   double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
   ConfirmSettings confirm = {};
+  AskSettings ask = {};
+  std::filesystem::path told = {};  ///< of tell: the table
   ExportSettings exported = {};
   FrontSettings front = {};
   ReplaySettings replay = {};

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/export.h>
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/output_file.h>
+#include <drawpoint/studies/commands/planning.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/folder.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace drawpoint::studies {
+namespace {
+
+std::vector<Run> waiting(const std::vector<Run>& runs, int most) {
+  std::vector<Run> asked;
+  for (const Run& run : runs)
+    if (run.status == Status::planned && static_cast<int>(asked.size()) < most) asked.push_back(run);
+  return asked;
+}
+
+/// Those that are planned; where there are none, those of the next batch or, if it is wanted, of a round on
+/// the front.
+std::vector<Run> next_runs(Store& store, const Settings& settings) {
+  const int most = settings.ask.count.value_or(std::numeric_limits<int>::max());
+  std::vector<Run> asked = waiting(store.runs(), most);
+  if (!asked.empty()) return asked;
+  const bool planned = settings.ask.confirm
+                           ? add_round(store, settings, static_cast<int>(store.sampling().rounds.size()) + 1)
+                           : add_batch(store, std::numeric_limits<double>::infinity(), STDERR_FILENO);
+  if (planned) asked = waiting(store.runs(), most);
+  return asked;
+}
+
+}  // namespace
+
+int ask_command(const Study& study, const Settings& settings) {
+  const Folder folder{settings.out};
+  if (!std::filesystem::exists(folder.store())) check_new_study(study, settings);
+  if (!settings.exported.file.empty()) check_output_file(folder, settings.exported.file);
+  make_writable(folder);
+  const FolderLock lock(folder);
+  Store store = plan_study(study, folder, settings);
+  const std::vector<Run> asked = next_runs(store, settings);
+  write_table(study, asked_table(store.identity(), asked), settings.exported);
+  std::fprintf(
+      stderr,
+      asked.empty() ? "no run is wanted\n" : "%zu runs to make; say what came out with the command tell\n",
+      asked.size());
+  return 0;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/planning.h>
+#include <drawpoint/studies/commands/points.h>
+#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/sampling/adaptive.h>
+#include <drawpoint/studies/sampling/confirmation.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace drawpoint::studies {
+namespace {
+
+Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
+  const EndsAtOnce now;
+  return next_batch(store.identity(), store.sampling(), runs);
+}
+
+}  // namespace
+
+bool add_batch(Store& store, double seconds_left, int messages) {
+  const std::vector<Run> runs = store.runs();
+  const int wanted = store.sampling().points;
+  const int made = count_points(runs, Kind::adaptive);
+  if (made < wanted && seconds_left <= 0.0) {
+    dprintf(messages, "no further adaptive runs, the time is up: %d of %d made\n", made, wanted);
+    return false;
+  }
+  if (made < wanted) dprintf(messages, "fitting the models, choosing adaptive points ...\n");
+  const Batch batch = chosen_batch(store, runs);
+  const char* what = batch.message.c_str();
+  switch (batch.status) {
+    case BatchStatus::planned:
+      dprintf(messages, "adaptive points %d to %d of %d: %s\n", made + 1,
+              count_points(batch.runs, Kind::adaptive), wanted, what);
+      store.add(batch.runs);
+      return true;
+    case BatchStatus::target_met:
+      dprintf(messages, "no further adaptive runs, the target is met: %s\n", what);
+      return false;
+    case BatchStatus::exhausted:
+      dprintf(messages, "no further adaptive runs, %d of %d made: %s\n", made, wanted, what);
+      return false;
+    case BatchStatus::no_models:
+      dprintf(messages, "no adaptive runs, because there are no models yet: %s\n", what);
+      return false;
+    default:
+      return false;
+  }
+}
+
+Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings& settings) {
+  if (settings.x.empty()) return Eigen::MatrixXd(0, static_cast<Eigen::Index>(problem.variables.size()));
+  return checked_points(problem, settings.x);
+}
+
+bool add_round(Store& store, const Settings& settings, int round) {
+  const int messages = message_descriptor(settings);
+  const std::vector<Run> runs = store.runs();
+  dprintf(messages, "fitting the models, choosing points of their front ...\n");
+  RoundPlan plan;
+  {
+    const EndsAtOnce now;
+    plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings.confirm),
+                      settings.confirm.points);
+  }
+  if (plan.runs.empty()) {
+    dprintf(messages, "%s\n", plan.nothing.c_str());
+    return false;
+  }
+  const int points = count_points(plan.runs, Kind::confirmation) - count_points(runs, Kind::confirmation);
+  dprintf(messages, "round %d: %d %s to simulate\n", round, points, points == 1 ? "point" : "points");
+  Sampling sampling = store.sampling();
+  auto& rounds = sampling.rounds;
+  if (!rounds.empty() && rounds.back().first == plan.round.first)
+    rounds.pop_back();  // died before its runs came
+  rounds.push_back(plan.round);
+  store.set_sampling(sampling);
+  store.add(plan.runs);
+  return true;
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What a study does next, by what its runs have shown; for the commands that make runs and for `ask`.
+
+#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/store/store.h>
+
+#include <Eigen/Core>
+
+namespace drawpoint::studies {
+
+/// Plans a batch of adaptive runs and says so. False when the study has what it wants, or no models to go by.
+/// Requires that no run is planned.
+bool add_batch(Store& store, double seconds_left, int messages);
+
+/// The points that the user names, checked.
+Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings& settings);
+
+/// Plans a round of confirmation on the front of this moment and says so. False when there is nothing to
+/// simulate.
+bool add_round(Store& store, const Settings& settings, int round);
+
+}  // namespace drawpoint::studies

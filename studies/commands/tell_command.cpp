@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/json_output.h>
+#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/runs/told_outcomes.h>
+#include <drawpoint/studies/store/folder.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace drawpoint::studies {
+
+int tell_command(const Study& study, const Settings& settings) {
+  const Folder folder{settings.out};
+  open_store(study, folder);  // refused before anything is locked
+  const FolderLock lock(folder);
+  Store store = open_store(study, folder);
+  const std::vector<ToldOutcome> told = told_outcomes(settings.told, store.identity().problem, store.runs());
+  for (const ToldOutcome& outcome : told) {
+    if (outcome.y.size() > 0)
+      store.save_done(outcome.run, outcome.y, outcome.seconds);
+    else
+      store.save_failed(outcome.run, outcome.reason, outcome.seconds);
+  }
+  const std::vector<Run> runs = store.runs();
+  const auto failed =
+      std::count_if(told.begin(), told.end(), [](const ToldOutcome& o) { return o.y.size() == 0; });
+  const auto waiting = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
+    return run.status == Status::planned || run.status == Status::running;
+  });
+  const auto taken = static_cast<long>(told.size());
+  if (settings.json) {
+    print_json({{"study", study.name}, {"done", taken - failed}, {"failed", failed}, {"waiting", waiting}});
+    return 0;
+  }
+  std::printf("%ld runs taken: %ld done, %ld failed\n", taken, taken - failed, static_cast<long>(failed));
+  if (waiting > 0)
+    std::printf("%ld more are asked for\n", static_cast<long>(waiting));
+  else
+    std::printf(
+        "all that were asked for are told; the next ones: the command ask; what they show: the command "
+        "report\n");
+  return 0;
+}
+
+}  // namespace drawpoint::studies

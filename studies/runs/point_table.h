@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Tables of points and responses that people and other programs write, read with the place of every fault.
+///
+/// Comma-separated, the first line with names, "speed" or "speed [m/s]"; columns of other names are left
+/// alone.
+
+#include <drawpoint/doe/detail/csv.hpp>
+#include <drawpoint/doe/problem.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace drawpoint::studies {
+
+/// Where in which table, for messages. `option` is how the command line names it, such as "--import".
+struct TablePlace {
+  std::string option, file;
+  int line = 1;
+
+  /// Throws UsageError.
+  [[noreturn]] void fail(const std::string& what) const;
+};
+
+/// The first line of a table.
+class TableHeader {
+ public:
+  TableHeader(doe::detail::CsvRecord names, TablePlace place)
+      : names_(std::move(names)), place_(std::move(place)) {}
+
+  /// The quantity's column; nothing where there is none. Throws UsageError where it is in another unit.
+  std::optional<std::size_t> find(const std::string& name, const std::string& unit) const;
+  /// Throws UsageError where there is none.
+  std::size_t column(const std::string& name, const std::string& unit) const;
+
+ private:
+  doe::detail::CsvRecord names_;
+  TablePlace place_;
+};
+
+/// Calls first(header) once and row(record, place) for every line that is not empty. Throws UsageError where
+/// the file cannot be read, is no table, or has no line of names. Returns the end of the table.
+TablePlace read_table(const std::filesystem::path& file, const std::string& option,
+                      const std::function<void(const TableHeader&)>& first,
+                      const std::function<void(const doe::detail::CsvRecord&, const TablePlace&)>& row);
+
+// Fields of a row. They throw UsageError with the place for what cannot be.
+
+const std::string& field_of(const doe::detail::CsvRecord& record, std::size_t column,
+                            const TablePlace& place);
+double number_from(const std::string& text, const std::string& name, const TablePlace& place);
+/// A categorical variable has the name of a level or its number, from 0.
+double variable_from(const std::string& text, const doe::Variable& variable, const TablePlace& place);
+double response_from(const std::string& text, const doe::Response& response, const TablePlace& place);
+
+}  // namespace drawpoint::studies

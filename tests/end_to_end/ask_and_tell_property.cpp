@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// Runs that are made elsewhere: ask gives them, tell takes what came out.
+
+#include <drawpoint/tests/end_to_end/support.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace drawpoint;
+using namespace drawpoint::test;
+
+namespace {
+
+const char* const options = " --runs 12 --validation 3 --adaptive 4 --batch 2 --seed 5";
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+// A bench: the study file names no program.
+constexpr const char* bench = R"({"name": "bench",
+  "variables": [{"name": "speed", "unit": "m/s", "lower": 1, "upper": 6}],
+  "responses": [{"name": "wear", "unit": "mm", "goal": "minimize", "lower": 0}],
+  "defaults": {"runs": 3, "validation": 1}})";
+
+class AskAndTell : public StudyTest {
+ protected:
+  AskAndTell() { std::ofstream(place_ / "bench.json") << bench; }
+
+  std::filesystem::path table() const { return place_ / "table.csv"; }
+  Ended on_bench(const std::string& words) const {
+    return run(EXTERNAL_PROGRAM " " + (place_ / "bench.json").string() + " " + words + out());
+  }
+  Ended tell(const std::string& text) const {
+    std::ofstream(table()) << text;
+    return on_bench("tell --file " + table().string());
+  }
+
+  /// Makes the runs that are asked for one by one, as somebody else's loop would. Returns how many.
+  int make_asked_runs() const {
+    const Ended asked = run(FORMULA_DEMO " ask" + std::string(options) + out());
+    EXPECT_EQ(asked.code, 0) << asked.err;
+    std::istringstream rows(asked.out);
+    std::string row, answer = "run,production [kg/s],joint_damage [s],rock_spill\n";
+    std::getline(rows, row);
+    EXPECT_EQ(row, "run,kind,point,replicate,seed,alpha [1],beta [1],gamma [1],kappa [1]");
+    int made = 0;
+    for (; std::getline(rows, row); ++made) {
+      const auto f = fields_of(row);
+      const auto outcome = run(FORMULA_DEMO " evaluate --json --x=" + f[5] + "," + f[6] + "," + f[7] + "," +
+                               f[8] + " --seed " + f[4])
+                               .json();
+      answer += f[0];
+      for (const char* response : {"production", "joint_damage", "rock_spill"})
+        answer += "," + outcome["values"][response].dump();
+      answer += "\n";
+    }
+    std::ofstream(table()) << answer;
+    if (made > 0) EXPECT_EQ(run(FORMULA_DEMO " tell --file " + table().string() + out()).code, 0);
+    return made;
+  }
+};
+
+/// Of a table of runs, all but the time that each took.
+std::string without_seconds(const std::string& csv) {
+  std::istringstream rows(csv);
+  std::string kept;
+  for (std::string row; std::getline(rows, row);) {
+    auto f = fields_of(row);
+    f.erase(f.begin() + 7);
+    for (const std::string& field : f) kept += field + ",";
+    kept += "\n";
+  }
+  return kept;
+}
+
+}  // namespace
+
+// First design, two adaptive batches, nothing more: the runs, their seeds and what they gave are those of the
+// command run, bit for bit.
+TEST_F(AskAndTell, MakesTheStudyThatRunMakes) {
+  EXPECT_EQ(make_asked_runs(), 15);
+  EXPECT_EQ(make_asked_runs(), 2);
+  EXPECT_EQ(make_asked_runs(), 2);
+  EXPECT_EQ(make_asked_runs(), 0);
+  const std::string other = " --out " + (place_ / "other").string();
+  ASSERT_EQ(run(FORMULA_DEMO + std::string(options) + other).code, 0);
+  EXPECT_EQ(without_seconds(run(FORMULA_DEMO " export" + out()).out),
+            without_seconds(run(FORMULA_DEMO " export" + other).out));
+}
+
+// Nothing is lost with a caller that dies: the same runs are given until they are told, in whatever order.
+TEST_F(AskAndTell, AskedAgainTheSameRunsAreGiven) {
+  const Ended first = on_bench("ask"), second = on_bench("ask"), two = on_bench("ask --count 2");
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.out, second.out);
+  EXPECT_TRUE(first.out.starts_with(two.out));
+  ASSERT_EQ(tell("wear,run\n0.5,3\n").code, 0);
+  EXPECT_EQ(query("select wear from runs where id = 3"), "0.5");
+  EXPECT_EQ(count("status = 'planned'"), 3);
+  ASSERT_EQ(tell("run,wear,status,reason,seconds\n1,,failed,it broke,7\n2,,\"\",,\n3,0.5,done,,\n").code, 0);
+  EXPECT_EQ(query("select reason from runs where id = 1"), "it broke");
+  EXPECT_EQ(query("select seconds from runs where id = 1"), "7.0");
+  EXPECT_EQ(count("status = 'planned'"), 2);
+  EXPECT_TRUE(on_bench("ask --retry-failed").out.starts_with(two.out));
+}
+
+// A table with one fault changes nothing.
+TEST_F(AskAndTell, FaultyTablesAreRefusedWithTheirPlace) {
+  on_bench("ask");
+  ASSERT_EQ(tell("run,wear\n4,1\n").code, 0);
+  const std::string speed = query("select speed from runs where id = 2");
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    const Ended end = tell(text);
+    EXPECT_EQ(end.code, 2) << text;
+    EXPECT_TRUE(contains(end.err, words));
+    EXPECT_EQ(count("status = 'done'"), 1) << text;
+  };
+  refused("run,wear\n1,2\n9,1\n", "line 3: \"run\" is 9; the study has runs 1 to 4");
+  refused("run,wear\n1,2\n1,2\n", "line 3: run 1 is told twice");
+  refused("run,wear\n1,2\n2,-1\n", "line 3: \"wear\" is -1 mm, which lies outside of its range");
+  refused("run,wear\n1,2\n2,x\n", "\"x\" is no number for \"wear\"");
+  refused("run,wear\n1,2\n4,2\n", "line 3: run 4 has ended otherwise before");
+  refused("run,wear,speed\n1,2,1\n2,2," + std::to_string(std::stod(speed) + 0.01) + "\n",
+          "is it the table of another study?");
+  refused("run,speed\n1,2\n", "there is no column \"wear\"");
+  refused("run,wear [m]\n1,2\n", "is not in mm; convert it");
+  refused("", "there is no first line");
+  EXPECT_EQ(tell("run,wear,speed\n4,1," + query("select speed from runs where id = 4") + "\n").code, 0)
+      << "told again";
+}
+
+TEST_F(AskAndTell, AStudyWithoutASimulatorSaysSo) {
+  for (const char* words : {"run", "confirm", "evaluate --x 2"})
+    expect_refused(EXTERNAL_PROGRAM " " + (place_ / "bench.json").string() + " " + words, 2,
+                   "bench has no simulator: its runs are made elsewhere; the command ask gives them");
+  EXPECT_FALSE(std::filesystem::exists(place_ / "results"));
+  std::ofstream(place_ / "bench.json")
+      << R"({"name": "b", "attempts": 2, "variables": [{"name": "x", "lower": 0, "upper": 1}],
+    "responses": [{"name": "y", "goal": "minimize"}]})";
+  expect_refused(EXTERNAL_PROGRAM " " + (place_ / "bench.json").string() + " ask", 1,
+                 "attempts and time_limit are of a command");
+}
+
+// Points of the front are asked for as confirm would choose them.
+TEST_F(AskAndTell, AsksForPointsOfTheFront) {
+  on_bench("ask --runs 6");
+  std::string text = "run,wear\n";
+  for (int id = 1; id <= 7; ++id) {
+    const double speed = std::stod(query("select speed from runs where id = " + std::to_string(id)));
+    text += std::to_string(id) + "," + std::to_string((speed - 3) * (speed - 3)) + "\n";
+  }
+  ASSERT_EQ(tell(text).code, 0);
+  const Ended asked = on_bench("ask --confirm --points 1");
+  ASSERT_EQ(asked.code, 0) << asked.err;
+  EXPECT_EQ(count("kind = 'confirmation' and status = 'planned'"), 1);
+  // The least wear is at 3 m/s; a smooth model of seven runs over 5 m/s knows it to a few hundredths.
+  EXPECT_NEAR(std::stod(query("select speed from runs where id = 8")), 3.0, 0.1);
+  EXPECT_TRUE(contains(asked.out, "8,confirmation,1,0,"));
+}
