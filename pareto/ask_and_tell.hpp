@@ -91,7 +91,7 @@ class Search {
   Search(doe::Problem problem, detail::Setting setting)
       : problem_(std::move(problem)),
         setting_(std::move(setting)),
-        breeder_(detail::SearchSpace(problem_), setting_.rates),
+        breeder_(detail::SearchSpace(problem_, setting_.search.start), setting_.rates),
         course_(setting_.place, setting_.search.stopping, detail::roles(problem_).objectives.size()),
         asked_(breeder_.space().start(setting_.population, stream(0, detail::start_stream))) {}
   Search(const Search&) = default;

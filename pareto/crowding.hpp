@@ -14,56 +14,86 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
-#include <drawpoint/pareto/dominance.hpp>
+#include <drawpoint/pareto/detail/ordered_points.hpp>
+#include <drawpoint/pareto/minimised.hpp>
 
 namespace drawpoint::pareto {
 
 namespace detail {
 
-/// The first row of every set of equal rows, in lexicographic order.
-inline std::vector<int> distinct_rows(const SortedPoints& points) {
-  std::vector<int> rows;
-  for (const int i : points.order)
-    if (rows.empty() || !points.equal(rows.back(), i)) rows.push_back(i);
-  return rows;
-}
+/// The points of a front in the order of each objective, kept while points leave the front.
+class CrowdingLines {
+ public:
+  /// Y: n x m without NaN.
+  explicit CrowdingLines(const Eigen::MatrixXd& Y) : points_(sorted_points(Y)) {
+    std::vector<KeyedRow> rows(points_.order.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].row = points_.order[k];
+    lines_.push_back(points_.order);
+    for (Eigen::Index j = 1; j < Y.cols(); ++j) {
+      std::vector<KeyedRow> line = rows;  // ties go by the lexicographic order
+      sort_by_objective(points_.Y, j, line);
+      lines_.emplace_back();
+      for (const KeyedRow& r : line) lines_.back().push_back(r.row);
+    }
+  }
 
-/// Adds objective j's share to the distances of the distinct rows; ties go by the lexicographic order.
-inline void add_gaps(const SortedPoints& points, const std::vector<int>& distinct, Eigen::Index j,
-                     Eigen::VectorXd& distance) {
-  std::vector<std::pair<double, int>> line;  // value and place in the lexicographic order
-  line.reserve(distinct.size());
-  for (std::size_t k = 0; k < distinct.size(); ++k)
-    line.emplace_back(points.Y(distinct[k], j), static_cast<int>(k));
-  // On a front of two objectives the one rises where the other falls.
-  if (std::is_sorted(line.rbegin(), line.rend()))
-    std::reverse(line.begin(), line.end());
-  else if (!std::is_sorted(line.begin(), line.end()))
-    std::sort(line.begin(), line.end());
-  const double range = line.back().first - line.front().first;
-  if (range <= 0.0) return;
-  const auto at = [&](std::size_t k) -> double& { return distance[distinct[line[k].second]]; };
-  at(0) = at(line.size() - 1) = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 1; k + 1 < line.size(); ++k) at(k) += (line[k + 1].first - line[k - 1].first) / range;
-}
+  /// Of each of the n rows; 0 for those that have left.
+  Eigen::VectorXd distances() const {
+    Eigen::VectorXd distance = Eigen::VectorXd::Zero(points_.Y.rows());
+    const std::vector<int> distinct = distinct_rows();
+    if (distinct.size() <= 2) {
+      for (const int i : distinct) distance[i] = std::numeric_limits<double>::infinity();
+      return distance;
+    }
+    std::vector<char> counts(static_cast<std::size_t>(points_.Y.rows()), 0);
+    for (const int i : distinct) counts[static_cast<std::size_t>(i)] = 1;
+    for (Eigen::Index j = 0; j < points_.Y.cols(); ++j) add_gaps(j, counts, distance);
+    return distance;
+  }
+
+  /// rows: of those that are left.
+  void keep(const std::vector<int>& rows) {
+    std::vector<char> stays(static_cast<std::size_t>(points_.Y.rows()), 0);
+    for (const int i : rows) stays[static_cast<std::size_t>(i)] = 1;
+    for (std::vector<int>& line : lines_)
+      std::erase_if(line, [&](int i) { return !stays[static_cast<std::size_t>(i)]; });
+  }
+
+ private:
+  /// The first row of every set of equal rows, in lexicographic order.
+  std::vector<int> distinct_rows() const {
+    std::vector<int> rows;
+    for (const int i : lines_.front())
+      if (rows.empty() || !points_.equal(rows.back(), i)) rows.push_back(i);
+    return rows;
+  }
+
+  /// Adds objective j's share to the distances of the rows that count, three or more.
+  void add_gaps(Eigen::Index j, const std::vector<char>& counts, Eigen::VectorXd& distance) const {
+    std::vector<int> line;
+    line.reserve(lines_[static_cast<std::size_t>(j)].size());
+    for (const int i : lines_[static_cast<std::size_t>(j)])
+      if (counts[static_cast<std::size_t>(i)]) line.push_back(i);
+    const auto value = [&](std::size_t k) { return points_.Y(line[k], j); };
+    const double range = value(line.size() - 1) - value(0);
+    if (range <= 0.0) return;
+    distance[line.front()] = distance[line.back()] = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k + 1 < line.size(); ++k)
+      distance[line[k]] += (value(k + 1) - value(k - 1)) / range;
+  }
+
+  SortedPoints points_;
+  std::vector<std::vector<int>> lines_;
+};
 
 }  // namespace detail
 
 /// Y: n x m, the points of one front. Returns n distances, each in [0, inf]; permuting the rows of distinct
 /// points permutes the result. Throws std::invalid_argument when Y holds NaN.
 inline Eigen::VectorXd crowding_distance(const Eigen::MatrixXd& Y) {
-  Eigen::VectorXd distance = Eigen::VectorXd::Zero(Y.rows());
-  const detail::SortedPoints points = detail::sorted_points(Y);
-  const std::vector<int> distinct = detail::distinct_rows(points);
-  if (distinct.size() <= 2) {
-    for (const int i : distinct) distance[i] = std::numeric_limits<double>::infinity();
-    return distance;
-  }
-  for (Eigen::Index j = 0; j < Y.cols(); ++j) detail::add_gaps(points, distinct, j, distance);
-  return distance;
+  return detail::CrowdingLines(Y).distances();
 }
 
 /// The same in natural signs (minimised.hpp). A turned sign mirrors an objective and leaves its gaps, so the

@@ -19,13 +19,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/pareto/detail/ordered_points.hpp>
 #include <drawpoint/pareto/detail/ranked_points.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
@@ -91,50 +90,58 @@ class StaircaseFront {
   std::vector<Step> steps_;
 };
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// All fronts so far, from the best; `FrontType` is one of them.
+template <class FrontType>
+class Fronts {
+ public:
+  explicit Fronts(Eigen::Index m) : m_(m) {}
 
-/// The points, each contiguous, and their lexicographic order (equal points by index). T: double, or ranks.
-template <class T>
-struct OrderedPoints {
-  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> Y;
-  std::vector<int> order;
+  /// Number of the front that the point joins.
+  template <class T>
+  std::size_t place(const T* p) {
+    const auto lets_pass = [&](const FrontType& f) { return f.dominates(p); };
+    const auto front = static_cast<std::size_t>(
+        std::partition_point(fronts_.begin(), fronts_.end(), lets_pass) - fronts_.begin());
+    if (front == fronts_.size()) fronts_.emplace_back(m_);
+    fronts_[front].add(p);
+    return front;
+  }
 
-  const T* at(int i) const { return Y.data() + i * Y.cols(); }
-  bool equal(int a, int b) const { return std::equal(at(a), at(a) + Y.cols(), at(b)); }
+ private:
+  Eigen::Index m_;
+  std::vector<FrontType> fronts_;
 };
 
-using SortedPoints = OrderedPoints<double>;
+/// m <= 2: a row of numbers, the best second objective of each front, rising; with one objective every point
+/// that is not equal to the one before begins a front.
+template <>
+class Fronts<SweepFront> {
+ public:
+  explicit Fronts(Eigen::Index m) : two_(m == 2) {}
 
-/// Row numbers by the first objective alone, which settles nearly every comparison.
-inline std::vector<std::pair<double, int>> by_first_objective(const RowMajor& Y) {
-  std::vector<std::pair<double, int>> keys(static_cast<std::size_t>(Y.rows()));
-  for (int i = 0; i < static_cast<int>(keys.size()); ++i)
-    keys[static_cast<std::size_t>(i)] = {Y.cols() ? Y(i, 0) : 0.0, i};
-  std::sort(keys.begin(), keys.end());
-  return keys;
-}
-
-inline SortedPoints sorted_points(const Eigen::MatrixXd& Y) {
-  if (Y.hasNaN()) throw std::invalid_argument("pareto: the objectives Y hold NaN; leave out failed runs");
-  SortedPoints points{Y, {}};
-  const auto keys = by_first_objective(points.Y);
-  points.order.reserve(keys.size());
-  for (const auto& key : keys) points.order.push_back(key.second);
-  const auto before = [&, m = Y.cols()](int a, int b) {
-    const Point p = points.at(a), q = points.at(b);
-    for (Eigen::Index j = 1; j < m; ++j)
-      if (p[j] != q[j]) return p[j] < q[j];
-    return a < b;
-  };
-  for (std::size_t i = 0; i < keys.size();) {
-    std::size_t end = i + 1;
-    while (end < keys.size() && keys[end].first == keys[i].first) ++end;
-    const auto at = [&](std::size_t k) { return points.order.begin() + static_cast<std::ptrdiff_t>(k); };
-    if (end - i > 1) std::sort(at(i), at(end), before);
-    i = end;
+  std::size_t place(Point p) {
+    const double y = two_ ? p[1] : static_cast<double>(best_.size());
+    const std::size_t front = first_above(y);
+    if (front == best_.size()) best_.push_back(y);
+    best_[front] = y;
+    return front;
   }
-  return points;
-}
+
+ private:
+  /// Halves without a branch, which could not be foreseen.
+  std::size_t first_above(double y) const {
+    const double* from = best_.data();
+    for (std::size_t left = best_.size(); left > 0;) {
+      const std::size_t half = (left + 1) / 2;
+      from += from[half - 1] <= y ? half : 0;
+      left -= half;
+    }
+    return static_cast<std::size_t>(from - best_.data());
+  }
+
+  bool two_;
+  std::vector<double> best_;
+};
 
 /// Front by front the rows in rising order; place: the front of each row.
 inline std::vector<std::vector<int>> rows_by_front(const std::vector<int>& place,
@@ -148,23 +155,14 @@ inline std::vector<std::vector<int>> rows_by_front(const std::vector<int>& place
 
 template <class FrontType, class T>
 std::vector<std::vector<int>> sorted_into_fronts(const OrderedPoints<T>& points) {
-  std::vector<FrontType> fronts;
+  Fronts<FrontType> fronts(points.Y.cols());
   std::vector<int> place(points.order.size()), sizes;
   std::size_t front = 0;
   for (std::size_t i = 0; i < points.order.size(); ++i) {
     const int index = points.order[i];
     const bool repeated = i > 0 && points.equal(index, points.order[i - 1]);
-    if (!repeated) {  // an equal point joins its equal, which may look like a dominator
-      const T* p = points.at(index);
-      const auto lets_pass = [&](const FrontType& f) { return f.dominates(p); };
-      front = static_cast<std::size_t>(std::partition_point(fronts.begin(), fronts.end(), lets_pass) -
-                                       fronts.begin());
-      if (front == fronts.size()) {
-        fronts.emplace_back(points.Y.cols());
-        sizes.push_back(0);
-      }
-      fronts[front].add(p);
-    }
+    if (!repeated) front = fronts.place(points.at(index));  // an equal point would look like a dominator
+    if (front == sizes.size()) sizes.push_back(0);
     ++sizes[front];
     place[static_cast<std::size_t>(index)] = static_cast<int>(front);
   }

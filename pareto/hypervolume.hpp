@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <drawpoint/pareto/detail/box_union.hpp>
+#include <drawpoint/pareto/detail/rising_order.hpp>
 #include <drawpoint/pareto/detail/volume_contributions.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
@@ -42,12 +43,12 @@ struct Boxes {
 
 inline Boxes boxes(const Eigen::MatrixXd& points, const Eigen::VectorXd& reference) {
   Boxes result;
+  std::vector<KeyedRow> rows;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if ((points.row(i).transpose().array() < reference.array()).all())
-      result.rows.push_back(static_cast<int>(i));
-  const auto last = points.col(points.cols() - 1);
-  std::sort(result.rows.begin(), result.rows.end(),
-            [&](int a, int b) { return last[a] != last[b] ? last[a] < last[b] : a < b; });
+      rows.push_back({rising_bits(points(i, points.cols() - 1)), static_cast<int>(i)});
+  sort_by_key(rows);
+  for (const KeyedRow& r : rows) result.rows.push_back(r.row);
   result.sides = (-points(result.rows, Eigen::all)).rowwise() + reference.transpose();
   return result;
 }

@@ -11,7 +11,8 @@
 /// * pbi: d_1 + θ d_2, d_1 the length of F along w_k and d_2 its distance from that line.
 /// A child of two neighbours (of anyone with probability 1 - δ) replaces at most `replacements` members in
 /// whose problem it is better: less violation first, then the scalar. All children of a generation are one
-/// batch and replace after it in random order, so that the black box may run them in parallel.
+/// batch and replace after it in random order, so that the black box may run them in parallel. A first
+/// population with points of the caller is shared out among the directions (stable_matching.hpp).
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/permutation.hpp>
+#include <drawpoint/pareto/detail/stable_matching.hpp>
 #include <drawpoint/pareto/nsga3.hpp>
 
 namespace drawpoint::pareto {
@@ -104,9 +106,9 @@ class Moead : public Search {
   Eigen::MatrixXd next(Population told) override {
     meet(told);
     if (generation_ == 0) {
-      members_ = std::move(told);
+      members_ = setting().search.start.rows() > 0 ? shared_out(told) : std::move(told);
     } else {
-      scale();
+      scale(members_);
       std::vector<int> order = everyone_;
       doe::detail::shuffle(order, random_);
       for (const int k : order) replace(told, k);
@@ -141,10 +143,31 @@ class Moead : public Search {
                                     : ideal_.cwiseMin(points.Y.row(i)).eval();
   }
 
-  void scale() {
+  /// One point for each direction; points: as many or more.
+  Population shared_out(const Population& points) {
+    scale(points);
+    std::vector<int> everyone(static_cast<std::size_t>(points.size()));
+    std::iota(everyone.begin(), everyone.end(), 0);
+    std::vector<std::vector<int>> choices;
+    Eigen::MatrixXd distance(directions_.rows(), points.size());
+    for (int k = 0; k < static_cast<int>(directions_.rows()); ++k) {
+      choices.push_back(everyone);
+      std::stable_sort(choices.back().begin(), choices.back().end(), [&](int a, int b) {
+        return better({points, a}, {points, b}, k);
+      });
+      const Eigen::RowVectorXd w = directions_.row(k);
+      for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+        const Eigen::RowVectorXd F = scaled(points, i);
+        distance(k, i) = (F - F.dot(w) * w).norm();
+      }
+    }
+    return detail::selected(points, detail::stable_matching(choices, distance));
+  }
+
+  void scale(const Population& points) {
     range_ = Eigen::RowVectorXd::Zero(directions_.cols());
-    for (Eigen::Index i = 0; i < members_.size(); ++i)
-      if (members_.feasible(i)) range_ = range_.cwiseMax(members_.Y.row(i) - ideal_).eval();
+    for (Eigen::Index i = 0; i < points.size(); ++i)
+      if (points.feasible(i)) range_ = range_.cwiseMax(points.Y.row(i) - ideal_).eval();
     for (double& r : range_)
       if (!(r > 0.0)) r = 1.0;
   }
@@ -174,7 +197,7 @@ class Moead : public Search {
     doe::detail::shuffle(mates, random_);
     for (const int i : mates) {
       if (left == 0) return;
-      if (!better(children, k, i)) continue;
+      if (!better({children, k}, {members_, i}, i)) continue;
       members_.U.row(i) = children.U.row(k);
       members_.responses.row(i) = children.responses.row(k);
       members_.Y.row(i) = children.Y.row(k);
@@ -184,17 +207,26 @@ class Moead : public Search {
     }
   }
 
-  /// Whether child k serves problem i better than member i does.
-  bool better(const Population& children, int k, int i) const {
-    const double ours = violation(children, k), theirs = violation(members_, i);
+  struct Member {
+    const Population& of;
+    int row;
+  };
+
+  /// Whether a serves the problem of this direction better than b does.
+  bool better(const Member& a, const Member& b, int direction) const {
+    const double ours = violation(a.of, a.row), theirs = violation(b.of, b.row);
     if (ours != theirs) return ours < theirs;
     if (ours > 0.0) return false;
-    const Eigen::RowVectorXd w = directions_.row(i);
-    return value(children, k, w) < value(members_, i, w);
+    const Eigen::RowVectorXd w = directions_.row(direction);
+    return value(a.of, a.row, w) < value(b.of, b.row, w);
   }
 
   double value(const Population& points, int i, const Eigen::RowVectorXd& w) const {
-    return detail::scalarised(options_, (points.Y.row(i) - ideal_).cwiseQuotient(range_), w);
+    return detail::scalarised(options_, scaled(points, i), w);
+  }
+
+  Eigen::RowVectorXd scaled(const Population& points, int i) const {
+    return (points.Y.row(i) - ideal_).cwiseQuotient(range_);
   }
 
   double violation(const Population& points, int i) const {
@@ -205,7 +237,7 @@ class Moead : public Search {
 
   void close() {
     const auto worst = [&]() -> Eigen::RowVectorXd {
-      scale();
+      scale(members_);
       return ideal_ + range_;
     };
     close_generation(generation_, best().Y, worst);

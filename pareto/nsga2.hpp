@@ -64,7 +64,7 @@ class FrontSurvival {
         fraction_(options.pareto_fraction) {}
 
   /// Feasible fronts share the places by the kind of elitism, others fill what is left in order.
-  Parents operator()(const Population& pool, const Ranking& ranking, doe::RandomStream&) const {
+  Survivors operator()(const Population& pool, const Ranking& ranking, doe::RandomStream&) const {
     std::vector<int> sizes;
     for (std::size_t i = 0; i < ranking.feasible; ++i)
       sizes.push_back(static_cast<int>(ranking.fronts[i].size()));
@@ -75,12 +75,10 @@ class FrontSurvival {
       taken.push_back(std::min(left, static_cast<int>(ranking.fronts[i].size())));
       left -= taken.back();
     }
-    Parents parents;
-    std::vector<int> rows;
+    Survivors survivors;
     for (std::size_t i = 0; i < taken.size(); ++i)
-      take(pool, ranking.fronts[i], taken[i], static_cast<int>(i), i < ranking.feasible, rows, parents);
-    parents.points = selected(pool, rows);
-    return parents;
+      take(pool, ranking.fronts[i], taken[i], static_cast<int>(i), i < ranking.feasible, survivors);
+    return survivors;
   }
 
  private:
@@ -92,14 +90,14 @@ class FrontSurvival {
 
   /// Up to `places` rows of one front, the least crowded first choice, appended to the survivors.
   static void take(const Population& pool, const std::vector<int>& front, int places, int rank,
-                   bool by_crowding, std::vector<int>& rows, Parents& parents) {
+                   bool by_crowding, Survivors& survivors) {
     if (places == 0) return;
     Eigen::VectorXd distance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(front.size()));
     if (by_crowding) distance = crowding_distance(pool.Y(front, Eigen::all));
     for (const int i : least_crowded(distance, places)) {
-      rows.push_back(front[i]);
-      parents.rank.push_back(rank);
-      parents.distance.push_back(distance[i]);
+      survivors.rows.push_back(front[i]);
+      survivors.rank.push_back(rank);
+      survivors.distance.push_back(distance[i]);
     }
   }
 

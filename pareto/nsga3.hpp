@@ -143,7 +143,7 @@ class NicheSurvival {
       : places_(static_cast<std::size_t>(population)), unit_(directions.rowwise().normalized()) {}
 
   /// Feasible survivors have rank 0, so that the tournament picks among them at random.
-  Parents operator()(const Population& pool, const Ranking& ranking, doe::RandomStream& random) {
+  Survivors operator()(const Population& pool, const Ranking& ranking, doe::RandomStream& random) {
     std::vector<int> rows = feasible_survivors(pool, ranking, random);
     std::vector<int> ranks(rows.size(), 0);
     for (std::size_t k = ranking.feasible; k < ranking.fronts.size(); ++k)
@@ -152,7 +152,8 @@ class NicheSurvival {
         rows.push_back(i);
         ranks.push_back(static_cast<int>(k) + 1);
       }
-    return {selected(pool, rows), std::move(ranks), std::vector<double>(rows.size(), 0.0)};
+    std::vector<double> distance(rows.size(), 0.0);
+    return {std::move(rows), std::move(ranks), std::move(distance)};
   }
 
   template <class Self, class Stream>

@@ -54,6 +54,10 @@ struct SearchOptions {
   /// Points per generation, 2 or more; also the most points of the front. None: 200 for NSGA-II, 100 for the
   /// others.
   std::optional<int> population{};
+  /// k x d, natural units: points that the first population begins with, such as the best runs so far or the
+  /// front of an earlier search. Fewer than the population: a Latin hypercube fills up. More: all of them are
+  /// the first population, and the search keeps those that it ranks best. None: a Latin hypercube alone.
+  Eigen::MatrixXd start{};
   Stopping stopping{};
   Variation variation{};
   doe::Seed seed = 1;

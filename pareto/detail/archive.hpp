@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -56,15 +57,22 @@ class Archive {
  private:
   /// Rows to keep of the n x m objectives.
   std::vector<int> thinned(const Eigen::MatrixXd& Y) const {
-    std::vector<int> rows = non_dominated(Y);
-    while (static_cast<int>(rows.size()) > capacity_) {
-      const int size = static_cast<int>(rows.size()), excess = size - capacity_;
-      const Eigen::MatrixXd front = Y(rows, Eigen::all);
-      std::vector<int> kept = least_crowded(crowding_distance(front), size - (excess + 1) / 2);
-      for (int& i : kept) i = rows[i];
-      rows = std::move(kept);
+    const std::vector<int> best = non_dominated(Y);
+    const auto capacity = static_cast<std::size_t>(capacity_);
+    if (best.size() <= capacity) return best;
+    CrowdingLines lines(Y(best, Eigen::all));
+    std::vector<int> left(best.size());  // places in `best`
+    std::iota(left.begin(), left.end(), 0);
+    while (left.size() > capacity) {
+      const std::size_t excess = left.size() - capacity;
+      const Eigen::VectorXd distance = lines.distances()(left);
+      std::vector<int> kept = least_crowded(distance, static_cast<int>(left.size() - (excess + 1) / 2));
+      for (int& i : kept) i = left[static_cast<std::size_t>(i)];
+      left = std::move(kept);
+      lines.keep(left);
     }
-    return rows;
+    for (int& i : left) i = best[static_cast<std::size_t>(i)];
+    return left;
   }
 
   int capacity_;

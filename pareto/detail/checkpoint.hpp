@@ -57,10 +57,12 @@ inline std::string text_of(const Eigen::MatrixXd& values) {
 }
 
 /// Options that all searches share and that decide where it starts: name and value.
-inline Setting::Named sizes_and_seed(const Setting& s) {
-  return {{"population", std::to_string(s.population)},
-          {"children", std::to_string(s.children)},
-          {"seed", std::to_string(s.search.seed)}};
+inline Setting::Named sizes_and_start(const Setting& s) {
+  Setting::Named options{{"population", std::to_string(s.population)},
+                         {"children", std::to_string(s.children)},
+                         {"seed", std::to_string(s.search.seed)}};
+  if (s.search.start.rows() > 0) options.emplace_back("start", text_of(s.search.start));
+  return options;
 }
 
 inline Setting::Named stopping_rules(const Stopping& stopping) {
@@ -93,7 +95,7 @@ inline std::vector<HeadLine> head_of(const doe::Problem& problem, const Setting&
     for (const auto& [name, value] : options)
       lines.push_back({"option " + name + " " + value, stopping_rule});
   };
-  add(sizes_and_seed(s));
+  add(sizes_and_start(s));
   add(stopping_rules(s.search.stopping), true);
   add(rates_of(s.rates));
   add(s.own);

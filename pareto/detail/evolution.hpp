@@ -19,10 +19,16 @@
 
 namespace drawpoint::pareto::detail {
 
+/// Rows of a pool, and what the tournament compares of each (variation.hpp).
+struct Survivors {
+  std::vector<int> rows, rank;
+  std::vector<double> distance;
+};
+
 template <class S>
 concept Survival = requires(S& survive, const Population& pool, const Ranking& ranking,
                             doe::RandomStream& random) {
-  { survive(pool, ranking, random) } -> std::same_as<Parents>;
+  { survive(pool, ranking, random) } -> std::same_as<Survivors>;
 };
 
 template <Survival S>
@@ -36,20 +42,34 @@ class Evolution : public Search {
     const int step = step_++;
     const auto first_new = static_cast<int>(parents_.size());
     const Population pool = step == 0 ? std::move(told) : joined(parents_, told);
-    const Ranking ranking = rank(pool, largest_violations());
+    const Ranking ranking = on_one_front_ && pool.size() == first_new + 1 ? rank_with_newcomer(pool)
+                                                                          : rank(pool, largest_violations());
     if (archived()) archive_.add(selected(pool, first_front(ranking, first_new)));
     if (step % steps() == 0) close(step, pool, ranking);
     doe::RandomStream random(stream(step, survival_stream));
-    Parents parents = survive_(pool, ranking, random);
-    Eigen::MatrixXd children =
-        breeder().children(parents, setting().children, doe::RandomStream(stream(step, generation_stream)));
-    parents_ = std::move(parents.points);
-    return children;
+    Survivors survivors = survive_(pool, ranking, random);
+    on_one_front_ = ranking.feasible > 0 && are_among(ranking.fronts.front(), survivors.rows);
+    if (!are_the_old(survivors.rows, first_new)) parents_ = selected(pool, survivors.rows);
+    return breeder().children({parents_, std::move(survivors.rank), std::move(survivors.distance)},
+                              setting().children, doe::RandomStream(stream(step, generation_stream)));
   }
 
   Population best() const override { return archived() ? archive_.members() : best_of(parents_); }
 
   bool archived() const { return setting().archive > 0; }
+
+  /// Both in rising order, else false.
+  static bool are_among(const std::vector<int>& all, const std::vector<int>& rows) {
+    return std::is_sorted(rows.begin(), rows.end()) &&
+           std::includes(all.begin(), all.end(), rows.begin(), rows.end());
+  }
+
+  /// The old parents, all of them in their order.
+  static bool are_the_old(const std::vector<int>& rows, int first_new) {
+    for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+      if (rows[static_cast<std::size_t>(i)] != i) return false;
+    return static_cast<int>(rows.size()) == first_new;
+  }
 
   /// Feasible rows of the pool that nothing dominates, from `first_new` on.
   static std::vector<int> first_front(const Ranking& ranking, int first_new) {
@@ -76,7 +96,10 @@ class Evolution : public Search {
   }
 
   void write(CheckpointWriter& out) const override { fields(*this, out); }
-  void read(CheckpointReader& in) override { fields(*this, in); }
+  void read(CheckpointReader& in) override {
+    fields(*this, in);
+    on_one_front_ = false;
+  }
 
   template <class Self, class Stream>
   static void fields(Self& self, Stream& stream) {
@@ -89,7 +112,8 @@ class Evolution : public Search {
   S survive_;
   Archive archive_;
   Population parents_;
-  int step_ = 0;  // the next one's number
+  int step_ = 0;               // the next one's number
+  bool on_one_front_ = false;  // the parents: all feasible, none dominates another; false also where unknown
 };
 
 }  // namespace drawpoint::pareto::detail

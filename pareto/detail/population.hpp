@@ -114,6 +114,23 @@ inline Ranking rank(const Population& p, const Eigen::RowVectorXd& largest) {
   return ranking;
 }
 
+/// As `rank`, of feasible points, none of which dominates another, and one more in the last row: what the
+/// sort would find, in one look at each point.
+inline Ranking rank_with_newcomer(const Population& p) {
+  const auto last = static_cast<int>(p.size()) - 1;
+  const auto newcomer = p.Y.row(last);
+  std::vector<int> level, beaten;  // with the newcomer, and what it dominates
+  bool is_beaten = !p.feasible(last);
+  for (int i = 0; i < last; ++i) {
+    is_beaten = is_beaten || dominates(p.Y.row(i), newcomer);
+    (!is_beaten && dominates(newcomer, p.Y.row(i)) ? beaten : level).push_back(i);
+  }
+  if (is_beaten) return {{std::move(level), {last}}, p.feasible(last) ? std::size_t{2} : std::size_t{1}};
+  level.push_back(last);
+  if (beaten.empty()) return {{std::move(level)}, 1};
+  return {{std::move(level), std::move(beaten)}, 2};
+}
+
 /// The feasible points that no other point of the population dominates.
 inline Population best_of(const Population& population) {
   std::vector<int> feasible;

@@ -19,20 +19,23 @@
 #include <utility>
 #include <vector>
 
+#include <drawpoint/pareto/detail/rising_order.hpp>
+
 namespace drawpoint::pareto::detail {
 
 /// Y: n x m without NaN. Ranks from 0, below the largest T.
 template <class T>
 Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> ranks_of(const Eigen::MatrixXd& Y) {
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> ranks(Y.rows(), Y.cols());
-  std::vector<std::pair<double, int>> keys(static_cast<std::size_t>(Y.rows()));
+  std::vector<KeyedRow> rows(static_cast<std::size_t>(Y.rows()));
   for (Eigen::Index j = 0; j < Y.cols(); ++j) {
-    for (int i = 0; i < static_cast<int>(keys.size()); ++i) keys[static_cast<std::size_t>(i)] = {Y(i, j), i};
-    std::sort(keys.begin(), keys.end());
+    for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+      rows[static_cast<std::size_t>(i)] = {rising_bits(Y(i, j)), i};
+    sort_by_key(rows);
     T rank = 0;
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      if (k > 0 && keys[k].first != keys[k - 1].first) ++rank;
-      ranks(keys[k].second, j) = rank;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (k > 0 && rows[k].key != rows[k - 1].key) ++rank;
+      ranks(rows[k].row, j) = rank;
     }
   }
   return ranks;

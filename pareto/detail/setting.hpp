@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/pareto/detail/roles.hpp>
 #include <drawpoint/pareto/search.hpp>
@@ -58,7 +59,8 @@ inline Rates rates_for(const std::string& place, const Variation& v, const Advic
   return rates;
 }
 
-/// Throws std::invalid_argument on a faulty problem or option, and without an objective.
+/// Throws std::invalid_argument on a faulty problem or option, a starting point outside of the box, and
+/// without an objective.
 inline Setting setting_for(std::string place, const doe::Problem& problem, const SearchOptions& options,
                            const Advice& advice) {
   doe::check(problem);
@@ -67,6 +69,7 @@ inline Setting setting_for(std::string place, const doe::Problem& problem, const
   check_range(place, "population", setting.population, setting.population >= 2, "2 or more");
   setting.rates = rates_for(place, options.variation, advice, problem.variables.size());
   check(place, options.stopping);
+  if (options.start.rows() > 0) doe::detail::check_inside(options.start, problem, place + "start");
   check_range(place, "threads", options.threads, options.threads >= 0, "0 (all cores) or more");
   if (roles(problem).objectives.empty())
     throw std::invalid_argument(place + "no response has goal minimize or maximize; give at least one");

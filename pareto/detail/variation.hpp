@@ -75,7 +75,7 @@ inline double integer_mutation(double y, double steps, double index, doe::Random
 
 /// What the tournament compares: rank (the smaller the better), then distance (the larger the better).
 struct Parents {
-  Population points;
+  const Population& points;
   std::vector<int> rank;
   std::vector<double> distance;
 

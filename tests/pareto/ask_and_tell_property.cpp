@@ -136,7 +136,7 @@ TEST_P(DrivenSearches, DrivenFromOutsideGiveTheSameFront) {
 
 TEST_P(DrivenSearches, GiveTheSameBitsOnAnyNumberOfThreads) {
   const Front front = finish(*made(), noisy);
-  for (const int threads : {2, 8, 0}) expect_equal(finish(*made(quick(threads)), noisy), front);
+  for (const int threads : {2, 3, 8, 0}) expect_equal(finish(*made(quick(threads)), noisy), front);
 }
 
 // Before the first population, within the search, at its end; resumed by another object on 1, 2 and 8

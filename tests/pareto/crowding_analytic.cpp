@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/seed.hpp>
 #include <drawpoint/pareto/crowding.hpp>
+#include <numeric>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::pareto;
@@ -49,6 +53,21 @@ TEST(Crowding, OneOrTwoDistinctPointsAreExtremes) {
   EXPECT_EQ(crowding_distance(five_points()(std::vector<int>{1, 1}, Eigen::all)),
             Eigen::Vector2d(INFINITY, 0.0));
   EXPECT_EQ(crowding_distance(Eigen::MatrixXd(0, 2)).size(), 0);
+}
+
+// Copies, ties and three objectives; half of the points leave at a time.
+TEST(Crowding, IsThatOfTheRestWhenPointsLeave) {
+  doe::RandomStream random(5);
+  Eigen::MatrixXd Y(60, 3);
+  for (double& y : Y.reshaped()) y = random.below(6);
+  detail::CrowdingLines lines(Y);
+  std::vector<int> left(60);
+  std::iota(left.begin(), left.end(), 0);
+  while (!left.empty()) {
+    EXPECT_EQ(lines.distances()(left), crowding_distance(Y(left, Eigen::all)));
+    std::erase_if(left, [&](int) { return random.uniform() < 0.5; });
+    lines.keep(left);
+  }
 }
 
 }  // namespace

@@ -5,11 +5,12 @@
 /// Test functions and point sets of multi-objective optimisation, all minimised.
 ///
 /// ZDT1 (Zitzler, Deb, Thiele 2000): f_1 = x_1, f_2 = g (1 - sqrt(f_1/g)), g = 1 + 9 mean(x_2..x_d); front
-/// f_2 = 1 - sqrt(f_1). ZDT3 has a front in five pieces, ZDT4 21^(d-1) local fronts, ZDT6 a front whose
-/// points are rare and unevenly hit. DTLZ2 (Deb, Thiele, Laumanns, Zitzler 2002), three objectives: front is
-/// the unit sphere's positive octant; DTLZ7: four separate pieces. All variables are in [0, 1]; ZDT4 scales
-/// its own to [-5, 5]. The point sets are those by which hypervolume and sorting programs are compared:
-/// splitmix64, row by row.
+/// f_2 = 1 - sqrt(f_1). ZDT2 has the hollow front f_2 = 1 - f_1², ZDT3 a front in five pieces, ZDT4 21^(d-1)
+/// local fronts, ZDT6 a front whose points are rare and unevenly hit. DTLZ1 (Deb, Thiele, Laumanns, Zitzler
+/// 2002), three objectives: front f_1 + f_2 + f_3 = 1/2 behind 11^(d-2) local ones; DTLZ2: front is the unit
+/// sphere's positive octant; DTLZ7: four separate pieces. All variables are in [0, 1]; ZDT4 scales its own to
+/// [-5, 5]. The point sets are those by which hypervolume and sorting programs are compared: splitmix64, row
+/// by row.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -21,6 +22,11 @@ namespace drawpoint::support {
 inline doe::Outcome zdt1(const Eigen::VectorXd& x) {
   const double g = 1.0 + 9.0 * x.tail(x.size() - 1).mean();
   return {x[0], g * (1.0 - std::sqrt(x[0] / g))};
+}
+
+inline doe::Outcome zdt2(const Eigen::VectorXd& x) {
+  const double g = 1.0 + 9.0 * x.tail(x.size() - 1).mean();
+  return {x[0], g * (1.0 - (x[0] / g) * (x[0] / g))};
 }
 
 inline doe::Outcome zdt3(const Eigen::VectorXd& x) {
@@ -38,6 +44,13 @@ inline doe::Outcome zdt6(const Eigen::VectorXd& x) {
   const double f = 1.0 - std::exp(-4.0 * x[0]) * std::pow(std::sin(6.0 * std::numbers::pi * x[0]), 6);
   const double g = 1.0 + 9.0 * std::pow(x.tail(x.size() - 1).mean(), 0.25);
   return {f, g * (1.0 - (f / g) * (f / g))};
+}
+
+inline doe::Outcome dtlz1(const Eigen::VectorXd& x) {
+  const Eigen::ArrayXd off = x.tail(x.size() - 2).array() - 0.5;
+  const double waves = (off.square() - (20.0 * std::numbers::pi * off).cos()).sum();
+  const double half = 0.5 * (1.0 + 100.0 * (static_cast<double>(off.size()) + waves));
+  return {half * x[0] * x[1], half * x[0] * (1.0 - x[1]), half * (1.0 - x[0])};
 }
 
 inline doe::Outcome dtlz7(const Eigen::VectorXd& x) {
