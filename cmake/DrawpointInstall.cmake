@@ -52,7 +52,7 @@ if(DRAWPOINT_BUILD_STUDIES)
     install(FILES ${PROJECT_BINARY_DIR}/studies/report/npm/node_modules/${library}/LICENSE RENAME copyright.${library}
             DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint COMPONENT programs EXCLUDE_FROM_ALL)
   endforeach()
-  foreach(package libeigen3-dev libcli11-dev nlohmann-json3-dev libsqlitecpp-dev)
+  foreach(package libeigen3-dev libcli11-dev nlohmann-json3-dev libsqlitecpp-dev libcpp-httplib-dev)
     install(FILES /usr/share/doc/${package}/copyright RENAME copyright.${package}
             DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint COMPONENT programs EXCLUDE_FROM_ALL OPTIONAL)
   endforeach()
@@ -165,7 +165,8 @@ endif()
 if(DRAWPOINT_BUILD_STUDIES)
   list(APPEND CPACK_COMPONENTS_ALL studies)
   drawpoint_deb(studies "Drawpoint: a study as a program (library and headers)" "libdrawpoint-kriging-dev ${same_version}"
-                "libdrawpoint-pareto-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev)
+                "libdrawpoint-pareto-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev
+                libcpp-httplib-dev nlohmann-json3-dev)
   list(APPEND CPACK_COMPONENTS_ALL programs)
   drawpoint_deb(programs "Drawpoint: explore machine designs and strategies by simulation (programs)")
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)

@@ -8,7 +8,7 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, confirm, ask, tell, status, fit, validate, front, compare, report,
+/// The program has the commands run, confirm, ask, tell, status, live, fit, validate, front, compare, report,
 /// replay, export, evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one
 /// thread, so that a crash is one failed run; each finished run is stored before the next one starts. Equal
 /// (x, seed) must give equal outcomes: a run that was lost is simply run again.

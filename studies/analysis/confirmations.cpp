@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/confirmations.h>
-#include <drawpoint/pareto/detail/roles.hpp>
+#include <drawpoint/studies/analysis/limits.h>
 #include <drawpoint/pareto/dominance.hpp>
 
 #include <algorithm>
@@ -9,17 +9,6 @@
 
 namespace drawpoint::studies {
 namespace {
-
-bool breaks_limit(const doe::Response& response, double y) {
-  return doe::is_constraint(response.goal) && pareto::detail::violation(response, y) > 0.0;
-}
-
-bool keeps_all_limits(const Run& run, const doe::Problem& problem) {
-  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    if (breaks_limit(problem.responses[j], run.y[static_cast<Eigen::Index>(j)])) return false;
-  }
-  return true;
-}
 
 Eigen::VectorXd minimised_objectives(const Run& run, const doe::Problem& problem) {
   std::vector<double> values;

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/replay.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/studies/store/run_logs.h>
@@ -52,21 +53,41 @@ std::vector<std::pair<std::string, std::string>> facts_of_run(const Identity& id
   return all;
 }
 
+ReplayInput input_of_run(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
+                         const std::string& command) {
+  require_log(folder, run);
+  const Tables tables = tables_of({run}, study.problem);
+  const auto& rows = run.kind == Kind::validation ? tables.validation.rows : tables.training.rows;
+  return {.study = study.name,
+          .about = study.about,
+          .command = command,
+          .problem = study.problem,
+          .run = rows.front(),
+          .kind = name_of(run.kind),
+          .panels = illustrated(study, folder, run),
+          .facts = facts_of_run(identity, folder, run)};
+}
+
 }  // namespace
 
 void replay(const Study& study, const Store& store, const Folder& folder, const Run& run,
             const std::filesystem::path& file, const std::string& command) {
+  write_replay(file, input_of_run(study, store.identity(), folder, run, command));
+}
+
+std::string replay_page(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
+                        const std::string& command) {
+  return replay_page(input_of_run(study, identity, folder, run, command));
+}
+
+nlohmann::json flat_figures(const Study& study, const Folder& folder, const Run& run,
+                            std::vector<std::string>& cautions) {
   require_log(folder, run);
-  const Tables tables = tables_of({run}, study.problem);
-  const auto& rows = run.kind == Kind::validation ? tables.validation.rows : tables.training.rows;
-  write_replay(file, {.study = study.name,
-                      .about = study.about,
-                      .command = command,
-                      .problem = study.problem,
-                      .run = rows.front(),
-                      .kind = name_of(run.kind),
-                      .panels = illustrated(study, folder, run),
-                      .facts = facts_of_run(store.identity(), folder, run)});
+  nlohmann::json flat = nlohmann::json::array();
+  for (auto& panel : illustrated(study, folder, run))
+    if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene")
+      flat.push_back(std::move(panel));
+  return detail::checked_panels(flat, cautions);
 }
 
 }  // namespace drawpoint::studies

@@ -8,7 +8,9 @@
 #include <drawpoint/studies/study.hpp>
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace drawpoint::studies {
 
@@ -17,5 +19,14 @@ namespace drawpoint::studies {
 /// Study::illustrate.
 void replay(const Study& study, const Store& store, const Folder& folder, const Run& run,
             const std::filesystem::path& file, const std::string& command);
+
+/// The page itself. Throws as `replay` does.
+std::string replay_page(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
+                        const std::string& command);
+
+/// The figures of the page but for scenes to play; a sentence for each that cannot be drawn goes to
+/// `cautions`. Throws as `replay` does.
+nlohmann::json flat_figures(const Study& study, const Folder& folder, const Run& run,
+                            std::vector<std::string>& cautions);
 
 }  // namespace drawpoint::studies

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/commands/questions.h>
 #include <drawpoint/studies/commands/reading_commands.h>
+#include <drawpoint/studies/live/server.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <CLI/CLI.hpp>
@@ -25,8 +26,8 @@ namespace {
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
 /// Those that are told; prepare is for `run` alone.
-constexpr std::array<const char*, 14> commands = {
-    "run",     "confirm", "ask",    "tell",   "status",          "fit",     "validate", "front",
+constexpr std::array<const char*, 15> commands = {
+    "run",     "confirm", "ask",    "tell",   "status",          "live",    "fit", "validate", "front",
     "compare", "report",  "replay", "export", "rerun-responses", "evaluate"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
@@ -343,11 +344,12 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.command = joined(argc, argv);
   parsed.settings.leading_words = study.leading_words;
-  const std::string program = program_of(argc, argv, study);
+  const std::string program = parsed.settings.program = program_of(argc, argv, study);
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, program);
   app.set_help_flag();
   app.set_help_all_flag("-h,--help", "show this text");
-  app.set_version_flag("--version", version_text(study), "say what this program is made of");
+  app.set_version_flag("--version", version_text(study) + "\ncpp-httplib " + http_version(),
+                       "say what this program is made of");
   app.require_subcommand(1);
   app.footer(problem_text(study.problem));
   define_commands_that_run(app, parsed, study);

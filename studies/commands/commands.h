@@ -31,6 +31,8 @@ int front_command(const Study& study, const Settings& settings);
 int compare_command(const Study& study, const Settings& settings);
 /// One run as a page of its own.
 int replay_command(const Study& study, const Settings& settings);
+/// A page that follows the study, on this machine, until Ctrl-C.
+int live_command(const Study& study, const Settings& settings);
 /// The report again, from the stored runs.
 int report_command(const Study& study, const Settings& settings);
 /// Writes a table to the file of the settings, or to standard output.

@@ -45,6 +45,14 @@ void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& s
   command.footer("Example: " + study.name + " replay --run 7 --file run_7.html");
 }
 
+void add_live_options(CLI::App& command, const Study& study, LiveSettings& settings) {
+  command.add_option("--port", settings.port, "port of 127.0.0.1 (default: one that is free)")
+      ->check(CLI::Range(0, 65535));
+  command.footer(
+      "From another machine: ssh -L 8080:127.0.0.1:8080 HOST, and the same port on both sides.\nExample: " +
+      study.name + " live --port 8080");
+}
+
 using Command = int (*)(const Study&, const Settings&);
 
 /// A command with a name, a line of help, and what it does.
@@ -105,6 +113,11 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
                              std::function<int()>& action) {
   const Reader commands(app, study, settings, action);
   commands.add_with_json("status", "say how many runs are planned, done and failed, and why", status_command);
+  CLI::App& live = commands.add(
+      "live", "serve a page that follows the study while it runs, on this machine alone, until Ctrl-C",
+      live_command);
+  add_folder_option(live, settings);
+  add_live_options(live, study, settings.live);
   commands.add_with_json(
       "fit", "say how each response is fitted, and how well runs are predicted without themselves",
       fit_command);

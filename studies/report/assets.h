@@ -10,6 +10,9 @@ namespace drawpoint::studies::detail {
 std::string_view page_asset();    ///< page.html with places for the texts below
 std::string_view style_asset();   ///< style.css
 std::string_view plotly_asset();  ///< plotly.js, minified
-std::string_view app_asset();     ///< web/*.js with three.js, bundled
+std::string_view app_asset();     ///< web/main.js with what it imports and three.js, bundled
+
+std::string_view live_page_asset();  ///< live.html, likewise
+std::string_view live_asset();       ///< web/live.js with what it imports, bundled
 
 }  // namespace drawpoint::studies::detail

@@ -72,4 +72,13 @@ std::string page(const std::string& title, const nlohmann::json& data) {
                                {"APP", app_asset()}});
 }
 
+std::string live_page(const std::string& title, const std::string& nonce) {
+  const std::string head = escaped_html(title);
+  return filled(live_page_asset(), {{"TITLE", head},
+                                    {"NONCE", nonce},
+                                    {"STYLE", style_asset()},
+                                    {"PLOTLY", plotly_asset()},
+                                    {"APP", live_asset()}});
+}
+
 }  // namespace drawpoint::studies::detail

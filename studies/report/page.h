@@ -18,4 +18,8 @@ std::string embedded_json(const nlohmann::json& data);
 /// The whole file.
 std::string page(const std::string& title, const nlohmann::json& data);
 
+/// The live page of a study, which asks for its data. Its scripts carry the nonce (letters and digits) that
+/// the policy of its answer names.
+std::string live_page(const std::string& title, const std::string& nonce);
+
 }  // namespace drawpoint::studies::detail

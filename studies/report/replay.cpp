@@ -36,7 +36,7 @@ nlohmann::json drawn_panels(const ReplayInput& input, std::vector<std::string>& 
 
 }  // namespace
 
-void write_replay(const std::filesystem::path& path, const ReplayInput& input) {
+std::string replay_page(const ReplayInput& input) {
   std::vector<std::string> cautions;
   nlohmann::json panels = drawn_panels(input, cautions);
   const nlohmann::json data = {{"study", input.study},
@@ -46,7 +46,11 @@ void write_replay(const std::filesystem::path& path, const ReplayInput& input) {
                                {"replay", run_json(input, cautions)},
                                {"illustrations", std::move(panels)},
                                {"facts", input.facts}};
-  doe::write_file(path, detail::page(input.study + ", " + name_of_run(input), data));
+  return detail::page(input.study + ", " + name_of_run(input), data);
+}
+
+void write_replay(const std::filesystem::path& path, const ReplayInput& input) {
+  doe::write_file(path, replay_page(input));
 }
 
 }  // namespace drawpoint::studies

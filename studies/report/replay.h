@@ -24,6 +24,9 @@ struct ReplayInput {
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value
 };
 
+/// The page. Throws std::runtime_error when no panel can be drawn, saying why.
+std::string replay_page(const ReplayInput& input);
+
 /// Writes the file whole or not at all. Throws std::runtime_error when no panel can be drawn, saying why, and
 /// when the disk refuses; an existing file then stands.
 void write_replay(const std::filesystem::path& path, const ReplayInput& input);

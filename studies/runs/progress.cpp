@@ -40,13 +40,18 @@ std::string duration_text(double seconds) {
   return number(seconds / 86400.0, "d");
 }
 
+double rate_of(const ProgressState& state) {
+  return state.session > 0 && state.seconds > 0.0 ? state.session / state.seconds : 0.0;
+}
+
+double seconds_left(const ProgressState& state) { return (state.total - state.done) / rate_of(state); }
+
 std::string progress_text(const ProgressState& state) {
   std::string text = std::to_string(state.done) + "/" + std::to_string(state.total) + " runs";
   if (state.failed > 0) text += ", " + std::to_string(state.failed) + " failed";
-  if (state.session > 0 && state.seconds > 0.0) {
-    const double rate = state.session / state.seconds;
+  if (const double rate = rate_of(state); rate > 0.0) {
     text += ", " + (rate < 1.0 ? number(60.0 * rate, "per minute") : number(rate, "per second"));
-    if (state.done < state.total) text += ", " + duration_text((state.total - state.done) / rate) + " left";
+    if (state.done < state.total) text += ", " + duration_text(seconds_left(state)) + " left";
   }
   if (!state.standing.empty()) text += "; " + state.standing;
   return text;

@@ -22,6 +22,10 @@ struct ProgressState {
   std::string standing = {};  ///< of the tasks of a cluster, "2 at work, 40 waiting (Resources)"
 };
 std::string progress_text(const ProgressState& state);
+/// Runs per second; 0 while none of this session has ended.
+double rate_of(const ProgressState& state);
+/// Until all are made, at this rate; requires one.
+double seconds_left(const ProgressState& state);
 
 class Progress {
  public:

@@ -80,13 +80,13 @@ Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<
 
 }  // namespace
 
-Store open_store(const Study& study, const Folder& folder) {
+Store open_store(const Study& study, const Folder& folder, Access access) {
   if (!std::filesystem::exists(folder.store())) {
     throw std::runtime_error(
         "studies: there is no study in " + folder.path.string() +
         " (no file study.db); name its folder with --out, or start one with the command run");
   }
-  Store store = Store::open(folder.store());
+  Store store = Store::open(folder.store(), access);
   const Identity& stored = store.identity();
   if (stored.study != study.name)
     refuse_folder(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");

@@ -14,7 +14,7 @@ namespace drawpoint::studies {
 
 /// The existing store. Throws std::runtime_error if there is none or it is unsound, UsageError if it belongs
 /// to another study or to another problem, saying what differs.
-Store open_store(const Study& study, const Folder& folder);
+Store open_store(const Study& study, const Folder& folder, Access access = Access::change);
 
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.
 Run stored_run(const Store& store, const Folder& folder, std::int64_t id);

@@ -53,6 +53,11 @@ struct ReplaySettings {
   std::filesystem::path file = {};  ///< empty: replay_0001.html in the folder
 };
 
+/// Options of `live`.
+struct LiveSettings {
+  int port = 0;  ///< of 127.0.0.1; 0: any that is free
+};
+
 /// Options of the commands that work on an output folder: run, confirm, status, report and their like.
 struct Settings {
   std::filesystem::path out = {};
@@ -73,6 +78,7 @@ struct Settings {
   ExportSettings exported = {};
   FrontSettings front = {};
   ReplaySettings replay = {};
+  LiveSettings live = {};
   std::filesystem::path with = {};  ///< of compare: the folder that `out` is compared with
   OptionValues options = {};        ///< of the study, those given
   std::optional<int> jobs = {};     ///< processes or tasks at a time, 1 or more; empty: all there are
@@ -81,6 +87,7 @@ struct Settings {
   double time_limit = 0.0;                      ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;
   bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
+  std::string program = {};                     ///< what was typed before the command, for advice
   std::string command = {};                     ///< the command line as typed, for the report
   std::vector<std::string> leading_words = {};  ///< of the study, for its processes
 };

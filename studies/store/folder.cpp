@@ -4,12 +4,15 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -115,5 +118,24 @@ FolderLock::FolderLock(const Folder& folder) {
 }
 
 FolderLock::~FolderLock() { close(descriptor_); }
+
+std::optional<FolderHolder> holder_of(const Folder& folder) {
+  const fs::path file = folder.path / ".lock";
+  struct stat status = {};
+  std::int64_t process = 0;
+  if (stat(file.c_str(), &status) != 0 || !(std::ifstream(file) >> process)) return std::nullopt;
+  // "1: FLOCK  ADVISORY  WRITE 30397 fe:00:10952907 0 EOF": process, device and inode
+  const std::string inode = ":" + std::to_string(status.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, kind, mode, access, place;
+    std::int64_t holder = 0;
+    if (words >> number >> kind >> mode >> access >> holder >> place && kind == "FLOCK" &&
+        holder == process && place.ends_with(inode))
+      return FolderHolder{process, status.st_mtime};
+  }
+  return std::nullopt;
+}
 
 }  // namespace drawpoint::studies

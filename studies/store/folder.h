@@ -19,7 +19,9 @@
 /// then renamed.
 
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace drawpoint::studies {
@@ -44,7 +46,8 @@ struct Folder {
 /// in the way: a file of that name, no permission, a read-only file system, a full disk.
 void make_writable(const Folder& folder);
 
-/// The file under a second name, by a link where the file system can. Throws std::filesystem::filesystem_error.
+/// The file under a second name, by a link where the file system can. Throws
+/// std::filesystem::filesystem_error.
 void link_or_copy(const std::filesystem::path& file, const std::filesystem::path& to);
 
 /// Free space [bytes] for this user on the file system of `path`; the largest number where it cannot be told.
@@ -65,5 +68,15 @@ class FolderLock {
  private:
   int descriptor_ = -1;
 };
+
+/// Who works in a folder.
+struct FolderHolder {
+  std::int64_t process = 0;
+  std::time_t since = 0;
+};
+
+/// The process of this machine that holds DIR/.lock; nothing where there is none, or it cannot be told. Takes
+/// no lock itself, so that nobody finds the folder taken by who only asks.
+std::optional<FolderHolder> holder_of(const Folder& folder);
 
 }  // namespace drawpoint::studies

@@ -7,6 +7,7 @@
 #include <drawpoint/studies/store/row_checksum.h>
 #include <drawpoint/studies/store/rows.h>
 #include <drawpoint/studies/store/store_errors.h>
+#include <drawpoint/studies/store/times.h>
 #include <drawpoint/doe/problem_json.hpp>
 
 #include <ctime>
@@ -26,16 +27,10 @@ using detail::with_context;
 
 constexpr int application_id = 0x44727770;
 constexpr int schema_version = 5;
-constexpr int lock_patience = 30000;  // [ms] for another program that reads the file
+constexpr int lock_patience = 30000;   // [ms] for another program that reads the file
+constexpr int reader_patience = 2000;  // [ms] of who only reads, and may ask again
 
-std::string now() {
-  const std::time_t time = std::time(nullptr);
-  std::tm utc = {};
-  gmtime_r(&time, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
+std::string now() { return utc_text(std::time(nullptr)); }
 
 int pragma(SQLite::Database& database, const std::string& name) {
   return database.execAndGet("PRAGMA " + name).getInt();
@@ -99,11 +94,14 @@ Store Store::create(const fs::path& file, const Identity& identity) {
   return open(file);
 }
 
-Store Store::open(const fs::path& file) {
+Store Store::open(const fs::path& file, Access access) {
+  const bool reads = access == Access::read;
   return with_context(file, [&] {
-    Store store(file,
-                std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE, lock_patience));
+    Store store(file, std::make_unique<SQLite::Database>(
+                          file.string(), reads ? SQLite::OPEN_READONLY : SQLite::OPEN_READWRITE,
+                          reads ? reader_patience : lock_patience));
     store.check_format();
+    if (!reads) store.check_integrity();
     store.read_identity();
     return store;
   });
@@ -118,6 +116,9 @@ void Store::check_format() const {
     refuse(file_, "has schema version " + std::to_string(version) + ", this program reads version " +
                       std::to_string(schema_version));
   }
+}
+
+void Store::check_integrity() const {
   const std::string state = database_->execAndGet("PRAGMA integrity_check").getString();
   if (state != "ok") refuse(file_, "is damaged (" + state + ")");
 }

@@ -34,6 +34,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -78,11 +79,20 @@ struct Run {
   std::string log;  ///< checksum of its log file; empty: it wrote none
 };
 
+/// Another program held the file for longer than the store waits: 30 s, of Access::read 2 s.
+struct StoreBusy : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// `read` never writes, not even to clean up after a process that died while it wrote. It checks what it
+/// reads by the checksums, and leaves the rest of the file unchecked, so that one may look often.
+enum class Access { change, read };
+
 class Store {
  public:
   /// A new, empty store. It appears under `file` complete or not at all. Requires that `file` does not exist.
   static Store create(const std::filesystem::path& file, const Identity& identity);
-  static Store open(const std::filesystem::path& file);
+  static Store open(const std::filesystem::path& file, Access access = Access::change);
 
   Store(Store&&) noexcept;
   ~Store();
@@ -103,6 +113,7 @@ class Store {
  private:
   Store(std::filesystem::path file, std::unique_ptr<SQLite::Database> database);
   void check_format() const;
+  void check_integrity() const;
   void read_identity();
   void seal_rows(const std::string& condition);
   void seal_study();

@@ -5,6 +5,7 @@
 /// For store.cpp only.
 
 #include <SQLiteCpp/Exception.h>
+#include <drawpoint/studies/store/store.h>
 #include <sqlite3.h>
 
 #include <filesystem>
@@ -14,6 +15,8 @@
 namespace drawpoint::studies::detail {
 
 inline std::string advice(int code) {
+  if (code == SQLITE_READONLY_ROLLBACK)
+    return "a process died while it wrote there; the command status puts it in order";
   switch (code & 0xff) {
     case SQLITE_FULL:
     case SQLITE_IOERR:
@@ -40,7 +43,11 @@ auto with_context(const std::filesystem::path& file, const F& f) {
   try {
     return f();
   } catch (const SQLite::Exception& e) {
-    throw std::runtime_error("studies: " + file.string() + ": " + e.what() + "; " + advice(e.getErrorCode()));
+    const std::string text =
+        "studies: " + file.string() + ": " + e.what() + "; " + advice(e.getExtendedErrorCode());
+    const int kind = e.getErrorCode() & 0xff;
+    if (kind == SQLITE_BUSY || kind == SQLITE_LOCKED) throw StoreBusy(text);
+    throw std::runtime_error(text);
   }
 }
 

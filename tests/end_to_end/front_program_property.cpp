@@ -56,7 +56,8 @@ TEST_F(Front, ListsTheStudiesWithWhatTheyAreAbout) {
 
 TEST_F(Front, SaysWhatTheStudiesAreMadeOf) {
   const std::string all = told("--version");
-  for (const char* name : {"Drawpoint", "Eigen", "Ipopt", "SQLite", "Simbody", "FCL", "Highway", "HDF5"})
+  for (const char* name :
+       {"Drawpoint", "Eigen", "Ipopt", "SQLite", "cpp-httplib", "Simbody", "FCL", "Highway", "HDF5"})
     EXPECT_TRUE(std::regex_search(all, std::regex("(^|\n)" + std::string(name) + " [0-9]+\\.[0-9.]+\n")))
         << name << " in:\n"
         << all;
@@ -101,7 +102,7 @@ TEST_F(Front, HelpCompletionAndManPageNameTheSameOptions) {
   for (const std::string study : {"formula_demo", "lhd_loading"}) {
     const std::string page = told(study + " man-page");
     const Lines commands = lines("complete " + study + " ''");
-    EXPECT_EQ(commands.size(), 14u);
+    EXPECT_EQ(commands.size(), 15u);
     for (const std::string& command : commands) {
       Lines options = options_in_help(study + " " + command);
       EXPECT_EQ(lines("complete " + study + " " + command + " --"), options) << study << " " << command;

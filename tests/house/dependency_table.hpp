@@ -94,9 +94,14 @@ inline const std::vector<Row>& dependency_table() {
        study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "sampling"}),
        {"Eigen", "nlohmann-json"},
        {}},
+      {"studies/live/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "live"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
+      {"studies/live/server.cpp", study_rooms({}, {"runs", "live"}), {}, {"cpp-httplib"}},
       {"studies/front/", {"studies/commands/option_tree.h"}, {}, {"CLI11"}},
       {"studies/commands/",
-       study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "comparison", "commands"}),
+       study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "comparison", "live", "commands"}),
        {"Eigen", "nlohmann-json"},
        {"CLI11"}}};
   return table;
@@ -115,6 +120,7 @@ inline std::optional<std::string> package_of(const std::string& header) {
       {std::regex("hwy/.*"), "Highway"},
       {std::regex("hdf5.*|H5.*\\.h"), "HDF5"},
       {std::regex("SQLiteCpp/.*|sqlite3\\.h"), "SQLiteCpp"},
+      {std::regex("httplib\\.h"), "cpp-httplib"},
       {std::regex("CLI/.*"), "CLI11"},
       {std::regex("nlohmann/.*"), "nlohmann-json"},
       {std::regex("[a-z_0-9]+"), "standard"},
@@ -182,7 +188,8 @@ inline std::vector<std::string> leaked_names(const Row& row, const Source& sourc
       {std::regex("\\bSimTK\\b"), "Simbody"},
       {std::regex("\\bfcl::"), "FCL"},
       {std::regex("\\btbb::"), "oneTBB"},
-      {std::regex("\\bhwy::|\\bHWY_"), "Highway"}};
+      {std::regex("\\bhwy::|\\bHWY_"), "Highway"},
+      {std::regex("\\bhttplib::"), "cpp-httplib"}};
   const std::string code = std::regex_replace(source.text, std::regex("//[^\n]*"), "");
   std::vector<std::string> found;
   for (const auto& [pattern, package] : names) {

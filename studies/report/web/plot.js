@@ -41,6 +41,24 @@ export function draw(box, build) {
 
 export const redraw = (box) => draw(box, drawn.get(box));
 
+/// For what has come into the page after it was drawn: its plots are drawn afresh in the width that they have there.
+export function fit(node) {
+  for (const box of drawn.keys()) {
+    if (!node.contains(box)) continue;
+    Plotly.purge(box);
+    redraw(box);
+  }
+}
+
+/// For what is taken out of the page: its plots are drawn no more.
+export function forget(node) {
+  for (const box of drawn.keys()) {
+    if (!node.contains(box)) continue;
+    drawn.delete(box);
+    Plotly.purge(box);
+  }
+}
+
 /// A name for a file from words.
 export const fileName = (...words) => words.join(' ').toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_|_$/g, '');
 

@@ -5,21 +5,10 @@
 import {certificate} from './front.js';
 import {el, section} from './dom.js';
 import {labelled, number, setting} from './format.js';
+import {pageHeader} from './header.js';
 import {table} from './table.js';
-import {isDark, onTheme, toggleTheme} from './theme.js';
 
-export function header(data) {
-  return el('header', {}, el('div', {class: 'inner'},
-    el('p', {class: 'kicker'}, data.replay ? 'Drawpoint replay of a run' : 'Drawpoint study report'), el('h1', {}, data.study), data.about ? el('p', {class: 'about'}, data.about) : null, themeButton()));
-}
-
-function themeButton() {
-  const button = el('button', {type: 'button', class: 'theme', onclick: toggleTheme});
-  const name = () => { button.textContent = isDark() ? 'Light colours' : 'Dark colours'; };
-  onTheme(name);
-  name();
-  return button;
-}
+export const header = (data) => pageHeader(data.replay ? 'Drawpoint replay of a run' : 'Drawpoint study report', data.study, data.about);
 
 export function navigation(sections) {
   return el('nav', {'aria-label': 'Sections'}, el('div', {class: 'inner'},

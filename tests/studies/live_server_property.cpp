@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// The live page's server on a port of its own, asked by bytes on a socket: what it gives, to whom, and how
+/// it ends.
+
+#include <drawpoint/tests/studies/support.hpp>
+
+#include <drawpoint/studies/live/server.h>
+#include <drawpoint/studies/store/run_logs.h>
+#include <signal.h>
+#include <unistd.h>
+#include <drawpoint/tests/support/loopback_client.hpp>
+
+#include <future>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+using nlohmann::json;
+using support::answer_to;
+using support::connected;
+using support::Reply;
+
+namespace {
+
+/// A study with one run that wrote a log, served.
+class LiveServer : public testing::Test {
+ protected:
+  LiveServer() {
+    std::filesystem::create_directories(folder_.logs());
+    test::write_file(folder_.log(1), "raw");
+    study_.name = "sample";
+    study_.problem = test::two_by_two();
+    study_.illustrate = [](const std::filesystem::path&) {
+      const json table = {
+          {"type", "table"}, {"title", "t"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}};
+      return json::array({table, {{"type", "scene"}, {"title", "s"}, {"caption", "c"}}, 7});
+    };
+    Store store = Store::create(folder_.store(), test::identity());
+    studies::Run run;
+    run.id = run.point = 1;
+    run.x = Eigen::Vector2d(1.0, 0.0);
+    store.add({run});
+    store.save_done(1, Eigen::Vector2d(100.0, 0.2), 2.0, file_checksum(folder_.log(1)));
+    site_.emplace(Followed{study_, folder_, "sample"});
+    std::promise<int> told;
+    serving_ =
+        std::async(std::launch::async, [&] { serve(*site_, 0, [&](int port) { told.set_value(port); }); });
+    port_ = told.get_future().get();
+  }
+  ~LiveServer() override { end(); }
+  void end() {
+    if (!serving_.valid()) return;
+    kill(getpid(), SIGINT);
+    serving_.get();
+  }
+  std::string here() const { return "127.0.0.1:" + std::to_string(port_); }
+  Reply ask(const std::string& what, const std::string& host, const std::string& method = "GET") const {
+    return answer_to(port_, method + " " + what + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
+  }
+  Reply get(const std::string& what) const { return support::get(port_, what); }
+
+  test::TestFolder place_;
+  Folder folder_{place_.path()};
+  Study study_;
+  std::optional<Site> site_;
+  std::future<void> serving_;
+  int port_ = 0;
+};
+
+TEST_F(LiveServer, GivesThePageWithItsPolicy) {
+  const Reply page = get("/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_NE(page.head.find("Content-Type: text/html"), std::string::npos);
+  const std::string policy = "Content-Security-Policy: default-src 'none'; script-src 'nonce-";
+  const std::size_t at = page.head.find(policy);
+  ASSERT_NE(at, std::string::npos) << page.head;
+  const std::size_t begin = at + policy.size();
+  const std::string nonce = page.head.substr(begin, page.head.find('\'', begin) - begin);
+  EXPECT_GE(nonce.size(), 20u);
+  EXPECT_NE(page.body.find("<script nonce=\"" + nonce + "\">"), std::string::npos);
+  EXPECT_EQ(page.body.find("@DRAWPOINT_"), std::string::npos);
+  EXPECT_EQ(page.body.substr(page.body.size() - 8), "</html>\n") << "whole";
+  EXPECT_EQ(get("/").head.find(nonce), std::string::npos) << "a nonce is used once";
+}
+
+TEST_F(LiveServer, GivesTheState) {
+  const Reply reply = get("/state.json?epoch=&since=0");
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_NE(reply.head.find("Cache-Control: no-store"), std::string::npos);
+  const json state = json::parse(reply.body);
+  EXPECT_EQ(state.at("rows").size(), 1u);
+  EXPECT_EQ(state.at("logged"), 1);
+  const std::string again = "/state.json?since=1&epoch=" + state.at("epoch").get<std::string>();
+  EXPECT_EQ(json::parse(get(again).body).at("rows").size(), 0u);
+  for (const char* nonsense : {"-1", "1e9", "99999999999999999999999", "%00"})
+    EXPECT_EQ(get(std::string("/state.json?since=") + nonsense).status, 200) << nonsense;
+}
+
+TEST_F(LiveServer, GivesTheFiguresOfARunButNoScene) {
+  const json figures = json::parse(get("/figures.json?run=1").body);
+  ASSERT_EQ(figures.at("illustrations").size(), 1u);
+  EXPECT_EQ(figures.at("illustrations").at(0).at("type"), "table");
+  EXPECT_EQ(figures.at("cautions").size(), 1u) << "of the 7";
+  const Reply none = get("/figures.json?run=2");
+  EXPECT_EQ(none.status, 404);
+  EXPECT_EQ(json::parse(none.body).at("error"), "there is no run 2");
+}
+
+TEST_F(LiveServer, GivesTheReplayOfARun) {
+  test::write_file(folder_.log(1), "other");
+  EXPECT_EQ(get("/run/1").status, 404);
+  test::write_file(folder_.log(1), "raw");
+  const Reply replay = get("/run/1");
+  EXPECT_EQ(replay.status, 200);
+  EXPECT_NE(replay.body.find("<title>sample, run 1</title>"), std::string::npos);
+  EXPECT_NE(replay.body.find("sample replay --run 1"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_.replay(1))) << "nothing is written";
+}
+
+TEST_F(LiveServer, AnswersToItsOwnNamesAlone) {
+  EXPECT_EQ(ask("/", "localhost:" + std::to_string(port_)).status, 200);
+  for (const std::string& host : {std::string("evil.example"), "evil.example:" + std::to_string(port_),
+                                  std::string("127.0.0.1"), std::string("127.0.0.1:1"), std::string("")}) {
+    const Reply reply = ask("/state.json", host);
+    EXPECT_TRUE(reply.status == 403 || reply.status == 400) << host << reply.status;
+    EXPECT_EQ(reply.body.find("sample"), std::string::npos);
+  }
+  EXPECT_EQ(answer_to(port_, "GET / HTTP/1.1\r\n\r\n").status, 403);
+  EXPECT_EQ(answer_to(port_, "GET / HTTP/1.1\r\nHost: " + here() + "\r\nHost: evil.example\r\n\r\n").status,
+            403);
+}
+
+TEST_F(LiveServer, ListensOnLoopbackAlone) {
+  EXPECT_EQ(connected("127.0.0.2", port_), -1) << "another address of the same machine";
+}
+
+TEST_F(LiveServer, NothingIsThereButItsPages) {
+  for (const char* path : {"/study.db", "/etc/passwd", "/../study.db", "/..%2fstudy.db", "/run/",
+                           "/run/1/../../study.db", "/run/-1", "/run/0001.h5", "//", "/index.html"})
+    EXPECT_EQ(get(path).status, 404) << path;
+}
+
+TEST_F(LiveServer, CanOnlyBeLookedAt) {
+  for (const char* method : {"POST", "PUT", "DELETE", "PATCH", "OPTIONS"}) {
+    const Reply reply = ask("/state.json", here(), method);
+    EXPECT_EQ(reply.status, 405) << method;
+    EXPECT_NE(reply.head.find("Allow: GET, HEAD"), std::string::npos);
+  }
+  const Reply head = ask("/", here(), "HEAD");
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.body, "");
+}
+
+TEST_F(LiveServer, ItsPortIsItsOwn) {
+  Site other(Followed{study_, folder_, "sample"});
+  EXPECT_EQ(
+      test::complaint([&] { serve(other, port_, [](int) {}); }),
+      "live: port " + std::to_string(port_) +
+          " of 127.0.0.1 cannot be had: another program listens there; choose another with --port, or leave "
+          "--port out for one that is free");
+}
+
+TEST_F(LiveServer, EndsOnASignalThoughAClientSaysNothing) {
+  const int silent = connected("127.0.0.1", port_);
+  ASSERT_GE(silent, 0);
+  kill(getpid(), SIGINT);
+  EXPECT_EQ(serving_.wait_for(std::chrono::seconds(30)), std::future_status::ready)
+      << "waits 2 s for the client";
+  serving_.get();
+  EXPECT_EQ(connected("127.0.0.1", port_), -1);
+  ::close(silent);
+}
+
+}  // namespace
