@@ -55,7 +55,7 @@ struct FitOptions {
   Estimation estimation = Estimation::penalized_likelihood;
   /// penalized_likelihood with noise that is estimated only: the prior is times λ to this power, >= 0. 0.5:
   /// few runs that cannot tell noise from none are taken to have some, or error bars are too narrow. 0 for a
-  /// simulator that has none: 1 to 6 % less error (docs/measurements/kriging.md).
+  /// simulator that has none: 0 to 5 % less error in the mean (docs/measurements/kriging.md).
   double nugget_power = 0.5;
   /// Whether variances hold what the estimates of θ, the exponents and λ leave unknown
   /// (detail/parameter_uncertainty.hpp).

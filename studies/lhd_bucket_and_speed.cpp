@@ -70,11 +70,12 @@ void set_design(Scenario& scenario, const Eigen::VectorXd& x) {
   scenario.strategy = {.alpha = x[4], .beta = x[5], .gamma = 0.5, .kappa = x[6]};
 }
 
-doe::Outcome responses_of(const engine::loading::LoadingLog& log) {
+doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
   if (!log.completed) return doe::Failure{log.message};
   const double loaded = 1e-3 * log.numbers.at("payload") * fill_factor(log);
   if (loaded == 0) return doe::Failure{"nothing was loaded, so energy per tonne is unknown"};
-  return {production(log), energy_per_tonne(log), pin_load_range(log), loaded};
+  return {production(log, studies::production_options(options)), energy_per_tonne(log), pin_load_range(log),
+          loaded};
 }
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
@@ -82,20 +83,22 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
   set_design(scenario, x);
   scenario.seed = seed;
   scenario.log_file = run.log;
-  return responses_of(engine::loading::simulate(scenario));
+  return responses_of(engine::loading::simulate(scenario), run.options);
 }
 
 std::vector<studies::StudyOption> options() {
   std::vector<studies::StudyOption> options = studies::loading_options();
-  std::erase_if(options, [](const auto& option) { return option.name == "speeds" || option.of_responses; });
+  std::erase_if(options,
+                [](const auto& option) { return option.name == "speeds" || option.name == "yield-torque"; });
   for (auto& option : options)
     if (option.name == "operator") option.value = "skilled";
   return options;
 }
 
 /// Noise is said of production, the one response that the loading study has too.
-std::vector<studies::Headline> headlines(const std::vector<std::filesystem::path>& logs) {
-  std::vector<studies::Headline> said = studies::loading_headlines(logs);
+std::vector<studies::Headline> headlines(const std::vector<std::filesystem::path>& logs,
+                                         const studies::OptionValues& options) {
+  std::vector<studies::Headline> said = studies::loading_headlines(logs, options);
   std::erase_if(said, [](const auto& headline) {
     return headline.name == "noise_of_joint_damage" || headline.name == "noise_of_rock_spill";
   });
@@ -114,7 +117,9 @@ int main(int argc, char** argv) {
        .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,
-       .responses = [](const std::filesystem::path& log,
-                       const studies::OptionValues&) { return responses_of(engine::loading::read_log(log)); },
+       .responses =
+           [](const std::filesystem::path& log, const studies::OptionValues& options) {
+             return responses_of(engine::loading::read_log(log), options);
+           },
        .headlines = headlines});
 }

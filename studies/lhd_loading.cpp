@@ -41,7 +41,7 @@ const doe::Problem problem{
          .unit = "kg/s",
          .goal = doe::Goal::maximize,
          .lower = 0,
-         .description = "loaded mass over the time of a cycle, mean of the cycles"},
+         .description = "loaded mass over the time of a cycle and its haul (--haul), mean of the cycles"},
         {.name = "joint_damage",
          .unit = "s",
          .goal = doe::Goal::minimize,
@@ -57,7 +57,8 @@ const doe::Problem problem{
 
 doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
   if (!log.completed) return doe::Failure{log.message};
-  return {production(log), joint_damage(log, studies::damage_options(options)), rock_spill(log)};
+  return {production(log, studies::production_options(options)),
+          joint_damage(log, studies::damage_options(options)), rock_spill(log)};
 }
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {

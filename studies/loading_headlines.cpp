@@ -173,6 +173,7 @@ std::vector<RunMean> measures() {
 std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs,
                                         const OptionValues& options) {
   if (logs.empty()) return {};
+  const engine::loading::ProductionOptions producing = production_options(options);
   const engine::loading::DamageOptions damaging = damage_options(options);
   double fill = 0, most_fill = 0, stalls = 0;
   Scatter production, damage, spill;
@@ -186,7 +187,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     fill += of_run / static_cast<double>(logs.size());
     most_fill = std::max(most_fill, of_run);
     stalls += stall_share(log) / static_cast<double>(logs.size());
-    production.add(production_by_cycle(log), engine::loading::production(log));
+    production.add(production_by_cycle(log, producing), engine::loading::production(log, producing));
     damage.add(joint_damage_by_cycle(log, damaging), joint_damage(log, damaging));
     spill.add(rock_spill_by_cycle(log), rock_spill(log));
     breakdowns.add(log);

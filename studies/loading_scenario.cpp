@@ -29,43 +29,52 @@ bool solved_loosely(const std::string& solver) {
 }  // namespace
 
 std::vector<StudyOption> loading_options() {
-  return {{"materials",
-           "contact coefficients",
-           "calibrated",
-           {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
-          {"solver",
-           "contacts: solved as far as force and load need it, or as loosely as in Lindmark (2016), whose "
-           "materials need it",
-           "scene",
-           {"scene", "lindmark2016"}},
-          {"scene",
-           "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m",
-           "small",
-           {engine::loading::scene_names.begin(), engine::loading::scene_names.end()}},
-          {"sizes",
-           "of the rocks: 0.3 to 0.8 m as in Lindmark (2016), half of it boulders; with a quarter of the "
-           "mass as 0.2 m; with a tenth as 0.1 m; or broken well, 0.2 to 0.5 m. Finer rock costs three, "
-           "eight and "
-           "four times as much",
-           "mine",
-           {engine::granular::size_names.begin(), engine::granular::size_names.end()}},
-          {"speeds",
-           "what drive, boom and bucket are set to: for the 12 s cycles of Lindmark (2016), or what the "
-           "machine can do",
-           "lindmark2016",
-           {engine::loading::speed_names.begin(), engine::loading::speed_names.end()}},
-          {"operator",
-           "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
-           "plan",
-           {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
-          {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
-          {.name = "yield-torque",
-           .help = "kN m in the bucket's hinge, above which a joint is damaged: 145 in Lindmark (2016); "
-                   "benchmarks/yield_torque says what a crash gives for this machine",
-           .value = "145",
-           .least = 1,
-           .most = 1'000'000,
-           .of_responses = true}};
+  return {
+      {"materials",
+       "contact coefficients",
+       "calibrated",
+       {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
+      {"solver",
+       "contacts: solved as far as force and load need it, or as loosely as in Lindmark (2016), whose "
+       "materials need it",
+       "scene",
+       {"scene", "lindmark2016"}},
+      {"scene",
+       "drift and pile: 120 t in 6 m, or the scale of Lindmark (2016), 290 t in 7 m",
+       "small",
+       {engine::loading::scene_names.begin(), engine::loading::scene_names.end()}},
+      {"sizes",
+       "of the rocks: 0.3 to 0.8 m as in Lindmark (2016), half of it boulders; with a quarter of the "
+       "mass as 0.2 m; with a tenth as 0.1 m; or broken well, 0.2 to 0.5 m. Finer rock costs three, "
+       "eight and "
+       "four times as much",
+       "mine",
+       {engine::granular::size_names.begin(), engine::granular::size_names.end()}},
+      {"speeds",
+       "what drive, boom and bucket are set to: for the 12 s cycles of Lindmark (2016), or what the "
+       "machine can do",
+       "lindmark2016",
+       {engine::loading::speed_names.begin(), engine::loading::speed_names.end()}},
+      {"operator",
+       "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
+       "plan",
+       {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
+      {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
+      {.name = "yield-torque",
+       .help = "kN m in the bucket's hinge, above which a joint is damaged: 145 in Lindmark (2016); "
+               "benchmarks/yield_torque says what a crash gives for this machine",
+       .value = "145",
+       .least = 1,
+       .most = 1'000'000,
+       .of_responses = true},
+      {.name = "haul",
+       .help =
+           "s per cycle for haul, dump and way back, which production counts; 0 as in Lindmark (2016), where "
+           "loading alone counts",
+       .value = "0",
+       .least = 0,
+       .most = 86'400,
+       .of_responses = true}};
 }
 
 Scenario loading_scenario(const RunContext& run) {
@@ -79,6 +88,13 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.cycles = std::stoi(chosen(run, "cycles"));
   scenario.pile_file = run.shared / "pile.h5";
   return scenario;
+}
+
+engine::loading::ProductionOptions production_options(const OptionValues& options) {
+  engine::loading::ProductionOptions production;
+  if (const auto haul = options.find("haul"); haul != options.end())
+    production.haul = std::stod(haul->second);
+  return production;
 }
 
 engine::loading::DamageOptions damage_options(const OptionValues& options) {

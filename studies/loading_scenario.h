@@ -19,6 +19,9 @@ std::vector<StudyOption> loading_options();
 /// option has no value or one that it cannot have.
 engine::loading::Scenario loading_scenario(const RunContext& run);
 
+/// How production is taken from a log: with the haul that the options give, or none.
+engine::loading::ProductionOptions production_options(const OptionValues& options);
+
 /// How joint damage is taken from a log: by the yield torque that the options give, or that of Lindmark
 /// (2016).
 engine::loading::DamageOptions damage_options(const OptionValues& options);

@@ -19,6 +19,18 @@ void append_numbers(std::vector<json>& row, const Eigen::VectorXd& values) {
   for (const double value : values) row.push_back(number_or_nothing(value));
 }
 
+/// A level by its name, which is what people set; numbers else.
+void append_point(std::vector<json>& row, const doe::Problem& problem, const Eigen::VectorXd& x) {
+  for (std::size_t k = 0; k < problem.variables.size(); ++k) {
+    const doe::Variable& variable = problem.variables[k];
+    const double value = x[static_cast<Eigen::Index>(k)];
+    if (variable.levels.empty())
+      row.push_back(number_or_nothing(value));
+    else
+      row.push_back(variable.levels.at(static_cast<std::size_t>(std::lround(value))));
+  }
+}
+
 void append_variables(ExportTable& table, const doe::Problem& problem) {
   for (const auto& variable : problem.variables) table.columns.push_back({variable.name, variable.unit});
 }
@@ -59,8 +71,8 @@ ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs) {
                              name_of(run.status),
                              run.reason,
                              run.seconds};
-    for (const auto* values : {&run.x, &run.y, &run.predicted, &run.lower, &run.upper})
-      append_numbers(row, *values);
+    append_point(row, identity.problem, run.x);
+    for (const auto* values : {&run.y, &run.predicted, &run.lower, &run.upper}) append_numbers(row, *values);
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -72,7 +84,7 @@ ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs) 
   append_variables(table, identity.problem);
   for (const Run& run : runs) {
     std::vector<json> row = {run.id, name_of(run.kind), run.point, run.replicate, std::to_string(run.seed)};
-    append_numbers(row, run.x);
+    append_point(row, identity.problem, run.x);
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -93,7 +105,7 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
   const Eigen::VectorXd success = predicted.failures.probability_of_success(front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;
-    append_numbers(row, front.X.row(i));
+    append_point(row, problem, front.X.row(i));
     append_numbers(row, front.responses.row(i));
     append_numbers(row, points.lower.row(i));
     append_numbers(row, points.upper.row(i));

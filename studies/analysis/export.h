@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A study's results as flat tables for other programs.
+/// A study's results as flat tables for other programs. A categorical variable has the name of its level.
 
 #include <drawpoint/studies/store/store.h>
 

@@ -82,7 +82,7 @@ Models models_or_reason(const Tables& tables) {
     return fit_models(tables);
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error("studies: there are no models: " + std::string(e.what()) +
-                             "; make more runs with the command run");
+                             "; make more runs with the command run, or ask and tell");
   }
 }
 

@@ -273,18 +273,20 @@ void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   add_table_options(*ask, settings.exported);
   ask->add_option("--count", settings.ask.count, "runs at most (default: all that are planned)")
       ->check(CLI::Range(1, 1'000'000));
-  ask->add_flag("--confirm", settings.ask.confirm,
-                "where none is planned: points of the predicted front, as confirm chooses them, in place of "
-                "an adaptive batch");
+  auto* confirm = ask->add_flag(
+      "--confirm", settings.ask.confirm,
+      "where none is planned: points of the predicted front, as confirm chooses them, in place of "
+      "an adaptive batch");
   ask->add_option("--points", settings.confirm.points, "with --confirm: points of the front")
+      ->needs(confirm)
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   ask->add_flag("--retry-failed", settings.retry_failed, "give the failed runs again");
   add_run_options(*ask, settings, study.defaults);
   add_sampling_options(*ask, settings, study.defaults);
   add_study_options(*ask, study, settings.options, true);
-  ask->footer("Example: " + study.name + " ask --file runs.csv; then add the responses as columns, and " +
-              study.name + " tell --file runs.csv");
+  ask->footer("Example: " + app.get_name() + " ask --file runs.csv; then add the responses as columns, and " +
+              app.get_name() + " tell --file runs.csv\n\n" + problem_text(study.problem));
   ask->callback([&] { parsed.action = [&] { return ask_command(study, settings); }; });
   auto* tell = app.add_subcommand("tell", "take what came out of runs made elsewhere");
   add_folder_options(*tell, settings);

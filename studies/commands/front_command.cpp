@@ -26,11 +26,12 @@ ReportInput input_with_front(const Study& study, const Settings& settings) {
       throw std::runtime_error("front: no training run has given values: " + failure_warning(input) +
                                "; the command status says more");
     throw std::runtime_error("front: there are no models: " + std::string(e.what()) +
-                             "; make more runs with the command run");
+                             "; make more runs with the command run, or ask and tell");
   }
   if (!input.no_front.empty())
-    throw std::runtime_error("front: there is none: " + input.no_front +
-                             "; make more runs with the command run, or loosen the limits of the study");
+    throw std::runtime_error(
+        "front: there is none: " + input.no_front +
+        "; make more runs with the command run, or ask and tell, or loosen the limits of the study");
   add_warnings(input, runs);
   return input;
 }

@@ -14,9 +14,10 @@ namespace drawpoint::studies {
 int tell_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   open_store(study, folder);  // refused before anything is locked
+  make_writable(folder);
   const FolderLock lock(folder);
   Store store = open_store(study, folder);
-  const std::vector<ToldOutcome> told = told_outcomes(settings.told, store.identity().problem, store.runs());
+  const auto [told, left_alone] = told_outcomes(settings.told, store.identity().problem, store.runs());
   for (const ToldOutcome& outcome : told) {
     if (outcome.y.size() > 0)
       store.save_done(outcome.run, outcome.y, outcome.seconds);
@@ -31,10 +32,15 @@ int tell_command(const Study& study, const Settings& settings) {
   });
   const auto taken = static_cast<long>(told.size());
   if (settings.json) {
-    print_json({{"study", study.name}, {"done", taken - failed}, {"failed", failed}, {"waiting", waiting}});
+    print_json({{"study", study.name},
+                {"done", taken - failed},
+                {"failed", failed},
+                {"left_alone", left_alone},
+                {"waiting", waiting}});
     return 0;
   }
   std::printf("%ld runs taken: %ld done, %ld failed\n", taken, taken - failed, static_cast<long>(failed));
+  if (left_alone > 0) std::printf("%d rows say neither done nor failed and are left alone\n", left_alone);
   if (waiting > 0)
     std::printf("%ld more are asked for\n", static_cast<long>(waiting));
   else

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -25,7 +26,7 @@ using httplib::Response;
 
 constexpr const char* loopback = "127.0.0.1";
 constexpr std::chrono::milliseconds glance(50);
-constexpr std::size_t threads = 8;
+constexpr std::size_t threads = 32;     // slow clients hold one each
 constexpr int seconds_of_patience = 2;  // with a client that does not say what it wants
 
 /// Of the live page: its own scripts alone, and questions to this server alone.
@@ -177,6 +178,11 @@ void serve(Site& site, int port, const std::function<void(int port)>& started) {
   started(got);
   while (!over && !(InterruptGuard::requested() && server.is_running())) std::this_thread::sleep_for(glance);
   if (!over) server.stop();
+  // A client that drips its question could hold its thread for ever.
+  for (auto waited = glance; !over && waited < std::chrono::seconds(seconds_of_patience + 1);
+       waited += glance)
+    std::this_thread::sleep_for(glance);
+  if (!over) std::_Exit(0);  // nothing is left to write: the store is only read
   listening.join();
   if (!InterruptGuard::requested())
     throw std::runtime_error("live: the server on port " + std::to_string(got) +

@@ -15,7 +15,8 @@
 namespace drawpoint::studies {
 
 /// port: 0 for any that is free. `started` is told the port. Returns after SIGINT, SIGTERM or SIGHUP, when
-/// what was being answered is answered. Throws std::runtime_error that names the port where it cannot be had.
+/// what was being answered is answered; where a client takes longer than three seconds, ends the process with
+/// code 0. Throws std::runtime_error that names the port where it cannot be had.
 void serve(Site& site, int port, const std::function<void(int port)>& started);
 
 /// Of the HTTP library, "0.11.4".

@@ -14,6 +14,9 @@ std::string out_option(const Folder& folder) {
   return " --out " + doe::detail::quoted_for_shell(folder.path.string());
 }
 
+/// The command that makes the runs of this study, or gives them to who makes them.
+std::string making(const Study& study) { return study.black_box ? "run" : "ask"; }
+
 int unfinished(const Counts& counts) { return counts.of(Status::planned) + counts.of(Status::running); }
 
 std::string runs_text(int runs) { return std::to_string(runs) + (runs == 1 ? " run" : " runs"); }
@@ -34,17 +37,17 @@ Standing working(const Contents& contents, const Counts& counts) {
           ""};
 }
 
-Standing stopped(const Contents& contents, const Counts& counts, const Folder& folder) {
+Standing stopped(const Study& study, const Contents& contents, const Counts& counts, const Folder& folder) {
   std::string text = "No command of this machine is at work here, and " + runs_text(unfinished(counts)) +
                      (unfinished(counts) == 1 ? " is" : " are") + " still to be made.";
   if (counts.of(Status::running) > 0)
     text +=
         " Those that count as running were in flight when a command was stopped, or are being made from "
         "another machine.";
-  return {StandingKind::stopped, text + adaptive_note(contents, counts), "run" + out_option(folder)};
+  return {StandingKind::stopped, text + adaptive_note(contents, counts), making(study) + out_option(folder)};
 }
 
-Standing ended(const Contents& contents, const Counts& counts, const Folder& folder) {
+Standing ended(const Study& study, const Contents& contents, const Counts& counts, const Folder& folder) {
   const auto end = [&](const std::string& text, const std::string& command) {
     return Standing{StandingKind::ended,
                     "Every planned run has ended." + adaptive_note(contents, counts) + text,
@@ -52,11 +55,14 @@ Standing ended(const Contents& contents, const Counts& counts, const Folder& fol
   };
   if (counts.of(Status::done) == 0)
     return end(" None has succeeded: mend what the failures below name, and make them again.",
-               "run --retry-failed");
+               making(study) + " --retry-failed");
+  if (counts.adaptive_points < contents.sampling.points && counts.of(Kind::confirmation, Status::done) == 0)
+    return end(" Next: those that are left, unless the command says that no more are wanted.", making(study));
   if (!has_objective(contents.identity.problem)) return end(" Next: the report.", "report");
   const bool confirmed = counts.of(Kind::confirmation, Status::done) > 0;
   if (!confirmed)
-    return end(" Next: simulate the points of the predicted front that a decision would rest on.", "confirm");
+    return end(" Next: simulate the points of the predicted front that a decision would rest on.",
+               study.black_box ? "confirm" : "ask --confirm");
   return end(" Next: the front, with its simulated points.", "front");
 }
 
@@ -91,16 +97,16 @@ std::string to_string(StandingKind kind) {
 Standing standing_of(const Study& study, const Folder& folder, const View& view) {
   if (!view.there)
     return {StandingKind::absent,
-            "There is no study in " + folder.path.string() +
-                " yet. This page waits until the command run of " + study.name + " starts one there.",
-            view.holder ? "" : "run" + out_option(folder)};
+            "There is no study in " + folder.path.string() + " yet. This page waits until the command " +
+                making(study) + " of " + study.name + " starts one there.",
+            view.holder ? "" : making(study) + out_option(folder)};
   if (!view.trouble.empty())
     return {StandingKind::unreadable, "The study cannot be read at the moment: " + view.trouble, ""};
   if (!view.contents) return {StandingKind::unreadable, "The study has not been read yet.", ""};
   const Counts counts = count(view.contents->runs);
   if (view.holder) return working(*view.contents, counts);
-  if (unfinished(counts) > 0) return stopped(*view.contents, counts, folder);
-  return ended(*view.contents, counts, folder);
+  if (unfinished(counts) > 0) return stopped(study, *view.contents, counts, folder);
+  return ended(study, *view.contents, counts, folder);
 }
 
 ProgressState progress_of(const View& view, std::time_t now) {

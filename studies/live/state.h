@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the live page shows, as one JSON object per question. It is bounded whatever the number of runs: the
-/// page keeps the rows that it has, and asks for those that came since.
+/// What the live page shows, as one JSON object per question. It is bounded whatever the number of runs, but for the
+/// improvements, one per run that was better than all before it: the page keeps the rows that it has, and asks for
+/// those that came since.
 ///
 ///     study, about, folder, program, now (UTC), standing {kind, text, next}; then, where there is a study,
 ///     problem, total, counts {kind: {state: n}}, progress (text), runs_per_hour, seconds_left and left
-///     (the same as text; null: unknown), seconds and time (in runs), responses [{lowest, highest, done, within, improvements [[ended, run, value]], best
-///     {run, kind, x, y}}], failures [{reason, times, run}], more_failures, running [{run, kind, x, started}],
+///     (the same as text; null: unknown), seconds and time (in runs),
+///     responses [{lowest, highest, done, within, improvements [[ended, run, value]],
+///                 best {run, kind, x, y}}],
+///     failures [{reason, times, run}], more_failures, running [{run, kind, x, started}],
 ///     last {run, kind, x, y or null, reason, seconds, finished}, logged (run whose figures there are, or
 ///     null), epoch (text), from, rows [[run, kind, x, y or null]], ended
 

@@ -21,7 +21,7 @@ ImportedColumns imported_columns(const TableHeader& header, const doe::Problem& 
   ImportedColumns columns;
   for (const auto& v : problem.variables) columns.variables.push_back(header.column(v.name, v.unit));
   for (const auto& r : problem.responses) columns.responses.push_back(header.column(r.name, r.unit));
-  columns.status = header.find("status", "");
+  columns.status = header.find_bare("status");
   return columns;
 }
 

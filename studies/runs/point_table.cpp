@@ -14,9 +14,12 @@ namespace drawpoint::studies {
 namespace {
 
 std::string text_of(const std::filesystem::path& file, const std::string& option) {
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(file, ignored);  // reading one throws
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
+  std::string text;
+  if (!folder) text.assign(std::istreambuf_iterator<char>(stream), {});
+  if (folder || !stream.is_open() || stream.bad())
     throw UsageError(option + " " + file.string() + ": cannot be read; give a table as export writes it");
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark, as spreadsheets write it
   if (!text.empty() && text.back() != '\n') text += '\n';
@@ -29,14 +32,22 @@ void TablePlace::fail(const std::string& what) const {
   throw UsageError(option + " " + file + ", line " + std::to_string(line) + ": " + what);
 }
 
+std::optional<std::size_t> TableHeader::find_bare(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) return std::nullopt;
+  if (std::find(found + 1, names_.end(), name) != names_.end())
+    place_.fail("the column \"" + name + "\" stands there twice; remove one");
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
 std::optional<std::size_t> TableHeader::find(const std::string& name, const std::string& unit) const {
-  for (std::size_t k = 0; k < names_.size(); ++k) {
-    if (names_[k] == name) return k;
-    if (names_[k].rfind(name + " [", 0) != 0 || names_[k].back() != ']') continue;
-    if (names_[k] != name + " [" + unit + "]")
-      place_.fail("the column \"" + names_[k] + "\" is not in " + unit + "; convert it");
-    return k;
-  }
+  const std::string whole = name + " [" + unit + "]";
+  if (const auto with_unit = find_bare(whole)) return with_unit;
+  if (const auto bare = find_bare(name)) return bare;
+  for (const std::string& other : names_)
+    if (other.rfind(name + " [", 0) == 0 && other.back() == ']')
+      place_.fail("the column \"" + other + "\" is not in " + (unit.empty() ? "pure numbers" : unit) +
+                  "; convert it");
   return std::nullopt;
 }
 
@@ -80,10 +91,14 @@ double number_from(const std::string& text, const std::string& name, const Table
   return value;
 }
 
-double variable_from(const std::string& text, const doe::Variable& variable, const TablePlace& place) {
+double level_or_number_from(const std::string& text, const doe::Variable& variable, const TablePlace& place) {
   const auto level = std::find(variable.levels.begin(), variable.levels.end(), text);
   if (level != variable.levels.end()) return static_cast<double>(level - variable.levels.begin());
-  const double value = number_from(text, variable.name, place);
+  return number_from(text, variable.name, place);
+}
+
+double variable_from(const std::string& text, const doe::Variable& variable, const TablePlace& place) {
+  const double value = level_or_number_from(text, variable, place);
   const bool whole = variable.kind == doe::VariableKind::real || value == std::round(value);
   if (value < variable.lower || value > variable.upper || !whole)
     place.fail("\"" + variable.name + "\" is " + doe::detail::with_unit(value, variable.unit) +

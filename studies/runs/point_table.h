@@ -31,10 +31,15 @@ class TableHeader {
   TableHeader(doe::detail::CsvRecord names, TablePlace place)
       : names_(std::move(names)), place_(std::move(place)) {}
 
-  /// The quantity's column; nothing where there is none. Throws UsageError where it is in another unit.
+  /// The quantity's column, named with its unit or, where there is no such, by its bare name; nothing where
+  /// there is none. Throws UsageError where it is in another unit, or stands there twice.
   std::optional<std::size_t> find(const std::string& name, const std::string& unit) const;
   /// Throws UsageError where there is none.
   std::size_t column(const std::string& name, const std::string& unit) const;
+  /// What is no quantity of the study, such as "status": by its bare name alone.
+  std::optional<std::size_t> find_bare(const std::string& name) const;
+  /// Throws UsageError with the place of the first line.
+  [[noreturn]] void fail(const std::string& what) const { place_.fail(what); }
 
  private:
   doe::detail::CsvRecord names_;
@@ -53,6 +58,8 @@ const std::string& field_of(const doe::detail::CsvRecord& record, std::size_t co
                             const TablePlace& place);
 double number_from(const std::string& text, const std::string& name, const TablePlace& place);
 /// A categorical variable has the name of a level or its number, from 0.
+/// The same, whatever the box of the study.
+double level_or_number_from(const std::string& text, const doe::Variable& variable, const TablePlace& place);
 double variable_from(const std::string& text, const doe::Variable& variable, const TablePlace& place);
 double response_from(const std::string& text, const doe::Response& response, const TablePlace& place);
 

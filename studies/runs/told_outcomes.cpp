@@ -20,12 +20,24 @@ struct TellingColumns {
 
 TellingColumns telling_columns(const TableHeader& header, const doe::Problem& problem) {
   TellingColumns columns;
-  columns.run = header.column("run", "");
-  for (const auto& r : problem.responses) columns.responses.push_back(header.column(r.name, r.unit));
-  for (const auto& v : problem.variables) columns.variables.push_back(header.find(v.name, v.unit));
-  columns.status = header.find("status", "");
-  columns.reason = header.find("reason", "");
+  const auto run = header.find_bare("run");
+  if (!run) header.fail("there is no column \"run\"; keep the one that ask gives");
+  columns.run = *run;
+  columns.status = header.find_bare("status");
+  columns.reason = header.find_bare("reason");
   columns.seconds = header.find("seconds", "s");
+  const auto claim = [&](const std::string& name, const std::optional<std::size_t>& column) {
+    for (const auto& taken : {run, columns.status, columns.reason})
+      if (column && column == taken)
+        header.fail("the column \"" + name + "\" is that of ask and tell; name the quantity with its unit");
+    if (column && column == columns.seconds)
+      columns.seconds.reset();  // a quantity of the study has that name
+    return column;
+  };
+  for (const auto& r : problem.responses)
+    columns.responses.push_back(*claim(r.name, header.column(r.name, r.unit)));
+  for (const auto& v : problem.variables)
+    columns.variables.push_back(claim(v.name, header.find(v.name, v.unit)));
   return columns;
 }
 
@@ -38,19 +50,22 @@ class Telling {
 
   void take(const doe::detail::CsvRecord& record, const TablePlace& place) {
     const std::string status = columns_.status ? field_of(record, *columns_.status, place) : "done";
-    if (status != "done" && status != "failed") return;
+    if (status != "done" && status != "failed") {
+      ++told_.left_alone;
+      return;
+    }
     const Run& run = run_of(record, place);
     if (!seen_.insert(run.id).second)
       place.fail("run " + std::to_string(run.id) + " is told twice; leave one out");
     check_point(run, record, place);
     const ToldOutcome outcome = outcome_of(run, status == "failed", record, place);
     if (run.status == Status::planned || run.status == Status::running)
-      outcomes_.push_back(outcome);
+      told_.outcomes.push_back(outcome);
     else
       check_same(run, outcome, place);
   }
 
-  std::vector<ToldOutcome> outcomes() const { return outcomes_; }
+  const Told& told() const { return told_; }
 
  private:
   const Run& run_of(const doe::detail::CsvRecord& record, const TablePlace& place) const {
@@ -65,10 +80,11 @@ class Telling {
     for (std::size_t k = 0; k < problem_.variables.size(); ++k) {
       if (!columns_.variables[k]) continue;
       const doe::Variable& variable = problem_.variables[k];
-      const double told = variable_from(field_of(record, *columns_.variables[k], place), variable, place),
+      const double told =
+                       level_or_number_from(field_of(record, *columns_.variables[k], place), variable, place),
                    asked = run.x[static_cast<Eigen::Index>(k)];
       // A spreadsheet may keep fewer digits.
-      if (std::abs(told - asked) > 1e-6 * (variable.upper - variable.lower))
+      if (!(std::abs(told - asked) <= 1e-6 * (variable.upper - variable.lower)))
         place.fail("\"" + variable.name + "\" is " + doe::detail::with_unit(told, variable.unit) +
                    ", but run " + std::to_string(run.id) + " was asked at " +
                    doe::detail::with_unit(asked, variable.unit) + "; is it the table of another study?");
@@ -106,18 +122,18 @@ class Telling {
   const std::vector<Run>& runs_;
   TellingColumns columns_;
   std::set<std::int64_t> seen_;
-  std::vector<ToldOutcome> outcomes_;
+  Told told_;
 };
 
 }  // namespace
 
-std::vector<ToldOutcome> told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
-                                       const std::vector<Run>& runs) {
+Told told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
+                   const std::vector<Run>& runs) {
   Telling telling(problem, runs);
   read_table(
       file, "--file", [&](const TableHeader& header) { telling.start(header); },
       [&](const doe::detail::CsvRecord& record, const TablePlace& place) { telling.take(record, place); });
-  return telling.outcomes();
+  return telling.told();
 }
 
 }  // namespace drawpoint::studies

@@ -24,10 +24,15 @@ struct ToldOutcome {
   double seconds = 0.0;
 };
 
-/// Those of planned runs, in the order of the table. Runs that have ended as the table says are left out.
+struct Told {
+  std::vector<ToldOutcome> outcomes = {};  ///< of planned runs, in the order of the table
+  int left_alone = 0;                      ///< rows that say neither done nor failed
+};
+
+/// Runs that have ended as the table says are left out.
 /// Throws UsageError that names file, line and column for a number that is no run, a run told twice, one that
 /// has ended otherwise, and values that cannot be.
-std::vector<ToldOutcome> told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
-                                       const std::vector<Run>& runs);
+Told told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
+                   const std::vector<Run>& runs);
 
 }  // namespace drawpoint::studies

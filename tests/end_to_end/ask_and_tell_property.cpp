@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/end_to_end/support.hpp>
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -159,7 +160,45 @@ TEST_F(AskAndTell, AsksForPointsOfTheFront) {
   const Ended asked = on_bench("ask --confirm --points 1");
   ASSERT_EQ(asked.code, 0) << asked.err;
   EXPECT_EQ(count("kind = 'confirmation' and status = 'planned'"), 1);
-  // The least wear is at 3 m/s; a smooth model of seven runs over 5 m/s knows it to a few hundredths.
+  // The least wear is at 3 m/s. A model that is off by less than 0.01 mm, a thousandth of the range, has its
+  // least within √0.01.
   EXPECT_NEAR(std::stod(query("select speed from runs where id = 8")), 3.0, 0.1);
   EXPECT_TRUE(contains(asked.out, "8,confirmation,1,0,"));
+}
+
+// Levels whose names are numbers, bounds that a spreadsheet rounds, quantities that are called as ask calls
+// its own: the table that ask gives comes back as it is meant.
+TEST_F(AskAndTell, TablesComeBackAsTheyAreMeant) {
+  std::ofstream(place_ / "bench.json") << R"({"name": "bench",
+    "variables": [{"name": "teeth", "kind": "categorical", "levels": ["1", "2", "3"]},
+                  {"name": "run", "unit": "m", "lower": 0.33333333333333331, "upper": 0.66666666666666663}],
+    "responses": [{"name": "seconds", "unit": "s", "goal": "minimize"}, {"name": "status", "goal": "record"}],
+    "defaults": {"runs": 3, "validation": 0}})";
+  const Ended asked = on_bench("ask");
+  ASSERT_EQ(asked.code, 0) << asked.err;
+  std::istringstream rows(asked.out);
+  std::string row, told;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "run,kind,point,replicate,seed,teeth [1],run [m]");
+  told = row + ",seconds [s],status [1]\n";
+  while (std::getline(rows, row)) {
+    const auto f = fields_of(row);
+    char length[32];
+    std::snprintf(length, sizeof length, "%.9g", std::stod(f[6]));  // as a spreadsheet keeps it
+    told += f[0] + "," + f[1] + "," + f[2] + "," + f[3] + "," + f[4] + "," + f[5] + "," + length + ",-0.5," +
+            f[5] + "\n";
+  }
+  const Ended end = tell(told);
+  ASSERT_EQ(end.code, 0) << end.err;
+  // The response repeats the name of the level, 1 to 3; the store has its number, 0 to 2.
+  EXPECT_EQ(count("status = 'done' and y_status = teeth + 1 and y_seconds = -0.5 and seconds = 0"), 3);
+  EXPECT_EQ(tell("run,seconds,status\n1,2,3\n").code, 2)
+      << "status is a quantity here, and the column of ask";
+}
+
+TEST_F(AskAndTell, AFolderIsNoTable) {
+  on_bench("ask");
+  const Ended end = on_bench("tell --file " + place_.string());
+  EXPECT_EQ(end.code, 2);
+  EXPECT_TRUE(contains(end.err, "cannot be read; give a table"));
 }

@@ -54,10 +54,10 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " confirm" + out(), 1, "there is no study in");
   expect_refused(study + " export --format xls" + out(), 2, "--format");
   expect_refused(study + " export" + out(), 1, "there is no study in");
-  expect_refused(
-      study + " frobnicate", 2,
-      "unknown command \"frobnicate\"; the commands are run, confirm, status, live, fit, validate, "
-      "front, compare, report, replay, export, rerun-responses, evaluate");
+  expect_refused(study + " frobnicate", 2,
+                 "unknown command \"frobnicate\"; the commands are run, confirm, ask, tell, status, live, "
+                 "fit, validate, "
+                 "front, compare, report, replay, export, rerun-responses, evaluate");
   expect_refused(study + " front --limit 0" + out(), 2, "--limit");
   expect_refused(study + " front" + out(), 1, "there is no study in");
   expect_refused(study + " compare" + out(), 2, "--with is required");

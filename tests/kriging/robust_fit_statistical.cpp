@@ -97,7 +97,8 @@ TEST(DefaultFit, SaysThatNoiseIsNoise) {
 
 // 40 runs of draws of the process that a fit takes for granted, deviation 1, with noise of 0.05. Runs so far
 // apart can hardly tell it from a rough response: without a power of λ in the prior most of eleven fits find
-// less than a tenth of it. With one, each finds it to within a factor of 3.
+// less than a tenth of it. With one, what is found scatters by a deviation of some 0.35 in its logarithm:
+// within three of these, a factor of 3, lie all eleven.
 TEST(DefaultFit, FindsNoiseThatFewRunsHide) {
   int unseen = 0;
   for (doe::Seed seed = 1; seed <= 11; ++seed) {
@@ -111,5 +112,5 @@ TEST(DefaultFit, FindsNoiseThatFewRunsHide) {
     EXPECT_GT(found, 0.05 / 3) << "seed " << seed;
     EXPECT_LT(found, 0.05 * 3) << "seed " << seed;
   }
-  EXPECT_GE(unseen, 4) << "the designs no longer show what this test is about";
+  EXPECT_GE(unseen, 6) << "the designs no longer show what this test is about";
 }

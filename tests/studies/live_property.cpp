@@ -39,6 +39,9 @@ class Live : public testing::Test {
   Live() {
     study_.name = "sample";
     study_.problem = test::two_by_two();  // production to maximize, spill at most 0.25
+    study_.black_box = [](const Eigen::VectorXd&) {
+      return doe::Outcome(Eigen::VectorXd(Eigen::Vector2d(1.0, 0.0)));
+    };
     std::vector<studies::Run> runs;
     for (std::int64_t id = 1; id <= 6; ++id) runs.push_back(planned(id));
     store_.add(runs);
@@ -239,6 +242,14 @@ TEST_F(Live, AFinishedStudyNamesTheNextCommand) {
   store_.plan_again(true);
   for (int id = 1; id <= 6; ++id) done(id, 1.0, 0.0);
   EXPECT_EQ(next(), "confirm" + out);
+  study_.black_box = {};
+  EXPECT_EQ(next(), "ask --confirm" + out) << "whoever makes the runs is asked";
+  Sampling sampling = store_.sampling();
+  sampling.points = 4;
+  store_.set_sampling(sampling);
+  EXPECT_EQ(next(), "ask" + out) << "four adaptive points are wanted";
+  sampling.points = 0;
+  store_.set_sampling(sampling);
   studies::Run confirmation = planned(7);
   confirmation.kind = Kind::confirmation;
   store_.add({confirmation});

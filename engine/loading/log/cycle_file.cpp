@@ -89,15 +89,15 @@ Table stage_table(const std::vector<StageResult>& stages) {
   Table table;
   table.columns = {{"stage", "1", "1 drive-in, 2 lift, 3 curl, 4 back out"},
                    {"reason", "1", "why it ended: 0 goal, 1 time-out, 2 a drive too slow"},
-                   {"t_start", "s"},
-                   {"t_end", "s"},
-                   {"progress", "1"},
-                   {"start_x", "m"},
-                   {"start_z", "m"},
-                   {"start_phi", "rad"},
-                   {"end_x", "m"},
-                   {"end_z", "m"},
-                   {"end_phi", "rad"}};
+                   {"t_start", "s", "from the start of the run"},
+                   {"t_end", "s", "from the start of the run"},
+                   {"progress", "1", "of its way when it ended, 0 to 1"},
+                   {"start_x", "m", "tip at the start, into the drift"},
+                   {"start_z", "m", "tip at the start, above the floor"},
+                   {"start_phi", "rad", "bucket's bottom at the start, edge up positive"},
+                   {"end_x", "m", "tip at the end, into the drift"},
+                   {"end_z", "m", "tip at the end, above the floor"},
+                   {"end_phi", "rad", "bucket's bottom at the end, edge up positive"}};
   for (const StageResult& s : stages)
     table.append_row(std::vector<double>{static_cast<double>(s.stage), static_cast<double>(s.reason),
                                          s.t_start, s.t_end, s.progress, s.start.x, s.start.z, s.start.phi,

@@ -6,8 +6,8 @@
 #include <drawpoint/engine/record/file.hpp>
 #include <string>
 
-/// The parts of a loading log in its file. Every array has the attributes "unit", "description" and, where
-/// its numbers are in axes, "frame".
+/// The parts of a loading log in its file. Every array of numbers has the attributes "unit", "description"
+/// and, where its numbers are in axes, "frame".
 namespace drawpoint::engine::loading {
 
 /// "group/0007".

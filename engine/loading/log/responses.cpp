@@ -42,20 +42,24 @@ double magnitude(const Vector3d& torque, TorqueComponent component) {
 
 }  // namespace
 
-std::vector<double> production_by_cycle(const LoadingLog& log) {
+std::vector<double> production_by_cycle(const LoadingLog& log, const ProductionOptions& options) {
   require_cycles(log, "production");
+  if (!(options.haul >= 0))
+    throw std::invalid_argument("loading::production: haul is " + std::to_string(options.haul) +
+                                " s; allowed are times from 0 s on");
   std::vector<double> rates;
-  for (const CycleRecord& cycle : log.cycles) rates.push_back(cycle.loaded_mass / duration(cycle));
+  for (const CycleRecord& cycle : log.cycles)
+    rates.push_back(cycle.loaded_mass / (duration(cycle) + options.haul));
   return rates;
 }
 
 double production(const LoadingLog& log, const ProductionOptions& options) {
-  const std::vector<double> rates = production_by_cycle(log);
+  const std::vector<double> rates = production_by_cycle(log, options);
   if (options.mean == ProductionMean::of_ratios) return mean(rates);
   double mass = 0, time = 0;
   for (const CycleRecord& cycle : log.cycles) {
     mass += cycle.loaded_mass;
-    time += duration(cycle);
+    time += duration(cycle) + options.haul;
   }
   return mass / time;
 }

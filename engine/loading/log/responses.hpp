@@ -7,8 +7,9 @@
 /// The three responses of the loading study and what tells how far to trust them, pure functions of a run
 /// log. All throw std::invalid_argument when the log lacks what they need.
 ///
-/// production: c₁ = mean over cycles of M_i / T_i [kg/s], to be maximised; M the loaded mass, T from the
-/// start of stage 1 to the end of stage 4. The other aggregation is ΣM / ΣT.
+/// production: c₁ = mean over cycles of M_i / (T_i + h) [kg/s], to be maximised; M the loaded mass, T from
+/// the start of stage 1 to the end of stage 4, h the time of a cycle away from the pile, 0 in the source:
+/// there a quick small load counts as much as a slow large one. The other aggregation is ΣM / Σ(T + h).
 ///
 /// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the torque in bucket hinge G,
 /// or of its two components across the pin (those twist the bucket; the third is the tilt's own load). Summed
@@ -27,6 +28,7 @@ enum class ProductionMean { of_ratios, ratio_of_sums };
 
 struct ProductionOptions {
   ProductionMean mean = ProductionMean::of_ratios;
+  double haul = 0;  ///< h: haul, dump and way back [s], >= 0
 };
 
 enum class TorqueComponent { all, twisting };
@@ -43,9 +45,9 @@ struct SpillOptions {
   double m_max = 10000;  ///< mass in front of the pile that would stop the work [kg]; only scales
 };
 
-/// Each response's share of every cycle, in order: M_i / T_i [kg/s]; Σ of the excess torque [s], whose sum is
-/// the run's damage; m_i / m_max [1].
-std::vector<double> production_by_cycle(const LoadingLog& log);
+/// Each response's share of every cycle, in order: M_i / (T_i + h) [kg/s]; Σ of the excess torque [s], whose
+/// sum is the run's damage; m_i / m_max [1].
+std::vector<double> production_by_cycle(const LoadingLog& log, const ProductionOptions& options = {});
 std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOptions& options = {});
 std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options = {});
 

@@ -63,6 +63,16 @@ TEST(Production, MeanOfRatiosAndRatioOfSums) {
   EXPECT_DOUBLE_EQ(production(log, {.mean = ProductionMean::ratio_of_sums}), 10000.0 / 30.0);
 }
 
+// 8 t in 20 s beat 3 t in 10 s by a third; with 40 s of haul per cycle, 133 to 60 kg/s, by more than twice.
+TEST(Production, AHaulMakesLargeLoadsCount) {
+  LoadingLog log;
+  log.cycles = {cycle(0, 20, 8000, 0), cycle(30, 40, 3000, 0)};
+  EXPECT_EQ(production_by_cycle(log, {.haul = 40}), (std::vector<double>{8000.0 / 60, 60}));
+  EXPECT_DOUBLE_EQ(production(log, {.haul = 40}), (8000.0 / 60 + 60) / 2);
+  EXPECT_DOUBLE_EQ(production(log, {.mean = ProductionMean::ratio_of_sums, .haul = 40}), 11000.0 / 110);
+  EXPECT_THROW(production(log, {.haul = -1}), std::invalid_argument);
+}
+
 TEST(RockSpill, MeanOverCycles) {
   LoadingLog log;
   log.cycles = {cycle(0, 20, 0, 1500), cycle(30, 40, 0, 2500)};
