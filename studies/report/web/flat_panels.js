@@ -3,7 +3,7 @@
 // Figures that the simulation itself supplies, but for the scene: a path over the pile, lines, a table.
 
 import {number, plain} from './format.js';
-import {axis, draw, plotBox} from './plot.js';
+import {axis, draw, fit, plotBox} from './plot.js';
 import {table} from './table.js';
 import {colour, series} from './theme.js';
 
@@ -40,6 +40,7 @@ function lines(panel) {
   const box = plotBox(340, panel.title);
   draw(box, () => ({traces: panel.series.map((s, i) => ({name: plain(s.name), x: s.x, y: s.y, mode: 'lines', line: {color: series[i % series.length], width: 1.8}})),
     layout: {hovermode: 'x unified', margin: {l: 64, r: 16, t: 30, b: 52}, showlegend: panel.series.length > 1, xaxis: axis(plain(panel.x_label ?? '')), yaxis: axis(plain(panel.y_label ?? ''))}}));
+  requestAnimationFrame(() => fit(box)); // a legend's rows depend on the width that the box has in the page
   return box;
 }
 
