@@ -54,12 +54,11 @@ SignalRecorder::SignalRecorder(const Lhd& lhd, bool all_joints, record::Table& t
     joints_.push_back(static_cast<int>(b));
     const std::string joint =
         static_cast<int>(b) == lhd.bucket ? "hinge_G" : identifier(lhd.spec.bodies[b].name) + "_joint";
+    const char* wrench = "on the child by its parent, in the child's axes, mean over the step";
     for (const char* part : {"_torque_x", "_torque_y", "_torque_z"})
-      table_.columns.push_back(
-          {joint + part, "N m", "on the child by its parent, in the child's axes, mean over the step"});
+      table_.columns.push_back({joint + part, "N m", wrench});
     for (const char* part : {"_force_x", "_force_y", "_force_z"})
-      table_.columns.push_back(
-          {joint + part, "N", "on the child by its parent, in the child's axes, mean over the step"});
+      table_.columns.push_back({joint + part, "N", wrench});
   }
 }
 

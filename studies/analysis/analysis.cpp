@@ -55,7 +55,7 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   summary.study = study.name;
   for (const auto& run : runs) {
     if (run.status == Status::failed) ++summary.failed;
-    if (run.status == Status::failed || run.status == Status::done)
+    if (has_ended(run))
       ++summary.ended[run.kind];
     else
       ++summary.unfinished;

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/export.h>
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/doe/detail/csv.hpp>
 
@@ -13,10 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-json number_or_nothing(double value) { return std::isfinite(value) ? json(value) : json(); }
-
 void append_numbers(std::vector<json>& row, const Eigen::VectorXd& values) {
-  for (const double value : values) row.push_back(number_or_nothing(value));
+  for (const double value : values) row.push_back(number_or_null(value));
 }
 
 /// A level by its name, which is what people set; numbers else.
@@ -25,7 +24,7 @@ void append_point(std::vector<json>& row, const doe::Problem& problem, const Eig
     const doe::Variable& variable = problem.variables[k];
     const double value = x[static_cast<Eigen::Index>(k)];
     if (variable.levels.empty())
-      row.push_back(number_or_nothing(value));
+      row.push_back(number_or_null(value));
     else
       row.push_back(variable.levels.at(static_cast<std::size_t>(std::lround(value))));
   }
@@ -109,7 +108,7 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
     append_numbers(row, front.responses.row(i));
     append_numbers(row, points.lower.row(i));
     append_numbers(row, points.upper.row(i));
-    row.push_back(number_or_nothing(success[i]));
+    row.push_back(number_or_null(success[i]));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -28,8 +28,9 @@ std::vector<Run> next_runs(Store& store, const Settings& settings) {
   const int most = settings.ask.count.value_or(std::numeric_limits<int>::max());
   std::vector<Run> asked = waiting(store.runs(), most);
   if (!asked.empty()) return asked;
+  const int round = static_cast<int>(store.sampling().rounds.size()) + 1;
   const bool planned = settings.ask.confirm
-                           ? add_round(store, settings, static_cast<int>(store.sampling().rounds.size()) + 1)
+                           ? add_round(store, settings.confirm, round, STDERR_FILENO)
                            : add_batch(store, std::numeric_limits<double>::infinity(), STDERR_FILENO);
   if (planned) asked = waiting(store.runs(), most);
   return asked;
@@ -39,7 +40,7 @@ std::vector<Run> next_runs(Store& store, const Settings& settings) {
 
 int ask_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
-  if (!std::filesystem::exists(folder.store())) check_new_study(study, settings);
+  check_request(study, settings);
   if (!settings.exported.file.empty()) check_output_file(folder, settings.exported.file);
   make_writable(folder);
   const FolderLock lock(folder);

@@ -45,7 +45,7 @@ void confirm_front(Store& store, const Folder& folder, const Settings& settings)
   carry_out_runs(store, folder, settings, messages);
   for (int round = 1; round <= settings.confirm.rounds; ++round, added = false) {
     if (!added) {
-      if (!add_round(store, settings, round)) return;
+      if (!add_round(store, settings.confirm, round, messages)) return;
       carry_out_runs(store, folder, settings, messages);
     }
     if (judge_round(store, messages, round)) return;

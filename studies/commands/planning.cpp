@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/planning.h>
 #include <drawpoint/studies/commands/points.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/confirmation.h>
+#include <drawpoint/studies/sampling/criteria.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -20,6 +21,11 @@ Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
 }
 
 }  // namespace
+
+void check_request(const Study& study, const Settings& settings) {
+  if (settings.criteria) check_criteria(*settings.criteria, study.problem);
+  if (!std::filesystem::exists(Folder{settings.out}.store())) check_new_study(study, settings);
+}
 
 bool add_batch(Store& store, double seconds_left, int messages) {
   const std::vector<Run> runs = store.runs();
@@ -57,15 +63,14 @@ Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings&
   return checked_points(problem, settings.x);
 }
 
-bool add_round(Store& store, const Settings& settings, int round) {
-  const int messages = message_descriptor(settings);
+bool add_round(Store& store, const ConfirmSettings& settings, int round, int messages) {
   const std::vector<Run> runs = store.runs();
   dprintf(messages, "fitting the models, choosing points of their front ...\n");
   RoundPlan plan;
   {
     const EndsAtOnce now;
-    plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings.confirm),
-                      settings.confirm.points);
+    plan =
+        plan_round(store.identity(), runs, named_points(store.identity().problem, settings), settings.points);
   }
   if (plan.runs.empty()) {
     dprintf(messages, "%s\n", plan.nothing.c_str());

@@ -5,10 +5,14 @@
 
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/study.hpp>
 
 #include <Eigen/Core>
 
 namespace drawpoint::studies {
+
+/// Throws UsageError for options of `run` and `ask` that cannot be: asked before anything is written.
+void check_request(const Study& study, const Settings& settings);
 
 /// Plans a batch of adaptive runs and says so. False when the study has what it wants, or no models to go by.
 /// Requires that no run is planned.
@@ -19,6 +23,6 @@ Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings&
 
 /// Plans a round of confirmation on the front of this moment and says so. False when there is nothing to
 /// simulate.
-bool add_round(Store& store, const Settings& settings, int round);
+bool add_round(Store& store, const ConfirmSettings& settings, int round, int messages);
 
 }  // namespace drawpoint::studies

@@ -5,7 +5,6 @@
 #include <drawpoint/studies/commands/planning.h>
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/sampling/criteria.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -21,8 +20,7 @@ int run_command(const Study& study, const Settings& settings) {
   const auto seconds_left = [&] {
     return 3600.0 * settings.hours - std::chrono::duration<double>(Clock::now() - start).count();
   };
-  if (settings.criteria) check_criteria(*settings.criteria, study.problem);
-  if (!std::filesystem::exists(Folder{settings.out}.store())) check_new_study(study, settings);
+  check_request(study, settings);
   const int messages = message_descriptor(settings);
   return work_in_folder(
       study, settings, [&](const Folder& folder) { return plan_study(study, folder, settings); },

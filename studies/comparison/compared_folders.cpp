@@ -32,7 +32,7 @@ void add_front(ComparedSide& side, const std::vector<Run>& runs, const Identity&
 ComparedSide side_of(const Study& study, const ComparedFolder& compared, const std::vector<Run>& runs) {
   ComparedSide side{.folder = compared.folder.path.string()};
   for (const Run& run : runs) {
-    side.ended += run.status == Status::done || run.status == Status::failed;
+    side.ended += has_ended(run);
     side.failed += run.status == Status::failed;
   }
   const Identity& identity = compared.store.identity();

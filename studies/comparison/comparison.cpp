@@ -48,7 +48,7 @@ std::vector<std::pair<PlaceKey, PointRuns>> points_of(const std::vector<Run>& ru
   std::map<PlaceKey, std::size_t> places;
   std::vector<std::pair<PlaceKey, PointRuns>> points;
   for (const Run& run : runs) {
-    const bool ended = run.status == Status::done || run.status == Status::failed;
+    const bool ended = has_ended(run);
     if (!ended || run.kind == Kind::imported) continue;
     const auto [place, is_new] = places.emplace(key_of(run), points.size());
     if (is_new) points.push_back({place->first, {}});

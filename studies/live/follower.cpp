@@ -31,8 +31,6 @@ std::string signature_of(const std::filesystem::path& file) {
   return text + (young ? "young" : "");
 }
 
-bool has_ended(const Run& run) { return run.status == Status::done || run.status == Status::failed; }
-
 /// Whether all that had ended has, as it had.
 bool goes_on(const Contents& now, const Contents& before) {
   return now.identity.seed == before.identity.seed && now.identity.options == before.identity.options &&

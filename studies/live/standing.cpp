@@ -119,8 +119,7 @@ ProgressState progress_of(const View& view, std::time_t now) {
   if (start == 0) return state;
   const std::string from = utc_text(start);
   state.session = static_cast<int>(std::count_if(runs.begin(), runs.end(), [&](const Run& run) {
-    const bool has_ended = run.status == Status::done || run.status == Status::failed;
-    return has_ended && run.kind != Kind::imported && run.started >= from;
+    return has_ended(run) && run.kind != Kind::imported && run.started >= from;
   }));
   state.seconds = std::max(0.0, std::difftime(now, start));
   return state;

@@ -126,7 +126,7 @@ ProgressState state_of(const std::vector<Run>& runs) {
   ProgressState state;
   state.total = static_cast<int>(runs.size());
   for (const auto& run : runs) {
-    if (run.status == Status::done || run.status == Status::failed) ++state.done;
+    if (has_ended(run)) ++state.done;
     if (run.status == Status::failed) ++state.failed;
   }
   return state;

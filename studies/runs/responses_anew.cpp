@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_ended(const Run& run) { return run.status == Status::done || run.status == Status::failed; }
-
 /// A run that came back with values must have its log, or they were lost without a word.
 std::string runs_without_log(const Folder& from, const std::vector<Run>& runs) {
   std::string text;

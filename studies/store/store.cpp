@@ -232,7 +232,7 @@ void Store::add(const std::vector<Run>& runs) {
         for (const double value : values) insert.bind(static_cast<int>(first++), value);
       };
       insert.bind(6, name_of(run.status));
-      if (run.status == Status::done || run.status == Status::failed) {
+      if (has_ended(run)) {
         if (!run.reason.empty()) insert.bind(7, run.reason);
         insert.bind(8, run.seconds);
         insert.bind(9, run.started);

@@ -88,6 +88,9 @@ struct StoreBusy : std::runtime_error {
 /// reads by the checksums, and leaves the rest of the file unchecked, so that one may look often.
 enum class Access { change, read };
 
+/// Whether it was made, and gave values or failed.
+inline bool has_ended(const Run& run) { return run.status == Status::done || run.status == Status::failed; }
+
 class Store {
  public:
   /// A new, empty store. It appears under `file` complete or not at all. Requires that `file` does not exist.

@@ -164,6 +164,7 @@ TEST_F(AskAndTell, AsksForPointsOfTheFront) {
   // least within √0.01.
   EXPECT_NEAR(std::stod(query("select speed from runs where id = 8")), 3.0, 0.1);
   EXPECT_TRUE(contains(asked.out, "8,confirmation,1,0,"));
+  EXPECT_TRUE(asked.out.starts_with("run,kind,")) << "the table alone, for a pipe: " << asked.out;
 }
 
 // Levels whose names are numbers, bounds that a spreadsheet rounds, quantities that are called as ask calls
@@ -194,6 +195,15 @@ TEST_F(AskAndTell, TablesComeBackAsTheyAreMeant) {
   EXPECT_EQ(count("status = 'done' and y_status = teeth + 1 and y_seconds = -0.5 and seconds = 0"), 3);
   EXPECT_EQ(tell("run,seconds,status\n1,2,3\n").code, 2)
       << "status is a quantity here, and the column of ask";
+}
+
+// A criterion that the problem does not allow is refused as run refuses it, and leaves no folder.
+TEST_F(AskAndTell, ACriterionThatCannotBeIsRefused) {
+  std::ofstream(place_ / "bench.json")
+      << R"({"name": "bench", "variables": [{"name": "x", "lower": 0, "upper": 1}],
+    "responses": [{"name": "y", "goal": "record"}]})";
+  EXPECT_EQ(on_bench("ask --adaptive 2 --criteria improvement=1").code, 2);
+  EXPECT_FALSE(std::filesystem::exists(dir()));
 }
 
 TEST_F(AskAndTell, AFolderIsNoTable) {

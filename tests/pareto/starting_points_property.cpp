@@ -12,6 +12,7 @@
 #include <drawpoint/pareto/nsga3.hpp>
 #include <drawpoint/pareto/sms_emoa.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
+#include <drawpoint/tests/pareto/named_searches.hpp>
 #include <drawpoint/tests/pareto/test_functions.hpp>
 #include <filesystem>
 #include <functional>
@@ -25,22 +26,8 @@ using namespace drawpoint::pareto;
 
 namespace {
 
-using Maker = std::function<std::unique_ptr<Search>(const doe::Problem&, const SearchOptions&)>;
-
-struct Named {
-  std::string name;
-  Maker make;
-};
-
-void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
-
-template <class SearchType, class Options>
-Named named(const std::string& name, Options options) {
-  return {name, [options](const doe::Problem& problem, const SearchOptions& search) mutable {
-            options.search = search;
-            return std::make_unique<SearchType>(problem, options);
-          }};
-}
+using test::Named;
+using test::named;
 
 std::vector<Named> all_searches() {
   return {named<Nsga2>("nsga2", Nsga2Options{}),

@@ -75,12 +75,17 @@ void write_frames(Writer& file, const SceneRecord& scene) {
   file.describe("scene/frames/bucket_mass_kg", "kg", "rocks whose centre is in the heaped bucket");
 }
 
+// NaN in a log of version 4, which has no such data.
+std::vector<double> since_version_5(const Reader& file, const std::string& path, std::size_t count) {
+  if (file.version() < 5) return std::vector<double>(count, std::numeric_limits<double>::quiet_NaN());
+  return file.doubles(path).values;
+}
+
 void read_bodies(const Reader& file, SceneRecord& scene) {
   const auto shape = file.integers("scene/bodies/shape").values;
   const auto opacity = file.doubles("scene/bodies/opacity").values;
   const auto color = file.texts("scene/bodies/color"), name = file.texts("scene/bodies/name");
-  std::vector<double> mass(shape.size(), std::numeric_limits<double>::quiet_NaN());
-  if (file.version() > 4) mass = file.doubles("scene/bodies/mass_kg").values;
+  const auto mass = since_version_5(file, "scene/bodies/mass_kg", shape.size());
   const std::string one_each = std::to_string(shape.size()) + ", one per body";
   require_fit(file, opacity.size() == shape.size(), "scene/bodies/opacity", one_each);
   require_fit(file, mass.size() == shape.size(), "scene/bodies/mass_kg", one_each);
@@ -98,8 +103,7 @@ void read_frames(const Reader& file, SceneRecord& scene) {
   const auto cycle = file.integers("scene/frames/cycle").values;
   const auto label = file.texts("scene/frames/label");
   const auto poses = file.floats("scene/frames/poses").values;
-  std::vector<double> bucket_mass(t.size(), std::numeric_limits<double>::quiet_NaN());
-  if (file.version() > 4) bucket_mass = file.doubles("scene/frames/bucket_mass_kg").values;
+  const auto bucket_mass = since_version_5(file, "scene/frames/bucket_mass_kg", t.size());
   const std::string one_each = std::to_string(t.size()) + ", one per frame";
   require_fit(file, cycle.size() == t.size(), "scene/frames/cycle", one_each);
   require_fit(file, label.size() == t.size(), "scene/frames/label", one_each);
