@@ -10,6 +10,8 @@
 #include <drawpoint/doe/constrained.hpp>
 #include <drawpoint/doe/constrained_latin_hypercube.hpp>
 #include <drawpoint/doe/criterion.hpp>
+#include <drawpoint/doe/d_optimal.hpp>
+#include <drawpoint/doe/distribution.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/evaluate_options.hpp>
 #include <drawpoint/doe/evaluations.hpp>
@@ -19,6 +21,8 @@
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/lola_voronoi.hpp>
 #include <drawpoint/doe/main_effects.hpp>
+#include <drawpoint/doe/model_terms.hpp>
+#include <drawpoint/doe/morris.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/orthogonal_array.hpp>
 #include <drawpoint/doe/outcome.hpp>
@@ -71,6 +75,8 @@
 ///   fractional_factorial.hpp         a fraction of the two-level combinations
 ///   aliasing.hpp                     which effects a fraction cannot tell apart
 ///   response_surface_designs.hpp     central composite and Box-Behnken
+///   d_optimal.hpp                    the best runs for a polynomial, in any region, beside runs that there are
+///   model_terms.hpp                  the terms of such a polynomial, as a matrix
 ///   region.hpp                       the part of the box where runs are allowed
 ///   constrained.hpp                  designs inside a region
 ///   constrained_latin_hypercube.hpp  a Latin hypercube inside a region
@@ -84,8 +90,10 @@
 ///   propose_options.hpp              batch, candidates, rule, where it is allowed
 ///
 /// What the inputs do:
+///   distribution.hpp                 how inputs are distributed that one cannot choose
+///   morris.hpp                       elementary effects: which of many inputs matter at all
 ///   main_effects.hpp                 how the mean of a response moves with one input
-///   sensitivity.hpp                  Sobol' indices with intervals
+///   sensitivity.hpp                  Sobol' indices with intervals, of one input and of two
 ///
 /// Apart from these, and not included here because it needs nlohmann-json: problem_json.hpp, a problem as
 /// JSON. What stands in detail/ may change in any version. Needs Eigen and a thread library.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Main effects: how the mean of a response moves with one input, the others uniform in the box.
+/// Main effects: how the mean of a response moves with one input, the others uniform in the box or
+/// distributed as one says (distribution.hpp).
 ///
 ///   m_j(x) = E[f | x_j = x],  at `levels` values of x_j from its lower to its upper bound
 /// The same `samples` points of a scrambled Sobol' sequence serve at every level and for every input, with
@@ -28,6 +29,7 @@ struct MainEffectsOptions {
   Seed seed = 1;      ///< of the points
   int levels = 21;    ///< values of each input, 2 or more
   int samples = 256;  ///< points averaged at each, 2 or more; powers of 2 suit the Sobol' sequence
+  InputDistributions inputs = {};  ///< of the others, by variable; uniform where they are not named
   EvaluateOptions evaluate = {};
 };
 
@@ -64,7 +66,8 @@ inline double level(const Variable& v, int k, int levels) {
 
 /// Blocks of `samples` rows, level after level, input after input.
 inline Eigen::MatrixXd main_effects_design(const Problem& problem, const MainEffectsOptions& options) {
-  const Eigen::MatrixXd base = scrambled_sobol(problem, options.samples, {.seed = options.seed});
+  const Eigen::MatrixXd base =
+      distributed(problem, options.inputs, scrambled_sobol(problem, options.samples, {.seed = options.seed}));
   const Eigen::Index d = base.cols(), n = base.rows();
   Eigen::MatrixXd X(d * options.levels * n, d);
   for (Eigen::Index j = 0, from = 0; j < d; ++j)

@@ -2,22 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Sobol' indices: which share of a response's variance each input explains, when the inputs are uniform and
-/// independent in the box.
+/// Sobol' indices: which share of a response's variance each input explains, when the inputs are independent,
+/// and uniform in the box or distributed as one says (distribution.hpp).
 ///
-///   first  S_j = Var(E[f | x_j]) / V         alone;             Σ S_j <= 1, = 1 for a sum of functions of
-///   one input total  T_j = E[Var(f | all but x_j)] / V with all its interactions;   T_j >= S_j, 0 for an
-///   inert input
+///   first   S_j  = Var(E[f | x_j]) / V               alone; Σ S_j <= 1, = 1 for a sum of functions of one input
+///   total   T_j  = E[Var(f | all but x_j)] / V       with all its interactions; T_j >= S_j, 0 for an inert input
+///   second  S_jk = Var(E[f | x_j, x_k])/V − S_j − S_k  what two do together beyond what each does alone
 /// From N pairs of points A_i, B_i and, for each input, C_i = A_i with entry j of B_i, N(d + 2) runs in all:
 ///   saltelli   S_j V = ⟨f(B)(f(C) − f(A))⟩,       T_j V = ½⟨(f(A) − f(C))²⟩   (its T is Jansen's)
 ///   jansen     S_j V = V − ½⟨(f(B) − f(C))²⟩,     T_j as above
 ///   martinez   S_j = corr(f(B), f(C)),            T_j = 1 − corr(f(A), f(C))
+/// and, asked for second order, D_i = B_i with entry j of A_i, N(2d + 2) runs in all:
+///   (S_jk + S_j + S_k) V = ½⟨f(D_j) f(C_k) + f(D_k) f(C_j)⟩ − ⟨f(A) f(B)⟩
 /// ⟨⟩ is the mean over i, f has its mean taken off, V is the variance over A and B. Intervals by bootstrap
 /// over i (percentiles); estimates may fall a little outside [0, 1]. The pairs come from a scrambled Sobol'
 /// sequence in 2d dimensions while it has them, whose error is smaller than the intervals say, else from
 /// random points. A pair with a failed run is left out whole. The noise of a noisy black box counts as one
 /// more input that interacts with all. Sources: Saltelli, Annoni, Azzini, Campolongo, Ratto, Tarantola 2010,
-/// Comput. Phys. Commun. 181, table 2; Jansen 1999, ibid. 117; Martinez 2011 (GdR Ondes and Mascot Num).
+/// Comput. Phys. Commun. 181, table 2; Saltelli 2002, ibid. 145 (second order); Jansen 1999, ibid. 117;
+/// Martinez 2011 (GdR Ondes and Mascot Num).
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -29,22 +32,24 @@
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/sobol_terms.hpp>
+#include <drawpoint/doe/distribution.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/doe/uniform.hpp>
 
 namespace drawpoint::doe {
 
-enum class SobolEstimator { saltelli, jansen, martinez };
-
 struct SobolIndicesOptions {
   Seed seed = 1;       ///< of the pairs and the bootstrap
   int samples = 1024;  ///< N, 2 or more; powers of 2 suit the Sobol' sequence; N(d + 2) runs
   SobolEstimator estimator =
-      SobolEstimator::saltelli;  ///< jansen where the S_j are large, martinez is in [-1, 1]
-  double confidence = 0.95;      ///< of each interval, between 0 and 1
-  int resamples = 500;           ///< of the bootstrap, 100 or more: fewer do not reach the tails
-  bool quasi_random = true;      ///< false: random pairs, for which the intervals are exact for large N
+      SobolEstimator::saltelli;    ///< jansen where the S_j are large, martinez is in [-1, 1]
+  double confidence = 0.95;        ///< of each interval, between 0 and 1
+  int resamples = 500;             ///< of the bootstrap, 100 or more: fewer do not reach the tails
+  bool second_order = false;       ///< S_jk as well, at N(2d + 2) runs
+  bool quasi_random = true;        ///< false: random pairs, for which the intervals are exact for large N
+  InputDistributions inputs = {};  ///< by variable; those that are not named are uniform in their box
   EvaluateOptions evaluate = {};
 };
 
@@ -71,18 +76,24 @@ inline std::string_view to_string(SensitivityStatus status) {
   return "unknown";
 }
 
+/// d x d, symmetric, 0 on the diagonal; empty unless asked for.
+struct PairEstimates {
+  Eigen::MatrixXd value, lower, upper;
+};
+
 struct SobolIndices {
   std::string response;
   SensitivityStatus status = SensitivityStatus::estimated;
   std::string message = {};       ///< empty when estimated
   double mean = 0, variance = 0;  ///< over A and B, unit of the response and its square
   IndexEstimates first, total;
+  PairEstimates second;
 };
 
 struct Sensitivity {
   std::vector<SobolIndices> responses;  ///< in the order of the problem
   int pairs = 0;                        ///< that were used
-  Evaluations runs;                     ///< blocks of N: A, B, then C of each variable
+  Evaluations runs;                     ///< blocks of N: A, B, then C, then D of each variable
 };
 
 namespace detail {
@@ -114,89 +125,33 @@ inline Eigen::MatrixXd pairs_of_points(const Problem& problem, const SobolIndice
     }
   const bool quasi =
       options.quasi_random && static_cast<int>(doubled.variables.size()) <= sobol_max_dimensions;
-  return quasi ? scrambled_sobol(doubled, options.samples, {.seed = options.seed})
-               : uniform_random(doubled, options.samples, {.seed = options.seed});
+  Eigen::MatrixXd pairs = quasi ? scrambled_sobol(doubled, options.samples, {.seed = options.seed})
+                                : uniform_random(doubled, options.samples, {.seed = options.seed});
+  const auto d = static_cast<Eigen::Index>(problem.variables.size());
+  pairs.leftCols(d) = distributed(problem, options.inputs, pairs.leftCols(d));
+  pairs.rightCols(d) = distributed(problem, options.inputs, pairs.rightCols(d));
+  return pairs;
 }
 
-/// A, B, C_1, ..., C_d below each other: N(d + 2) x d.
+/// A, B, C_1, ..., C_d and, for the second order, D_1, ..., D_d below each other.
 inline Eigen::MatrixXd saltelli_design(const Problem& problem, const SobolIndicesOptions& options) {
   const auto d = static_cast<Eigen::Index>(problem.variables.size());
   const Eigen::Index n = options.samples;
   const Eigen::MatrixXd pairs = pairs_of_points(problem, options);
-  Eigen::MatrixXd X(n * (d + 2), d);
+  Eigen::MatrixXd X(n * ((options.second_order ? 2 * d : d) + 2), d);
   X.topRows(n) = pairs.leftCols(d);
   X.middleRows(n, n) = pairs.rightCols(d);
   for (Eigen::Index j = 0; j < d; ++j) {
     X.middleRows(n * (2 + j), n) = pairs.leftCols(d);
     X.col(j).segment(n * (2 + j), n) = pairs.col(d + j);
+    if (!options.second_order) continue;
+    X.middleRows(n * (2 + d + j), n) = pairs.rightCols(d);
+    X.col(j).segment(n * (2 + d + j), n) = pairs.col(j);
   }
   return X;
 }
 
-/// Every sum that the estimators need, one row per pair: columns f(A), f(B), their squares, then for each input
-/// the seven of `term`. Means of columns, weighted or not, give the indices.
-class SobolTerms {
- public:
-  /// Y: pairs x (d + 2), columns as the blocks of the design, their common mean taken off.
-  explicit SobolTerms(const Eigen::MatrixXd& Y) : d_(Y.cols() - 2), terms_(Y.rows(), 4 + 7 * d_) {
-    const auto a = Y.col(0).array(), b = Y.col(1).array();
-    terms_.col(0) = a;
-    terms_.col(1) = b;
-    terms_.col(2) = a.square();
-    terms_.col(3) = b.square();
-    for (Eigen::Index j = 0; j < d_; ++j) {
-      const auto c = Y.col(2 + j).array();
-      auto term = terms_.middleCols(4 + 7 * j, 7);
-      term.col(0) = b * (c - a);
-      term.col(1) = (a - c).square();
-      term.col(2) = (b - c).square();
-      term.col(3) = c;
-      term.col(4) = c.square();
-      term.col(5) = b * c;
-      term.col(6) = a * c;
-    }
-  }
-
-  Eigen::Index pairs() const { return terms_.rows(); }
-
-  Eigen::VectorXd means() const { return terms_.colwise().mean().transpose(); }
-  /// weights: one per pair, sum 1.
-  Eigen::VectorXd means(const Eigen::VectorXd& weights) const { return terms_.transpose() * weights; }
-
-  /// S_1..S_d, T_1..T_d from the means; zeros without variance.
-  Eigen::VectorXd indices(const Eigen::VectorXd& m, SobolEstimator estimator) const {
-    Eigen::VectorXd index = Eigen::VectorXd::Zero(2 * d_);
-    const double V = variance(m);
-    if (!(V > 0.0)) return index;
-    const double var_a = m[2] - m[0] * m[0], var_b = m[3] - m[1] * m[1];
-    for (Eigen::Index j = 0; j < d_; ++j) {
-      const auto t = m.segment<7>(4 + 7 * j);
-      const double var_c = t[4] - t[3] * t[3];
-      index[j] = t[0] / V;
-      index[d_ + j] = 0.5 * t[1] / V;
-      if (estimator == SobolEstimator::jansen) index[j] = 1.0 - 0.5 * t[2] / V;
-      if (estimator != SobolEstimator::martinez) continue;
-      index[j] = correlation(t[5] - m[1] * t[3], var_b, var_c);
-      index[d_ + j] = 1.0 - correlation(t[6] - m[0] * t[3], var_a, var_c);
-    }
-    return index;
-  }
-
-  static double variance(const Eigen::VectorXd& m) {
-    const double mean = 0.5 * (m[0] + m[1]);
-    return 0.5 * (m[2] + m[3]) - mean * mean;
-  }
-
- private:
-  static double correlation(double covariance, double u, double v) {
-    return u > 0.0 && v > 0.0 ? covariance / std::sqrt(u * v) : 0.0;
-  }
-
-  Eigen::Index d_;
-  Eigen::MatrixXd terms_;
-};
-
-/// 2d x resamples.
+/// Indices as SobolTerms gives them x resamples.
 inline Eigen::MatrixXd bootstrapped(const SobolTerms& terms, const SobolIndicesOptions& options) {
   const Eigen::Index n = terms.pairs();
   RandomStream random(run_seed(options.seed, 0, 1));
@@ -232,42 +187,60 @@ inline IndexEstimates estimates(const Eigen::VectorXd& value, const Eigen::Matri
   return result;
 }
 
-inline IndexEstimates all_equal(Eigen::Index d, double value) {
-  const Eigen::VectorXd v = Eigen::VectorXd::Constant(d, value);
-  return {v, v, v};
+/// Entries 12, 13, 23, 14, ... as symmetric matrices.
+inline PairEstimates pairs_of(const IndexEstimates& entries, Eigen::Index d) {
+  const auto matrix = [d](const Eigen::VectorXd& of) {
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(d, d);
+    for (Eigen::Index j = 0, at = 0; j < d; ++j)
+      for (Eigen::Index k = 0; k < j; ++k, ++at) m(j, k) = m(k, j) = of[at];
+    return m;
+  };
+  return {matrix(entries.value), matrix(entries.lower), matrix(entries.upper)};
 }
 
-/// Y: pairs x (d + 2) of one response.
+/// Every index the same.
+inline void fill(SobolIndices& result, Eigen::Index d, double value, const SobolIndicesOptions& options) {
+  const Eigen::VectorXd v = Eigen::VectorXd::Constant(d, value);
+  result.first = result.total = {v, v, v};
+  const Eigen::VectorXd entries = Eigen::VectorXd::Constant(d * (d - 1) / 2, value);
+  if (options.second_order) result.second = pairs_of({entries, entries, entries}, d);
+}
+
+/// Y: pairs x blocks of one response.
 inline SobolIndices indices_of(std::string response, Eigen::MatrixXd Y, const SobolIndicesOptions& options) {
   SobolIndices result;
   result.response = std::move(response);
-  const Eigen::Index d = Y.cols() - 2;
+  const Eigen::Index d = options.second_order ? (Y.cols() - 2) / 2 : Y.cols() - 2;
   if (Y.rows() < 2) {
     result.status = SensitivityStatus::too_few_runs;
     result.message =
         std::to_string(Y.rows()) + " of " + std::to_string(options.samples) +
         " pairs of points without a failed or missing run; two are needed: see the reasons of the failures";
-    result.first = result.total = all_equal(d, std::numeric_limits<double>::quiet_NaN());
+    fill(result, d, std::numeric_limits<double>::quiet_NaN(), options);
     return result;
   }
   result.mean = Y.leftCols(2).mean();
   if ((Y.leftCols(2).array() == Y(0, 0)).all()) {
     result.status = SensitivityStatus::constant_response;
     result.message = "all responses equal " + number_text(result.mean) + ": there is no variance to explain";
-    result.first = result.total = all_equal(d, 0.0);
+    fill(result, d, 0.0, options);
     return result;
   }
   Y.array() -= result.mean;
-  const SobolTerms terms(Y);
+  const SobolTerms terms(Y, d);
   const Eigen::VectorXd means = terms.means(), index = terms.indices(means, options.estimator);
   const Eigen::MatrixXd resampled = bootstrapped(terms, options);
   result.variance = SobolTerms::variance(means);
   result.first = estimates(index.head(d), resampled.topRows(d), options.confidence);
-  result.total = estimates(index.tail(d), resampled.bottomRows(d), options.confidence);
+  result.total = estimates(index.segment(d, d), resampled.middleRows(d, d), options.confidence);
+  const Eigen::Index pairs = index.size() - 2 * d;
+  if (options.second_order)
+    result.second =
+        pairs_of(estimates(index.tail(pairs), resampled.bottomRows(pairs), options.confidence), d);
   return result;
 }
 
-/// The table of one response, pairs with a failure left out: pairs x (d + 2).
+/// The table of one response, pairs with a failure left out: pairs x blocks.
 inline Eigen::MatrixXd pair_values(const Evaluations& runs, Eigen::Index n, Eigen::Index response) {
   const auto blocks = static_cast<Eigen::Index>(runs.rows.size()) / n;
   Eigen::MatrixXd Y(n, blocks);
@@ -286,9 +259,9 @@ inline Eigen::MatrixXd pair_values(const Evaluations& runs, Eigen::Index n, Eige
 
 }  // namespace detail
 
-/// Makes samples·(d + 2) runs and estimates the indices of every response. A stopped evaluation
-/// (options.evaluate.stop) gives too_few_runs. Throws std::invalid_argument for options out of range, and as
-/// evaluate does. Equal input gives equal bits on any number of threads.
+/// Makes samples·(d + 2) runs, or samples·(2d + 2), and estimates the indices of every response. A stopped
+/// evaluation (options.evaluate.stop) gives too_few_runs. Throws std::invalid_argument for options out of
+/// range, and as evaluate does. Equal input gives equal bits on any number of threads.
 template <class F>
 Sensitivity sobol_indices(const F& f, const Problem& problem, const SobolIndicesOptions& options = {}) {
   require_black_box<F>();
@@ -298,7 +271,7 @@ Sensitivity sobol_indices(const F& f, const Problem& problem, const SobolIndices
   Sensitivity result{{}, 0, evaluate(f, problem, X, options.evaluate)};
   const bool whole = static_cast<Eigen::Index>(result.runs.rows.size()) == X.rows();
   for (std::size_t r = 0; r < problem.responses.size(); ++r) {
-    Eigen::MatrixXd Y(0, X.cols() + 2);
+    Eigen::MatrixXd Y(0, X.rows() / options.samples);
     if (whole) Y = detail::pair_values(result.runs, options.samples, static_cast<Eigen::Index>(r));
     result.pairs = static_cast<int>(Y.rows());
     result.responses.push_back(detail::indices_of(problem.responses[r].name, std::move(Y), options));

@@ -43,6 +43,38 @@ TEST(SobolIndices, OfIshigamisFunction) { expect_indices_of(support::ishigami())
 TEST(SobolIndices, OfTheGFunction) { expect_indices_of(support::g_function()); }
 TEST(SobolIndices, OfAnAdditiveFunction) { expect_indices_of(support::additive()); }
 
+void expect_second_order_of(const support::SensitivityCase& c) {
+  for (const SobolEstimator estimator : estimators) {
+    SobolIndicesOptions options{.samples = 2048, .estimator = estimator};
+    const SobolIndices without = sobol_indices(c.f, c.problem, options).responses[0];
+    options.second_order = true;
+    const Sensitivity all = sobol_indices(c.f, c.problem, options);
+    const SobolIndices& s = all.responses[0];
+    const Eigen::Index d = c.first.size();
+    EXPECT_EQ(all.runs.rows.size(), static_cast<std::size_t>(2048 * (2 * d + 2)));
+    EXPECT_EQ(s.second.value, s.second.value.transpose());
+    EXPECT_TRUE(s.first.value.isApprox(without.first.value, 1e-12));  // the mean is that of A and B alone
+    EXPECT_EQ(without.second.value.size(), 0);
+    for (Eigen::Index j = 0; j < d; ++j)
+      expect_exact({s.second.value.col(j), s.second.lower.col(j), s.second.upper.col(j)}, c.second.col(j),
+                   c.name + ": S_jk");
+  }
+}
+
+TEST(SobolIndices, OfTwoInputsTogether) {
+  for (const auto& c : {support::ishigami(), support::g_function(), support::additive()})
+    expect_second_order_of(c);
+}
+
+TEST(SobolIndices, OfTwoInputsTogetherWithoutVarianceOrRuns) {
+  SobolIndicesOptions options{.samples = 16, .second_order = true};
+  const Problem problem = support::unit_problem(2);
+  const auto constant = sobol_indices([](const Eigen::VectorXd&) { return 1.0; }, problem, options);
+  EXPECT_EQ(constant.responses[0].second.value, Eigen::Matrix2d::Zero());
+  const auto never = [](const Eigen::VectorXd&) -> Outcome { return Failure{"never"}; };
+  EXPECT_TRUE(std::isnan(sobol_indices(never, problem, options).responses[0].second.value(0, 1)));
+}
+
 // f(C) is f(A) to the bit, so every term of the input is zero.
 TEST(SobolIndices, OfAnInertInputAreZero) {
   const Problem problem = support::unit_problem(3);
@@ -188,6 +220,17 @@ TEST(MainEffects, BadInputAndFailures) {
   stopped.evaluate.stop = cancel.get_token();
   EXPECT_EQ(support::thrown_text<std::runtime_error>([&] { main_effects(c.f, c.problem, stopped); }),
             "doe::main_effects: stopped after 0 of 12 runs; give a journal to go on later");
+}
+
+// E[x₀ x₁ | x₀] = x₀ E[x₁]: the slope is the other's mean, 0.25 of a triangle from 0 over 0 to 0.75. 2^10
+// Sobol' points hold one in each of as many strata, so the mean is right to a stratum's width: 1/sqrt(1024)
+// at the triangle's thin end, times its share of 1/1024, and less elsewhere.
+TEST(MainEffects, AverageOverTheDistributionOfTheOthers) {
+  const auto f = [](const Eigen::VectorXd& x) { return x[0] * x[1]; };
+  const auto effects =
+      main_effects(f, support::unit_problem(2),
+                   {.levels = 3, .samples = 1024, .inputs = {{"x1", triangular(0, 0, 0.75)}}});
+  EXPECT_NEAR(effects[0].mean[2] - effects[0].mean[0], 0.25, 1e-4);
 }
 
 }  // namespace

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <drawpoint/doe/morris.hpp>
+#include <drawpoint/tests/doe/problems.hpp>
+#include <drawpoint/tests/doe/sensitivity_cases.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::doe;
+
+namespace {
+
+ElementaryEffects effects_on(const auto& f, int d, const MorrisOptions& options = {}) {
+  return morris_screening(f, support::unit_problem(d), options).responses[0];
+}
+
+// Each effect of a linear function is slope times range. Values are sums of three terms of at most 4, divided
+// by a step of 2/3: round-off below 1e-14.
+TEST(MorrisScreening, OfALinearFunctionIsItsSlopes) {
+  const auto c = support::additive();
+  const Screening s = morris_screening(c.f, c.problem);
+  const ElementaryEffects& e = s.responses[0];
+  EXPECT_EQ(e.status, SensitivityStatus::estimated);
+  EXPECT_EQ(s.runs.rows.size(), 40U);
+  for (int j = 0; j < 3; ++j) {
+    const double range = c.problem.variables[j].upper - c.problem.variables[j].lower;
+    const double slope = support::additive_slopes[j] * range;
+    EXPECT_NEAR(e.mean[j], slope, 1e-14);
+    EXPECT_NEAR(e.mean_absolute[j], std::abs(slope), 1e-14);
+    EXPECT_NEAR(e.deviation[j], 0, 1e-14);
+    EXPECT_EQ(e.count[j], 10);
+  }
+}
+
+TEST(MorrisScreening, ChangesOneInputAtATimeByHalfTheLevels) {
+  const auto f = [](const Eigen::VectorXd& x) { return x[0]; };
+  const Screening s =
+      morris_screening(f, support::unit_problem(4), {.seed = 3, .trajectories = 50, .levels = 6});
+  ASSERT_EQ(s.runs.rows.size(), 250U);
+  for (std::size_t row = 0; row < 250; ++row) {
+    const Eigen::VectorXd on_grid = s.runs.rows[row].x * 5;
+    EXPECT_NEAR((on_grid - on_grid.array().round().matrix()).norm(), 0, 1e-14);
+    if (row % 5 == 0) continue;
+    const Eigen::VectorXd step = s.runs.rows[row].x - s.runs.rows[row - 1].x;
+    EXPECT_EQ((step.array() != 0).count(), 1);
+    EXPECT_NEAR(step.cwiseAbs().maxCoeff(), 0.6, 1e-15);
+  }
+}
+
+// The effect of x₀ on x₀ x₁ is x₁, which is 0, 1/3, 2/3 or 1 alike: mean 1/2, variance 5/36. Over 400
+// trajectories the mean is right to 4 · sqrt(5/36/400); a variance of values with kurtosis 1.64 to
+// 4 · 5/36 · sqrt(0.64/400).
+TEST(MorrisScreening, SeesAnInteraction) {
+  const auto e = effects_on([](const Eigen::VectorXd& x) { return x[0] * x[1]; }, 2, {.trajectories = 400});
+  for (int j = 0; j < 2; ++j) {
+    EXPECT_NEAR(e.mean_absolute[j], 0.5, 4 * std::sqrt(5.0 / 36 / 400));
+    EXPECT_NEAR(e.deviation[j] * e.deviation[j], 5.0 / 36, 4 * 5.0 / 36 * std::sqrt(0.64 / 400));
+    EXPECT_NEAR(e.standard_error[j], e.deviation[j] / 20, 1e-15);
+  }
+}
+
+// |x − 1/2| falls by 1/3 from 0 to 2/3 and rises by as much from 1/3 to 1, over steps of 2/3.
+TEST(MorrisScreening, MeanAbsoluteDoesNotCancel) {
+  const auto e =
+      effects_on([](const Eigen::VectorXd& x) { return std::abs(x[0] - 0.5); }, 1, {.trajectories = 200});
+  EXPECT_NEAR(e.mean_absolute[0], 0.5, 1e-14);
+  EXPECT_LT(std::abs(e.mean[0]), 4 * 0.5 / std::sqrt(200.0));
+}
+
+TEST(MorrisScreening, AnInertInputHasNoEffect) {
+  const auto e = effects_on([](const Eigen::VectorXd& x) { return std::exp(x[0]) * x[2]; }, 3);
+  EXPECT_EQ(e.mean_absolute[1], 0.0);
+  EXPECT_EQ(e.deviation[1], 0.0);
+  EXPECT_GT(e.mean_absolute[0], 0.0);
+}
+
+// Half of the levels is more than half of the range, so every integer or categorical input moves.
+TEST(MorrisScreening, MovesEveryKindOfVariable) {
+  Problem problem = support::unit_problem(1);
+  problem.variables.push_back(integer_variable("teeth", "1", 2, 3));
+  problem.variables.push_back(categorical_variable("tool", {"bucket", "blade", "ripper"}));
+  const auto f = [](const Eigen::VectorXd& x) { return x[1] + 10 * x[2]; };
+  const Screening s = morris_screening(f, problem, {.trajectories = 30});
+  for (std::size_t row = 1; row < s.runs.rows.size(); ++row)
+    if (row % 4 != 0) {
+      EXPECT_NE(s.runs.rows[row].x, s.runs.rows[row - 1].x);
+    }
+  EXPECT_GT(s.responses[0].mean[1], 1.0);  // by 1 over a step of 2/3
+  EXPECT_NEAR(s.responses[0].mean[1], 1.5, 1e-14);
+}
+
+TEST(MorrisScreening, AFailedRunTakesTheEffectsOnBothSides) {
+  const auto f = [](const Eigen::VectorXd& x) -> Outcome {
+    if (x[0] > 0.9) return Failure{"stuck"};
+    return x.sum();
+  };
+  const Screening s = morris_screening(f, support::unit_problem(3), {.trajectories = 40});
+  const ElementaryEffects& e = s.responses[0];
+  int whole = 0;
+  for (std::size_t row = 1; row < s.runs.rows.size(); ++row)
+    whole += row % 4 != 0 && !s.runs.rows[row].outcome.failed() && !s.runs.rows[row - 1].outcome.failed();
+  EXPECT_EQ(e.count.sum(), whole);
+  EXPECT_LT(whole, 120);
+  EXPECT_EQ(e.status, SensitivityStatus::estimated);
+  for (int j = 0; j < 3; ++j) EXPECT_NEAR(e.mean[j], 1, 1e-14);
+  const auto never = [](const Eigen::VectorXd&) -> Outcome { return Failure{"never"}; };
+  const ElementaryEffects none = effects_on(never, 2);
+  EXPECT_EQ(none.status, SensitivityStatus::too_few_runs);
+  EXPECT_EQ(none.message.substr(0, 25), "2 variables have fewer th");
+  EXPECT_TRUE(none.mean_absolute.array().isNaN().all());
+}
+
+TEST(MorrisScreening, OfAConstantSaysSo) {
+  const auto e = effects_on([](const Eigen::VectorXd&) { return 3.0; }, 2);
+  EXPECT_EQ(e.status, SensitivityStatus::constant_response);
+  EXPECT_EQ(e.message, "no change of an input changed the response");
+}
+
+TEST(MorrisScreening, HasTheSameBitsOnAnyNumberOfThreads) {
+  const auto c = support::ishigami();
+  MorrisOptions options{.seed = 9};
+  const auto one = morris_screening(c.f, c.problem, options).responses[0];
+  options.evaluate.threads = 4;
+  const auto four = morris_screening(c.f, c.problem, options).responses[0];
+  EXPECT_EQ(one.mean_absolute, four.mean_absolute);
+  options.seed = 10;
+  EXPECT_NE(one.mean_absolute, morris_screening(c.f, c.problem, options).responses[0].mean_absolute);
+}
+
+TEST(MorrisScreening, BadInputIsNamed) {
+  const auto text = [](const MorrisOptions& options) {
+    return support::thrown_text<std::invalid_argument>(
+        [&] { effects_on([](const Eigen::VectorXd& x) { return x[0]; }, 1, options); });
+  };
+  EXPECT_EQ(text({.trajectories = 1}),
+            "doe::morris_screening: trajectories is 1; allowed is 2 or more; 10 rank the inputs");
+  EXPECT_EQ(text({.levels = 5}),
+            "doe::morris_screening: levels is 5; allowed is an even number from 2 to 1000; 4 is usual");
+}
+
+}  // namespace
