@@ -14,6 +14,7 @@
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/nonstationarity.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <drawpoint/kriging/outliers.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
@@ -57,6 +58,7 @@
 ///   validate.hpp                   how well a model predicts runs that it has not seen
 ///   cross_validation.hpp           leave-one-out, k-fold, hold-out
 ///   outliers.hpp                   runs that do not belong to the others
+///   nonstationarity.hpp            responses that jump, or are rougher or noisier in one part of the box
 ///   score.hpp                      RMSE, NRMSE, Q2 and their kin
 ///   compare.hpp                    several ways to fit, scored alike, and the best of them
 ///

@@ -6,6 +6,7 @@
 #include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/analysis/suspects.h>
 #include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/analysis/unevenness.h>
 
 #include <algorithm>
 #include <map>
@@ -55,6 +56,7 @@ void add_models(ReportInput& input, doe::Seed seed) {
     input.warnings.push_back("Runs that failed are left out of the models. " + failed + ".");
   Models fitted = fit_models(tables);
   for (std::string& sentence : suspects(fitted, tables)) input.warnings.push_back(std::move(sentence));
+  for (std::string& sentence : unevenness(fitted, tables)) input.warnings.push_back(std::move(sentence));
   input.models = std::move(fitted.models);
   input.validations = std::move(fitted.validations);
   for (std::size_t j = 0; j < fitted.ways.size(); ++j)

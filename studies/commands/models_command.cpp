@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/analysis/suspects.h>
+#include <drawpoint/studies/analysis/unevenness.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
 #include <drawpoint/studies/runs/session.h>
@@ -30,6 +31,8 @@ int fit_command(const Study& study, const Settings& settings) {
   else
     std::fputs((fit_text(fitted, study.problem) + success_text(failures, study.problem)).c_str(), stdout);
   for (const std::string& sentence : suspects(fitted, tables)) std::fprintf(stderr, "%s\n", sentence.c_str());
+  for (const std::string& sentence : unevenness(fitted, tables))
+    std::fprintf(stderr, "%s\n", sentence.c_str());
   return 0;
 }
 
