@@ -113,6 +113,12 @@ json poses_of(const engine::loading::SceneFrame& frame) {
   return poses;
 }
 
+// "curl, 3.2 t in the bucket"; logs of version 4 do not know the mass.
+std::string label_of(const engine::loading::SceneFrame& frame) {
+  if (std::isnan(frame.bucket_mass)) return frame.label;
+  return frame.label + ", " + fixed(1e-3 * frame.bucket_mass, 1) + " t in the bucket";
+}
+
 // The cycle's frames; the poster shows the bucket as it breaks out.
 json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
   json shapes = json::array(), bodies = json::array(), frames = json::array();
@@ -127,7 +133,7 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle) {
     next = frame.t + picture_interval - 1e-6;
     if (frame.label == "curl") poster = static_cast<int>(frames.size());
     frames.push_back(
-        {{"t", rounded(frame.t - cycle.t_start)}, {"label", frame.label}, {"poses", poses_of(frame)}});
+        {{"t", rounded(frame.t - cycle.t_start)}, {"label", label_of(frame)}, {"poses", poses_of(frame)}});
   }
   const double toe = cycle.plan.toe;
   return {

@@ -80,6 +80,14 @@ std::string replay_page(const Study& study, const Identity& identity, const Fold
   return replay_page(input_of_run(study, identity, folder, run, command));
 }
 
+nlohmann::json scene_of_run(const Study& study, const Folder& folder, const Run& run) {
+  require_log(folder, run);
+  std::vector<std::string> cautions;
+  for (auto& panel : detail::checked_panels(illustrated(study, folder, run), cautions))
+    if (panel.at("type") == "scene") return std::move(panel);
+  return {};
+}
+
 nlohmann::json flat_figures(const Study& study, const Folder& folder, const Run& run,
                             std::vector<std::string>& cautions) {
   require_log(folder, run);

@@ -19,12 +19,12 @@ bool is_within(const fs::path& file, const fs::path& place) {
 
 }  // namespace
 
-void check_output_file(const Folder& folder, const fs::path& file) {
+void check_output_file(const Folder& folder, const fs::path& file, const std::string& option) {
   for (const fs::path& own :
        {folder.store(), folder.logs(), folder.shared(), folder.shared_checksums(), folder.slurm()}) {
     if (is_within(file, own))
-      throw UsageError("--file: " + file.string() + " is where the study keeps its own (" + own.string() +
-                       "); name another file");
+      throw UsageError(option + ": " + file.string() + " is where the study keeps its own (" + own.string() +
+                       "); name another");
   }
 }
 

@@ -5,11 +5,13 @@
 #include <drawpoint/studies/store/folder.h>
 
 #include <filesystem>
+#include <string>
 
 namespace drawpoint::studies {
 
-/// Of a file that a command is told to write with --file. Throws UsageError where a study keeps its own: the
-/// store, run logs, what runs share.
-void check_output_file(const Folder& folder, const std::filesystem::path& file);
+/// Of a file or folder that a command is told to write with an option. Throws UsageError where a study keeps
+/// its own: the store, run logs, what runs share.
+void check_output_file(const Folder& folder, const std::filesystem::path& file,
+                       const std::string& option = "--file");
 
 }  // namespace drawpoint::studies

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/frame_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
 
 namespace drawpoint::studies {
@@ -41,8 +42,11 @@ void add_compare_options(CLI::App& command, const Study& study, Settings& settin
 
 void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& settings) {
   command.add_option("--run", settings.run, "number of the run")->required()->check(CLI::Range(1, most_run));
-  command.add_option("--file", settings.file, "file to write (default: replay_0007.html in the folder)");
-  command.footer("Example: " + study.name + " replay --run 7 --file run_7.html");
+  command.add_option("--file", settings.file, "page to write (default: replay_0007.html in the folder)");
+  add_frame_options(command, settings.frames);
+  const std::string example = "Example: " + study.name + " replay --run 7 ";
+  command.footer(example + "--file run_7.html\n" + example + "--video run_7.mp4 --camera side --speed 2\n" +
+                 example + "--frames pictures --from 4 --to 4 --size 1920x1080");
 }
 
 void add_live_options(CLI::App& command, const Study& study, LiveSettings& settings) {
@@ -132,7 +136,9 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
                                              compare_command),
                       study, settings);
   commands.add_with_json("report", "make the report again from the stored runs", report_command);
-  CLI::App& replay = commands.add("replay", "write one run as a page with its figures", replay_command);
+  CLI::App& replay = commands.add(
+      "replay", "write one run as a page with its figures, or its scene as pictures and as a film",
+      replay_command);
   add_folder_option(replay, settings);
   add_replay_options(replay, study, settings.replay);
   CLI::App& exported =

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/frame_options.h>
 #include <drawpoint/studies/commands/output_file.h>
+#include <drawpoint/studies/commands/render_frames.h>
 #include <drawpoint/studies/runs/session.h>
 
 #include <cstdio>
@@ -15,9 +17,11 @@ int replay_command(const Study& study, const Settings& settings) {
   const ReplaySettings& wanted = settings.replay;
   if (!study.illustrate)
     throw UsageError("replay: this study does not say what to draw of a run's log (Study::illustrate)");
+  const bool frames = wants_frames(wanted.frames);
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   const Run run = stored_run(store, folder, wanted.run);
+  if (frames) return render_frames(study, folder, run, wanted.frames);
   if (!wanted.file.empty()) check_output_file(folder, wanted.file);
   const std::filesystem::path file = wanted.file.empty() ? folder.replay(run.id) : wanted.file;
   replay(study, store, folder, run, file, settings.command);

@@ -15,4 +15,7 @@ std::string_view app_asset();     ///< web/main.js with what it imports and thre
 std::string_view live_page_asset();  ///< live.html, likewise
 std::string_view live_asset();       ///< web/live.js with what it imports, bundled
 
+std::string_view pictures_page_asset();  ///< pictures.html, likewise
+std::string_view pictures_asset();       ///< web/pictures.js with what it imports and three.js, bundled
+
 }  // namespace drawpoint::studies::detail

@@ -81,4 +81,10 @@ std::string live_page(const std::string& title, const std::string& nonce) {
                                     {"APP", live_asset()}});
 }
 
+std::string pictures_page(const std::string& title, const nlohmann::json& data, const std::string& nonce) {
+  const std::string head = escaped_html(title), json = embedded_json(data);
+  return filled(pictures_page_asset(),
+                {{"TITLE", head}, {"NONCE", nonce}, {"DATA", json}, {"APP", pictures_asset()}});
+}
+
 }  // namespace drawpoint::studies::detail

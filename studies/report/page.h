@@ -22,4 +22,8 @@ std::string page(const std::string& title, const nlohmann::json& data);
 /// the policy of its answer names.
 std::string live_page(const std::string& title, const std::string& nonce);
 
+/// The page that draws a scene as pictures and sends them to where it comes from: data has `scene` (a panel),
+/// `times`, `width`, `height` and `camera`. A script as above.
+std::string pictures_page(const std::string& title, const nlohmann::json& data, const std::string& nonce);
+
 }  // namespace drawpoint::studies::detail

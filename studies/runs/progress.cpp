@@ -47,7 +47,7 @@ double rate_of(const ProgressState& state) {
 double seconds_left(const ProgressState& state) { return (state.total - state.done) / rate_of(state); }
 
 std::string progress_text(const ProgressState& state) {
-  std::string text = std::to_string(state.done) + "/" + std::to_string(state.total) + " runs";
+  std::string text = std::to_string(state.done) + "/" + std::to_string(state.total) + " " + state.things;
   if (state.failed > 0) text += ", " + std::to_string(state.failed) + " failed";
   if (const double rate = rate_of(state); rate > 0.0) {
     text += ", " + (rate < 1.0 ? number(60.0 * rate, "per minute") : number(rate, "per second"));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Progress of a number of runs: on a terminal one line that is rewritten, elsewhere a plain line now and
+/// Progress of a number of runs, or of other things: on a terminal one line that is rewritten, elsewhere a plain line now and
 /// then. The time left assumes that the runs to come take as long as those of this session.
 
 #include <chrono>
@@ -19,7 +19,8 @@ struct ProgressState {
   int total = 0;
   int session = 0;  ///< finished since `seconds` ago
   double seconds = 0.0;
-  std::string standing = {};  ///< of the tasks of a cluster, "2 at work, 40 waiting (Resources)"
+  std::string things = "runs";  ///< what is counted
+  std::string standing = {};    ///< of the tasks of a cluster, "2 at work, 40 waiting (Resources)"
 };
 std::string progress_text(const ProgressState& state);
 /// Runs per second; 0 while none of this session has ended.

@@ -47,10 +47,24 @@ struct FrontSettings {
   bool every_point = false;  ///< all of them
 };
 
+/// Options of `replay` that make pictures of the page.
+struct FrameSettings {
+  std::filesystem::path folder = {};  ///< for PNG files; empty: none are kept
+  std::filesystem::path video = {};   ///< empty: none
+  std::optional<double> from = {};    ///< [s]; empty: from the first picture of the scene
+  std::optional<double> to = {};      ///< [s]; empty: to the last
+  double fps = 20.0;                  ///< frames per second of film
+  double speed = 1.0;                 ///< seconds of the run per second of film
+  std::string size = "1280x720";      ///< width x height [pixel]
+  std::string camera = "home";        ///< or side, above
+  std::string given = {};             ///< one of the options above but the first two; empty: none was
+};
+
 /// Options of `replay`.
 struct ReplaySettings {
   std::int64_t run = 0;
   std::filesystem::path file = {};  ///< empty: replay_0001.html in the folder
+  FrameSettings frames = {};        ///< where it names a folder or a video, in place of the page
 };
 
 /// Options of `live`.

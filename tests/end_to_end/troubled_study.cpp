@@ -73,7 +73,7 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
     write_measures(context.log, x[0], x[1]);
     return responses_of(context.log, context.options);
   }
-  if (how == "drawn") {
+  if (how == "drawn" || how == "filmed") {
     if (x[0] > 0.9) return doe::Failure{"jammed"};
     write_measures(context.log, x[0], x[1]);
     return x[0] > 0.5 ? doe::Outcome(doe::Failure{"spilled"}) : good(x[0], x[1]);
@@ -87,16 +87,41 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
   return x[0] > 0.5 || how == "all" ? misbehave(how == "all" ? "throw" : how, x[0], x[1]) : good(x[0], x[1]);
 }
 
+nlohmann::json box(double x, double y, double z) {
+  nlohmann::json corners = nlohmann::json::array();
+  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z});
+  return {{"vertices", corners},
+          {"faces", {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}}};
+}
+
+/// A red box that goes 4 m along x in 2 s, on a floor.
+nlohmann::json scene() {
+  nlohmann::json frames = nlohmann::json::array();
+  for (int t = 0; t <= 2; ++t)
+    frames.push_back({{"t", t},
+                      {"label", "at " + std::to_string(t)},
+                      {"poses", {{0, 0, -0.1, 1, 0, 0, 0}, {2.0 * t - 2.0, 0, 0.6, 1, 0, 0, 0}}}});
+  return {{"type", "scene"},
+          {"title", "A box"},
+          {"caption", "It goes."},
+          {"shapes", {box(5, 2, 0.1), box(0.6, 0.5, 0.6)}},
+          {"bodies", {{{"shape", 0}, {"color", "#a09080"}}, {{"shape", 1}, {"color", "#d01010"}}}},
+          {"frames", frames},
+          {"camera", {{"eye", {0, -12, 3}}, {"target", {0, 0, 0.5}}}}};
+}
+
 /// A table of what the log has.
 nlohmann::json illustrate(const std::filesystem::path& file) {
   std::ifstream log(file);
   double hours = 0, wear = 0;
   if (!(log >> hours >> wear)) throw std::runtime_error("the log ends early");
-  return nlohmann::json::array({{{"type", "table"},
-                                 {"title", "measured"},
-                                 {"caption", "all"},
-                                 {"columns", {"hours", "wear"}},
-                                 {"rows", {{hours, wear}}}}});
+  nlohmann::json figures = nlohmann::json::array({{{"type", "table"},
+                                                   {"title", "measured"},
+                                                   {"caption", "all"},
+                                                   {"columns", {"hours", "wear"}},
+                                                   {"rows", {{hours, wear}}}}});
+  if (trouble() == "filmed") figures.push_back(scene());
+  return figures;
 }
 
 void prepare(const studies::RunContext& context) {
@@ -117,7 +142,7 @@ int main(int argc, char** argv) {
   if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
-  if (trouble() == "drawn") study.illustrate = illustrate;
+  if (trouble() == "drawn" || trouble() == "filmed") study.illustrate = illustrate;
   if (trouble() == "logged") {
     study.responses = responses_of;
     study.options.push_back({.name = "price", .value = "1", .least = 1, .most = 9, .of_responses = true});

@@ -98,10 +98,14 @@ inline const std::vector<Row>& dependency_table() {
        study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "analysis", "live"}),
        {"Eigen", "nlohmann-json"},
        {}},
-      {"studies/live/server.cpp", study_rooms({}, {"runs", "live"}), {}, {"cpp-httplib"}},
+      {"studies/live/server.cpp", study_rooms({}, {"runs", "live", "loopback"}), {}, {"cpp-httplib"}},
+      {"studies/loopback/", study_rooms({}, {"loopback"}), {}, {"cpp-httplib"}},
+      {"studies/frames/", study_rooms({"doe/"}, {"runs", "report", "frames"}), {"nlohmann-json"}, {}},
+      {"studies/frames/frame_server.cpp", study_rooms({}, {"frames", "loopback"}), {}, {"cpp-httplib"}},
       {"studies/front/", {"studies/commands/option_tree.h"}, {}, {"CLI11"}},
       {"studies/commands/",
-       study_rooms({"doe/"}, {"store", "runs", "analysis", "sampling", "comparison", "live", "commands"}),
+       study_rooms({"doe/"},
+                   {"store", "runs", "analysis", "sampling", "comparison", "live", "frames", "commands"}),
        {"Eigen", "nlohmann-json"},
        {"CLI11"}}};
   return table;

@@ -8,6 +8,7 @@
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 using namespace drawpoint;
@@ -55,6 +56,22 @@ TEST(LoadingFigures, DrawEverySampleOfTorqueAndItsYieldLine) {
   EXPECT_EQ(series[5]["y"], nlohmann::json({145.0, 145.0}));
   EXPECT_EQ(series[6]["y"], nlohmann::json({-145.0, -145.0}));
   EXPECT_EQ(series[5]["x"], nlohmann::json({0.0, 10.0}));
+}
+
+TEST(LoadingFigures, TheSceneTellsTheStageAndTheRockInTheBucket) {
+  const test::TestFolder place;
+  LoadingLog log = log_with_a_peak();
+  log.scene.frames = {{0.0, 1, "drive in", {}, std::nan("")}, {0.5, 1, "curl", {}, 3240.0}};
+  write_log(place / "run.h5", log);
+  for (const auto& figure : loading_figures(place / "run.h5")) {
+    if (figure["type"] != "scene") continue;
+    ASSERT_EQ(figure["frames"].size(), 2u);
+    EXPECT_EQ(figure["frames"][0]["label"], "drive in") << "logs of version 4 do not know the mass";
+    EXPECT_EQ(figure["frames"][1]["label"], "curl, 3.2 t in the bucket");
+    EXPECT_EQ(figure["poster_frame"], 1);
+    return;
+  }
+  FAIL() << "no scene";
 }
 
 TEST(LoadingFigures, ARunWithoutACycleHasNone) {

@@ -20,6 +20,7 @@ TEST(Progress, TimeLeftIsThatOfTheRestAtTheRateOfThisSession) {
   EXPECT_EQ(progress_text({.done = 20, .failed = 1, .total = 50, .session = 10, .seconds = 60.0}),
             "20/50 runs, 1 failed, 10 per minute, 3.0 min left");
   EXPECT_EQ(progress_text({.done = 20, .total = 50}), "20/50 runs");
+  EXPECT_EQ(progress_text({.done = 20, .total = 50, .things = "frames"}), "20/50 frames");
   EXPECT_EQ(progress_text({.done = 0, .total = 50, .standing = "0 at work, 50 waiting (Resources)"}),
             "0/50 runs; 0 at work, 50 waiting (Resources)");
   EXPECT_EQ(progress_text({.done = 50, .total = 50, .session = 50, .seconds = 10.0}),

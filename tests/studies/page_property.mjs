@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {csv, tsv} from '../../studies/report/web/delimited.js';
 import {number, setting} from '../../studies/report/web/format.js';
+import {words} from '../../studies/report/web/inscription.js';
 import {selecting} from '../../studies/report/web/selection.js';
 
 /// One axis that all have values on, and one that run 2 lacks.
@@ -66,4 +67,9 @@ test('what is shown stays short', () => {
   assert.equal(number(0.123456), '0.123');
   assert.equal(setting(1, {kind: 'categorical', levels: ['hard_steel', 'rubber']}), 'rubber');
   assert.equal(setting(32, {kind: 'integer'}), '32');
+});
+
+test('a frame tells its time, with two decimals, and the label of its picture', () => {
+  assert.equal(words(3.4, 'curl, 3.2 t in the bucket'), '3.40 s, curl, 3.2 t in the bucket');
+  assert.equal(words(0, undefined), '0.00 s');
 });

@@ -11,21 +11,23 @@ import {groups, lights} from './scene_parts.js';
 import {colour, onTheme} from './theme.js';
 
 const speeds = [1, 3, 10];
+const directions = {side: [0, -1, 0.02], above: [-0.001, 0, 1]};
 
 export function sceneViewer(panel) {
   const times = panel.frames.map((frame) => frame.t);
   const stage = el('div', {class: 'scene'});
   if (!times.length) return el('p', {class: 'caution'}, 'The scene has no frames.');
   try {
-    const view = new View(panel, stage, new Poses(panel.poses, panel.bodies.length, times));
+    const view = new View(panel, new Poses(panel.poses, panel.bodies.length, times));
+    view.fill(stage);
     return el('div', {}, stage, player(panel, times, view));
   } catch (error) {
     return el('p', {class: 'caution'}, 'The scene needs WebGL, which this browser does not offer: ' + error.message);
   }
 }
 
-class View {
-  constructor(panel, stage, poses) {
+export class View {
+  constructor(panel, poses) {
     this.poses = poses;
     this.renderer = new THREE.WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
@@ -43,9 +45,12 @@ class View {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.look(this.home.eye);
     this.controls.addEventListener('change', () => this.render());
-    stage.append(this.renderer.domElement);
-    new ResizeObserver(() => this.resize(stage)).observe(stage);
     onTheme(() => this.tint());
+  }
+
+  fill(stage) {
+    stage.append(this.renderer.domElement);
+    new ResizeObserver(() => this.resize(stage.clientWidth, stage.clientHeight)).observe(stage);
   }
 
   /// Sphere around what is solid now.
@@ -67,11 +72,12 @@ class View {
     this.render();
   }
 
-  /// From the side (0, -1, 0) or from above (0, 0, 1), at the distance of the first view.
-  lookAlong(direction) {
+  /// As the study says (home), or from the side or from above at that distance.
+  see(camera) {
+    if (camera === 'home') return this.look(this.home.eye);
     const target = new THREE.Vector3(...this.home.target);
     const distance = target.distanceTo(new THREE.Vector3(...this.home.eye));
-    this.look(target.add(new THREE.Vector3(...direction).normalize().multiplyScalar(distance)).toArray());
+    return this.look(target.add(new THREE.Vector3(...directions[camera]).normalize().multiplyScalar(distance)).toArray());
   }
 
   setTime(t, draw = true) {
@@ -90,8 +96,7 @@ class View {
     if (draw) this.render();
   }
 
-  resize(stage) {
-    const {clientWidth: width, clientHeight: height} = stage;
+  resize(width, height) {
     if (!width || !height) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
@@ -137,7 +142,7 @@ function player(panel, times, view) {
     if (on) requestAnimationFrame(step);
   };
   show(t, false);
-  const views = el('div', {class: 'choice'}, [['Reset view', () => view.look(view.home.eye)], ['Side', () => view.lookAlong([0, -1, 0.02])], ['Above', () => view.lookAlong([-0.001, 0, 1])]]
-    .map(([text, onclick]) => el('button', {type: 'button', onclick}, text)));
+  const views = el('div', {class: 'choice'}, [['Reset view', 'home'], ['Side', 'side'], ['Above', 'above']]
+    .map(([text, camera]) => el('button', {type: 'button', onclick: () => view.see(camera)}, text)));
   return el('div', {class: 'player'}, button, slider, clock, choice(speeds.map((s) => s + '×'), (i) => { speed = speeds[i]; }), views);
 }

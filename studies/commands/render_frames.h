@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// A run's scene as pictures and as a film.
+
+#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/study.hpp>
+
+namespace drawpoint::studies {
+
+/// Prints the folder and the file that it made. Returns 0, or 130 after a signal. Throws UsageError for times
+/// that the scene does not have and for a folder with frames, std::runtime_error for what is missing or
+/// fails.
+int render_frames(const Study& study, const Folder& folder, const Run& run, const FrameSettings& settings);
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/frames/frame_server.h>
+#include <drawpoint/studies/loopback/loopback.h>
+#include <httplib.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr loopback::Manners manners_of_frames = {.patience = std::chrono::seconds(30),
+                                                 .largest_body = std::size_t{256} << 20};
+
+/// Refuses whoever does not know the name, before anything that is sent is read.
+httplib::Server::HandlerWithResponse gate_of_frames(int port, const std::string& place) {
+  return [port, place](const httplib::Request& request, httplib::Response& response) {
+    if (loopback::refused_by_host(request, response, port)) return httplib::Server::HandlerResponse::Handled;
+    if (request.path.starts_with(place)) return httplib::Server::HandlerResponse::Unhandled;
+    loopback::refuse(response, 404, "There is nothing to see here.");
+    return httplib::Server::HandlerResponse::Handled;
+  };
+}
+
+void set_routes_of_frames(httplib::Server& server, const std::string& place,
+                          std::function<std::string(const std::string&)> page,
+                          const std::shared_ptr<FrameInbox>& inbox) {
+  server.Get(place, [page = std::move(page)](const httplib::Request&, httplib::Response& response) {
+    const std::string nonce = loopback::random_word();
+    loopback::give(response, 200, "text/html; charset=utf-8", page(nonce));
+    response.set_header("Content-Security-Policy", loopback::policy_of_own_scripts(nonce));
+  });
+  server.Post(place + "frame/([0-9]{1,6})",
+              [inbox](const httplib::Request& request, httplib::Response& response) {
+                const std::string complaint = inbox->take(std::stoul(request.matches[1].str()), request.body);
+                if (!complaint.empty()) loopback::refuse(response, 400, complaint);
+              });
+  server.Post(place + "problem",
+              [inbox](const httplib::Request& request, httplib::Response&) { inbox->give_up(request.body); });
+}
+
+}  // namespace
+
+struct FrameServer::Listening : loopback::Listener {
+  using Listener::Listener;
+};
+
+FrameServer::FrameServer(std::function<std::string(const std::string& nonce)> page,
+                         std::shared_ptr<FrameInbox> inbox)
+    : inbox_(std::move(inbox)) {
+  const auto server = std::make_shared<httplib::Server>();
+  const std::string place = std::string("/").append(loopback::random_word()).append("/");
+  loopback::set_manners(*server, manners_of_frames);
+  set_routes_of_frames(*server, place, std::move(page), inbox_);
+  const int port = loopback::bind(*server, 0);
+  if (port <= 0)
+    throw std::runtime_error("replay: no port of 127.0.0.1 is free; end some programs that listen there");
+  server->set_pre_routing_handler(gate_of_frames(port, place));
+  address_ = "http://127.0.0.1:" + std::to_string(port) + place;
+  listening_ = std::make_unique<Listening>(server);
+}
+
+FrameServer::~FrameServer() { inbox_->close(); }
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/frames/frame_files.h>
+#include <drawpoint/studies/frames/programs.h>
+#include <drawpoint/studies/frames/scratch.h>
+#include <drawpoint/studies/frames/video.h>
+#include <drawpoint/studies/runs/interrupt.h>
+#include <fcntl.h>
+#include <unistd.h>
+#include <drawpoint/doe/processes.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace drawpoint::studies {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void cannot_write_film(const fs::path& file, int error) {
+  throw std::runtime_error("--video: cannot write " + file.string() + ": " + std::strerror(error) +
+                           "; check its folder and the free space, or name another");
+}
+
+/// Beside the film, under a name that nobody has; gone unless it has become the film.
+class Unfinished {
+ public:
+  explicit Unfinished(const fs::path& file)
+      : file_(file), path_(file.string() + "." + std::to_string(getpid()) + ".tmp") {}
+  ~Unfinished() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+  const fs::path& path() const { return path_; }
+  void finish() const {
+    const int written = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool synced = written >= 0 && fsync(written) == 0;
+    const int error = errno;
+    if (written >= 0) ::close(written);
+    if (!synced) cannot_write_film(file_, error);
+    fs::rename(path_, file_);
+  }
+
+ private:
+  fs::path file_, path_;
+};
+
+/// Colours as the frames have them, in the sampling (4:2:0) that every player shows.
+std::vector<std::string> words_for_ffmpeg(const Video& video, const fs::path& frames, const fs::path& to) {
+  char rate[40];
+  std::snprintf(rate, sizeof rate, "%.9g", video.fps);
+  std::vector<std::string> words = {"-hide_banner",
+                                    "-nostdin",
+                                    "-loglevel",
+                                    "warning",
+                                    "-y",
+                                    "-framerate",
+                                    rate,
+                                    "-i",
+                                    (frames / frame_pattern).string(),
+                                    "-vf",
+                                    "scale=out_color_matrix=bt709:out_range=tv",
+                                    "-pix_fmt",
+                                    "yuv420p",
+                                    "-colorspace",
+                                    "bt709",
+                                    "-color_primaries",
+                                    "bt709",
+                                    "-color_trc",
+                                    "bt709"};
+  const std::vector<std::string> mp4 = {"-c:v",      "libx264",    "-crf", "20",
+                                        "-movflags", "+faststart", "-f",   "mp4"};
+  const std::vector<std::string> webm = {"-c:v", "libvpx-vp9", "-crf", "30", "-b:v",
+                                         "0",    "-row-mt",    "1",    "-f", "webm"};
+  const auto& format = video.file.extension() == ".webm" ? webm : mp4;
+  words.insert(words.end(), format.begin(), format.end());
+  words.push_back(to.string());
+  return words;
+}
+
+}  // namespace
+
+void check_film_can_be_written(const fs::path& file) {
+  if (access(fs::absolute(file).parent_path().c_str(), W_OK | X_OK) != 0) cannot_write_film(file, errno);
+  if (fs::is_directory(file)) cannot_write_film(file, EISDIR);
+}
+
+void film(const Video& video, const fs::path& folder, const fs::path& ffmpeg) {
+  const Scratch scratch;
+  const Unfinished unfinished(fs::absolute(video.file));
+  const fs::path printed = scratch.path() / "printed.txt";
+  doe::ProcessPool pool(1);
+  pool.start({.executable = ffmpeg.string(),
+              .arguments = words_for_ffmpeg(video, fs::absolute(folder), unfinished.path()),
+              .output = printed});
+  std::vector<doe::ProcessEnd> ends;
+  while (ends.empty()) {
+    if (InterruptGuard::requested()) {
+      pool.terminate(time_to_end);
+      throw Interrupted{};
+    }
+    ends = pool.wait(std::chrono::milliseconds(100));
+  }
+  if (ends.front().wait_status != 0)
+    throw std::runtime_error("replay: " + video.file.string() + " was not made: ffmpeg " +
+                             doe::describe(ends.front()) + "; " + last_words(printed));
+  unfinished.finish();
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/loopback/loopback.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <random>
+#include <thread>
+#include <utility>
+
+namespace drawpoint::studies::loopback {
+namespace {
+
+constexpr const char* address = "127.0.0.1";
+constexpr std::chrono::milliseconds glance(10);
+constexpr std::chrono::seconds time_to_answer(3);  // what is being answered when the server is to end
+constexpr std::size_t threads = 32;                // slow clients hold one each
+
+void answer_exceptions(httplib::Server& server) {
+  server.set_exception_handler(
+      [](const httplib::Request&, httplib::Response& response, std::exception_ptr problem) {
+        try {
+          std::rethrow_exception(problem);
+        } catch (const std::exception& e) {
+          refuse(response, 500, e.what());
+        } catch (...) {
+          refuse(response, 500, "unknown error");
+        }
+      });
+}
+
+}  // namespace
+
+void set_manners(httplib::Server& server, const Manners& manners) {
+  server.set_default_headers({{"Cache-Control", "no-store"},
+                              {"X-Content-Type-Options", "nosniff"},
+                              {"Referrer-Policy", "no-referrer"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"X-Frame-Options", "DENY"}});
+  server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+  server.set_keep_alive_max_count(1);
+  server.set_keep_alive_timeout(manners.patience.count());
+  server.set_read_timeout(manners.patience.count());
+  server.set_payload_max_length(manners.largest_body);
+  // Without SO_REUSEPORT, which the library sets: two servers could have one port.
+  server.set_socket_options([](int socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  answer_exceptions(server);
+}
+
+int bind(httplib::Server& server, int port) {
+  errno = 0;
+  if (port == 0) return server.bind_to_any_port(address);
+  return server.bind_to_port(address, port) ? port : -1;
+}
+
+bool refused_by_host(const httplib::Request& request, httplib::Response& response, int port) {
+  const std::string number = std::to_string(port);
+  const std::array<std::string, 2> hosts = {std::string(address) + ":" + number,
+                                            std::string("localhost:") + number};
+  const std::string host = request.get_header_value("Host");
+  if (request.get_header_value_count("Host") == 1 &&
+      std::find(hosts.begin(), hosts.end(), host) != hosts.end())
+    return false;
+  refuse(response, 403,
+         "This page answers to http://" + hosts[0] + "/ and http://" + hosts[1] +
+             "/ alone. Through a tunnel, use the same port at both ends.");
+  return true;
+}
+
+void give(httplib::Response& response, int status, const std::string& type, std::string body) {
+  response.status = status;
+  const std::size_t length = body.size();
+  response.set_content_provider(length, type.c_str(),
+                                [body = std::move(body)](std::size_t at, std::size_t count, auto& sink) {
+                                  return sink.write(body.data() + at, count);
+                                });
+}
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  give(response, status, "text/plain; charset=utf-8", why + "\n");
+}
+
+std::string random_word() {
+  std::random_device random;
+  std::string text;
+  for (int i = 0; i < 4; ++i) {
+    char part[9];
+    std::snprintf(part, sizeof part, "%08x", random());
+    text += part;
+  }
+  return text;
+}
+
+std::string policy_of_own_scripts(const std::string& nonce) {
+  return "default-src 'none'; script-src 'nonce-" + nonce +
+         "'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; connect-src 'self'; base-uri "
+         "'none'; "
+         "form-action 'none'; frame-ancestors 'none'";
+}
+
+Listener::Listener(std::shared_ptr<httplib::Server> server)
+    : server_(std::move(server)), over_(std::make_shared<std::atomic<bool>>(false)) {
+  std::thread([server = server_, over = over_] {
+    server->listen_after_bind();
+    *over = true;
+  }).detach();
+}
+
+bool Listener::stop() {
+  while (!over() && !server_->is_running()) std::this_thread::sleep_for(glance);
+  if (!over()) server_->stop();
+  for (auto waited = glance; !over() && waited < time_to_answer; waited += glance)
+    std::this_thread::sleep_for(glance);
+  return over();
+}
+
+}  // namespace drawpoint::studies::loopback
