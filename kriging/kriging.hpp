@@ -10,6 +10,7 @@
 #include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/count_model.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
@@ -43,6 +44,7 @@
 ///   polynomial.hpp                 polynomial regression
 ///   radial.hpp                     radial basis functions
 ///   fit_radial.hpp                 their fit
+///   count_model.hpp                responses that are counts, often none
 ///   success_model.hpp              how likely a run succeeds, from runs that did and that failed
 ///
 /// Use:

@@ -7,7 +7,7 @@
 /// A simulator that fails in a part of the box (stuck, diverged, out of time) leaves no response there, and
 /// models of the responses know nothing of it. This one is fitted to success and failure alone: Gaussian
 /// process classification, P = Φ(f) of a latent process f, its covariance by penalised likelihood
-/// (detail/success_likelihood.hpp), its posterior by expectation propagation (detail/probit_posterior.hpp).
+/// (detail/latent_likelihood.hpp), its posterior by expectation propagation (detail/site_posterior.hpp).
 /// Failures that follow no place give about their share everywhere; far from all runs P goes back towards it.
 /// Repeated runs at one place count each.
 ///
@@ -28,7 +28,7 @@
 #include <drawpoint/doe/criterion.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/correlation.hpp>
-#include <drawpoint/kriging/detail/success_likelihood.hpp>
+#include <drawpoint/kriging/detail/latent_likelihood.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <stdexcept>
 #include <string>
@@ -78,8 +78,8 @@ class SuccessModel {
 
   detail::InputScale input_;
   Eigen::MatrixXd X_;  // scaled
-  detail::SuccessCovariance covariance_;
-  detail::ProbitPosterior posterior_;
+  detail::LatentCovariance covariance_;
+  detail::LatentPosterior posterior_;
   Eigen::Index failures_ = 0;
   double left_out_score_ = 0, share_score_ = 0;
 };
@@ -157,19 +157,20 @@ inline SuccessModel fit_success(const Eigen::MatrixXd& X, const std::vector<bool
   SuccessModel model;
   model.input_ = detail::input_scale(X, box);
   model.X_ = model.input_.apply(X);
-  Eigen::VectorXd y(X.rows());
-  for (detail::Index i = 0; i < y.size(); ++i) {
-    y[i] = succeeded[static_cast<std::size_t>(i)] ? 1.0 : -1.0;
-    model.failures_ += y[i] < 0;
+  std::vector<detail::SuccessRun> all, some;
+  for (const bool success : succeeded) {
+    all.push_back({success ? 1.0 : -1.0});
+    model.failures_ += !success;
   }
   const std::vector<detail::Index> few = detail::rows_of_both_kinds(succeeded, many);
-  detail::SuccessLikelihood likelihood(detail::rows_of(model.X_, few), detail::entries_of(y, few));
-  const Eigen::VectorXd p = detail::likeliest_success(likelihood);
-  model.covariance_ = detail::success_covariance(p);
+  for (const detail::Index i : few) some.push_back(all[static_cast<std::size_t>(i)]);
+  detail::LatentLikelihood likelihood(detail::rows_of(model.X_, few), some);
+  const Eigen::VectorXd p = detail::likeliest(likelihood);
+  model.covariance_ = detail::latent_covariance<detail::SuccessRun>(p);
   model.posterior_ =
-      y.size() <= many ? likelihood.posterior(p) : detail::SuccessLikelihood(model.X_, y).posterior(p);
+      X.rows() <= many ? likelihood.posterior(p) : detail::LatentLikelihood(model.X_, all).posterior(p);
   model.left_out_score_ = detail::mean_of(model.posterior_.left_out);
-  model.share_score_ = detail::share_score(model.failures_, y.size());
+  model.share_score_ = detail::share_score(model.failures_, X.rows());
   return model;
 }
 
@@ -195,17 +196,10 @@ inline Eigen::VectorXd SuccessModel::probability(const Eigen::MatrixXd& X) const
     throw std::invalid_argument("kriging::SuccessModel::probability: X has " + std::to_string(X.cols()) +
                                 " columns; allowed are " + std::to_string(X_.cols()) +
                                 "; give one per variable");
-  Eigen::MatrixXd k = cross_correlation(input_.apply(X), X_, covariance_.correlation);  // m x n
-  const double variance = detail::variance_of_mean + covariance_.variance;
-  for (double* c = k.data(); c != k.data() + k.size(); ++c)
-    *c = detail::variance_of_mean + covariance_.variance * *c;
-  Eigen::VectorXd P = detail::product(k, posterior_.weights);
-  for (detail::Index j = 0; j < k.cols(); ++j)
-    for (detail::Index i = 0; i < k.rows(); ++i) k(i, j) *= posterior_.root[j];
-  detail::solve_right(detail::block_of(posterior_.L), detail::block_of(k));
-  const Eigen::VectorXd known = detail::row_squares(k);
+  const Prediction f = detail::latent_at(input_.apply(X), X_, covariance_, posterior_);
+  Eigen::VectorXd P = f.mean;
   for (detail::Index i = 0; i < P.size(); ++i)
-    P[i] = detail::normal_probability(P[i] / std::sqrt(1.0 + std::max(variance - known[i], 0.0)));
+    P[i] = detail::normal_probability(f.mean[i] / std::sqrt(1.0 + f.variance[i]));
   return P;
 }
 

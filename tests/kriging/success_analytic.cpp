@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// Success and failure: the posterior against exact integrals, the derivatives, and what the model must respect.
+/// Success and failure: the posterior against exact integrals, the derivatives, and what the model must
+/// respect.
 
 #include <gtest/gtest.h>
 
@@ -52,17 +53,24 @@ struct SixRuns {
   }
 };
 
-// Two runs of one kind: Z = 1/4 + asin(r)/(2 pi), r = k12/(1 + k11), the probability that two normal variables
-// of correlation r are positive (Sheppard 1899). With one run expectation propagation is exact, to round-off;
-// with two it is not, and the tolerances are the errors that the header states: this holds them to it.
-TEST(ProbitPosterior, EvidenceOfOneAndTwoRuns) {
-  const auto one = detail::probit_posterior(MatrixXd::Constant(1, 1, 3.0), VectorXd::Ones(1));
+std::vector<detail::SuccessRun> as_runs(const VectorXd& y) {
+  std::vector<detail::SuccessRun> runs;
+  for (const double sign : y) runs.push_back({sign});
+  return runs;
+}
+
+// Two runs of one kind: Z = 1/4 + asin(r)/(2 pi), r = k12/(1 + k11), the probability that two normal
+// variables of correlation r are positive (Sheppard 1899). With one run expectation propagation is exact, to
+// round-off; with two it is not, and the tolerances are the errors that the header states: this holds them to
+// it.
+TEST(SuccessPosterior, EvidenceOfOneAndTwoRuns) {
+  const auto one = detail::latent_posterior(MatrixXd::Constant(1, 1, 3.0), as_runs(VectorXd::Ones(1)));
   EXPECT_NEAR(one.log_evidence, std::log(0.5), 1e-12);
   for (const auto& [variance, stated] : {std::pair(0.1, 0.015), {1.0, 0.015}, {4.0, 0.015}, {50.0, 0.065}})
     for (const double correlation : {-0.9, 0.0, 0.5, 0.99}) {
       MatrixXd K = MatrixXd::Constant(2, 2, correlation * variance);
       K.diagonal().setConstant(variance);
-      const auto both = detail::probit_posterior(K, VectorXd::Ones(2));
+      const auto both = detail::latent_posterior(K, as_runs(VectorXd::Ones(2)));
       const double r = correlation * variance / (1.0 + variance);
       EXPECT_TRUE(both.converged);
       EXPECT_NEAR(both.log_evidence, std::log(0.25 + std::asin(r) / (2.0 * std::numbers::pi)), stated)
@@ -73,9 +81,9 @@ TEST(ProbitPosterior, EvidenceOfOneAndTwoRuns) {
 // At a fixed point the posterior of each run has the mean and variance of cavity times Phi(y f), here by
 // Simpson's rule over twelve deviations of the cavity on 4000 intervals: its error is far below 1e-8, and the
 // sites stand still to 1e-9.
-TEST(ProbitPosterior, AgreesWithTheMomentsOfEachRun) {
+TEST(SuccessPosterior, AgreesWithTheMomentsOfEachRun) {
   const SixRuns runs;
-  const auto posterior = detail::probit_posterior(runs.K, runs.y);
+  const auto posterior = detail::latent_posterior(runs.K, as_runs(runs.y));
   ASSERT_TRUE(posterior.converged);
   const detail::SitePosterior marginals(runs.K, posterior.sites);
   for (Eigen::Index i = 0; i < 6; ++i) {
@@ -97,9 +105,10 @@ TEST(ProbitPosterior, AgreesWithTheMomentsOfEachRun) {
   }
 }
 
-// Z and P(success of the fourth run | the other five) against the share of 400 000 draws of f, each weighted by
-// the product of Phi(y f). Standard errors from the draws themselves; the method's own error is stated as 0.01.
-TEST(ProbitPosterior, AgreesWithDrawsOfTheLatentProcess) {
+// Z and P(success of the fourth run | the other five) against the share of 400 000 draws of f, each weighted
+// by the product of Phi(y f). Standard errors from the draws themselves; the method's own error is stated as
+// 0.01.
+TEST(SuccessPosterior, AgreesWithDrawsOfTheLatentProcess) {
   const SixRuns runs;
   const Eigen::LLT<MatrixXd> factor(runs.K);
   const MatrixXd L = factor.matrixL();
@@ -118,7 +127,7 @@ TEST(ProbitPosterior, AgreesWithDrawsOfTheLatentProcess) {
     all_squares += weight * weight;
   }
   const double Z = all / draws, relative = std::sqrt(all_squares / draws - Z * Z) / std::sqrt(draws) / Z;
-  const auto posterior = detail::probit_posterior(runs.K, runs.y);
+  const auto posterior = detail::latent_posterior(runs.K, as_runs(runs.y));
   EXPECT_NEAR(posterior.log_evidence, std::log(Z), 0.01 + 4 * relative);
   // The errors of all and others are nearly the same draws; 4 relative errors are above their quotient's.
   EXPECT_NEAR(std::exp(posterior.left_out[3]), all / others, 0.01 + 4 * relative);
@@ -126,12 +135,12 @@ TEST(ProbitPosterior, AgreesWithDrawsOfTheLatentProcess) {
 
 // Central differences with h = 1e-4 have an error of h²/6 times the third derivative, some 1e-8, and what the
 // sites' tolerance of 1e-9 leaves in ln Z, over 2h.
-TEST(SuccessLikelihood, GradientIsThatOfTheValue) {
+TEST(LatentLikelihood, GradientIsThatOfTheValue) {
   const MatrixXd U = uniform_points(30, 3, 3);
   const std::vector<bool> succeeded = beyond_edge(U);
   VectorXd y(30);
   for (Eigen::Index i = 0; i < 30; ++i) y[i] = succeeded[static_cast<std::size_t>(i)] ? 1 : -1;
-  detail::SuccessLikelihood likelihood((2.0 * U.array() - 1.0).matrix(), y);
+  detail::LatentLikelihood likelihood((2.0 * U.array() - 1.0).matrix(), as_runs(y));
   VectorXd p = likelihood.middle();
   p += VectorXd{{1.3, -0.4, 0.2, 0.7}};
   const VectorXd gradient = likelihood.gradient(p);
@@ -143,8 +152,8 @@ TEST(SuccessLikelihood, GradientIsThatOfTheValue) {
   }
 }
 
-// Success and failure are two names: with them exchanged P becomes 1 − P. The fits see the same numbers but for
-// signs; sites stop at 1e-9.
+// Success and failure are two names: with them exchanged P becomes 1 − P. The fits see the same numbers but
+// for signs; sites stop at 1e-9.
 TEST(SuccessModel, FailureIsTheComplementOfSuccess) {
   const MatrixXd X = uniform_points(40, 2, 5), Z = uniform_points(50, 2, 6);
   std::vector<bool> succeeded = beyond_edge(X);

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Responses that are counts, few of them often none: rocks spilled, stalls, faults per shift.
+/// `CountModel model = fit_counts(X, counts);`
+///
+/// A Kriging model gives a count of 0.3 ± 0.8 where there is none, and one error bar for places with 1 and
+/// with 100. Here a count is Poisson with the mean e exp(o + f(x) + g): e the exposure of the run (cycles,
+/// hours), o the logarithm of the mean of all, f a latent Gaussian process, and g what a run has of its own,
+/// normal of variance σ², so that counts may scatter by more than Poisson's law. The covariance is found by
+/// penalised likelihood (detail/latent_likelihood.hpp), the posterior by expectation propagation
+/// (detail/site_posterior.hpp). With m and v mean and variance of f at x:
+///   expected count  exp(o + m + ½(v + σ²)), its variance (what is not known of f) that squared times e^v − 1
+///   of one more run the variance of its count adds to that: mean + mean² e^v (e^σ² − 1)
+///   probabilities of counts by the trapezoidal rule over f + g, 200 points: to 1e-9
+///
+/// Simplifications: what the estimates of the covariance leave unknown is in no variance; beyond 150 runs
+/// they are estimated from 150 of them, evenly picked, and the posterior has all. Cost: 1 to 5 s up to 150
+/// runs on one core, then some 20 n³; n² a prediction. Deterministic. Sources: Diggle, Tawn, Moyeed 1998,
+/// Appl. Statist. 47(3), "Model-based geostatistics"; Rasmussen, Williams 2006, chapter 3.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/kriging/detail/latent_likelihood.hpp>
+#include <drawpoint/kriging/detail/training_data.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/surrogate.hpp>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::kriging {
+
+struct CountOptions {
+  /// The box of the problem, natural units, one entry per variable. Empty: the range of the data.
+  Eigen::VectorXd lower = {}, upper = {};
+  /// How long or how often each run could count, above 0, any unit: predictions are per one of it. Empty: 1
+  /// each.
+  Eigen::VectorXd exposure = {};
+};
+
+/// A value that threads may share; a Surrogate of the count per unit of exposure.
+class CountModel {
+ public:
+  /// Expected count and its variance, or those of the count of one more run: m x d, natural units; m entries.
+  Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
+    Prediction p = latent(X);
+    const double own = covariance_.of_a_run;
+    for (Eigen::Index i = 0; i < p.mean.size(); ++i) {
+      const double mean = std::exp(offset_ + p.mean[i] + 0.5 * (p.variance[i] + own)), v = p.variance[i];
+      p.mean[i] = mean;
+      p.variance[i] = mean * mean * std::expm1(v);
+      if (target == Target::observation) p.variance[i] += mean + mean * mean * std::exp(v) * std::expm1(own);
+    }
+    return p;
+  }
+  Eigen::VectorXd mean(const Eigen::MatrixXd& X) const { return predict(X).mean; }
+
+  /// That one more run at each row of X, exposed `exposure`, counts at most `count`: m entries, 0 to 1.
+  Eigen::VectorXd probability_at_most(const Eigen::MatrixXd& X, int count, double exposure = 1.0) const;
+  /// The least count that one more run exceeds with a chance of 1 − p at most, 0 < p < 1: m entries.
+  Eigen::VectorXd quantile(const Eigen::MatrixXd& X, double p, double exposure = 1.0) const;
+
+  Eigen::Index runs() const { return X_.rows(); }
+  /// Of f, on inputs scaled to [0, 1], d entries: how far a run tells of its surroundings.
+  Eigen::VectorXd length_scales() const {
+    Eigen::VectorXd l = covariance_.correlation.theta;
+    for (double& entry : l) entry = 1.0 / std::sqrt(8.0 * entry);
+    return l;
+  }
+  double deviation() const { return std::sqrt(covariance_.variance); }           ///< s of f
+  double deviation_of_a_run() const { return std::sqrt(covariance_.of_a_run); }  ///< σ of g
+  /// Mean logarithm of the probability that the other runs give to the count of a run, at most 0.
+  double left_out_score() const { return left_out_score_; }
+  /// Whether expectation propagation met its stopping rule.
+  bool converged() const { return posterior_.converged; }
+
+ private:
+  friend CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts,
+                               const CountOptions& options);
+
+  /// Of f.
+  Prediction latent(const Eigen::MatrixXd& X) const;
+
+  detail::InputScale input_;
+  Eigen::MatrixXd X_;  // scaled
+  double offset_ = 0;  // o
+  detail::LatentCovariance covariance_;
+  detail::LatentPosterior posterior_;
+  double left_out_score_ = 0;
+};
+
+static_assert(Surrogate<CountModel>);
+
+namespace detail {
+
+[[noreturn]] inline void reject_counts(const std::string& what) {
+  throw std::invalid_argument("kriging::fit_counts: " + what);
+}
+
+inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts,
+                         const CountOptions& options) {
+  constexpr double most = 1e6;  // beyond it a count is as good as any number
+  if (X.rows() < 2 || X.cols() < 1)
+    reject_counts("X is " + std::to_string(X.rows()) + " x " + std::to_string(X.cols()) +
+                  "; allowed is 2 x 1 or more; give one row per run");
+  if (counts.size() != X.rows())
+    reject_counts("X has " + std::to_string(X.rows()) + " rows but counts has " +
+                  std::to_string(counts.size()) + " entries; give one per run");
+  if (!std::all_of(X.data(), X.data() + X.size(), is_usable))
+    reject_counts("X has an entry that is not finite or beyond 1e150; give numbers below it");
+  for (Index i = 0; i < counts.size(); ++i)
+    if (!(counts[i] >= 0 && counts[i] <= most) || counts[i] != std::floor(counts[i]))
+      reject_counts("counts[" + std::to_string(i) + "] is " + text(counts[i]) +
+                    "; allowed are whole numbers from 0 to 1e6; fit other responses with fit");
+  if (options.exposure.size() != 0 && options.exposure.size() != X.rows())
+    reject_counts("exposure has " + std::to_string(options.exposure.size()) + " entries for " +
+                  std::to_string(X.rows()) + " runs; give one per run, or none");
+  for (Index i = 0; i < options.exposure.size(); ++i)
+    if (!(options.exposure[i] > 0) || !is_usable(options.exposure[i]))
+      reject_counts("exposure[" + std::to_string(i) + "] is " + text(options.exposure[i]) +
+                    "; allowed are finite numbers above 0");
+  const bool none = options.lower.size() == 0 && options.upper.size() == 0;
+  if (!none && (options.lower.size() != X.cols() || options.upper.size() != X.cols()))
+    reject_counts("the box has " + std::to_string(options.lower.size()) + " lower and " +
+                  std::to_string(options.upper.size()) + " upper bounds but X has " +
+                  std::to_string(X.cols()) + " columns; give one of each per variable, or neither");
+}
+
+/// At most `limit` of n rows, evenly picked.
+inline std::vector<Index> even_rows(Index n, Index limit) {
+  std::vector<Index> rows;
+  const Index count = std::min(n, limit);
+  for (Index i = 0; i < count; ++i) rows.push_back(i * n / count);
+  return rows;
+}
+
+/// Probabilities of 0, 1, 2, ... one after another, of a Poisson count whose ln mean is normal.
+class CountProbabilities {
+ public:
+  CountProbabilities(double mean, double variance) {
+    constexpr int points = 200;
+    constexpr double reach = 8.5;  // of deviations: beyond it lies 2e-17
+    double sum = 0;
+    for (int k = 0; k < points; ++k) {
+      const double z = reach * (2.0 * k / (points - 1) - 1.0), weight = std::exp(-0.5 * z * z);
+      rates_.push_back(std::exp(mean + z * std::sqrt(variance)));
+      terms_.push_back(std::log(weight) - rates_.back());
+      sum += weight;
+    }
+    log_sum_ = std::log(sum);
+  }
+
+  /// Of the next count.
+  double next() {
+    double probability = 0;
+    for (std::size_t k = 0; k < rates_.size(); ++k) {
+      if (count_ > 0) terms_[k] += std::log(rates_[k] / count_);
+      probability += std::exp(terms_[k] - log_sum_);
+    }
+    count_ += 1.0;
+    return probability;
+  }
+
+ private:
+  std::vector<double> rates_, terms_;  // terms: ln of weight times the probability of the count
+  double log_sum_ = 0, count_ = 0;
+};
+
+inline void check_exposure(double exposure) {
+  if (!(exposure > 0) || !is_usable(exposure))
+    throw std::invalid_argument("kriging::CountModel: exposure is " + text(exposure) +
+                                "; allowed are finite numbers above 0");
+}
+
+}  // namespace detail
+
+/// X: n x d, natural units; counts: n whole numbers, 0 or more. Throws std::invalid_argument for fewer than
+/// two runs, unequal lengths, what is no count, and bounds or exposures that do not fit.
+inline CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts,
+                             const CountOptions& options = {}) {
+  detail::check_counts(X, counts, options);
+  constexpr detail::Index many = 150;
+  FitOptions box;
+  box.lower = options.lower;
+  box.upper = options.upper;
+  CountModel model;
+  model.input_ = detail::input_scale(X, box);
+  model.X_ = model.input_.apply(X);
+  Eigen::VectorXd exposure = options.exposure;
+  if (exposure.size() == 0) exposure.setOnes(X.rows());
+  double all = 0.5, exposed = 0;  // half a count, so that runs without any have a finite logarithm
+  for (detail::Index i = 0; i < counts.size(); ++i) all += counts[i], exposed += exposure[i];
+  model.offset_ = std::log(all / exposed);
+
+  std::vector<detail::CountRun> runs, some;
+  for (detail::Index i = 0; i < counts.size(); ++i)
+    runs.push_back({counts[i], model.offset_ + std::log(exposure[i])});
+  const std::vector<detail::Index> few = detail::even_rows(X.rows(), many);
+  for (const detail::Index i : few) some.push_back(runs[static_cast<std::size_t>(i)]);
+  detail::LatentLikelihood likelihood(detail::rows_of(model.X_, few), some);
+  const Eigen::VectorXd p = detail::likeliest(likelihood);
+  model.covariance_ = detail::latent_covariance<detail::CountRun>(p);
+  model.posterior_ =
+      X.rows() <= many ? likelihood.posterior(p) : detail::LatentLikelihood(model.X_, runs).posterior(p);
+  model.left_out_score_ = detail::mean_of(model.posterior_.left_out);
+  return model;
+}
+
+inline Prediction CountModel::latent(const Eigen::MatrixXd& X) const {
+  if (X.cols() != X_.cols())
+    throw std::invalid_argument("kriging::CountModel: X has " + std::to_string(X.cols()) +
+                                " columns; allowed are " + std::to_string(X_.cols()) +
+                                "; give one per variable");
+  return detail::latent_at(input_.apply(X), X_, covariance_, posterior_);
+}
+
+inline Eigen::VectorXd CountModel::probability_at_most(const Eigen::MatrixXd& X, int count,
+                                                       double exposure) const {
+  detail::check_exposure(exposure);
+  const Prediction f = latent(X);
+  Eigen::VectorXd P = Eigen::VectorXd::Zero(X.rows());
+  for (Eigen::Index i = 0; i < P.size(); ++i) {
+    detail::CountProbabilities of(offset_ + std::log(exposure) + f.mean[i],
+                                  f.variance[i] + covariance_.of_a_run);
+    for (int k = 0; k <= count; ++k) P[i] += of.next();
+    P[i] = std::min(P[i], 1.0);
+  }
+  return P;
+}
+
+inline Eigen::VectorXd CountModel::quantile(const Eigen::MatrixXd& X, double p, double exposure) const {
+  detail::check_exposure(exposure);
+  if (!(p > 0 && p < 1))
+    throw std::invalid_argument("kriging::CountModel::quantile: p is " + detail::text(p) +
+                                "; allowed is between 0 and 1; 0.975 is usual");
+  const Prediction f = latent(X);
+  Eigen::VectorXd quantiles(X.rows());
+  for (Eigen::Index i = 0; i < quantiles.size(); ++i) {
+    detail::CountProbabilities of(offset_ + std::log(exposure) + f.mean[i],
+                                  f.variance[i] + covariance_.of_a_run);
+    double sum = of.next(), count = 0;
+    for (; sum < p && count < 1e7; ++count) sum += of.next();
+    quantiles[i] = count;
+  }
+  return quantiles;
+}
+
+}  // namespace drawpoint::kriging
