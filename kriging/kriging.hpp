@@ -12,7 +12,9 @@
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/count_model.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/fidelity_model.hpp>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
@@ -40,6 +42,8 @@
 ///   transform.hpp                  scales for responses with bounds: square root, logarithm, logit
 ///   transformed_model.hpp          a model on such a scale, predicting on the response's own
 ///   choose_fit.hpp                 the way to fit, and the scale, that leave-one-out prefers
+///   fit_fidelities.hpp             co-Kriging: few true runs and more of a cheaper setting, in one model
+///   fidelity_model.hpp             that model
 ///   replicates.hpp                 repeated runs as one run with a known noise
 ///   polynomial.hpp                 polynomial regression
 ///   radial.hpp                     radial basis functions
@@ -69,6 +73,7 @@
 ///   acquisition_constraints.hpp    how likely a point keeps its limits
 ///   acquisition_hypervolume.hpp    expected hypervolume improvement
 ///
-/// Apart from these, and not included here because it needs nlohmann-json: save.hpp, models as JSON files.
+/// Apart from these, and not included here because they need nlohmann-json: save.hpp and save_fidelities.hpp,
+/// models as JSON files.
 /// What stands in detail/ may change in any version. Needs doe, Eigen and Ipopt.
 namespace drawpoint::kriging {}

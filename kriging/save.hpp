@@ -11,69 +11,30 @@
 /// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,
 /// that the text is exactly what this writer makes (so no byte may differ), the checksum (64-bit FNV-1a of
 /// the text of "model": against accidents, not against intent), every size, that numbers are finite and that
-/// L's diagonal is positive. A model with a trend of user functions cannot be saved. This is the only header
-/// of the module that needs nlohmann-json (Debian: nlohmann-json3-dev).
+/// L's diagonal is positive. A model with a trend of user functions cannot be saved. This header and
+/// save_fidelities.hpp alone of the module need nlohmann-json (Debian: nlohmann-json3-dev).
 
 #include <Eigen/Core>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <drawpoint/doe/detail/atomic_file.hpp>
-#include <drawpoint/doe/detail/enumerators.hpp>
 #include <drawpoint/kriging/detail/saved_checks.hpp>
+#include <drawpoint/kriging/detail/saved_parts.hpp>
 #include <drawpoint/kriging/model.hpp>
 
 namespace drawpoint::kriging {
 
 namespace detail {
 
-using Json = nlohmann::json;
-
-inline constexpr const char* model_format = "drawpoint kriging model";
-inline constexpr int model_version = 2;
-
-inline Json json_number(double value) {
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
-}
-
-inline Json json_vector(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
-
-inline Json json_matrix(const Eigen::MatrixXd& A) {
-  return {{"rows", A.rows()}, {"columns", A.cols()}, {"values", json_vector(A.reshaped())}};
-}
-
-inline Json json_of(const FitReport& r) {
-  return {{"status", to_string(r.status)},  {"message", r.message},
-          {"starts_tried", r.starts_tried}, {"starts_agreed", r.starts_agreed},
-          {"evaluations", r.evaluations},   {"condition", json_number(r.condition)}};
-}
-
 inline Json json_of(const ModelState& s) {
-  Json terms = Json::array();
-  for (const TrendTerm& term : s.trend.terms) terms.push_back({term.a, term.b});
   return {{"input", {{"centre", json_vector(s.input.centre)}, {"factor", json_vector(s.input.factor)}}},
           {"response", {{"centre", s.y_centre}, {"scale", s.y_scale}, {"observed", json_vector(s.observed)}}},
-          {"correlation",
-           {{"family", to_string(s.correlation.family)},
-            {"theta", json_vector(s.correlation.theta)},
-            {"exponent", json_vector(s.correlation.exponent)}}},
-          {"noise",
-           {{"nugget", s.nugget},
-            {"weights", json_vector(s.noise)},
-            {"known", s.known_noise},
-            {"unit", s.noise_unit}}},
-          {"trend", terms},
+          {"correlation", json_of(s.correlation)},
+          {"noise", json_of_noise(s)},
+          {"trend", json_of(s.trend.terms)},
           {"runs", {{"X", json_matrix(s.X)}, {"F", json_matrix(s.F)}, {"y", json_vector(s.y)}}},
           {"factor", json_vector(packed_lower(s.L))},
           {"solution",
@@ -89,105 +50,6 @@ inline Json json_of(const ModelState& s) {
           {"report", json_of(s.report)}};
 }
 
-/// A value of the file and its place, such as "model/runs/X"; errors name both.
-class JsonReader {
- public:
-  JsonReader(const Json& json, std::string file, std::string place)
-      : json_(json), file_(std::move(file)), place_(std::move(place)) {}
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error("kriging::load: " + file_ + (place_.empty() ? "" : ": " + place_) + ": " + what +
-                             "; the file is damaged or of another kind: save the model again");
-  }
-
-  JsonReader at(const char* key) const {
-    if (!json_.is_object() || !json_.contains(key)) fail("\"" + std::string(key) + "\" is missing");
-    return {json_[key], file_, place_.empty() ? key : place_ + "/" + key};
-  }
-
-  double number(bool finite = true) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double value = 0;
-    if (json_.is_number())
-      value = json_.get<double>();
-    else if (json_ == "inf" || json_ == "-inf")
-      value = json_ == "inf" ? infinity : -infinity;
-    else if (json_ == "nan")
-      value = std::numeric_limits<double>::quiet_NaN();
-    else
-      fail("it is no number");
-    if (finite && !std::isfinite(value)) fail("it is not finite");
-    return value;
-  }
-
-  int integer() const {
-    if (!json_.is_number_integer()) fail("it is no whole number");
-    const auto value = json_.get<std::int64_t>();
-    if (value < -1 || value > std::numeric_limits<int>::max()) fail("it is out of range");
-    return static_cast<int>(value);
-  }
-
-  std::string text() const {
-    if (!json_.is_string()) fail("it is no text");
-    return json_.get<std::string>();
-  }
-
-  /// `size` numbers; any number of them when it is negative.
-  Eigen::VectorXd vector(Eigen::Index size) const {
-    if (!json_.is_array()) fail("it is no list");
-    const auto count = static_cast<Eigen::Index>(json_.size());
-    if (size >= 0 && count != size)
-      fail("it has " + std::to_string(count) + " entries; allowed is " + std::to_string(size));
-    Eigen::VectorXd v(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      v[i] = JsonReader(json_[static_cast<std::size_t>(i)], file_, place_ + "[" + std::to_string(i) + "]")
-                 .number();
-    return v;
-  }
-
-  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const {
-    if (at("rows").integer() != rows || at("columns").integer() != columns)
-      fail("it is not " + std::to_string(rows) + " x " + std::to_string(columns));
-    return at("values").vector(rows * columns).reshaped(rows, columns);
-  }
-
-  /// The enumerator whose to_string is this text.
-  template <class Enum>
-  Enum enumerator() const {
-    const std::string name = text();
-    if (const std::optional<Enum> found = doe::detail::enumerator_of<Enum>(name)) return *found;
-    fail("\"" + name + "\" is unknown");
-  }
-
-  const Json& json() const { return json_; }
-
- private:
-  const Json& json_;
-  std::string file_, place_;
-};
-
-inline std::vector<TrendTerm> trend_terms(const JsonReader& in, Eigen::Index d) {
-  if (!in.json().is_array() || in.json().empty()) in.fail("it is no list of terms");
-  std::vector<TrendTerm> terms;
-  for (const Json& pair : in.json()) {
-    if (!pair.is_array() || pair.size() != 2) in.fail("a term is no pair");
-    const auto index = [&](std::size_t k) {
-      const int a = JsonReader(pair[k], "a term of the trend", "").integer();
-      if (a >= d) in.fail("a term names input " + std::to_string(a) + " of " + std::to_string(d));
-      return a;
-    };
-    terms.push_back({index(0), index(1)});
-    if (terms.back().a < 0 && terms.back().b >= 0) in.fail("a term has its first input missing");
-  }
-  return terms;
-}
-
-inline FitReport report_of(const JsonReader& in) {
-  return {in.at("status").enumerator<Status>(), in.at("message").text(),
-          in.at("starts_tried").integer(),      in.at("starts_agreed").integer(),
-          in.at("evaluations").integer(),       in.at("condition").number(false)};
-}
-
 inline void read_solution(const JsonReader& in, Eigen::Index n, Eigen::Index q, LeastSquares& gls) {
   gls.beta = in.at("beta").vector(q);
   gls.alpha = in.at("alpha").vector(n);
@@ -195,22 +57,6 @@ inline void read_solution(const JsonReader& in, Eigen::Index n, Eigen::Index q, 
   gls.T = in.at("T").matrix(q, q);
   gls.sum_of_squares = in.at("sum_of_squares").number();
   if (!(gls.T.diagonal().array() != 0).all()) in.at("T").fail("its diagonal holds a 0");
-}
-
-inline void read_correlation(const JsonReader& in, Eigen::Index d, CorrelationFunction& f) {
-  f.family = in.at("family").enumerator<Correlation>();
-  f.theta = in.at("theta").vector(d);
-  f.exponent = in.at("exponent").vector(-1);
-  if (f.exponent.size() > 0 || f.family == Correlation::power_exponential)
-    f.exponent = in.at("exponent").vector(d);
-}
-
-inline void read_noise(const JsonReader& in, Eigen::Index n, ModelState& s) {
-  s.nugget = in.at("nugget").number();
-  s.known_noise = in.at("known").number();
-  s.noise_unit = in.at("unit").number();
-  s.noise = in.at("weights").vector(-1);
-  if (s.noise.size() > 0) s.noise = in.at("weights").vector(n);
 }
 
 inline ModelState state_of(const JsonReader& in) {
@@ -234,12 +80,7 @@ inline ModelState state_of(const JsonReader& in) {
   s.L = unpacked_lower(in.at("factor").vector(n * (n + 1) / 2), n);
   if (!(s.L.diagonal().array() > 0).all()) in.at("factor").fail("its diagonal is not positive");
   read_solution(in.at("solution"), n, q, s.gls);
-  const JsonReader spread = in.at("parameter_spread");
-  const int parameters = spread.at("rows").integer(), directions = spread.at("columns").integer();
-  if (parameters != 0 && parameters != d + 1 && parameters != 2 * d + 1)
-    spread.fail("it has " + std::to_string(parameters) + " rows");
-  if (directions < 0 || directions > parameters) spread.fail("it has more columns than rows");
-  s.parameter_spread = spread.matrix(parameters, directions);
+  s.parameter_spread = read_spread(in.at("parameter_spread"), d);
   s.process_variance = in.at("process_variance").number();
   s.log_likelihood = in.at("log_likelihood").number(false);
   s.constant_variance = in.at("constant_variance").number(false);
@@ -247,38 +88,18 @@ inline ModelState state_of(const JsonReader& in) {
   return s;
 }
 
-/// `file` is how messages name the text.
+inline constexpr FileKind model_file{"drawpoint kriging model", 2};
+
 inline Model model_of_text(const std::string& text, const std::string& file) {
-  const Json json = Json::parse(text, nullptr, false);
-  const JsonReader in(json, file, "");
-  if (json.is_discarded()) in.fail("it is no JSON, or not all of it");
-  if (in.at("format").text() != model_format)
-    in.at("format").fail("it is not \"" + std::string(model_format) + "\"");
-  if (const int version = in.at("version").integer(); version != model_version)
-    in.at("version").fail("it is " + std::to_string(version) + "; allowed is " +
-                          std::to_string(model_version));
-  if (in.at("checksum").text() != checksum(in.at("model").json().dump()))
-    in.at("checksum").fail("it is not that of the model");
-  if (json.dump() + "\n" != text) in.fail("it is not as it was written");
-  return Model(state_of(in.at("model")));
+  return opened(model_file, text, file, [](const JsonReader& in) { return Model(state_of(in)); });
 }
 
 }  // namespace detail
 
 /// The model as text. Throws std::invalid_argument for a trend of user functions.
 inline std::string to_text(const Model& model) {
-  if (model.trend_function().by_user())
-    throw std::invalid_argument(
-        "kriging::save: the trend is a function of the user, which no file can hold; allowed are polynomial "
-        "trends; "
-        "save the runs and fit again");
-  const detail::Json json = detail::json_of(model.state());
-  return detail::Json{{"format", detail::model_format},
-                      {"version", detail::model_version},
-                      {"checksum", detail::checksum(json.dump())},
-                      {"model", json}}
-             .dump() +
-         "\n";
+  detail::refuse_functions_of_user(model.trend_function());
+  return detail::enveloped(detail::model_file, detail::json_of(model.state()));
 }
 
 /// What to_text made. Throws std::runtime_error, with the place and the fault, for anything else.
@@ -292,12 +113,7 @@ inline void save(const Model& model, const std::filesystem::path& path) {
 /// Throws std::runtime_error, with file, place and fault, when the file cannot be read or is not what save
 /// wrote.
 inline Model load(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad())
-    throw std::runtime_error("kriging::load: cannot read \"" + path.string() +
-                             "\"; check that it exists and is readable");
-  return detail::model_of_text(text, "\"" + path.string() + "\"");
+  return detail::model_of_text(detail::text_of_file(path), "\"" + path.string() + "\"");
 }
 
 }  // namespace drawpoint::kriging

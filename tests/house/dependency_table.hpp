@@ -47,10 +47,11 @@ inline const std::vector<Row>& dependency_table() {
       {"doe/", {"doe/"}, {"Eigen"}, {}},
       {"doe/problem_json.hpp", {"doe/"}, {"nlohmann-json"}, {}},  // no other header includes it
       {"kriging/", {"doe/", "kriging/"}, {"Eigen", "Ipopt"}, {}},
-      {"kriging/save.hpp",
-       {"doe/", "kriging/"},
-       {"Eigen", "nlohmann-json"},
-       {}},  // no other header includes it
+      // included by no other header of the module
+      {"kriging/save.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
+      {"kriging/save_fidelities.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
+      {"kriging/detail/saved_json.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
+      {"kriging/detail/saved_parts.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"pareto/", {"doe/", "pareto/"}, {"Eigen", "Ipopt"}, {}},
       {"engine/base/", rooms({"base"}), {"Eigen"}, {}},
       {"engine/geometry/", rooms({"base", "geometry"}), {"Eigen"}, {"Highway"}},
