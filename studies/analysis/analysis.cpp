@@ -6,6 +6,7 @@
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/report/report.h>
+#include <drawpoint/studies/runs/session.h>
 
 #include <algorithm>
 #include <limits>
@@ -53,6 +54,7 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<const 
 Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
+  summary.confirming = confirming_command(study);
   for (const auto& run : runs) {
     if (run.status == Status::failed) ++summary.failed;
     if (has_ended(run))

@@ -154,9 +154,11 @@ std::string places_text(const FrontView& view, const std::vector<int>& shown) {
              : "No point shown has been simulated: the models know more now, and their front has moved.\n";
 }
 
-std::string confirmation_text(const CheckedRuns& checked) {
+std::string confirmation_text(const ReportInput& input) {
+  const CheckedRuns& checked = input.confirmations;
   if (checked.runs.empty())
-    return "Confirmed by simulation: nothing yet; the command confirm simulates the points that matter.\n";
+    return "Confirmed by simulation: nothing yet; the command " + input.confirming +
+           " has the points that matter simulated.\n";
   const bool agree = checked.last_round().agree();
   return "Confirmed by simulation: " + text(checked) + "; the last round " +
          (agree ? "agrees with its predictions.\n" : "does not agree with its predictions.\n");
@@ -217,7 +219,7 @@ std::string front_points_text(const ReportInput& input, int most, bool every_poi
   text += text_table(table);
   text += "\nIn brackets: the interval that should hold 95 of 100 runs there, noise included.\n";
   text += places_text(view, shown);
-  text += confirmation_text(input.confirmations);
+  text += confirmation_text(input);
   for (const std::string& sentence : detail::cautions(input)) text += "Caution: " + sentence + "\n";
   return text;
 }

@@ -7,6 +7,7 @@
 #include <drawpoint/studies/analysis/suspects.h>
 #include <drawpoint/studies/analysis/tables.h>
 #include <drawpoint/studies/analysis/unevenness.h>
+#include <drawpoint/studies/runs/session.h>
 
 #include <algorithm>
 #include <map>
@@ -46,6 +47,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.training = std::move(tables.training);
   input.validation = std::move(tables.validation);
   input.kinds = kinds_of(runs);
+  input.confirming = confirming_command(study);
   input.confirmations = check_predictions(runs, study.problem, Kind::confirmation, store.sampling().rounds);
   return input;
 }

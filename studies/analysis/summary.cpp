@@ -42,7 +42,7 @@ std::string front_text(const Summary& summary) {
                      (summary.front == 1 ? " point" : " points") + ", predicted";
   if (!summary.not_polished.empty()) line += ", not polished (" + summary.not_polished + ")";
   if (summary.confirmations.runs.empty())
-    return line + "; simulate those that matter with the command confirm";
+    return line + "; simulate those that matter with the command " + summary.confirming;
   return line + "; simulated: " + text(summary.confirmations);
 }
 

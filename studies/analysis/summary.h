@@ -31,6 +31,7 @@ struct Summary {
   int front = 0;                                           ///< points of the Pareto front
   pareto::Polishing polishing = pareto::Polishing();       ///< of the front; GCC 12 warns where this is {}
   CheckedRuns confirmations = {};                          ///< points of predicted fronts that were simulated
+  std::string confirming = "confirm";                      ///< the command that has them simulated
   std::string not_polished = {};                           ///< why it was not; empty when it was
   std::filesystem::path report = {};                       ///< empty if there is none
   std::string error = {};                                  ///< why there is none

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/live/standing.h>
+#include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/times.h>
 #include <drawpoint/doe/detail/task_files.hpp>
 
@@ -62,7 +63,7 @@ Standing ended(const Study& study, const Contents& contents, const Counts& count
   const bool confirmed = counts.of(Kind::confirmation, Status::done) > 0;
   if (!confirmed)
     return end(" Next: simulate the points of the predicted front that a decision would rest on.",
-               study.black_box ? "confirm" : "ask --confirm");
+               confirming_command(study));
   return end(" Next: the front, with its simulated points.", "front");
 }
 

@@ -254,6 +254,7 @@ json report_data(const ReportInput& input) {
   return {{"study", input.study},
           {"about", input.about},
           {"command", input.command},
+          {"confirming", input.confirming},
           {"problem", described(input.problem)},
           {"training", to_json(input.training, input)},
           {"validation", to_json(input.validation, input)},

@@ -42,10 +42,11 @@ struct ReportInput {
   std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
   pareto::Front front;                           ///< found on the models; no rows when there is none
   std::string no_front = {};                     ///< why there is none; empty where there is one
-  Eigen::VectorXd success = {};    ///< of a run at each point of the front; empty: no run failed
-  CheckedRuns confirmations = {};  ///< points of predicted fronts that were simulated
-  pareto::Polishing polishing;     ///< of the front
-  std::string not_polished;        ///< why it was not; empty when it was
+  Eigen::VectorXd success = {};        ///< of a run at each point of the front; empty: no run failed
+  CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated
+  std::string confirming = "confirm";  ///< the command that has them simulated
+  pareto::Polishing polishing;         ///< of the front
+  std::string not_polished;            ///< why it was not; empty when it was
   nlohmann::json illustrations =
       nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions

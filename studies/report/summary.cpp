@@ -173,7 +173,8 @@ std::string balanced_sentence(const ReportInput& input) {
 std::string confirmation_sentence(const ReportInput& input) {
   const CheckedRuns& checked = input.confirmations;
   if (checked.runs.empty())
-    return "None of these points has been simulated: the command confirm does that for those that matter.";
+    return "None of these points has been simulated: the command " + input.confirming +
+           " has that done for those that matter.";
   return "Of the fronts predicted so far, simulation has checked " + text(checked) + ".";
 }
 

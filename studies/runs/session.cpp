@@ -107,6 +107,8 @@ Run stored_run(const Store& store, const Folder& folder, std::int64_t id) {
   return runs[static_cast<std::size_t>(id) - 1];
 }
 
+std::string confirming_command(const Study& study) { return study.black_box ? "confirm" : "ask --confirm"; }
+
 void require_simulator(const Study& study) {
   if (!study.black_box)
     throw UsageError("the study " + study.name +

@@ -19,6 +19,9 @@ Store open_store(const Study& study, const Folder& folder, Access access = Acces
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.
 Run stored_run(const Store& store, const Folder& folder, std::int64_t id);
 
+/// The command that has points of a front simulated.
+std::string confirming_command(const Study& study);
+
 /// Throws UsageError for a study whose runs are made elsewhere: it has no black box.
 void require_simulator(const Study& study);
 

@@ -157,6 +157,10 @@ TEST_F(AskAndTell, AsksForPointsOfTheFront) {
     text += std::to_string(id) + "," + std::to_string((speed - 3) * (speed - 3)) + "\n";
   }
   ASSERT_EQ(tell(text).code, 0);
+  const std::string named = "the command ask --confirm has";
+  EXPECT_TRUE(contains(on_bench("front").out, named));
+  ASSERT_EQ(on_bench("report").code, 0);
+  EXPECT_TRUE(contains(contents(dir() / "report.html"), named));
   const Ended asked = on_bench("ask --confirm --points 1");
   ASSERT_EQ(asked.code, 0) << asked.err;
   EXPECT_EQ(count("kind = 'confirmation' and status = 'planned'"), 1);
