@@ -20,8 +20,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -68,7 +72,7 @@ struct DOptimalDesign {
   DOptimalStatus status = DOptimalStatus::found;
   std::string message = {};  ///< empty when found
   double determinant = 0;    ///< det(FᵀF/n)^(1/p) of all runs
-  double efficiency = 0;     ///< at least this share of the best determinant for any number of runs
+  double efficiency = 0;  ///< at least this share of the best determinant for any number of runs; see above
 };
 
 namespace detail {
@@ -137,9 +141,10 @@ class CoordinateExchange {
   }
 
   /// Until a pass changes nothing. A random start may be singular: the first passes are made with a little
-  /// added to the diagonal, which is then taken off.
+  /// added to the diagonal, which is taken off in steps, so that terms that hardly vary where runs are allowed
+  /// count too.
   void climb() {
-    for (const double ridge : {1e-3, 0.0}) {
+    for (const double ridge : {1e-3, 1e-6, 1e-9, 0.0}) {
       ridge_ = ridge;
       if (!invert()) return;
       while (pass()) {
@@ -203,30 +208,77 @@ inline double log_determinant(const Eigen::MatrixXd& M) {
   return factors.vectorD().array().log().sum();
 }
 
-/// The largest fᵀM⁻¹f over the grid of levels, or over 20 000 random points of it.
-inline double largest_variance(const Problem& problem, const DOptimalOptions& options,
-                               const std::vector<std::vector<double>>& levels, const Eigen::MatrixXd& M) {
-  constexpr int most = 20'000;
-  double grid = 1;
-  for (const auto& of : levels) grid *= static_cast<double>(of.size());
-  const Eigen::LDLT<Eigen::MatrixXd> factors(M);
-  RandomStream random(run_seed(options.seed, 0, 1));
-  Eigen::VectorXd x(static_cast<Eigen::Index>(levels.size()));
-  double largest = 0;
-  for (int point = 0; point < std::min(grid, double{most}); ++point) {
-    int rest = point;
-    for (std::size_t j = 0; j < levels.size(); ++j) {
-      const int count = static_cast<int>(levels[j].size());
-      x[static_cast<Eigen::Index>(j)] =
-          levels[j][static_cast<std::size_t>(grid > most ? random.below(count) : rest % count)];
-      rest /= count;
+/// fᵀM⁻¹f, the variance of a prediction, over the points where runs are allowed.
+class PredictionVariance {
+ public:
+  PredictionVariance(const Problem& problem, const DOptimalOptions& options,
+                     const std::vector<std::vector<double>>& levels, const Eigen::MatrixXd& M)
+      : problem_(problem), options_(options), levels_(levels), factors_(M) {}
+
+  /// Over the grid of levels where it has 20 000 points or fewer; else what climbs, level by level, from the
+  /// runs and from 200 random points reach.
+  double largest(const Eigen::MatrixXd& runs) const {
+    double grid = 1, largest = 0;
+    for (const auto& of : levels_) grid *= static_cast<double>(of.size());
+    Eigen::VectorXd x(runs.cols());
+    if (grid <= 20'000) {
+      for (int point = 0; point < grid; ++point) {
+        int rest = point;
+        for (std::size_t j = 0; j < levels_.size(); ++j) {
+          const int count = static_cast<int>(levels_[j].size());
+          x[static_cast<Eigen::Index>(j)] = levels_[j][static_cast<std::size_t>(rest % count)];
+          rest /= count;
+        }
+        largest = std::max(largest, at(x));
+      }
+      return largest;
     }
-    if (options.allowed && !options.allowed(x)) continue;
-    const Eigen::VectorXd f = terms_at(x, problem, options.terms);
-    largest = std::max(largest, f.dot(factors.solve(f)));
+    for (Eigen::Index i = 0; i < runs.rows(); ++i)
+      largest = std::max(largest, climb(runs.row(i).transpose()));
+    RandomStream random(run_seed(options_.seed, 0, 1));
+    for (int k = 0; k < 200; ++k) {
+      for (std::size_t j = 0; j < levels_.size(); ++j)
+        x[static_cast<Eigen::Index>(j)] =
+            levels_[j][static_cast<std::size_t>(random.below(static_cast<int>(levels_[j].size())))];
+      largest = std::max(largest, climb(x));
+    }
+    return largest;
   }
-  return largest;
-}
+
+ private:
+  /// 0 where no run is allowed.
+  double at(const Eigen::VectorXd& x) const {
+    if (options_.allowed && !options_.allowed(x)) return 0;
+    const Eigen::VectorXd f = terms_at(x, problem_, options_.terms);
+    return f.dot(factors_.solve(f));
+  }
+
+  double climb(Eigen::VectorXd x) const {
+    double highest = at(x);
+    for (bool rises = true; rises;) {
+      rises = false;
+      for (std::size_t j = 0; j < levels_.size(); ++j) {
+        const auto k = static_cast<Eigen::Index>(j);
+        double best = x[k];
+        for (const double level : levels_[j]) {
+          x[k] = level;
+          const double value = at(x);
+          if (value <= highest * (1 + 1e-9)) continue;
+          highest = value;
+          best = level;
+          rises = true;
+        }
+        x[k] = best;
+      }
+    }
+    return highest;
+  }
+
+  const Problem& problem_;
+  const DOptimalOptions& options_;
+  const std::vector<std::vector<double>>& levels_;
+  Eigen::LDLT<Eigen::MatrixXd> factors_;
+};
 
 }  // namespace detail
 
@@ -261,7 +313,8 @@ inline DOptimalDesign d_optimal(const Problem& problem, int runs, const DOptimal
   const auto n = static_cast<double>(runs + options.present.rows());
   const auto p = static_cast<double>(information.rows());
   design.determinant = std::exp(best / p) / n;
-  design.efficiency = std::min(1.0, p / detail::largest_variance(problem, options, levels, information / n));
+  const detail::PredictionVariance variance(problem, options, levels, information / n);
+  design.efficiency = std::min(1.0, p / variance.largest(design.X));
   return design;
 }
 

@@ -28,8 +28,8 @@
 
 namespace drawpoint::doe {
 
-/// One's own distribution is these two functions too. Without `probability` its quantiles must lie inside
-/// the box.
+/// One's own distribution is these two functions too; no single value has a probability of its own. Without
+/// `probability` its quantiles must lie inside the box.
 struct Distribution {
   std::string name;                                ///< for messages
   std::function<double(double)> quantile;          ///< of p in [0, 1], natural units, not falling
@@ -99,17 +99,17 @@ inline Distribution triangular(double lower, double mode, double upper) {
                                 ", mode " + detail::number_text(mode) + " and upper end " +
                                 detail::number_text(upper) +
                                 "; allowed is lower <= mode <= upper, lower < upper, finite");
-  const double width = upper - lower, rise = mode - lower, fall = upper - mode, peak = rise / width;
+  const double width = upper - lower, peak = (mode - lower) / width;
   return {"triangular",
           [=](double p) {
-            return p < peak ? lower + std::sqrt(p * width * rise)
-                            : upper - std::sqrt((1.0 - p) * width * fall);
+            return p < peak ? lower + width * std::sqrt(p * peak)
+                            : upper - width * std::sqrt((1.0 - p) * (1.0 - peak));
           },
           [=](double x) {
             if (x <= lower) return 0.0;
             if (x >= upper) return 1.0;
-            return x < mode ? (x - lower) * (x - lower) / (width * rise)
-                            : 1.0 - (upper - x) * (upper - x) / (width * fall);
+            const double u = (x - lower) / width;
+            return x < mode ? u * u / peak : 1.0 - (1.0 - u) * (1.0 - u) / (1.0 - peak);
           }};
 }
 
@@ -142,6 +142,11 @@ class BoxedDistribution {
                           "; a distribution is for a real variable; leave it uniform");
     if (!quantile_)
       reject_distribution(place + "the distribution has no quantile; give Distribution::quantile");
+    for (const double p : {0.25, 0.5, 0.75})
+      if (!(quantile_(p - 0.25) <= quantile_(p)) || !(quantile_(p) <= quantile_(p + 0.25)))
+        reject_distribution(place + "the quantile of the " + distribution.name +
+                            " distribution falls beside " + number_text(p) +
+                            ", or is not a number; it must not fall from 0 to 1");
     if (distribution.probability) {
       from_ = distribution.probability(variable.lower);
       to_ = distribution.probability(variable.upper);

@@ -4,22 +4,25 @@
 
 /// Screening by elementary effects: which of many inputs matter at all, in r(d + 1) runs.
 ///
-/// A trajectory starts at a random point of a grid of p levels per input and changes one input at a time, in
-/// random order, by half of the levels (up from the lower half, down from the upper one): d + 1 runs. With u
-/// the input on [0, 1], the elementary effect of input j is (f(after) − f(before))/(u_j after − u_j before):
-/// the change of the response, in its unit, over the whole range of the input. Over the trajectories:
+/// A trajectory starts at a random point of a grid and changes one input at a time, in random order, by half of
+/// the grid's levels (up from the lower half, down from the upper one): d + 1 runs. A real input has p levels,
+/// an integer or categorical one all its values. The elementary effect of input j is the change of the response
+/// over the change of u_j, the input's share of its range: the change, in the unit of the response, over the
+/// whole range. For a categorical input it is the change itself. Over the trajectories:
 ///   mean           μ, the effect as a whole; effects of both signs cancel
 ///   mean_absolute  μ*, how much the input matters: rank by this
 ///   deviation      σ; 0 where the response is linear in the input and knows no interaction of it
-/// A run that failed takes the effects on both of its sides with it. An integer or categorical input moves
-/// between its values, as u does; the order of levels without one means nothing, so look at μ* only. With
-/// noise of variance τ² in each run, σ² grows by 2τ²/Δ² and μ* of an inert input is not 0: Δ = p/(2(p − 1)).
+/// A run that failed takes the effects on both of its sides with it. The order of a categorical input's levels
+/// means nothing: look at its μ* only. With noise of variance τ² in each run, σ² grows by 2τ²/Δ² and μ* of an
+/// inert input is not 0: Δ = p/(2(p − 1)).
 /// Sources: Morris 1991, Technometrics 33(2); Campolongo, Cariboni, Saltelli 2007, Environ. Model. Softw. 22
 /// (μ*).
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -36,7 +39,7 @@ namespace drawpoint::doe {
 struct MorrisOptions {
   Seed seed = 1;          ///< of the trajectories
   int trajectories = 10;  ///< r, 2 or more; 10 rank the inputs, some 50 give σ to a tenth
-  int levels = 4;         ///< p, even, 2 to 1000; 4 is usual
+  int levels = 4;         ///< p of real inputs, even, 2 to 1000; 4 is usual
   EvaluateOptions evaluate = {};
 };
 
@@ -72,31 +75,44 @@ inline void check_morris(const MorrisOptions& options) {
            "; allowed is 1; average inside the black box");
 }
 
-/// Trajectories in the unit box, and which input changed before each row but the first of a trajectory.
+/// Trajectories, and which input changed before each row but the first of a trajectory.
 struct Trajectories {
-  Eigen::MatrixXd unit;             ///< r(d + 1) x d
+  Eigen::MatrixXd X;                ///< r(d + 1) x d, natural units
   std::vector<Eigen::Index> moved;  ///< one per row; -1 for the first of a trajectory
 };
 
-inline Trajectories trajectories(Eigen::Index d, const MorrisOptions& options) {
-  const int p = options.levels;
+/// Of how many levels, and which value has one of them.
+inline int level_count(const Variable& v, int levels) {
+  return is_discrete(v) ? static_cast<int>(value_count(v)) : levels;
+}
+inline double value_of_level(const Variable& v, int level, int levels) {
+  return is_discrete(v) ? v.lower + level : to_natural(static_cast<double>(level) / (levels - 1), v);
+}
+
+inline Trajectories trajectories(const Problem& problem, const MorrisOptions& options) {
+  const auto d = static_cast<Eigen::Index>(problem.variables.size());
   Trajectories t{Eigen::MatrixXd(options.trajectories * (d + 1), d), {}};
   std::vector<Eigen::Index> order(static_cast<std::size_t>(d));
-  Eigen::VectorXi level(d);
+  std::vector<int> level(static_cast<std::size_t>(d));
   Eigen::Index row = 0;
   const auto add = [&](Eigen::Index moved) {
-    t.unit.row(row++) = level.cast<double>().transpose() / (p - 1);
+    for (std::size_t j = 0; j < level.size(); ++j)
+      t.X(row, static_cast<Eigen::Index>(j)) = value_of_level(problem.variables[j], level[j], options.levels);
+    ++row;
     t.moved.push_back(moved);
   };
   for (int k = 0; k < options.trajectories; ++k) {
     RandomStream random(run_seed(options.seed, static_cast<std::uint64_t>(k), 0));
-    for (int& l : level) l = random.below(p);
+    for (std::size_t j = 0; j < level.size(); ++j)
+      level[j] = random.below(level_count(problem.variables[j], options.levels));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     for (std::size_t i = order.size(); i > 1; --i)
       std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
     add(-1);
     for (const Eigen::Index j : order) {
-      level[j] = (level[j] + p / 2) % p;
+      const auto of = static_cast<std::size_t>(j);
+      const int count = level_count(problem.variables[of], options.levels);
+      level[of] = (level[of] + count / 2) % count;
       add(j);
     }
   }
@@ -106,14 +122,17 @@ inline Trajectories trajectories(Eigen::Index d, const MorrisOptions& options) {
 /// The effects of each input on one response.
 inline std::vector<std::vector<double>> elementary_effects(const Trajectories& t, const Evaluations& runs,
                                                            Eigen::Index response) {
-  std::vector<std::vector<double>> effects(static_cast<std::size_t>(t.unit.cols()));
+  std::vector<std::vector<double>> effects(runs.problem.variables.size());
   for (std::size_t row = 1; row < runs.rows.size(); ++row) {
     const Eigen::Index j = t.moved[row];
     const Outcome &before = runs.rows[row - 1].outcome, &after = runs.rows[row].outcome;
     if (j < 0 || before.failed() || after.failed()) continue;
     const auto i = static_cast<Eigen::Index>(row);
+    const Variable& v = runs.problem.variables[static_cast<std::size_t>(j)];
+    const double share =
+        v.kind == VariableKind::categorical ? 1.0 : (t.X(i, j) - t.X(i - 1, j)) / (v.upper - v.lower);
     effects[static_cast<std::size_t>(j)].push_back((after.values()[response] - before.values()[response]) /
-                                                   (t.unit(i, j) - t.unit(i - 1, j)));
+                                                   share);
   }
   return effects;
 }
@@ -123,8 +142,10 @@ struct MeanAndDeviation {
 };
 
 inline MeanAndDeviation mean_and_deviation(const Eigen::ArrayXd& values) {
-  const double mean = values.mean();
-  return {mean, std::sqrt((values - mean).square().sum() / static_cast<double>(values.size() - 1))};
+  const double mean = values.mean(), size = values.abs().maxCoeff();  // whose square may leave the range
+  if (!(size > 0.0)) return {mean, 0.0};
+  const double squares = ((values - mean) / size).square().sum();
+  return {mean, size * std::sqrt(squares / static_cast<double>(values.size() - 1))};
 }
 
 inline ElementaryEffects summary_of(std::string response, const std::vector<std::vector<double>>& effects) {
@@ -169,8 +190,8 @@ Screening morris_screening(const F& f, const Problem& problem, const MorrisOptio
   require_black_box<F>();
   check(problem);
   detail::check_morris(options);
-  const auto t = detail::trajectories(static_cast<Eigen::Index>(problem.variables.size()), options);
-  Screening result{{}, evaluate(f, problem, detail::to_natural(t.unit, problem), options.evaluate)};
+  const detail::Trajectories t = detail::trajectories(problem, options);
+  Screening result{{}, evaluate(f, problem, t.X, options.evaluate)};
   for (std::size_t r = 0; r < problem.responses.size(); ++r)
     result.responses.push_back(detail::summary_of(
         problem.responses[r].name, detail::elementary_effects(t, result.runs, static_cast<Eigen::Index>(r))));

@@ -226,11 +226,12 @@ inline SobolIndices indices_of(std::string response, Eigen::MatrixXd Y, const So
     fill(result, d, 0.0, options);
     return result;
   }
-  Y.array() -= result.mean;
+  const double size = Y.cwiseAbs().maxCoeff();  // whose square may leave the range
+  Y = (Y / size).array() - result.mean / size;
   const SobolTerms terms(Y, d);
   const Eigen::VectorXd means = terms.means(), index = terms.indices(means, options.estimator);
   const Eigen::MatrixXd resampled = bootstrapped(terms, options);
-  result.variance = SobolTerms::variance(means);
+  result.variance = SobolTerms::variance(means) * size * size;
   result.first = estimates(index.head(d), resampled.topRows(d), options.confidence);
   result.total = estimates(index.segment(d, d), resampled.middleRows(d, d), options.confidence);
   const Eigen::Index pairs = index.size() - 2 * d;

@@ -88,7 +88,7 @@ class SobolTerms {
   }
 
   static double correlation(double covariance, double u, double v) {
-    return u > 0.0 && v > 0.0 ? covariance / std::sqrt(u * v) : 0.0;
+    return u > 0.0 && v > 0.0 ? covariance / (std::sqrt(u) * std::sqrt(v)) : 0.0;
   }
 
   Eigen::Index d_, pairs_of_inputs_;

@@ -82,6 +82,38 @@ TEST(DOptimal, StaysWhereRunsAreAllowed) {
   for (const auto& x : design.X.rowwise()) EXPECT_LE(x[0] + x[1], 1.5);
 }
 
+// A parabola on a tenth of the range: the best six runs lie at the ends and in the middle, twice each, as on the
+// whole of it, and with z = 0.1 w the determinant is that of w times 0.1² 0.1⁴: 4 · 2³ · 1e-6.
+TEST(DOptimal, FindsTermsThatHardlyVaryWhereRunsAreAllowed) {
+  const Problem problem = support::unit_problem(1);
+  const DOptimalDesign design = d_optimal(
+      problem, 6,
+      {.allowed = [](const Eigen::VectorXd& x) { return std::abs(x[0] - 0.5) <= 0.0501; }, .levels = 101});
+  ASSERT_EQ(design.status, DOptimalStatus::found) << design.message;
+  EXPECT_NEAR(determinant(problem, design.X, ModelTerms::quadratic), 32e-6, 32e-6 * 1e-6);
+  EXPECT_NEAR(design.efficiency, 1, 1e-6);
+}
+
+// Linear terms in twenty variables: the bound is that of the largest variance over all corners, which for M with
+// rows f = (1, ±1, ...) is found from 2^20 of them.
+TEST(DOptimal, BoundsItsEfficiencyInManyVariables) {
+  const Problem problem = support::unit_problem(20);
+  const DOptimalDesign design =
+      d_optimal(problem, 24, {.terms = ModelTerms::linear, .levels = 2, .starts = 3});
+  ASSERT_EQ(design.status, DOptimalStatus::found);
+  const Eigen::MatrixXd F = model_matrix(problem, design.X, ModelTerms::linear);
+  const Eigen::MatrixXd D = (F.transpose() * F / 24).inverse();
+  Eigen::VectorXd f = Eigen::VectorXd::Ones(21), Df = D * f;
+  double largest = f.dot(Df);
+  for (unsigned code = 1; code < 1U << 20; ++code) {  // in Gray's order: one sign changes at a time
+    const int j = 1 + __builtin_ctz(code);
+    Df -= 2 * f[j] * D.col(j);
+    f[j] = -f[j];
+    largest = std::max(largest, f.dot(Df));
+  }
+  EXPECT_NEAR(design.efficiency, std::min(1.0, 21 / largest), 1e-6);
+}
+
 // ±1 in every entry, columns orthogonal: FᵀF = n I, Hadamard's bound, so both figures are 1.
 TEST(DOptimal, OfLinearTermsIsAnOrthogonalArray) {
   for (const auto& [d, n] : {std::pair{3, 4}, {7, 8}, {6, 12}}) {

@@ -40,6 +40,14 @@ TEST(Distribution, QuantileAndProbabilityUndoEachOther) {
 // The midpoint rule misses the variance by the square of a stratum's width; the widest are the two in the
 // tails. Of the normal distribution cut at six deviations the last stratum reaches from 3.84 to 6: its second
 // moment about its middle is below 1, its share 6e-5. That of the others is smaller.
+TEST(Distribution, OfAnExtremeUnit) {
+  for (const double unit : {1e-200, 1e200}) {
+    const Distribution d = triangular(0, 0.25 * unit, unit);
+    EXPECT_NEAR(d.quantile(0.25) / unit, 0.25, 1e-15);
+    EXPECT_NEAR(d.probability(0.5 * unit), 1 - 0.25 / 0.75, 1e-15);
+  }
+}
+
 TEST(Distribution, HasTheMomentsOfItsFormula) {
   const auto [m, v] = moments(normal(10, 2), -2, 22);
   EXPECT_NEAR(m, 10, 1e-12);
@@ -131,6 +139,12 @@ TEST(Distribution, NamesBadInput) {
       }),
       "doe::Distribution: variable \"x\": the empirical distribution lies from 0 m to 2 m, outside of the "
       "box 0 m to 1 m; widen the bounds");
+  EXPECT_EQ(
+      text([&] {
+        distributed(of_range(0, 1), {{"x", {"own", [](double p) { return 1 - p; }}}}, X);
+      }),
+      "doe::Distribution: variable \"x\": the quantile of the own distribution falls beside 0.25, or is not "
+      "a number; it must not fall from 0 to 1");
   Problem counted = of_range(0, 1);
   counted.variables[0] = integer_variable("x", "1", 0, 4);
   EXPECT_EQ(

@@ -7,6 +7,7 @@
 #include <drawpoint/doe/morris.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/doe/sensitivity_cases.hpp>
+#include <set>
 
 using namespace drawpoint;
 using namespace drawpoint::doe;
@@ -77,19 +78,42 @@ TEST(MorrisScreening, AnInertInputHasNoEffect) {
   EXPECT_GT(e.mean_absolute[0], 0.0);
 }
 
-// Half of the levels is more than half of the range, so every integer or categorical input moves.
-TEST(MorrisScreening, MovesEveryKindOfVariable) {
+// A response linear in an integer input, with 2 values or 12, has the effect of a real one: its change over the
+// range. A categorical input's effect is its change: of 0, 10, 20 from level to level 10 up or 20 down.
+TEST(MorrisScreening, MovesEveryKindOfVariableOverAllItsValues) {
   Problem problem = support::unit_problem(1);
   problem.variables.push_back(integer_variable("teeth", "1", 2, 3));
+  problem.variables.push_back(integer_variable("rows", "1", 1, 12));
   problem.variables.push_back(categorical_variable("tool", {"bucket", "blade", "ripper"}));
-  const auto f = [](const Eigen::VectorXd& x) { return x[1] + 10 * x[2]; };
-  const Screening s = morris_screening(f, problem, {.trajectories = 30});
-  for (std::size_t row = 1; row < s.runs.rows.size(); ++row)
-    if (row % 4 != 0) {
-      EXPECT_NE(s.runs.rows[row].x, s.runs.rows[row - 1].x);
+  const auto f = [](const Eigen::VectorXd& x) { return 3 * x[0] + 3 * x[1] + 3.0 / 11 * x[2] + 10 * x[3]; };
+  for (const int levels : {2, 4}) {
+    const Screening s = morris_screening(f, problem, {.trajectories = 60, .levels = levels});
+    for (std::size_t row = 1; row < s.runs.rows.size(); ++row)
+      if (row % 5 != 0) {
+        EXPECT_NE(s.runs.rows[row].x, s.runs.rows[row - 1].x);
+      }
+    const ElementaryEffects& e = s.responses[0];
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_NEAR(e.mean[j], 3, 1e-13);
+      EXPECT_NEAR(e.deviation[j], 0, 1e-12);
     }
-  EXPECT_GT(s.responses[0].mean[1], 1.0);  // by 1 over a step of 2/3
-  EXPECT_NEAR(s.responses[0].mean[1], 1.5, 1e-14);
+    EXPECT_GE(e.mean_absolute[3], 10);
+    EXPECT_LE(e.mean_absolute[3], 20);
+    std::set<double> rows, tools;
+    for (const auto& run : s.runs.rows) rows.insert(run.x[2]), tools.insert(run.x[3]);
+    EXPECT_EQ(rows.size(), 12U);  // of 120 draws none misses one of 12, once in 3000
+    EXPECT_EQ(tools.size(), 3U);
+  }
+}
+
+TEST(MorrisScreening, DoesNotDependOnTheUnit) {
+  for (const double unit : {1e-200, 1e200}) {
+    const auto f = [unit](const Eigen::VectorXd& x) { return unit * x[0] * x[1]; };
+    const auto one = [](const Eigen::VectorXd& x) { return x[0] * x[1]; };
+    const auto e = effects_on(f, 2), of_one = effects_on(one, 2);
+    EXPECT_NEAR(e.deviation[0] / unit, of_one.deviation[0], 1e-14);
+    EXPECT_NEAR(e.mean_absolute[1] / unit, of_one.mean_absolute[1], 1e-14);
+  }
 }
 
 TEST(MorrisScreening, AFailedRunTakesTheEffectsOnBothSides) {

@@ -118,6 +118,19 @@ TEST(SobolIndices, DoNotDependOnUnitOrOffset) {
   EXPECT_TRUE(a.total.value.isApprox(b.total.value, 1e-12));
 }
 
+TEST(SobolIndices, DoNotDependOnAnExtremeUnit) {
+  const auto c = support::ishigami();
+  for (const SobolEstimator estimator : estimators)
+    for (const double unit : {1e-200, 1e200}) {
+      const auto scaled = [&](const Eigen::VectorXd& x) { return unit * c.f(x); };
+      const SobolIndicesOptions options{.samples = 128, .estimator = estimator};
+      const SobolIndices a = sobol_indices(c.f, c.problem, options).responses[0];
+      const SobolIndices b = sobol_indices(scaled, c.problem, options).responses[0];
+      EXPECT_TRUE(a.first.value.isApprox(b.first.value, 1e-12));
+      EXPECT_TRUE(a.total.value.isApprox(b.total.value, 1e-12));
+    }
+}
+
 TEST(SobolIndices, LeaveOutPairsWithAFailure) {
   const auto c = support::ishigami();
   const auto f = [&c](const Eigen::VectorXd& x) -> Outcome {
