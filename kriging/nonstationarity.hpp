@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
@@ -51,7 +52,7 @@ struct Jump {
   double after, before;  ///< natural units: the two runs' values of the input, after < before
   double size;           ///< what the response gains from one side to the other, unit of y
   double standard_error;
-  double error_left;  ///< leave-one-out error with the step in the trend over that without it
+  double error_left;  ///< leave-one-out errors with the step in the trend over those without it
 };
 
 struct Stationarity {
@@ -206,7 +207,7 @@ inline Gap surest_gap(const ModelState& s, const ErrorScan& scan) {
   return best;
 }
 
-/// A model of the same family with the step in its trend.
+/// Trend and noise as in the model, with the step as one more term of the trend, the last one.
 inline Model fit_with_step(const Model& model, int input, double at) {
   const ModelState& s = model.state();
   Eigen::MatrixXd X = s.X;
@@ -215,10 +216,33 @@ inline Model fit_with_step(const Model& model, int input, double at) {
   FitOptions options;
   options.correlation = s.correlation.family;
   options.trend = Trend::user;
-  options.basis.values = [input, at](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return Eigen::Vector2d(1.0, x[input] > at ? 1.0 : 0.0);
+  options.basis.values = [trend = s.trend, scale = s.input, input, at](const Eigen::VectorXd& x) {
+    const Eigen::VectorXd scaled = scale.apply(x.transpose()).row(0), half_range = scale.half_range();
+    const Eigen::VectorXd terms = trend.values({x, scaled, half_range});
+    Eigen::VectorXd all(terms.size() + 1);
+    for (Index j = 0; j < terms.size(); ++j) all[j] = terms[j];
+    all[terms.size()] = x[input] > at ? 1.0 : 0.0;
+    return all;
   };
+  if (s.noise.size() > 0) {
+    options.noise = s.known_noise > 0 ? Noise::known : Noise::proportional;
+    options.noise_variance = affine(s.noise, s.noise_unit);
+  }
   return fit(X, s.observed, options);
+}
+
+/// Leave-one-out errors of one model over those of another, in root mean square, each over the variance that the
+/// other expects: over the deviation, a run of much noise would count as much as any and hide what changes.
+inline double error_quotient(const Model& model, const Model& other) {
+  const Validation mine = leave_one_out(model), theirs = leave_one_out(other);
+  double sum = 0, of_other = 0;
+  for (Index i = 0; i < mine.observed.size(); ++i) {
+    // Over the process variance, which has the unit.
+    const double variance = theirs.observation_variance[i] / other.process_variance();
+    sum += std::pow((mine.observed[i] - mine.predicted[i]) / variance, 2);
+    of_other += std::pow((theirs.observed[i] - theirs.predicted[i]) / variance, 2);
+  }
+  return std::sqrt(sum / of_other);
 }
 
 inline std::optional<Jump> find_jump(const Model& model, const ErrorScan& scan, double spoilt) {
@@ -232,13 +256,14 @@ inline std::optional<Jump> find_jump(const Model& model, const ErrorScan& scan, 
   const double after = at(gap.place - 1), before = at(gap.place);
   const Model stepped = fit_with_step(model, gap.input, 0.5 * (after + before));
   const ModelState& t = stepped.state();
-  if (t.gls.beta.size() != 2) return {};
+  const Index last = t.gls.beta.size() - 1;
+  if (last != s.trend.size()) return {};  // the runs cannot tell the step from the other terms
   const Jump jump{gap.input,
                   after,
                   before,
-                  t.y_scale * t.gls.beta[1],
-                  std::sqrt(stepped.process_variance()) / std::abs(t.gls.T(1, 1)),
-                  leave_one_out(stepped).rmse / leave_one_out(model).rmse};
+                  t.y_scale * t.gls.beta[last],
+                  std::sqrt(stepped.process_variance()) / std::abs(t.gls.T(last, last)),
+                  error_quotient(stepped, model)};
   if (!(std::abs(jump.size) >= 10 * jump.standard_error && jump.error_left <= spoilt)) return {};
   return jump;
 }

@@ -4,7 +4,8 @@
 
 /// Where squared errors of runs are larger than elsewhere: along an input, and between neighbours.
 ///
-/// Along input k, of every m runs in a row by x_k, for three lengths m: the likelihood ratio of normal errors
+/// Along input k, of every m runs in a row by x_k, for three lengths m; runs with one x_k stay together, so that a
+/// window may be longer: the likelihood ratio of normal errors
 /// with one variance inside of the window, w, and another outside, v, against one variance u for all,
 ///   −½ [m ln(w/u) + (n − m) ln(v/u)],   counted only where w > v;
 /// the largest counts (Kulldorff 1997, Commun. Stat. Theory Methods 26(6), with normal errors). A square
@@ -16,6 +17,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <drawpoint/kriging/detail/dense.hpp>
 #include <numeric>
 #include <utility>
@@ -38,6 +40,10 @@ class ErrorScan {
       auto& order = orders_.emplace_back(static_cast<std::size_t>(X.rows()));
       std::iota(order.begin(), order.end(), Index{0});
       std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return X(a, k) < X(b, k); });
+      auto& begins = begins_.emplace_back();
+      for (std::size_t i = 0; i < order.size(); ++i)
+        if (i == 0 || X(order[i], k) > X(order[i - 1], k)) begins.push_back(static_cast<Index>(i));
+      begins.push_back(X.rows());
     }
     for (const double share : {0.1, 0.2, 0.35})
       lengths_.push_back(
@@ -88,21 +94,29 @@ class ErrorScan {
 
   void scan(const Eigen::VectorXd& squares, int input, Index m, ErrorWindow& found) const {
     const auto& order = orders_[static_cast<std::size_t>(input)];
+    const auto& begins = begins_[static_cast<std::size_t>(input)];
     const Index n = squares.size();
-    const double all = mean_of(squares) * static_cast<double>(n), inside = static_cast<double>(m),
-                 outside = static_cast<double>(n - m);
-    double sum = 0;
-    for (Index i = 0; i < n; ++i) {
-      sum += squares[order[static_cast<std::size_t>(i)]];
-      if (i >= m) sum -= squares[order[static_cast<std::size_t>(i - m)]];
-      const double w = sum / inside, v = (all - sum) / outside, u = all / (inside + outside);
-      if (i + 1 < m || !(w > v)) continue;
+    std::vector<double> sums{0};
+    for (const Index run : order) sums.push_back(sums.back() + squares[run]);
+    const double all = sums.back(), u = all / static_cast<double>(n);
+    std::size_t last = 0;
+    for (std::size_t first = 0; first + 1 < begins.size(); ++first) {
+      const Index from = begins[first];
+      while (last < begins.size() && begins[last] < from + m) ++last;
+      if (last == begins.size()) return;
+      const Index to = begins[last];
+      if (n - (to - from) < 4) continue;
+      const double inside = static_cast<double>(to - from), outside = static_cast<double>(n - (to - from));
+      const double sum = sums[static_cast<std::size_t>(to)] - sums[static_cast<std::size_t>(from)];
+      const double w = sum / inside, v = (all - sum) / outside;
+      if (!(w > v)) continue;
       const double ratio = -0.5 * (inside * std::log(w / u) + outside * std::log(std::max(v / u, 1e-12)));
-      if (ratio > found.ratio) found = {input, i + 1 - m, i, ratio};
+      if (ratio > found.ratio) found = {input, from, to - 1, ratio};
     }
   }
 
   std::vector<std::vector<Index>> orders_, neighbours_;
+  std::vector<std::vector<Index>> begins_;  // of runs with one value, in the order, and n
   std::vector<Index> lengths_;
 };
 
