@@ -13,7 +13,11 @@
 /// (detail/site_posterior.hpp). With m and v mean and variance of f at x:
 ///   expected count  exp(o + m + ½(v + σ²)), its variance (what is not known of f) that squared times e^v − 1
 ///   of one more run the variance of its count adds to that: mean + mean² e^v (e^σ² − 1)
-///   probabilities of counts by the trapezoidal rule over f + g, 200 points: to 1e-9
+///   probabilities of counts by the trapezoidal rule over f + g, with points as close as Poisson's law needs:
+///   up to 1000 added one by one, to 1e-6; beyond, by the normal law of the root of a count, to 1e-3
+///
+/// Counts go up to 10 000; beyond, the root or the logarithm of a count is as normal as any response
+/// (transform.hpp), and costs less.
 ///
 /// Simplifications: what the estimates of the covariance leave unknown is in no variance; beyond 150 runs
 /// they are estimated from 150 of them, evenly picked, and the posterior has all. Cost: 1 to 5 s up to 150
@@ -23,6 +27,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/latent_likelihood.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
@@ -44,6 +49,95 @@ struct CountOptions {
   Eigen::VectorXd exposure = {};
 };
 
+namespace detail {
+
+/// A Poisson count whose ln mean is normal.
+class CountDistribution {
+ public:
+  CountDistribution(double mean, double variance) {
+    constexpr double reach = 8.5;  // of deviations: beyond it lies 2e-17
+    const double deviation = std::sqrt(variance);
+    // As a function of the logarithm of its mean λ the probability of a count is 1/√λ wide; half of it four
+    // deviations up, and a twelfth of a deviation.
+    const double closest = 0.5 / std::sqrt(1.0 + std::exp(mean + 4.0 * deviation));
+    const double wanted = 2.0 * reach * std::max(12.0, deviation / closest);
+    const int points = static_cast<int>(std::min(wanted, 4000.0));
+    double sum = 0;
+    for (int k = 0; k < points; ++k) {
+      const double z = reach * (2.0 * k / (points - 1) - 1.0);
+      weights_.push_back(std::exp(-0.5 * z * z));
+      rates_.push_back(std::exp(mean + z * deviation));
+      sum += weights_.back();
+    }
+    for (double& weight : weights_) weight /= sum;
+  }
+
+  double at_most(double count) const {
+    if (count > summed) return approximately_at_most(count);
+    double sum = 0;
+    Terms terms(*this);
+    for (double k = 0; k <= count; ++k) sum += terms.next();
+    return std::min(sum, 1.0);
+  }
+
+  /// +∞ beyond a million.
+  double quantile(double p) const {
+    double sum = 0, count = 0;
+    Terms terms(*this);
+    for (; count <= summed; ++count)
+      if ((sum += terms.next()) >= p) return count;
+    double below = summed, above = 1e6;
+    if (approximately_at_most(above) < p) {
+      // So near to 1 that sums of probabilities do not reach p: the rates are used up.
+      const double last = rates_.back() + 10.0 * std::sqrt(rates_.back()) + 30.0;
+      return last < above ? last : std::numeric_limits<double>::infinity();
+    }
+    while (above - below > 1.0) {
+      const double middle = std::floor(0.5 * (below + above));
+      (approximately_at_most(middle) < p ? below : above) = middle;
+    }
+    return above;
+  }
+
+ private:
+  static constexpr double summed = 1000;  // up to which probabilities are added one by one
+
+  /// Probabilities of 0, 1, 2, ...
+  class Terms {
+   public:
+    explicit Terms(const CountDistribution& of) : of_(of) {
+      for (std::size_t k = 0; k < of.rates_.size(); ++k)
+        logarithms_.push_back(std::log(of.weights_[k]) - of.rates_[k]);
+    }
+    double next() {
+      double probability = 0;
+      for (std::size_t k = 0; k < logarithms_.size(); ++k) {
+        if (count_ > 0) logarithms_[k] += std::log(of_.rates_[k] / count_);
+        probability += std::exp(logarithms_[k]);
+      }
+      count_ += 1.0;
+      return probability;
+    }
+
+   private:
+    const CountDistribution& of_;
+    std::vector<double> logarithms_;  // of weight times probability
+    double count_ = 0;
+  };
+
+  /// Twice the root of a count is normal with deviation 1 (Anscombe 1948): to 1e-3 from a thousand on.
+  double approximately_at_most(double count) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < rates_.size(); ++k)
+      sum += weights_[k] * normal_probability(2.0 * (std::sqrt(count + 0.75) - std::sqrt(rates_[k])));
+    return std::min(sum, 1.0);
+  }
+
+  std::vector<double> rates_, weights_;
+};
+
+}  // namespace detail
+
 /// A value that threads may share; a Surrogate of the count per unit of exposure.
 class CountModel {
  public:
@@ -63,7 +157,8 @@ class CountModel {
 
   /// That one more run at each row of X, exposed `exposure`, counts at most `count`: m entries, 0 to 1.
   Eigen::VectorXd probability_at_most(const Eigen::MatrixXd& X, int count, double exposure = 1.0) const;
-  /// The least count that one more run exceeds with a chance of 1 − p at most, 0 < p < 1: m entries.
+  /// The least count that one more run exceeds with a chance of 1 − p at most, 0 < p < 1: m entries; +∞ beyond a
+  /// million.
   Eigen::VectorXd quantile(const Eigen::MatrixXd& X, double p, double exposure = 1.0) const;
 
   Eigen::Index runs() const { return X_.rows(); }
@@ -86,6 +181,10 @@ class CountModel {
 
   /// Of f.
   Prediction latent(const Eigen::MatrixXd& X) const;
+  /// Of the count of one more run at point i of f.
+  detail::CountDistribution distribution(const Prediction& f, Eigen::Index i, double exposure) const {
+    return {offset_ + std::log(exposure) + f.mean[i], f.variance[i] + covariance_.of_a_run};
+  }
 
   detail::InputScale input_;
   Eigen::MatrixXd X_;  // scaled
@@ -105,7 +204,7 @@ namespace detail {
 
 inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts,
                          const CountOptions& options) {
-  constexpr double most = 1e6;  // beyond it a count is as good as any number
+  constexpr double most = 1e4;
   if (X.rows() < 2 || X.cols() < 1)
     reject_counts("X is " + std::to_string(X.rows()) + " x " + std::to_string(X.cols()) +
                   "; allowed is 2 x 1 or more; give one row per run");
@@ -117,7 +216,7 @@ inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts
   for (Index i = 0; i < counts.size(); ++i)
     if (!(counts[i] >= 0 && counts[i] <= most) || counts[i] != std::floor(counts[i]))
       reject_counts("counts[" + std::to_string(i) + "] is " + text(counts[i]) +
-                    "; allowed are whole numbers from 0 to 1e6; fit other responses with fit");
+                    "; allowed are whole numbers from 0 to 10000; fit other responses with fit_transformed");
   if (options.exposure.size() != 0 && options.exposure.size() != X.rows())
     reject_counts("exposure has " + std::to_string(options.exposure.size()) + " entries for " +
                   std::to_string(X.rows()) + " runs; give one per run, or none");
@@ -130,6 +229,11 @@ inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts
     reject_counts("the box has " + std::to_string(options.lower.size()) + " lower and " +
                   std::to_string(options.upper.size()) + " upper bounds but X has " +
                   std::to_string(X.cols()) + " columns; give one of each per variable, or neither");
+  for (Index k = 0; k < options.lower.size(); ++k)
+    if (!(options.upper[k] - options.lower[k] >= smallest_range) || !is_usable(options.lower[k]) ||
+        !is_usable(options.upper[k]))
+      reject_counts("variable " + std::to_string(k) + " has the bounds " + text(options.lower[k]) + " and " +
+                    text(options.upper[k]) + "; allowed are finite ones with lower below upper");
 }
 
 /// At most `limit` of n rows, evenly picked.
@@ -139,38 +243,6 @@ inline std::vector<Index> even_rows(Index n, Index limit) {
   for (Index i = 0; i < count; ++i) rows.push_back(i * n / count);
   return rows;
 }
-
-/// Probabilities of 0, 1, 2, ... one after another, of a Poisson count whose ln mean is normal.
-class CountProbabilities {
- public:
-  CountProbabilities(double mean, double variance) {
-    constexpr int points = 200;
-    constexpr double reach = 8.5;  // of deviations: beyond it lies 2e-17
-    double sum = 0;
-    for (int k = 0; k < points; ++k) {
-      const double z = reach * (2.0 * k / (points - 1) - 1.0), weight = std::exp(-0.5 * z * z);
-      rates_.push_back(std::exp(mean + z * std::sqrt(variance)));
-      terms_.push_back(std::log(weight) - rates_.back());
-      sum += weight;
-    }
-    log_sum_ = std::log(sum);
-  }
-
-  /// Of the next count.
-  double next() {
-    double probability = 0;
-    for (std::size_t k = 0; k < rates_.size(); ++k) {
-      if (count_ > 0) terms_[k] += std::log(rates_[k] / count_);
-      probability += std::exp(terms_[k] - log_sum_);
-    }
-    count_ += 1.0;
-    return probability;
-  }
-
- private:
-  std::vector<double> rates_, terms_;  // terms: ln of weight times the probability of the count
-  double log_sum_ = 0, count_ = 0;
-};
 
 inline void check_exposure(double exposure) {
   if (!(exposure > 0) || !is_usable(exposure))
@@ -217,6 +289,9 @@ inline Prediction CountModel::latent(const Eigen::MatrixXd& X) const {
     throw std::invalid_argument("kriging::CountModel: X has " + std::to_string(X.cols()) +
                                 " columns; allowed are " + std::to_string(X_.cols()) +
                                 "; give one per variable");
+  if (!std::all_of(X.data(), X.data() + X.size(), detail::is_usable))
+    throw std::invalid_argument(
+        "kriging::CountModel: X has an entry that is not finite or beyond 1e150; give numbers below it");
   return detail::latent_at(input_.apply(X), X_, covariance_, posterior_);
 }
 
@@ -224,13 +299,8 @@ inline Eigen::VectorXd CountModel::probability_at_most(const Eigen::MatrixXd& X,
                                                        double exposure) const {
   detail::check_exposure(exposure);
   const Prediction f = latent(X);
-  Eigen::VectorXd P = Eigen::VectorXd::Zero(X.rows());
-  for (Eigen::Index i = 0; i < P.size(); ++i) {
-    detail::CountProbabilities of(offset_ + std::log(exposure) + f.mean[i],
-                                  f.variance[i] + covariance_.of_a_run);
-    for (int k = 0; k <= count; ++k) P[i] += of.next();
-    P[i] = std::min(P[i], 1.0);
-  }
+  Eigen::VectorXd P(X.rows());
+  for (Eigen::Index i = 0; i < P.size(); ++i) P[i] = distribution(f, i, exposure).at_most(count);
   return P;
 }
 
@@ -241,13 +311,7 @@ inline Eigen::VectorXd CountModel::quantile(const Eigen::MatrixXd& X, double p, 
                                 "; allowed is between 0 and 1; 0.975 is usual");
   const Prediction f = latent(X);
   Eigen::VectorXd quantiles(X.rows());
-  for (Eigen::Index i = 0; i < quantiles.size(); ++i) {
-    detail::CountProbabilities of(offset_ + std::log(exposure) + f.mean[i],
-                                  f.variance[i] + covariance_.of_a_run);
-    double sum = of.next(), count = 0;
-    for (; sum < p && count < 1e7; ++count) sum += of.next();
-    quantiles[i] = count;
-  }
+  for (Eigen::Index i = 0; i < quantiles.size(); ++i) quantiles[i] = distribution(f, i, exposure).quantile(p);
   return quantiles;
 }
 

@@ -68,7 +68,10 @@ class SitePosterior {
 
   double mean(Index i) const { return mean_[i]; }
   double variance(Index i) const { return variance_[i]; }
-  double cavity_precision(Index i) const { return 1.0 / variance_[i] - sites_.precision[i]; }
+  /// Above 0 but for round-off, which may take all of it where a site says nearly everything.
+  double cavity_precision(Index i) const {
+    return std::max(1.0 / variance_[i] - sites_.precision[i], 1e-12 / variance_[i]);
+  }
   double cavity_mean(Index i) const {
     return (mean_[i] / variance_[i] - sites_.shift[i]) / cavity_precision(i);
   }

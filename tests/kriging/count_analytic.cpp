@@ -13,6 +13,8 @@
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/tests/support/told.hpp>
+#include <limits>
+#include <tuple>
 #include <vector>
 
 using namespace drawpoint;
@@ -157,6 +159,48 @@ TEST(CountModel, OfOneRateIsPoissonsLaw) {
   EXPECT_GE(run.variance[0], run.mean[0]);
 }
 
+// Cumulative probabilities of Poisson counts with a normal logarithm of the mean, against 20 001 points of the
+// same rule: of large counts and of wide logarithms, to what the header states.
+TEST(CountDistribution, IsThatOfAFineRule) {
+  for (const auto& [mean, deviation, stated] : {std::tuple(1.0, 0.0, 1e-6),
+                                                {0.3, 1.0, 1e-6},
+                                                {100.0, 0.1, 1e-6},
+                                                {1000.0, 0.02, 1e-6},
+                                                {1000.0, 1.0, 1e-6},
+                                                {3000.0, 0.0, 1e-3},
+                                                {3000.0, 0.5, 1e-3}}) {
+    const detail::CountDistribution found(std::log(mean), deviation * deviation);
+    const int most = static_cast<int>(mean);
+    double exact = 0, weights = 0;
+    const int points = deviation > 0 ? 20001 : 1;
+    for (int k = 0; k < points; ++k) {
+      const double z = points > 1 ? 8.5 * (2.0 * k / (points - 1) - 1) : 0.0, weight = std::exp(-0.5 * z * z);
+      weights += weight;
+      const double log_mean = std::log(mean) + deviation * z;
+      double at_most = 0, term = -std::exp(log_mean);  // ln of the probability of 0
+      for (int count = 0; count <= most; ++count) {
+        if (count > 0) term += log_mean - std::log(count);
+        at_most += std::exp(term);
+      }
+      exact += weight * at_most;
+    }
+    EXPECT_NEAR(found.at_most(most), exact / weights, stated) << mean << " " << deviation;
+  }
+}
+
+TEST(CountModel, LargeCountsAndQuantilesEnd) {
+  const Spills spills(40, 6);
+  VectorXd many = spills.counts * 500;
+  for (double& count : many) count = std::min(count, 10000.0);
+  const CountModel model = fit_counts(spills.X, many);
+  EXPECT_TRUE(model.converged());
+  const MatrixXd X{{0.9, 0.1}};
+  EXPECT_EQ(model.quantile(X, 0.5, 1e6)[0], std::numeric_limits<double>::infinity());
+  EXPECT_GT(model.probability_at_most(X, std::numeric_limits<int>::max())[0], 0.99);
+  EXPECT_EQ(model.probability_at_most(X, -1)[0], 0);
+  EXPECT_GT(model.quantile(X, 1 - 1.2e-16)[0], model.quantile(X, 0.5)[0]);
+}
+
 // Probabilities add to 1, and their mean and variance are those of the prediction: sums over 400 counts of a
 // mean of 12 at most.
 TEST(CountModel, ProbabilitiesHaveTheMomentsOfThePrediction) {
@@ -263,12 +307,17 @@ TEST(CountModel, BadInputIsNamed) {
             "kriging::fit_counts: X has 3 rows but counts has 2 entries; give one per run");
   EXPECT_EQ(
       text(VectorXd{{1, 2.5, 0}}),
-      "kriging::fit_counts: counts[1] is 2.5; allowed are whole numbers from 0 to 1e6; fit other responses "
-      "with fit");
+      "kriging::fit_counts: counts[1] is 2.5; allowed are whole numbers from 0 to 10000; fit other responses "
+      "with fit_transformed");
   EXPECT_EQ(text(VectorXd{{1, -1, 0}}).substr(0, 35), "kriging::fit_counts: counts[1] is -");
   EXPECT_EQ(text(VectorXd{{1, 1, 0}}, {.exposure = VectorXd{{1, 1, 0}}}),
             "kriging::fit_counts: exposure[2] is 0; allowed are finite numbers above 0");
+  EXPECT_EQ(text(VectorXd{{1, 1, 0}}, {.lower = VectorXd{{0, 1}}, .upper = VectorXd{{1, 1}}}),
+            "kriging::fit_counts: variable 1 has the bounds 1 and 1; allowed are finite ones with lower "
+            "below upper");
   const CountModel model = fit_counts(X, VectorXd{{1, 2, 0}});
+  EXPECT_EQ(support::told([&] { model.mean(MatrixXd::Constant(1, 2, std::nan(""))); }),
+            "kriging::CountModel: X has an entry that is not finite or beyond 1e150; give numbers below it");
   EXPECT_EQ(support::told([&] { model.mean(MatrixXd::Zero(1, 3)); }),
             "kriging::CountModel: X has 3 columns; allowed are 2; give one per variable");
   EXPECT_EQ(support::told([&] { model.quantile(X, 1.0); }),
