@@ -37,7 +37,7 @@ struct FitOptions {
 
   /// The box that is scaled to [-1, 1], natural units, one entry per variable. Empty: the range of the data.
   /// Give the box of the problem when θ is to be compared between fits to different runs.
-  Eigen::VectorXd lower, upper;
+  Eigen::VectorXd lower = {}, upper = {};
 
   /// > 0; equal bounds fix θ. At the lower one the correlation across the range of an input is 1 − 5e-5: the
   /// input has no effect. A length scale of 0.01 at the upper one is shorter than runs can lie apart.
@@ -63,14 +63,14 @@ struct FitOptions {
 
   Correlation correlation = Correlation::gaussian;
   /// power_exponential only: pₖ in [1, 2], one entry per variable. Empty: estimated.
-  Eigen::VectorXd exponent;
+  Eigen::VectorXd exponent = {};
 
   Trend trend = Trend::constant;
-  Basis basis;  ///< Trend::user only
+  Basis basis = {};  ///< Trend::user only
 
   Noise noise = Noise::nugget;
   /// Unit of y squared, one entry per run, >= 0, not all 0; Noise::known and Noise::proportional only.
-  Eigen::VectorXd noise_variance;
+  Eigen::VectorXd noise_variance = {};
 
   /// 0: all cores. They share the matrix work of 500 runs or more; results do not depend on them.
   int threads = 1;

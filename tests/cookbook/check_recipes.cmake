@@ -1,0 +1,13 @@
+cmake_minimum_required(VERSION 3.25)
+# Every program of the cookbook is a recipe that is tested and drawn. -DRECIPES= -DSOURCES=
+file(GLOB files RELATIVE ${SOURCES} ${SOURCES}/*.cpp)
+file(READ ${SOURCES}/figures.py figures)
+foreach(file IN LISTS files)
+  get_filename_component(recipe ${file} NAME_WE)
+  if(NOT recipe IN_LIST RECIPES)
+    message(SEND_ERROR "docs/cookbook/${file} is not among the recipes of tests/cookbook/CMakeLists.txt; add it")
+  endif()
+  if(NOT figures MATCHES "def ${recipe}\\(")
+    message(SEND_ERROR "docs/cookbook/figures.py draws nothing for ${file}; add a function ${recipe}")
+  endif()
+endforeach()
