@@ -17,8 +17,11 @@
 #include <drawpoint/kriging/detail/cokriging_slopes.hpp>
 #include <drawpoint/kriging/detail/fit_cokriging_level.hpp>
 #include <drawpoint/kriging/detail/runs_of_surrogate.hpp>
+#include <drawpoint/kriging/detail/told_rho.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <limits>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +33,8 @@ struct FidelityLevelReport {
   Eigen::Index runs = 0;
   /// ρ over the level below, unit of this level's y over that of the one below: its value at the centre of
   /// the box, then, where ρ is linear, what it changes by from there to the upper bound of each input. Empty
-  /// at the cheapest level, and where the trend repeats what the level below says at these runs.
+  /// at the cheapest level, and where the trend repeats what the level below says at these runs, but for the
+  /// error of its model.
   Eigen::VectorXd rho;
   Eigen::VectorXd rho_standard_error;  ///< as long as rho; θ, s² and λ taken as known
   /// Share of the variance at the runs that ρ times the level below has, 0 to 1; the difference, which the
@@ -41,7 +45,8 @@ struct FidelityLevelReport {
   FitReport fit;
 };
 
-/// Co-Kriging against a Kriging model of the true runs alone, both by leave-one-out.
+/// Co-Kriging against a Kriging model of the true runs alone, both by leave-one-out. `rmse` and `gain` are
+/// NaN where leave_one_out() cannot score a run.
 struct FidelityComparison {
   double rmse = std::numeric_limits<double>::quiet_NaN();        ///< of co-Kriging, unit of y
   double rmse_alone = std::numeric_limits<double>::quiet_NaN();  ///< of the true runs alone, unit of y
@@ -164,9 +169,20 @@ inline CokrigingLevel with_rows(const CokrigingLevel& level, const std::vector<I
   return some;
 }
 
-/// The levels without their runs at x, ρ, θ, s² and λ as they are. A level keeps as many runs as it has
-/// coefficients.
-inline CokrigingLevels without_runs_at(const CokrigingLevels& levels, const Eigen::VectorXd& x) {
+/// Whether the runs of a level that is built tell the coefficients of its trend and of ρ.
+inline bool tells_coefficients(const CokrigingLevels& below, const CokrigingLevel& level) {
+  const Index terms = level.s.trend.size();
+  const Eigen::MatrixXd f = level.s.F.leftCols(terms);
+  if (static_cast<Index>(independent_columns(f).size()) < terms) return false;
+  if (level.rho.empty()) return true;
+  return told_rho(below, {level.s.X, f, level.runs_below, level.rho, level.below_centre}).size() ==
+         level.rho.size();
+}
+
+/// The levels without their runs at x, ρ, θ, s² and λ as they are. None where a level's runs left do not tell
+/// its coefficients.
+inline std::optional<CokrigingLevels> without_runs_at(const CokrigingLevels& levels,
+                                                      const Eigen::VectorXd& x) {
   CokrigingLevels others;
   bool changed = false;
   for (const CokrigingLevel& level : levels) {
@@ -174,10 +190,12 @@ inline CokrigingLevels without_runs_at(const CokrigingLevels& levels, const Eige
     for (Index i = 0; i < level.X.rows(); ++i)
       if (level.X.row(i).transpose() != x) rows.push_back(i);
     const auto left = static_cast<Index>(rows.size());
-    const bool take = left < level.X.rows() && left >= level.s.F.cols();
+    if (left < level.s.F.cols()) return {};
+    const bool take = left < level.X.rows();
     CokrigingLevel other = take ? with_rows(level, rows) : level;
     changed = changed || take;
     if (changed) build_regular(others, other);
+    if (changed && !tells_coefficients(others, other)) return {};
     others.push_back(std::move(other));
   }
   return others;
@@ -186,14 +204,21 @@ inline CokrigingLevels without_runs_at(const CokrigingLevels& levels, const Eige
 }  // namespace detail
 
 /// Each true run as predicted without the runs of any level at its place, since a new point has none; ρ of
-/// each level, β estimated anew, the other parameters as fitted. Cost n³ of each level per true run.
+/// each level, β estimated anew, the other parameters as fitted. NaN, and so the scores, for a run without
+/// which a level's runs do not tell ρ and β (detail/told_rho.hpp): leaving such a run in would flatter the
+/// model. Cost n³ of each level per true run.
 inline Validation leave_one_out(const FidelityModel& model) {
   const detail::CokrigingLevel& last = model.levels().back();
   Validation v = detail::blank_validation(last.s.observed);
   for (Eigen::Index i = 0; i < last.X.rows(); ++i) {
     const Eigen::MatrixXd x = last.X.row(i);
-    const FidelityModel others(detail::without_runs_at(model.levels(), x.row(0).transpose()), {});
-    const Prediction p = others.predict(x);
+    std::optional<detail::CokrigingLevels> others =
+        detail::without_runs_at(model.levels(), x.row(0).transpose());
+    if (!others) {
+      v.predicted[i] = v.variance[i] = v.observation_variance[i] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    const Prediction p = FidelityModel(*std::move(others), {}).predict(x);
     v.predicted[i] = p.mean[0];
     v.variance[i] = p.variance[0];
     const double weight = last.s.noise.size() > 0 ? last.s.noise[i] : 1.0;

@@ -161,6 +161,7 @@ inline std::optional<Model> exact_trend(const TrainingData& data, const FitOptio
   Eigen::VectorXd p = parameter_box(data, likelihood, options).upper;  // no two runs correlated
   p[p.size() - 1] = std::log(std::clamp(1.0, options.nugget_lower, options.nugget_upper));
   likelihood.value(p);
+  if (likelihood.least_squares().beta.size() == 0) return {};  // repeats without a nugget: R is singular
   const double roundoff = response_roundoff(data), n = static_cast<double>(data.y.size());
   if (!(likelihood.least_squares().sum_of_squares <= roundoff * roundoff * n)) return {};
   FitReport report;

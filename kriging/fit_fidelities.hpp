@@ -19,6 +19,7 @@
 #include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/fidelity_model.hpp>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/replicates.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -90,6 +91,28 @@ inline void check_runs_of_level(const std::vector<FidelityLevel>& levels, std::s
                       " runs have the same inputs; allowed are two points or more; run it at other points");
 }
 
+inline Index distinct_places(const FidelityLevel& level) {
+  return static_cast<Index>(groups_of_rows(level.X).size());
+}
+
+/// "5 runs at 3 places": places only where there are fewer.
+inline std::string count_of_runs(const FidelityLevel& level) {
+  const Index runs = level.X.rows(), places = distinct_places(level);
+  return std::to_string(runs) + " runs" +
+         (places < runs ? " at " + std::to_string(places) + " places" : std::string());
+}
+
+/// A mean, s² and θ of each variable, and a run that may contradict them.
+inline void check_cheapest_level(const std::vector<FidelityLevel>& levels) {
+  const Index least = levels[0].X.cols() + 3;
+  if (distinct_places(levels[0]) < least)
+    reject_fidelities(place_of(levels, 0) + count_of_runs(levels[0]) +
+                      " for a Kriging model to build on; allowed at the cheapest level is variables + 3 = " +
+                      std::to_string(least) +
+                      " places or more; make more cheap runs, or use kriging::fit of the level "
+                      "above");
+}
+
 inline void check_level_above(const std::vector<FidelityLevel>& levels, std::size_t t, Trend rho) {
   const FidelityLevel& level = levels[t];
   const Trend trend = level.options.trend;
@@ -98,10 +121,11 @@ inline void check_level_above(const std::vector<FidelityLevel>& levels, std::siz
                       "; allowed above the cheapest level are constant, linear and quadratic; use constant");
   const int d = static_cast<int>(level.X.cols());
   const std::size_t terms = polynomial(d, trend).size() + polynomial(d, rho).size();
-  if (level.X.rows() < static_cast<Index>(terms) + 1)
-    reject_fidelities(place_of(levels, t) + std::to_string(level.X.rows()) + " runs for " +
-                      std::to_string(terms) + " coefficients of rho and the trend; allowed is " +
-                      std::to_string(terms + 1) + " or more; make more runs" +
+  const bool repeated = level.X.rows() > static_cast<Index>(terms);
+  if (distinct_places(level) < static_cast<Index>(terms) + 1)
+    reject_fidelities(place_of(levels, t) + count_of_runs(level) + " for " + std::to_string(terms) +
+                      " coefficients of rho and the trend; allowed is " + std::to_string(terms + 1) +
+                      (repeated ? " places or more; make runs at other places" : " or more; make more runs") +
                       (terms > 2 ? ", or make rho and the trend constant" : ""));
 }
 
@@ -115,7 +139,10 @@ inline void check_levels(const std::vector<FidelityLevel>& levels, const Fidelit
     reject_fidelities("rho is neither constant nor linear; allowed are these; use constant");
   for (std::size_t t = 0; t < levels.size(); ++t) {
     check_runs_of_level(levels, t);
-    if (t > 0) check_level_above(levels, t, options.rho);
+    if (t == 0)
+      check_cheapest_level(levels);
+    else
+      check_level_above(levels, t, options.rho);
   }
 }
 
@@ -129,7 +156,9 @@ inline std::string brief(double value) {
 inline std::string sentence_of(const FidelityLevelReport& level) {
   const std::string name = "level \"" + level.name + "\"";
   if (level.rho.size() == 0)
-    return name + ": what the level below says at its runs cannot be told from its trend, so rho is left out";
+    return name +
+           ": what the level below says at its runs cannot be told from its trend, or from the error of that "
+           "level's model, so rho is left out";
   std::string text = name + ": rho " + brief(level.rho[0]) + " +- " + brief(level.rho_standard_error[0]);
   if (level.rho.size() > 1) text += " at the centre";
   return text + ", " + brief(100.0 * level.explained) +
@@ -137,6 +166,10 @@ inline std::string sentence_of(const FidelityLevelReport& level) {
 }
 
 inline std::string sentence_of(const FidelityComparison& c) {
+  if (std::isnan(c.gain))
+    return "the true runs cannot tell whether the cheaper levels help: without one of them the others do not "
+           "tell rho from the trend; leave-one-out RMSE " +
+           brief(c.rmse_alone) + " without the cheaper levels; make more true runs";
   const std::string errors = ": leave-one-out RMSE " + brief(c.rmse) + " with the cheaper levels, " +
                              brief(c.rmse_alone) + " without; gain in log score " + brief(c.gain) + " +- " +
                              brief(c.standard_error) + " per run";
@@ -196,7 +229,8 @@ inline ComparedFits fit_and_compare(const std::vector<FidelityLevel>& levels,
 }  // namespace detail
 
 /// Throws std::invalid_argument for fewer than two levels, levels of other variables, without runs, of
-/// constant response or of one point, too few runs for the coefficients of ρ and the trend, and as fit().
+/// constant response or of one point, runs at fewer places than there are coefficients of ρ and the trend and
+/// one more, d + 3 at the cheapest level, and as fit().
 inline FidelityModel fit_fidelities(const std::vector<FidelityLevel>& levels,
                                     const FidelityOptions& options = {}) {
   if (options.compare) return detail::fit_and_compare(levels, options).cokriging;
@@ -211,8 +245,8 @@ struct FidelityChoice {
   FidelityReport report;  ///< of co-Kriging, with the comparison
 };
 
-/// Co-Kriging unless leave-one-out finds the true runs alone better by more than one standard error. Throws
-/// as fit_fidelities.
+/// Co-Kriging unless leave-one-out finds the true runs alone better by more than one standard error; so also
+/// where it cannot tell. Throws as fit_fidelities.
 inline FidelityChoice choose_fidelities(const std::vector<FidelityLevel>& levels,
                                         const FidelityOptions& options = {}) {
   detail::ComparedFits fits = detail::fit_and_compare(levels, options);

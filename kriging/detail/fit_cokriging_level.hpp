@@ -5,7 +5,7 @@
 /// Fits one level of co-Kriging to its runs, given the levels below.
 ///
 /// 1. fit() with the trend h(x) = (f(x), g(x) (m(x) − c)), as if the mean m of the levels below were the
-///    response there: a global search.
+///    response there: a global search. g are the terms of ρ that the runs tell from f (told_rho.hpp).
 /// 2. The restricted likelihood, which knows S(X, X) (cokriging_likelihood.hpp), climbed from there and from
 ///    three starts that take less of the difference for Z; then D gets the ρ that was found, until that moves
 ///    by less than a hundredth of its standard error, 5 times at most.
@@ -15,12 +15,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/cokriging_level.hpp>
 #include <drawpoint/kriging/detail/cokriging_likelihood.hpp>
+#include <drawpoint/kriging/detail/told_rho.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <string>
 #include <utility>
@@ -50,15 +50,19 @@ inline CokrigingLevel fit_cheapest_level(const LevelRuns& runs) {
   return level;
 }
 
-/// Step 1: the state of a fit whose trend has g(x) (m(x) − c) in it. `rho`: g as asked for.
+/// Step 1: the state of a fit whose trend has g(x) (m(x) − c) in it. `asked`: the terms of ρ asked for.
 inline CokrigingLevel level_with_mean_below(const CokrigingLevels& levels, const LevelRuns& runs,
-                                            const std::vector<TrendTerm>& rho) {
+                                            const std::vector<TrendTerm>& asked) {
   CokrigingLevel level;
   level.name = runs.name;
   level.X = runs.X;
   level.below_centre = levels.back().s.y_centre;
   const std::vector<TrendTerm> f = polynomial(static_cast<int>(runs.X.cols()), runs.options.trend);
   const InputScale input = input_scale(runs.X, runs.options);
+  const Eigen::MatrixXd scaled_runs = input.apply(runs.X);
+  const std::vector<TrendTerm> rho =
+      told_rho(levels, {scaled_runs, term_values(f, scaled_runs), views_of(levels, levels.size(), runs.X),
+                        asked, level.below_centre});
   FitOptions options = runs.options;
   options.trend = Trend::user;
   options.basis.values = [&](const Eigen::VectorXd& x) {
@@ -161,11 +165,12 @@ inline Eigen::MatrixXd cokriging_curvature(CokrigingLikelihood& likelihood, cons
 }
 
 /// S of parameter_uncertainty.hpp with s² free; that of step 1 where the curvature is not positive definite.
-/// s² comes first in the triangular root, so that the rows of the others do without its column.
+/// Where step 1 left none, its trend having met all runs, exponents have no row: step 2 keeps them. s² comes
+/// first in the triangular root, so that the rows of the others do without its column.
 inline void set_spread(CokrigingLikelihood& likelihood, const Box& box, const Eigen::VectorXd& p,
                        ModelState& s) {
   std::vector<Index> free = free_parameters(box, p, likelihood.gradient(p));
-  const Index d = s.X.cols(), parameters = s.parameter_spread.rows();
+  const Index d = s.X.cols(), parameters = std::max(s.parameter_spread.rows(), d + 1);
   const auto variance = std::find(free.begin(), free.end(), d);
   const Index first = variance != free.end() ? 1 : 0, count = static_cast<Index>(free.size());
   if (first == 1) std::rotate(free.begin(), variance, variance + 1);

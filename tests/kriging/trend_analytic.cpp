@@ -160,3 +160,26 @@ TEST(Trend, ThatMeetsAllRunsIsTheModel) {
   const Model alone = fit(X, reference::values(plane, X), linear);
   EXPECT_THROW(append(alone, Z, VectorXd::Ones(20)), std::invalid_argument);
 }
+
+// Runs that contradict each other at one place are no plane, even where the nugget is too small to factor
+// their correlations: it is raised to some n round-offs, which leave next to no digits of α, but a prediction
+// between the repeats.
+TEST(Trend, RepeatsThatContradictEachOtherMeetNoTrend) {
+  FitOptions options;
+  options.trend = Trend::linear;
+  options.nugget_lower = options.nugget_upper = 1e-20;
+  const MatrixXd X = Eigen::Vector<double, 6>(0.1, 0.1, 0.4, 0.4, 0.9, 0.9);
+  const Model model = fit(X, Eigen::Vector<double, 6>(1, 2, 3, 5, 4, 4.5), options);
+  EXPECT_EQ(model.status(), Status::ill_conditioned) << model.message();
+  EXPECT_NEAR(model(VectorXd::Constant(1, 0.1)), 1.5, 0.5);
+}
+
+// Sums without round-off: s² and the likelihood are 0 and infinite.
+TEST(Trend, ThatMeetsAllRunsWithoutRoundOffIsTheModel) {
+  FitOptions options;
+  options.trend = Trend::linear;
+  const VectorXd y = Eigen::Vector4d(-1, 1, -1, 1);
+  const Model model = fit(MatrixXd(y), y, options);
+  EXPECT_EQ(model.status(), Status::exact_trend) << model.message();
+  EXPECT_NEAR(model(VectorXd::Constant(1, 0.5)), 0.5, 1e-15);
+}
