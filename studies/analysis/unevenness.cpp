@@ -33,8 +33,8 @@ std::string uneven_sentence(const kriging::Stationarity& found, const doe::Probl
                             bool on_its_own_scale) {
   const doe::Response& r = problem.responses[response];
   std::string text = "The " + r.name + " is not alike everywhere: where " +
-                     uneven_place(found, problem, runs) + ", the model misses runs by " +
-                     detail::number(found.ratio) + " times as many of its error bars as elsewhere. ";
+                     uneven_place(found, problem, runs) + ", errors of the model are " +
+                     detail::number(found.ratio) + " times as large as elsewhere, by its own error bars. ";
   if (found.jump) {
     const doe::Variable& v = problem.variables[static_cast<std::size_t>(found.jump->input)];
     text += "It jumps between " + v.name + " = " + detail::number(found.jump->after) + " and " +
