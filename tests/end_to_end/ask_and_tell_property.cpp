@@ -62,7 +62,9 @@ class AskAndTell : public StudyTest {
       answer += "\n";
     }
     std::ofstream(table()) << answer;
-    if (made > 0) EXPECT_EQ(run(FORMULA_DEMO " tell --file " + table().string() + out()).code, 0);
+    if (made > 0) {
+      EXPECT_EQ(run(FORMULA_DEMO " tell --file " + table().string() + out()).code, 0);
+    }
     return made;
   }
 };
