@@ -12,11 +12,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -24,6 +22,7 @@
 
 #include <drawpoint/doe/detail/normal_quantile.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
+#include <drawpoint/doe/detail/sorted_quantile.hpp>
 #include <drawpoint/doe/problem.hpp>
 
 namespace drawpoint::doe {
@@ -56,16 +55,6 @@ inline double normal_quantile_or_infinity(double p) {
   if (p <= 0.0) return -std::numeric_limits<double>::infinity();
   if (p >= 1.0) return std::numeric_limits<double>::infinity();
   return normal_quantile(p);
-}
-
-inline double normal_probability(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
-/// Linear between the sorted values at p = 0, 1/(n − 1), ..., 1.
-inline double sorted_quantile(const std::vector<double>& sorted, double p) {
-  const double place = std::clamp(p, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 }  // namespace detail
@@ -124,7 +113,10 @@ inline Distribution empirical(std::vector<double> values) {
       detail::reject_distribution("an empirical distribution holds " + detail::number_text(value) +
                                   "; allowed are finite numbers; leave it out");
   std::sort(values.begin(), values.end());
-  return {"empirical", [sorted = std::move(values)](double p) { return detail::sorted_quantile(sorted, p); }};
+  const Eigen::VectorXd sorted =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return {"empirical",
+          [sorted](double p) { return detail::sorted_quantile(sorted, std::clamp(p, 0.0, 1.0)); }};
 }
 
 namespace detail {

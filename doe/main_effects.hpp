@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include <drawpoint/doe/detail/sorted_quantile.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/sensitivity.hpp>
 #include <drawpoint/doe/sobol.hpp>
@@ -86,8 +87,8 @@ inline void set_level(MainEffect& effect, Eigen::Index k, Eigen::VectorXd values
   effect.standard_error[k] =
       n > 1 ? std::sqrt((values.array() - effect.mean[k]).square().sum() / (n - 1) / n) : none;
   std::sort(values.begin(), values.end());
-  effect.low[k] = values.size() ? quantile(values, 0.1) : none;
-  effect.high[k] = values.size() ? quantile(values, 0.9) : none;
+  effect.low[k] = values.size() ? sorted_quantile(values, 0.1) : none;
+  effect.high[k] = values.size() ? sorted_quantile(values, 0.9) : none;
 }
 
 inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::Index response,

@@ -4,32 +4,31 @@
 
 /// Screening by elementary effects: which of many inputs matter at all, in r(d + 1) runs.
 ///
-/// A trajectory starts at a random point of a grid and changes one input at a time, in random order, by half of
-/// the grid's levels (up from the lower half, down from the upper one): d + 1 runs. A real input has p levels,
-/// an integer or categorical one all its values. The elementary effect of input j is the change of the response
-/// over the change of u_j, the input's share of its range: the change, in the unit of the response, over the
-/// whole range. For a categorical input it is the change itself. Over the trajectories:
+/// A trajectory starts at a random point of a grid and changes one input at a time, in random order, by half
+/// of the grid's levels (up from the lower half, down from the upper one): d + 1 runs. A real input has p
+/// levels, an integer or categorical one all its values. The elementary effect of input j is the change of
+/// the response over the change of u_j, the input's share of its range: the change, in the unit of the
+/// response, over the whole range. For a categorical input it is the change itself. Over the trajectories:
 ///   mean           μ, the effect as a whole; effects of both signs cancel
 ///   mean_absolute  μ*, how much the input matters: rank by this
 ///   deviation      σ; 0 where the response is linear in the input and knows no interaction of it
-/// A run that failed takes the effects on both of its sides with it. The order of a categorical input's levels
-/// means nothing: look at its μ* only. With noise of variance τ² in each run, σ² grows by 2τ²/Δ² and μ* of an
-/// inert input is not 0: Δ = p/(2(p − 1)).
+/// A run that failed takes the effects on both of its sides with it. The order of a categorical input's
+/// levels means nothing: look at its μ* only. With noise of variance τ² in each run, σ² grows by 2τ²/Δ² and
+/// μ* of an inert input is not 0: Δ = p/(2(p − 1)).
 /// Sources: Morris 1991, Technometrics 33(2); Campolongo, Cariboni, Saltelli 2007, Environ. Model. Softw. 22
 /// (μ*).
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/detail/scaling.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/sensitivity.hpp>
@@ -92,7 +91,6 @@ inline double value_of_level(const Variable& v, int level, int levels) {
 inline Trajectories trajectories(const Problem& problem, const MorrisOptions& options) {
   const auto d = static_cast<Eigen::Index>(problem.variables.size());
   Trajectories t{Eigen::MatrixXd(options.trajectories * (d + 1), d), {}};
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(d));
   std::vector<int> level(static_cast<std::size_t>(d));
   Eigen::Index row = 0;
   const auto add = [&](Eigen::Index moved) {
@@ -105,9 +103,7 @@ inline Trajectories trajectories(const Problem& problem, const MorrisOptions& op
     RandomStream random(run_seed(options.seed, static_cast<std::uint64_t>(k), 0));
     for (std::size_t j = 0; j < level.size(); ++j)
       level[j] = random.below(level_count(problem.variables[j], options.levels));
-    std::iota(order.begin(), order.end(), Eigen::Index{0});
-    for (std::size_t i = order.size(); i > 1; --i)
-      std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+    const std::vector<Eigen::Index> order = permutation(d, random);
     add(-1);
     for (const Eigen::Index j : order) {
       const auto of = static_cast<std::size_t>(j);

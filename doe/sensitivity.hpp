@@ -33,6 +33,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/sobol_terms.hpp>
+#include <drawpoint/doe/detail/sorted_quantile.hpp>
 #include <drawpoint/doe/distribution.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/sobol.hpp>
@@ -167,22 +168,14 @@ inline Eigen::MatrixXd bootstrapped(const SobolTerms& terms, const SobolIndicesO
   return indices;
 }
 
-/// Entry p (0 to 1) of sorted values, linear between neighbours.
-inline double quantile(const Eigen::VectorXd& sorted, double p) {
-  const double place = p * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<Eigen::Index>(place);
-  const Eigen::Index above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 inline IndexEstimates estimates(const Eigen::VectorXd& value, const Eigen::MatrixXd& resampled,
                                 double confidence) {
   IndexEstimates result{value, value, value};
   for (Eigen::Index j = 0; j < value.size(); ++j) {
     Eigen::VectorXd sorted = resampled.row(j).transpose();
     std::sort(sorted.begin(), sorted.end());
-    result.lower[j] = quantile(sorted, 0.5 * (1.0 - confidence));
-    result.upper[j] = quantile(sorted, 0.5 * (1.0 + confidence));
+    result.lower[j] = sorted_quantile(sorted, 0.5 * (1.0 - confidence));
+    result.upper[j] = sorted_quantile(sorted, 0.5 * (1.0 + confidence));
   }
   return result;
 }

@@ -30,7 +30,6 @@
 #include <cstddef>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/latent_likelihood.hpp>
-#include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <limits>
@@ -157,17 +156,13 @@ class CountModel {
 
   /// That one more run at each row of X, exposed `exposure`, counts at most `count`: m entries, 0 to 1.
   Eigen::VectorXd probability_at_most(const Eigen::MatrixXd& X, int count, double exposure = 1.0) const;
-  /// The least count that one more run exceeds with a chance of 1 − p at most, 0 < p < 1: m entries; +∞ beyond a
-  /// million.
+  /// The least count that one more run exceeds with a chance of 1 − p at most, 0 < p < 1: m entries; +∞
+  /// beyond a million.
   Eigen::VectorXd quantile(const Eigen::MatrixXd& X, double p, double exposure = 1.0) const;
 
   Eigen::Index runs() const { return X_.rows(); }
   /// Of f, on inputs scaled to [0, 1], d entries: how far a run tells of its surroundings.
-  Eigen::VectorXd length_scales() const {
-    Eigen::VectorXd l = covariance_.correlation.theta;
-    for (double& entry : l) entry = 1.0 / std::sqrt(8.0 * entry);
-    return l;
-  }
+  Eigen::VectorXd length_scales() const { return covariance_.length_scales(); }
   double deviation() const { return std::sqrt(covariance_.variance); }           ///< s of f
   double deviation_of_a_run() const { return std::sqrt(covariance_.of_a_run); }  ///< σ of g
   /// Mean logarithm of the probability that the other runs give to the count of a run, at most 0.
@@ -211,8 +206,7 @@ inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts
   if (counts.size() != X.rows())
     reject_counts("X has " + std::to_string(X.rows()) + " rows but counts has " +
                   std::to_string(counts.size()) + " entries; give one per run");
-  if (!std::all_of(X.data(), X.data() + X.size(), is_usable))
-    reject_counts("X has an entry that is not finite or beyond 1e150; give numbers below it");
+  check_points_and_box("kriging::fit_counts", X, options.lower, options.upper);
   for (Index i = 0; i < counts.size(); ++i)
     if (!(counts[i] >= 0 && counts[i] <= most) || counts[i] != std::floor(counts[i]))
       reject_counts("counts[" + std::to_string(i) + "] is " + text(counts[i]) +
@@ -224,16 +218,6 @@ inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts
     if (!(options.exposure[i] > 0) || !is_usable(options.exposure[i]))
       reject_counts("exposure[" + std::to_string(i) + "] is " + text(options.exposure[i]) +
                     "; allowed are finite numbers above 0");
-  const bool none = options.lower.size() == 0 && options.upper.size() == 0;
-  if (!none && (options.lower.size() != X.cols() || options.upper.size() != X.cols()))
-    reject_counts("the box has " + std::to_string(options.lower.size()) + " lower and " +
-                  std::to_string(options.upper.size()) + " upper bounds but X has " +
-                  std::to_string(X.cols()) + " columns; give one of each per variable, or neither");
-  for (Index k = 0; k < options.lower.size(); ++k)
-    if (!(options.upper[k] - options.lower[k] >= smallest_range) || !is_usable(options.lower[k]) ||
-        !is_usable(options.upper[k]))
-      reject_counts("variable " + std::to_string(k) + " has the bounds " + text(options.lower[k]) + " and " +
-                    text(options.upper[k]) + "; allowed are finite ones with lower below upper");
 }
 
 /// At most `limit` of n rows, evenly picked.
@@ -257,12 +241,8 @@ inline void check_exposure(double exposure) {
 inline CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts,
                              const CountOptions& options = {}) {
   detail::check_counts(X, counts, options);
-  constexpr detail::Index many = 150;
-  FitOptions box;
-  box.lower = options.lower;
-  box.upper = options.upper;
   CountModel model;
-  model.input_ = detail::input_scale(X, box);
+  model.input_ = detail::latent_scale(X, options.lower, options.upper);
   model.X_ = model.input_.apply(X);
   Eigen::VectorXd exposure = options.exposure;
   if (exposure.size() == 0) exposure.setOnes(X.rows());
@@ -270,16 +250,13 @@ inline CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& co
   for (detail::Index i = 0; i < counts.size(); ++i) all += counts[i], exposed += exposure[i];
   model.offset_ = std::log(all / exposed);
 
-  std::vector<detail::CountRun> runs, some;
+  std::vector<detail::CountRun> runs;
   for (detail::Index i = 0; i < counts.size(); ++i)
     runs.push_back({counts[i], model.offset_ + std::log(exposure[i])});
-  const std::vector<detail::Index> few = detail::even_rows(X.rows(), many);
-  for (const detail::Index i : few) some.push_back(runs[static_cast<std::size_t>(i)]);
-  detail::LatentLikelihood likelihood(detail::rows_of(model.X_, few), some);
-  const Eigen::VectorXd p = detail::likeliest(likelihood);
-  model.covariance_ = detail::latent_covariance<detail::CountRun>(p);
-  model.posterior_ =
-      X.rows() <= many ? likelihood.posterior(p) : detail::LatentLikelihood(model.X_, runs).posterior(p);
+  detail::LatentFit fitted =
+      detail::fit_latent(model.X_, runs, detail::even_rows(X.rows(), detail::latent_limit));
+  model.covariance_ = std::move(fitted.covariance);
+  model.posterior_ = std::move(fitted.posterior);
   model.left_out_score_ = detail::mean_of(model.posterior_.left_out);
   return model;
 }

@@ -231,23 +231,24 @@ inline Model fit_with_step(const Model& model, int input, double at) {
   return fit(X, s.observed, options);
 }
 
-/// Leave-one-out errors of one model over those of another, in root mean square, each over the variance that the
-/// other expects: over the deviation, a run of much noise would count as much as any and hide what changes.
-inline double error_quotient(const Model& model, const Model& other) {
-  const Validation mine = leave_one_out(model), theirs = leave_one_out(other);
+/// Leave-one-out errors of one model over those of another, in root mean square, each over the variance that
+/// the other expects: over the deviation, a run of much noise would count as much as any and hide what
+/// changes.
+inline double error_quotient(const Validation& mine, const Validation& theirs, double process_variance) {
   double sum = 0, of_other = 0;
   for (Index i = 0; i < mine.observed.size(); ++i) {
     // Over the process variance, which has the unit.
-    const double variance = theirs.observation_variance[i] / other.process_variance();
+    const double variance = theirs.observation_variance[i] / process_variance;
     sum += std::pow((mine.observed[i] - mine.predicted[i]) / variance, 2);
     of_other += std::pow((theirs.observed[i] - theirs.predicted[i]) / variance, 2);
   }
   return std::sqrt(sum / of_other);
 }
 
-inline std::optional<Jump> find_jump(const Model& model, const ErrorScan& scan, double spoilt) {
+/// The step across a gap, if it counts. `left_out`: of the model.
+inline std::optional<Jump> jump_across(const Gap& gap, const Model& model, const Validation& left_out,
+                                       const ErrorScan& scan, double spoilt) {
   const ModelState& s = model.state();
-  const Gap gap = surest_gap(s, scan);
   if (gap.input < 0) return {};
   const auto at = [&](Index place) {
     const Index run = scan.order(gap.input)[static_cast<std::size_t>(place)];
@@ -263,7 +264,7 @@ inline std::optional<Jump> find_jump(const Model& model, const ErrorScan& scan, 
                   before,
                   t.y_scale * t.gls.beta[last],
                   std::sqrt(stepped.process_variance()) / std::abs(t.gls.T(last, last)),
-                  error_quotient(stepped, model)};
+                  error_quotient(leave_one_out(stepped), left_out, model.process_variance())};
   if (!(std::abs(jump.size) >= 10 * jump.standard_error && jump.error_left <= spoilt)) return {};
   return jump;
 }
@@ -279,17 +280,6 @@ inline void describe_window(const ModelState& s, const ErrorScan& scan, const Er
   std::sort(result.runs.begin(), result.runs.end());
 }
 
-/// The two runs beside the jump.
-inline ErrorWindow window_of(const Jump& jump, const ModelState& s, const ErrorScan& scan) {
-  const auto& order = scan.order(jump.input);
-  ErrorWindow window{.input = jump.input};
-  while (to_natural(s.input, s.X(order[static_cast<std::size_t>(window.to)], jump.input), jump.input) <
-         jump.before)
-    ++window.to;
-  window.from = window.to - 1;
-  return window;
-}
-
 }  // namespace detail
 
 /// Of a model of 20 runs or more; with fewer, or of a constant response, nothing is found. Throws
@@ -300,21 +290,23 @@ inline Stationarity check_stationarity(const Model& model, const StationarityOpt
   Stationarity result;
   if (s.X.rows() < 20) return result;
   const Eigen::VectorXd centred = detail::affine(s.observed, 1.0, -detail::mean_of(s.observed));
+  const Validation left_out = leave_one_out(model);
   result.error_share =
-      leave_one_out(model).rmse / std::sqrt(detail::square(centred) / static_cast<double>(centred.size()));
+      left_out.rmse / std::sqrt(detail::square(centred) / static_cast<double>(centred.size()));
   if (!(result.error_share >= options.matters)) return result;
 
   const detail::ErrorScan scan(s.X);
   const Eigen::VectorXd P = detail::diagonal_of_P(s.L, s.gls);
   const Eigen::VectorXd squares = detail::squared_errors(s.gls.alpha, P);
-  result.jump = detail::find_jump(model, scan, options.spoilt);
+  const detail::Gap gap = detail::surest_gap(s, scan);
+  result.jump = detail::jump_across(gap, model, left_out, scan, options.spoilt);
   const detail::Clusters clusters = detail::clusters_of(s, scan, P, options);
   result.p_value = clusters.p_value;
   const bool cluster =
       clusters.p_value <= options.level && detail::cluster_without_worst(s, squares, options);
   result.uneven = result.jump || cluster;
-  if (result.jump && !(cluster && clusters.along_input && clusters.window.input == result.jump->input))
-    detail::describe_window(s, scan, detail::window_of(*result.jump, s, scan), result);
+  if (result.jump && !(cluster && clusters.along_input && clusters.window.input == gap.input))
+    detail::describe_window(s, scan, {gap.input, gap.place - 1, gap.place}, result);  // the runs beside it
   else if (cluster && clusters.along_input)
     detail::describe_window(s, scan, clusters.window, result);
   else if (cluster)

@@ -29,7 +29,6 @@
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/latent_likelihood.hpp>
-#include <drawpoint/kriging/detail/training_data.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -51,11 +50,7 @@ class SuccessModel {
   Eigen::Index runs() const { return X_.rows(); }
   Eigen::Index failures() const { return failures_; }
   /// Of f, on inputs scaled to [0, 1], d entries: how far a run tells of its surroundings.
-  Eigen::VectorXd length_scales() const {
-    Eigen::VectorXd l = covariance_.correlation.theta;
-    for (double& entry : l) entry = 1.0 / std::sqrt(8.0 * entry);
-    return l;
-  }
+  Eigen::VectorXd length_scales() const { return covariance_.length_scales(); }
   /// s of f: with 0.3 all places are about alike, with 3 most are either safe or lost.
   double deviation() const { return std::sqrt(covariance_.variance); }
 
@@ -98,19 +93,7 @@ inline void check_success(const Eigen::MatrixXd& X, const std::vector<bool>& suc
   if (static_cast<Eigen::Index>(succeeded.size()) != X.rows())
     reject_success("X has " + std::to_string(X.rows()) + " rows but succeeded has " +
                    std::to_string(succeeded.size()) + " entries; give one per run");
-  if (!std::all_of(X.data(), X.data() + X.size(), is_usable))
-    reject_success("X has an entry that is not finite or beyond 1e150; give numbers below it");
-  const bool none = options.lower.size() == 0 && options.upper.size() == 0;
-  if (!none && (options.lower.size() != X.cols() || options.upper.size() != X.cols()))
-    reject_success("the box has " + std::to_string(options.lower.size()) + " lower and " +
-                   std::to_string(options.upper.size()) + " upper bounds but X has " +
-                   std::to_string(X.cols()) + " columns; give one of each per variable, or neither");
-  for (Index k = 0; k < options.lower.size(); ++k) {
-    if (!(options.upper[k] - options.lower[k] >= smallest_range) || !is_usable(options.lower[k]) ||
-        !is_usable(options.upper[k]))
-      reject_success("variable " + std::to_string(k) + " has the bounds " + text(options.lower[k]) + " and " +
-                     text(options.upper[k]) + "; allowed are finite ones with lower below upper");
-  }
+  check_points_and_box("kriging::fit_success", X, options.lower, options.upper);
 }
 
 /// Rows that the covariance is estimated from: at most `limit`, failures first while they are half or fewer,
@@ -150,25 +133,18 @@ inline double share_score(Index failures, Index runs) {
 inline SuccessModel fit_success(const Eigen::MatrixXd& X, const std::vector<bool>& succeeded,
                                 const SuccessOptions& options = {}) {
   detail::check_success(X, succeeded, options);
-  constexpr detail::Index many = 150;
-  FitOptions box;
-  box.lower = options.lower;
-  box.upper = options.upper;
   SuccessModel model;
-  model.input_ = detail::input_scale(X, box);
+  model.input_ = detail::latent_scale(X, options.lower, options.upper);
   model.X_ = model.input_.apply(X);
-  std::vector<detail::SuccessRun> all, some;
+  std::vector<detail::SuccessRun> all;
   for (const bool success : succeeded) {
     all.push_back({success ? 1.0 : -1.0});
     model.failures_ += !success;
   }
-  const std::vector<detail::Index> few = detail::rows_of_both_kinds(succeeded, many);
-  for (const detail::Index i : few) some.push_back(all[static_cast<std::size_t>(i)]);
-  detail::LatentLikelihood likelihood(detail::rows_of(model.X_, few), some);
-  const Eigen::VectorXd p = detail::likeliest(likelihood);
-  model.covariance_ = detail::latent_covariance<detail::SuccessRun>(p);
-  model.posterior_ =
-      X.rows() <= many ? likelihood.posterior(p) : detail::LatentLikelihood(model.X_, all).posterior(p);
+  detail::LatentFit fitted =
+      detail::fit_latent(model.X_, all, detail::rows_of_both_kinds(succeeded, detail::latent_limit));
+  model.covariance_ = std::move(fitted.covariance);
+  model.posterior_ = std::move(fitted.posterior);
   model.left_out_score_ = detail::mean_of(model.posterior_.left_out);
   model.share_score_ = detail::share_score(model.failures_, X.rows());
   return model;

@@ -46,6 +46,9 @@ class TemporaryFile {
     }
   }
 
+  /// For another program that writes it.
+  const std::string& path() const { return path_; }
+
   void replace_target() {
     if (::fsync(descriptor_) != 0) fail("write");
     if (std::rename(path_.c_str(), target_.c_str()) != 0) fail("replace");

@@ -24,7 +24,10 @@
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/dense.hpp>
 #include <drawpoint/kriging/detail/site_posterior.hpp>
+#include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,6 +40,13 @@ struct LatentCovariance {
   CorrelationFunction correlation;
   double variance = 1;  ///< s²
   double of_a_run = 0;  ///< σ²
+
+  /// On inputs scaled to [0, 1], d entries.
+  Eigen::VectorXd length_scales() const {
+    Eigen::VectorXd l = correlation.theta;
+    for (double& entry : l) entry = 1.0 / std::sqrt(8.0 * entry);
+    return l;
+  }
 };
 
 /// What differs between kinds of runs.
@@ -185,6 +195,52 @@ Eigen::VectorXd likeliest(LatentLikelihood<Run>& likelihood) {
     best = climb.p();
   }
   return best;
+}
+
+/// Runs that the covariance is estimated from, at most.
+inline constexpr Index latent_limit = 150;
+
+struct LatentFit {
+  LatentCovariance covariance;
+  LatentPosterior posterior;
+};
+
+/// X: n x d on [-1, 1]. The covariance by the rows `few`, latent_limit at most, the posterior by all.
+template <class Run>
+LatentFit fit_latent(const Eigen::MatrixXd& X, const std::vector<Run>& runs, const std::vector<Index>& few) {
+  std::vector<Run> some;
+  for (const Index i : few) some.push_back(runs[static_cast<std::size_t>(i)]);
+  LatentLikelihood<Run> likelihood(rows_of(X, few), some);
+  const Eigen::VectorXd p = likeliest(likelihood);
+  return {latent_covariance<Run>(p),
+          X.rows() <= latent_limit ? likelihood.posterior(p) : LatentLikelihood<Run>(X, runs).posterior(p)};
+}
+
+/// Points and box of runs that give no number with normal noise; `place` names the caller. Throws
+/// std::invalid_argument for numbers that are not finite, and bounds that do not fit or are out of order.
+inline void check_points_and_box(const std::string& place, const Eigen::MatrixXd& X,
+                                 const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  const auto refuse = [&](const std::string& what) { throw std::invalid_argument(place + ": " + what); };
+  if (!std::all_of(X.data(), X.data() + X.size(), is_usable))
+    refuse("X has an entry that is not finite or beyond 1e150; give numbers below it");
+  const bool none = lower.size() == 0 && upper.size() == 0;
+  if (!none && (lower.size() != X.cols() || upper.size() != X.cols()))
+    refuse("the box has " + std::to_string(lower.size()) + " lower and " + std::to_string(upper.size()) +
+           " upper bounds but X has " + std::to_string(X.cols()) +
+           " columns; give one of each per variable, or neither");
+  for (Index k = 0; k < lower.size(); ++k)
+    if (!(upper[k] - lower[k] >= smallest_range) || !is_usable(lower[k]) || !is_usable(upper[k]))
+      refuse("variable " + std::to_string(k) + " has the bounds " + text(lower[k]) + " and " +
+             text(upper[k]) + "; allowed are finite ones with lower below upper");
+}
+
+/// Of the same runs.
+inline InputScale latent_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& lower,
+                               const Eigen::VectorXd& upper) {
+  FitOptions box;
+  box.lower = lower;
+  box.upper = upper;
+  return input_scale(X, box);
 }
 
 /// Mean and variance of f at the rows of `points` (m x d, scaled as X, which is n x d): m entries each.

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/detail/normal_quantile.hpp>
 #include <limits>
 #include <numbers>
 
@@ -32,8 +33,7 @@ inline double laplace_fraction(double t) {
   return K;
 }
 
-/// Φ(z).
-inline double normal_probability(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+using doe::detail::normal_probability;
 
 /// ln Φ(z).
 inline double log_normal_probability(double z) {

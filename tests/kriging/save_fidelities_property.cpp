@@ -8,6 +8,7 @@
 #include <drawpoint/kriging/save.hpp>
 #include <drawpoint/kriging/save_fidelities.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
+#include <drawpoint/tests/kriging/saved_text.hpp>
 #include <functional>
 
 using namespace drawpoint;
@@ -42,20 +43,11 @@ std::vector<FidelityModel> all_kinds() {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    fidelities_from_text(text);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "accepted";
+  return support::refusal_of([](const std::string& saved) { fidelities_from_text(saved); }, text);
 }
 
-// The text of a model that was changed and then given the checksum that fits.
 std::string rewritten(const std::function<void(nlohmann::json&)>& change) {
-  nlohmann::json file = nlohmann::json::parse(to_text(all_kinds()[0]));
-  change(file);
-  file["checksum"] = detail::checksum(file["model"].dump());
-  return file.dump() + "\n";
+  return support::with_checksum(to_text(all_kinds()[0]), change);
 }
 
 }  // namespace

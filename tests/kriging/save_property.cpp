@@ -9,6 +9,7 @@
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/save.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
+#include <drawpoint/tests/kriging/saved_text.hpp>
 #include <functional>
 
 using namespace drawpoint;
@@ -49,21 +50,11 @@ std::vector<Model> all_kinds() {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    from_text(text);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "accepted";
+  return support::refusal_of([](const std::string& saved) { from_text(saved); }, text);
 }
 
-// The text of a model that was changed and then given the checksum that fits: what an honest but wrong writer
-// makes.
 std::string rewritten(const std::function<void(nlohmann::json&)>& change) {
-  nlohmann::json file = nlohmann::json::parse(to_text(all_kinds()[0]));
-  change(file);
-  file["checksum"] = detail::checksum(file["model"].dump());
-  return file.dump() + "\n";
+  return support::with_checksum(to_text(all_kinds()[0]), change);
 }
 
 }  // namespace
