@@ -42,8 +42,7 @@ std::filesystem::path found_browser() {
     if (const auto file = program_named(name); !file.empty()) return file;
   throw std::runtime_error(
       "replay: frames are drawn by a Chromium, and none of chromium, chromium-browser, google-chrome is on "
-      "the "
-      "PATH; install one (Debian: apt install chromium), or name one in the environment variable "
+      "the PATH; install one (Debian: apt install chromium), or name one in the environment variable "
       "DRAWPOINT_BROWSER");
 }
 
@@ -52,8 +51,7 @@ std::filesystem::path found_ffmpeg() {
   if (!file.empty()) return file;
   throw std::runtime_error(
       "replay: --video is made by ffmpeg, which is not on the PATH; install it (Debian: apt install ffmpeg), "
-      "or "
-      "leave --video out and keep the frames with --frames");
+      "or leave --video out and keep the frames with --frames");
 }
 
 std::string last_words(const std::filesystem::path& printed) {

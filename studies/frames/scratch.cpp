@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 // A process that is being killed may still write: the folder is looked at again.
 constexpr const char* remove_at_end =
     "trap '' INT TERM HUP; read line; for i in 1 2 3 4 5 6 7 8 9 10; do rm -rf -- \"$0\" 2>/dev/null; sleep "
-    "0.1; "
-    "[ -e \"$0\" ] || exit 0; done";
+    "0.1; [ -e \"$0\" ] || exit 0; done";
 
 [[noreturn]] void no_scratch(const std::string& what, int error) {
   throw std::runtime_error("replay: cannot make " + what + " in " + fs::temp_directory_path().string() +

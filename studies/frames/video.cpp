@@ -5,8 +5,8 @@
 #include <drawpoint/studies/frames/scratch.h>
 #include <drawpoint/studies/frames/video.h>
 #include <drawpoint/studies/runs/interrupt.h>
-#include <fcntl.h>
 #include <unistd.h>
+#include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/doe/processes.hpp>
 
 #include <cerrno>
@@ -14,7 +14,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -26,32 +25,6 @@ namespace fs = std::filesystem;
   throw std::runtime_error("--video: cannot write " + file.string() + ": " + std::strerror(error) +
                            "; check its folder and the free space, or name another");
 }
-
-/// Beside the film, under a name that nobody has; gone unless it has become the film.
-class Unfinished {
- public:
-  explicit Unfinished(const fs::path& file)
-      : file_(file), path_(file.string() + "." + std::to_string(getpid()) + ".tmp") {}
-  ~Unfinished() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-
-  const fs::path& path() const { return path_; }
-  void finish() const {
-    const int written = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool synced = written >= 0 && fsync(written) == 0;
-    const int error = errno;
-    if (written >= 0) ::close(written);
-    if (!synced) cannot_write_film(file_, error);
-    fs::rename(path_, file_);
-  }
-
- private:
-  fs::path file_, path_;
-};
 
 /// Colours as the frames have them, in the sampling (4:2:0) that every player shows.
 std::vector<std::string> words_for_ffmpeg(const Video& video, const fs::path& frames, const fs::path& to) {
@@ -95,7 +68,7 @@ void check_film_can_be_written(const fs::path& file) {
 
 void film(const Video& video, const fs::path& folder, const fs::path& ffmpeg) {
   const Scratch scratch;
-  const Unfinished unfinished(fs::absolute(video.file));
+  doe::detail::TemporaryFile unfinished(fs::absolute(video.file));
   const fs::path printed = scratch.path() / "printed.txt";
   doe::ProcessPool pool(1);
   pool.start({.executable = ffmpeg.string(),
@@ -112,7 +85,7 @@ void film(const Video& video, const fs::path& folder, const fs::path& ffmpeg) {
   if (ends.front().wait_status != 0)
     throw std::runtime_error("replay: " + video.file.string() + " was not made: ffmpeg " +
                              doe::describe(ends.front()) + "; " + last_words(printed));
-  unfinished.finish();
+  unfinished.replace_target();
 }
 
 }  // namespace drawpoint::studies
