@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/export.h>
-#include <drawpoint/studies/analysis/front.h>
-#include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/models/tables.h>
 #include <drawpoint/doe/detail/csv.hpp>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/confirmations.h>
 #include <drawpoint/studies/analysis/facts.h>
 #include <drawpoint/studies/analysis/versions.h>
+#include <drawpoint/studies/models/confirmations.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/progress.h>
 #include <sys/utsname.h>

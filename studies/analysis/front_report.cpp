@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/decision_points.h>
 #include <drawpoint/studies/analysis/front_report.h>
-#include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/studies/analysis/text_table.h>
+#include <drawpoint/studies/models/decision_points.h>
+#include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
 

@@ -3,9 +3,9 @@
 #pragma once
 /// What the commands fit and validate say of a study's models, as text for people and as JSON for scripts.
 
-#include <drawpoint/studies/analysis/failures.h>
-#include <drawpoint/studies/analysis/models.h>
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/failures.h>
+#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/models/tables.h>
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/replay.h>
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/replay.h>
 #include <drawpoint/studies/report/text.h>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/confirmations.h>
-#include <drawpoint/studies/analysis/front.h>
-#include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/analysis/report_input.h>
-#include <drawpoint/studies/analysis/suspects.h>
-#include <drawpoint/studies/analysis/tables.h>
-#include <drawpoint/studies/analysis/unevenness.h>
+#include <drawpoint/studies/models/confirmations.h>
+#include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/models/suspects.h>
+#include <drawpoint/studies/models/tables.h>
+#include <drawpoint/studies/models/unevenness.h>
 #include <drawpoint/studies/runs/session.h>
 
 #include <algorithm>

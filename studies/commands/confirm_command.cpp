@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/confirmations.h>
-#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
 #include <drawpoint/studies/commands/planning.h>
 #include <drawpoint/studies/commands/points.h>
+#include <drawpoint/studies/models/confirmations.h>
+#include <drawpoint/studies/models/front.h>
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/plan.h>

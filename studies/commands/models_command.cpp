@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/model_report.h>
-#include <drawpoint/studies/analysis/suspects.h>
-#include <drawpoint/studies/analysis/unevenness.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
+#include <drawpoint/studies/models/suspects.h>
+#include <drawpoint/studies/models/unevenness.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/counts.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/models/counts.h>
 #include <drawpoint/studies/runs/progress.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/analysis/logged_runs.h>
-#include <drawpoint/studies/analysis/models.h>
 #include <drawpoint/studies/comparison/compared_folders.h>
+#include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/store/option_values.h>
 
 #include <set>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/limits.h>
 #include <drawpoint/studies/live/best.h>
+#include <drawpoint/studies/models/limits.h>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/front.h>
 #include <drawpoint/studies/live/standing.h>
+#include <drawpoint/studies/models/front.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/times.h>
 #include <drawpoint/doe/detail/task_files.hpp>

@@ -3,8 +3,8 @@
 #pragma once
 /// How a study that is looked at stands, and what to do next.
 
-#include <drawpoint/studies/analysis/counts.h>
 #include <drawpoint/studies/live/follower.h>
+#include <drawpoint/studies/models/counts.h>
 #include <drawpoint/studies/runs/progress.h>
 
 #include <ctime>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/failures.h>
+#include <drawpoint/studies/models/failures.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/criteria.h>

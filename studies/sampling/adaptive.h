@@ -7,7 +7,7 @@
 /// so that a study that was killed goes on with the same points. Each point is planned with what the models
 /// of that moment say of it.
 
-#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/store/store.h>
 
 #include <string>

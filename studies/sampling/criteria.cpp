@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/front.h>
-#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/doe/lola_voronoi.hpp>

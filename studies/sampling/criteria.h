@@ -4,7 +4,7 @@
 /// The criteria by which a study chooses its adaptive points, by name: several take turns, each for its
 /// share.
 
-#include <drawpoint/studies/analysis/failures.h>
+#include <drawpoint/studies/models/failures.h>
 #include <drawpoint/doe/criterion.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/analysis/failures.h>
+#include <drawpoint/studies/models/failures.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/sampling/adaptive.h>

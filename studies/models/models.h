@@ -4,7 +4,7 @@
 /// The models of a study: one Kriging model per response, its scale, correlation and trend chosen by
 /// leave-one-out, and validated on the validation runs. Failed runs are left out. Deterministic.
 
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>

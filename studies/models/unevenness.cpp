@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/unevenness.h>
+#include <drawpoint/studies/models/unevenness.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/confirmations.h>
-#include <drawpoint/studies/analysis/limits.h>
+#include <drawpoint/studies/models/confirmations.h>
+#include <drawpoint/studies/models/limits.h>
 #include <drawpoint/pareto/dominance.hpp>
 
 #include <algorithm>

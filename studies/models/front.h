@@ -6,8 +6,8 @@
 /// of a response's range counts as the bound there; points that are then dominated are left out. Where runs
 /// fail (failures.h) points count as failed in the search, and are left out where polishing leads there.
 
-#include <drawpoint/studies/analysis/failures.h>
-#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/models/failures.h>
+#include <drawpoint/studies/models/models.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/pareto/polished_front.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/counts.h>
+#include <drawpoint/studies/models/counts.h>
 #include <drawpoint/studies/runs/plan.h>
 
 namespace drawpoint::studies {

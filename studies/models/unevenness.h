@@ -4,8 +4,8 @@
 /// Responses that jump, or are rougher or noisier in one part of the box (kriging/nonstationarity.hpp): said,
 /// because no error bar of theirs is right.
 
-#include <drawpoint/studies/analysis/models.h>
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/models/tables.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/decision_points.h>
-#include <drawpoint/studies/analysis/failures.h>
+#include <drawpoint/studies/models/decision_points.h>
+#include <drawpoint/studies/models/failures.h>
 #include <drawpoint/doe/detail/unit_box.hpp>
 
 #include <cstdio>

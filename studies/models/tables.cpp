@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/tables.h>
 
 namespace drawpoint::studies {
 namespace {

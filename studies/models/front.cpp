@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/front.h>
+#include <drawpoint/studies/models/front.h>
 #include <drawpoint/kriging/surrogates.hpp>
 #include <drawpoint/pareto/dominance.hpp>
 #include <drawpoint/pareto/nsga2.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/models.h>
+#include <drawpoint/studies/models/models.h>
 #include <drawpoint/doe/bounds.hpp>
 
 #include <cstdio>

@@ -8,7 +8,7 @@
 /// fail, or when every run failed within 2 % of each variable's range of it: failures that follow no place,
 /// such as a machine that went down, forbid their own surroundings and no more, however many they are.
 
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/tables.h>
 #include <drawpoint/kriging/success_model.hpp>
 
 #include <Eigen/Core>

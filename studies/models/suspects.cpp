@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/suspects.h>
+#include <drawpoint/studies/models/suspects.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/outliers.hpp>
 

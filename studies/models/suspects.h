@@ -3,8 +3,8 @@
 #pragma once
 /// Training runs that do not belong to the others (kriging/outliers.hpp): named, and left where they are.
 
-#include <drawpoint/studies/analysis/models.h>
-#include <drawpoint/studies/analysis/tables.h>
+#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/models/tables.h>
 
 #include <string>
 #include <vector>

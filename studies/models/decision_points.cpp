@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/decision_points.h>
+#include <drawpoint/studies/models/decision_points.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/pareto/detail/normalized.hpp>
 #include <drawpoint/pareto/knees.hpp>
