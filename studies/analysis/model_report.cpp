@@ -25,18 +25,30 @@ std::string with_unit(double value, const std::string& unit) {
   return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
+/// What single runs scatter by, where that counts.
+std::string noise_part_text(const kriging::Validation& v, const doe::Response& response) {
+  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
+  if (parts.noise < 0.1 * v.rmse) return "";
+  return " (noise of a run " + with_unit(parts.noise, response.unit) + ", without it " +
+         with_unit(parts.rmse, response.unit) + ", " + number(parts.lower) + " to " + number(parts.upper) +
+         ")";
+}
+
 /// Errors of predictions against runs that the model did not know.
 std::string errors_text(const kriging::Validation& v, const doe::Response& response) {
   const auto n = v.observed.size();
-  return "RMSE " + with_unit(v.rmse, response.unit) + ", NRMSE " +
+  return "RMSE " + with_unit(v.rmse, response.unit) + noise_part_text(v, response) + ", NRMSE " +
          (std::isfinite(v.nrmse) ? number(v.nrmse) : "unknown") + ", " +
          std::to_string(count_within(v, response)) + " of " + std::to_string(n) +
          " within their 95 % interval";
 }
 
 Json errors_json(const kriging::Validation& v, const doe::Response& response) {
+  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
   return {{"runs", v.observed.size()},
           {"rmse", number_or_null(v.rmse)},
+          {"noise", number_or_null(parts.noise)},
+          {"rmse_without_noise", number_or_null(parts.rmse)},
           {"nrmse", number_or_null(v.nrmse)},
           {"q2", number_or_null(kriging::score(v, kriging::ErrorFunction::q2))},
           {"within", count_within(v, response)}};

@@ -87,7 +87,10 @@ json to_json(const kriging::Validation& v, const doe::Response& response) {
     lower.push_back(interval.lower);
     upper.push_back(interval.upper);
   }
+  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
   return {{"rmse", v.rmse},
+          {"noise", parts.noise},
+          {"rmse_without_noise", {parts.rmse, parts.lower, parts.upper}},
           {"nrmse", v.nrmse},
           {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
           {"observed", to_json(v.observed)},

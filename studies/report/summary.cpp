@@ -223,6 +223,15 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
   return all;
 }
 
+/// Of the typical error, what single runs scatter by: more cycles or replicates help against that, more runs
+/// against the rest. Nothing where it does not count.
+std::string noise_clause(const kriging::Validation& v, const doe::Response& r) {
+  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
+  if (parts.noise < 0.1 * v.rmse) return "";
+  return " (one run scatters by " + number_with_unit(parts.noise, r.unit) +
+         "; the mean of many is missed by some " + number_with_unit(parts.rmse, r.unit) + ")";
+}
+
 json grade(const ReportInput& input, std::size_t j) {
   const doe::Response& r = input.problem.responses[j];
   json verdict{{"response", pretty(r.name)}, {"grade", "unknown"}};
@@ -234,10 +243,20 @@ json grade(const ReportInput& input, std::size_t j) {
     const kriging::Validation& v = input.validations[j];
     verdict["grade"] = v.nrmse <= good_nrmse ? "good" : v.nrmse <= fair_nrmse ? "fair" : "poor";
     verdict["text"] = "is predicted with a typical error of " + number_with_unit(v.rmse, r.unit) + ", " +
-                      percent(v.nrmse) + " of the range seen" +
+                      percent(v.nrmse) + " of the range seen" + noise_clause(v, r) +
                       (v.nrmse > fair_nrmse ? ": read trends, not values" : "");
   }
   return verdict;
+}
+
+/// Against a large error: it is the model's, or what single runs scatter by, which more runs of the kind do
+/// not change.
+std::string remedy(const kriging::Validation& v) {
+  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
+  return parts.noise > parts.rmse
+             ? "most of that is the scatter of single runs; make them longer, if they can be, or "
+               "begin a study with more --replicates"
+             : "add runs";
 }
 
 void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {
@@ -246,8 +265,8 @@ void caution_about_models(const ReportInput& input, std::vector<std::string>& al
     const std::string name = pretty(input.problem.responses[j].name);
     if (v.observed.size() == 0) continue;
     if (is_poor(input, j))
-      all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
-                    "): add runs, or read only its trends.");
+      all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) + "): " + remedy(v) +
+                    ", or read only its trends.");
     const double within =
         count_within(v, input.problem.responses[j]) / static_cast<double>(v.observed.size());
     if (v.observed.size() >= enough_points && within < enough_coverage)

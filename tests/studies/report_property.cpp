@@ -247,6 +247,25 @@ TEST_F(Report, SaysThatAllRunsFailed) {
   EXPECT_EQ(data.at("summary").at("trust").at(1).at("grade"), "unknown");
 }
 
+TEST_F(Report, TellsNoiseFromErrorsOfTheSurrogate) {
+  ReportInput in = input(2, 1, 8, 6);
+  kriging::Validation& v = in.validations[0];
+  v = {.rmse = 5.0,
+       .nrmse = 0.31,
+       .observed = Eigen::Vector2d(0, 10),
+       .predicted = Eigen::Vector2d(5, 5),
+       .variance = Eigen::Vector2d(1, 1),
+       .observation_variance = Eigen::Vector2d(17, 17)};
+  const auto data = written(in);
+  const std::string grade = data.at("summary").at("trust").at(0).at("text");
+  EXPECT_NE(grade.find("one run scatters by 4.00 s; the mean of many is missed by some 3.00 s"),
+            std::string::npos)
+      << grade;
+  EXPECT_EQ(data.at("validations").at(0).at("noise"), 4.0);
+  EXPECT_EQ(data.at("validations").at(0).at("rmse_without_noise").at(0), 3.0);
+  EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "most of that is the scatter of single runs"));
+}
+
 TEST_F(Report, FlagsWhatCannotBeTrusted) {
   ReportInput in = input(2, 1, 8, 6);
   in.validation.rows[3].outcome = doe::Failure{"stuck"};
