@@ -49,8 +49,18 @@ std::string labelled(const std::string& name, const std::string& unit) {
   return name + (unit.empty() || unit == "1" ? "" : " [" + unit + "]");
 }
 
+namespace {
+
+/// As near to 0 as no choice of this variable is told apart: a search ends beside a bound, not on it.
+bool is_zero_of(const doe::Variable& variable, double x) {
+  return variable.lower <= 0.0 && variable.upper >= 0.0 &&
+         std::abs(x) < 1e-4 * (variable.upper - variable.lower);
+}
+
+}  // namespace
+
 std::string setting(const doe::Variable& variable, double x) {
-  if (variable.kind == doe::VariableKind::real) return number(x);
+  if (variable.kind == doe::VariableKind::real) return number(is_zero_of(variable, x) ? 0.0 : x);
   const long long whole = std::llround(x);
   if (variable.kind == doe::VariableKind::integer) return std::to_string(whole);
   return pretty(variable.levels[static_cast<std::size_t>(whole)]);

@@ -19,7 +19,7 @@ std::string pretty(const std::string& name);                             ///< un
 std::string counted(std::size_t count, const std::string& thing);        ///< "1 run", "2 runs"
 std::string labelled(const std::string& name, const std::string& unit);  ///< "lip [m]", "fill"
 
-/// Of a variable, without its unit: "1.2", "3", "ore".
+/// Of a variable, without its unit: "1.2", "3", "ore". What is nearer to 0 than 1e-4 of the range is "0".
 std::string setting(const doe::Variable& variable, double x);
 
 /// "alpha = 1.2, bolts = 3, rock = ore".

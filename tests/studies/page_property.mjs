@@ -67,6 +67,8 @@ test('what is shown stays short', () => {
   assert.equal(number(0.123456), '0.123');
   assert.equal(setting(1, {kind: 'categorical', levels: ['hard_steel', 'rubber']}), 'rubber');
   assert.equal(setting(32, {kind: 'integer'}), '32');
+  assert.equal(setting(3e-6, {lower: 0, upper: 1}), '0');
+  assert.equal(setting(3e-6, {lower: 1e-6, upper: 1}), '3.00e-6');
 });
 
 test('a frame tells its time, with two decimals, and the label of its picture', () => {

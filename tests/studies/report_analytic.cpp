@@ -145,6 +145,8 @@ TEST(ReportText, AVariableIsSaidAsWhatItIs) {
                           .responses = {{"ground", "t/h", doe::Goal::maximize}}};
   EXPECT_EQ(detail::point_text(mill, Eigen::Vector3d(0.75, 32.0, 0.0)),
             "speed = 0.750, balls = 32 t, lining = hard steel");
+  EXPECT_EQ(detail::setting(mill.variables[0], 3e-6), "0");
+  EXPECT_EQ(detail::setting({"leak", "m", 1e-6, 1.0}, 3e-6), "3.00e-06");
 }
 
 // Ideal point (best of each) is (10, 0) with the goals maximize, minimize. Scaled distances: (0, 1) -> 1;

@@ -15,8 +15,12 @@ export const percent = (value) => (value === null || !Number.isFinite(value) ? '
 export const pretty = (name) => name.replaceAll('_', ' ');
 export const hasUnit = (unit) => unit !== '' && unit !== '1';
 export const labelled = (item) => pretty(item.name) + (hasUnit(item.unit) ? ` [${item.unit}]` : '');
-/// A variable's value: the name of a level, a whole number, or a number.
-export const setting = (value, {levels, kind}) => (levels ? pretty(levels[Math.round(value)] ?? 'n/a') : kind ? String(Math.round(value)) : number(value));
+/// A variable's value: the name of a level, a whole number, or a number; of one whose range holds 0, what is nearer to it than 1e-4 of the range is 0.
+export const setting = (value, {levels, kind, lower, upper}) => {
+  if (levels) return pretty(levels[Math.round(value)] ?? 'n/a');
+  if (kind) return String(Math.round(value));
+  return number(lower <= 0 && upper >= 0 && Math.abs(value) < 1e-4 * (upper - lower) ? 0 : value);
+};
 export const settingWithUnit = (value, item) => setting(value, item) + (hasUnit(item.unit) ? ' ' + item.unit : '');
 /// Of an axis along a variable: the names of its levels.
 export const ticks = ({levels}) => (levels ? {tickvals: levels.map((_, i) => i), ticktext: levels.map((name) => plain(pretty(name)))} : {});
