@@ -56,6 +56,7 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
     reject("X has " + std::to_string(runs.X.rows()) + " rows but y has " + std::to_string(runs.y.size()) +
            " entries; give one response a run");
   check_magnitudes(runs);
+  require_levels("kriging::append", runs.X, s.correlation.levels);
   const Eigen::Index wanted = s.noise.size() ? runs.y.size() : 0;
   if (runs.noise_variance.size() != wanted)
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +

@@ -9,6 +9,9 @@
 ///   matern32           Π (1 + √3 hₖ) exp(−√3 hₖ),              hₖ = √(2θₖ) Δₖ
 ///   matern52           Π (1 + √5 hₖ + 5/3 hₖ²) exp(−√5 hₖ)
 ///
+/// A variable that is a category has Δ = 0 for one level and Δ = 2, the ends of a range, for two different
+/// ones (detail/levels.hpp): with the Gaussian its factor is exp(−4θ) then, whichever levels they are.
+///
 /// Points are on the scale of [-1, 1] a variable, so that the θₖ of different variables compare. For the
 /// Gaussian and Matérn's, θₖ = 1/(8 l²) where l is the length scale on [0, 1] of the usual forms
 /// exp(−½ (Δ/l)²) and h = Δ/l. Differences are squared one by one; the expanded form |a|² + |b|² − 2a·b would
@@ -22,8 +25,10 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <drawpoint/kriging/detail/dense.hpp>
+#include <drawpoint/kriging/detail/levels.hpp>
 #include <drawpoint/kriging/detail/parallel.hpp>
 #include <drawpoint/kriging/detail/simd.hpp>
 
@@ -49,6 +54,8 @@ struct CorrelationFunction {
   Correlation family = Correlation::gaussian;
   Eigen::VectorXd theta;     ///< d entries
   Eigen::VectorXd exponent;  ///< pₖ of power_exponential, d entries; unused by the others
+  /// Per variable 0 for a number, L for a category of L levels; empty: all are numbers.
+  std::vector<int> levels = {};
 };
 
 namespace detail {
@@ -97,14 +104,19 @@ struct Rows {
   const double* x;  // d numbers
 
   const double* column(Index k) const { return detail::column(Z, k) + first; }
-
-  Chunk distance(Index k) const {
-    const double* z = column(k);
-    Chunk h(count);
-    for (Index i = 0; i < count; ++i) h.number[i] = std::min(std::abs(z[i] - x[k]), farthest_distance);
-    return h;
-  }
 };
+
+/// Δ in variable k.
+inline Chunk distances(const CorrelationFunction& f, const Rows& rows, Index k) {
+  const double* z = rows.column(k);
+  Chunk h(rows.count);
+  if (is_category(f.levels, k))
+    for (Index i = 0; i < rows.count; ++i) h.number[i] = z[i] == rows.x[k] ? 0.0 : level_distance;
+  else
+    for (Index i = 0; i < rows.count; ++i)
+      h.number[i] = std::min(std::abs(z[i] - rows.x[k]), farthest_distance);
+  return h;
+}
 
 inline double matern_rate(Correlation family, double theta) {
   return std::sqrt((family == Correlation::matern32 ? 6.0 : 10.0) * theta);
@@ -138,7 +150,7 @@ inline void correlate_chunk(const CorrelationFunction& f, const Rows& rows, doub
   std::fill_n(factor.number, rows.count, 1.0);
   std::fill_n(logarithm.number, rows.count, 0.0);
   for (Index k = 0; k < rows.Z.cols(); ++k) {
-    const Chunk h = rows.distance(k);
+    const Chunk h = distances(f, rows, k);
     if (f.family == Correlation::power_exponential)
       add_scaled(logarithm.number, -1.0, scaled_powers(h, f.theta[k], f.exponent[k]).number, rows.count);
     else
@@ -148,13 +160,42 @@ inline void correlate_chunk(const CorrelationFunction& f, const Rows& rows, doub
   for (Index i = 0; i < rows.count; ++i) out[i] = logarithm.number[i] * factor.number[i];
 }
 
-/// out[i] = c(row first + i of Z, x) for i < count.
-inline void correlate(const CorrelationFunction& f, const Rows& all, double* out) {
+/// out[i] = c(row first + i of Z, x) for i < count, where no variable is a category.
+inline void correlate_numbers(const CorrelationFunction& f, const Rows& all, double* out) {
   if (f.family == Correlation::gaussian)
     return gaussian_column(
         {all.Z.data() + all.first, all.Z.outerStride(), all.Z.cols(), f.theta.data(), all.x}, all.count, out);
   for (Eigen::Index i = 0; i < all.count; i += chunk_rows)
     correlate_chunk(f, {all.Z, all.first + i, std::min(chunk_rows, all.count - i), all.x}, out + i);
+}
+
+/// The factor of two different levels of variable k.
+inline double between_levels(const CorrelationFunction& f, Index k) {
+  CorrelationFunction one{f.family, Eigen::VectorXd::Constant(1, f.theta[k]), {}};
+  if (f.family == Correlation::power_exponential) one.exponent.setConstant(1, f.exponent[k]);
+  const Eigen::MatrixXd at = Eigen::MatrixXd::Constant(1, 1, level_distance);
+  const double origin = 0.0;
+  double factor = 0;
+  correlate_numbers(one, {at, 0, 1, &origin}, &factor);
+  return factor;
+}
+
+/// The same where some are: numbers as ever, with θ = 0 for the categories, whose factors follow.
+inline void correlate_levels(const CorrelationFunction& f, const Rows& all, double* out) {
+  CorrelationFunction numbers{f.family, f.theta, f.exponent};
+  for (Index k = 0; k < all.Z.cols(); ++k)
+    if (is_category(f.levels, k)) numbers.theta[k] = 0.0;
+  correlate_numbers(numbers, all, out);
+  for (Index k = 0; k < all.Z.cols(); ++k) {
+    if (!is_category(f.levels, k)) continue;
+    const double factor = between_levels(f, k), *z = all.column(k);
+    for (Index i = 0; i < all.count; ++i) out[i] *= z[i] == all.x[k] ? 1.0 : factor;
+  }
+}
+
+/// out[i] = c(row first + i of Z, x) for i < count.
+inline void correlate(const CorrelationFunction& f, const Rows& all, double* out) {
+  f.levels.empty() ? correlate_numbers(f, all, out) : correlate_levels(f, all, out);
 }
 
 /// ∂ln c/∂(ln θₖ) from the distances h in variable k.
@@ -202,8 +243,9 @@ inline Chunk slope_in_exponent(const CorrelationFunction& f, Index k, const Chun
 }
 
 /// dln c/dxₖ at the point x for one run at a signed distance of `step` = xₖ − runₖ. Simplification: the
-/// power_exponential with p = 1 has a kink at a run; 0 is given there.
+/// power_exponential with p = 1 has a kink at a run; 0 is given there. A category has no slope: 0.
 inline double slope_in_place(const CorrelationFunction& f, Index k, double step) {
+  if (is_category(f.levels, k)) return 0.0;
   const double theta = f.theta[k], h = std::abs(step), sign = step < 0 ? -1.0 : 1.0;
   if (f.family == Correlation::gaussian) return -2.0 * theta * step;
   if (h == 0.0) return 0.0;

@@ -43,6 +43,8 @@ namespace drawpoint::kriging {
 struct CountOptions {
   /// The box of the problem, natural units, one entry per variable. Empty: the range of the data.
   Eigen::VectorXd lower = {}, upper = {};
+  /// Per variable 0 for a number, L for a category of L levels (doe::level_counts). Empty: all are numbers.
+  std::vector<int> levels = {};
   /// How long or how often each run could count, above 0, any unit: predictions are per one of it. Empty: 1
   /// each.
   Eigen::VectorXd exposure = {};
@@ -206,7 +208,7 @@ inline void check_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts
   if (counts.size() != X.rows())
     reject_counts("X has " + std::to_string(X.rows()) + " rows but counts has " +
                   std::to_string(counts.size()) + " entries; give one per run");
-  check_points_and_box("kriging::fit_counts", X, options.lower, options.upper);
+  check_inputs("kriging::fit_counts", X, {options.lower, options.upper, options.levels});
   for (Index i = 0; i < counts.size(); ++i)
     if (!(counts[i] >= 0 && counts[i] <= most) || counts[i] != std::floor(counts[i]))
       reject_counts("counts[" + std::to_string(i) + "] is " + text(counts[i]) +
@@ -242,7 +244,7 @@ inline CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& co
                              const CountOptions& options = {}) {
   detail::check_counts(X, counts, options);
   CountModel model;
-  model.input_ = detail::latent_scale(X, options.lower, options.upper);
+  model.input_ = detail::latent_scale(X, {options.lower, options.upper, options.levels});
   model.X_ = model.input_.apply(X);
   Eigen::VectorXd exposure = options.exposure;
   if (exposure.size() == 0) exposure.setOnes(X.rows());
@@ -254,7 +256,8 @@ inline CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& co
   for (detail::Index i = 0; i < counts.size(); ++i)
     runs.push_back({counts[i], model.offset_ + std::log(exposure[i])});
   detail::LatentFit fitted =
-      detail::fit_latent(model.X_, runs, detail::even_rows(X.rows(), detail::latent_limit));
+      detail::fit_latent(model.X_, runs, detail::even_rows(X.rows(), detail::latent_limit),
+                         detail::categories_of(options.levels));
   model.covariance_ = std::move(fitted.covariance);
   model.posterior_ = std::move(fitted.posterior);
   model.left_out_score_ = detail::mean_of(model.posterior_.left_out);
@@ -269,6 +272,7 @@ inline Prediction CountModel::latent(const Eigen::MatrixXd& X) const {
   if (!std::all_of(X.data(), X.data() + X.size(), detail::is_usable))
     throw std::invalid_argument(
         "kriging::CountModel: X has an entry that is not finite or beyond 1e150; give numbers below it");
+  detail::require_levels("kriging::CountModel", X, covariance_.correlation.levels);
   return detail::latent_at(input_.apply(X), X_, covariance_, posterior_);
 }
 

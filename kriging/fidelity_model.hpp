@@ -66,10 +66,10 @@ class FidelityModel {
   FidelityModel(detail::CokrigingLevels levels, FidelityReport report)
       : levels_(std::move(levels)), report_(std::move(report)) {}
 
-  /// X: m x d, natural units. Throws std::invalid_argument for another number of columns and for numbers that
-  /// are not finite.
+  /// X: m x d, natural units. Throws std::invalid_argument for another number of columns, for numbers that
+  /// are not finite and for what is no level of a category.
   Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
-    detail::check_points("kriging::FidelityModel", X, variables());
+    check(X);
     Prediction p{Eigen::VectorXd(X.rows()), Eigen::VectorXd(X.rows())};
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
       const Eigen::MatrixXd points = X.middleRows(i, std::min(block, X.rows() - i));
@@ -89,14 +89,14 @@ class FidelityModel {
 
   /// Derivatives of the latent mean and variance at one point x of d entries. Throws as predict.
   PredictionGradient gradient(const Eigen::VectorXd& x) const {
-    detail::check_points("kriging::FidelityModel", x.transpose(), variables());
+    check(x.transpose());
     return detail::cokriging_gradient(levels_, x);
   }
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const { return gradient(x).mean; }
 
   /// Joint covariance of the latent function at the rows of X: m x m. Throws as predict.
   Eigen::MatrixXd covariance(const Eigen::MatrixXd& X) const {
-    detail::check_points("kriging::FidelityModel", X, variables());
+    check(X);
     const detail::LevelViews views = detail::views_of(levels_, levels_.size(), X);
     return detail::covariance_of(levels_, levels_.size(), views, views);
   }
@@ -129,6 +129,11 @@ class FidelityModel {
 
  private:
   static constexpr Eigen::Index block = 128;  // points at a time
+
+  void check(const Eigen::MatrixXd& X) const {
+    detail::check_points("kriging::FidelityModel", X, variables());
+    detail::require_levels("kriging::FidelityModel", X, levels_.front().s.correlation.levels);
+  }
 
   detail::CokrigingLevels levels_;
   FidelityReport report_;

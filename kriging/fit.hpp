@@ -45,10 +45,24 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
           options.exponent,
           doe::detail::thread_count(options.threads),
           options.estimation == Estimation::penalized_likelihood,
-          options.nugget_power};
+          options.nugget_power,
+          data.levels};
 }
 
-/// Bounds of (ln θ, exponents, ln λ). An input that never varies has no θ to estimate: it is fixed.
+/// Fixes the ln θ of inputs that never vary, which no run tells: of numbers at no effect, of categories where
+/// other levels are not correlated with the one that was run. X: n x d; ln θ stand first in the box.
+inline void fix_unvarying(const Eigen::MatrixXd& X, const std::vector<int>& levels, Box& box) {
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    if (!never_varies(X, k)) continue;
+    if (is_category(levels, k))
+      box.lower[k] = box.upper[k];
+    else
+      box.upper[k] = box.lower[k];
+  }
+}
+
+/// Bounds of (ln θ, exponents, ln λ). At its one distance the exponent of a category says what θ says: it is
+/// fixed.
 inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood, const FitOptions& options) {
   const Eigen::Index d = data.X.cols(), last = likelihood.parameters() - 1;
   Box box{Eigen::VectorXd::Constant(last + 1, 1.0), Eigen::VectorXd::Constant(last + 1, 2.0)};
@@ -56,11 +70,10 @@ inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood,
   std::fill_n(box.upper.begin(), d, std::log(options.theta_upper));
   box.lower[last] = std::log(options.nugget_lower);
   box.upper[last] = std::log(options.nugget_upper);
-  for (Eigen::Index k = 0; k < d; ++k) {
-    if (data.input.factor[k] != 0.0) continue;
-    box.upper[k] = box.lower[k];
-    if (likelihood.estimates_exponents()) box.lower[d + k] = box.upper[d + k];
-  }
+  fix_unvarying(data.X, data.levels, box);
+  if (!likelihood.estimates_exponents()) return box;
+  for (Eigen::Index k = 0; k < d; ++k)
+    if (is_category(data.levels, k) || never_varies(data.X, k)) box.lower[d + k] = box.upper[d + k];
   return box;
 }
 
@@ -88,9 +101,17 @@ inline void report_search(const Search& search, Likelihood& likelihood, FitRepor
 
 /// What the data were like, after what the search says.
 inline void add_remarks(const TrainingData& data, FitReport& report) {
-  for (Eigen::Index k = 0; k < data.X.cols(); ++k)
+  for (Eigen::Index k = 0; k < data.X.cols(); ++k) {
     if (data.input.factor[k] == 0.0)
       report.message += "; input " + std::to_string(k) + " never varies, so predictions ignore it";
+    if (!is_category(data.levels, k)) continue;
+    const std::string missing = levels_without_runs(data.X, data.levels, k);
+    if (!missing.empty())
+      report.message += "; input " + std::to_string(k) + " has no run of level " + missing +
+                        (never_varies(data.X, k) ? ": predictions there are the trend"
+                                                 : ": predictions there rest on the other levels") +
+                        ", with intervals that are too narrow; run it";
+  }
   if (data.terms_dropped > 0)
     report.message += "; " + std::to_string(data.terms_dropped) + " terms of the trend are left out, which " +
                       std::to_string(data.X.rows()) + " runs cannot tell from the others";
@@ -108,7 +129,7 @@ inline Model constant_model(const TrainingData& data, const FitOptions& options)
   s.y_centre = data.y_centre;
   s.y_scale = 0;
   s.correlation = {options.correlation, Eigen::VectorXd::Constant(data.X.cols(), options.theta_lower),
-                   options.exponent};
+                   options.exponent, data.levels};
   s.nugget = options.nugget_lower;
   s.X.resize(0, data.X.cols());
   if (data.observed.size() == 1) {

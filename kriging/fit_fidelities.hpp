@@ -74,6 +74,7 @@ inline void check_runs_of_level(const std::vector<FidelityLevel>& levels, std::s
     check_runs(level.X, level.y);
     check_options(level.options, level.X.cols());
     check_noise(level.options, level.X.rows());
+    require_levels("kriging::fit", level.X, level.options.levels);
   } catch (const std::invalid_argument& e) {
     const std::string text = e.what();
     reject_fidelities(place + text.substr(text.find(": ") + 2));
@@ -82,6 +83,10 @@ inline void check_runs_of_level(const std::vector<FidelityLevel>& levels, std::s
     reject_fidelities(place + "X has " + std::to_string(level.X.cols()) +
                       " columns but that of the cheapest level has " + std::to_string(levels[0].X.cols()) +
                       "; give all levels the same variables");
+  if (categories_of(level.options.levels) != categories_of(levels[0].options.levels))
+    reject_fidelities(place +
+                      "its options.levels differ from those of the cheapest level; allowed are the same "
+                      "categories everywhere; give all levels the same");
   if (is_constant(level.y))
     reject_fidelities(place + "all " + std::to_string(level.y.size()) + " responses equal " +
                       text(level.y[0]) +
@@ -185,9 +190,10 @@ inline FidelityModel fit_checked(const std::vector<FidelityLevel>& levels, Trend
   for (std::size_t t = 0; t < levels.size(); ++t) {
     const LevelRuns runs{levels[t].name.empty() ? std::to_string(t) : levels[t].name, levels[t].X,
                          levels[t].y, with_box(levels, levels[t].options)};
-    fitted.push_back(t == 0
-                         ? fit_cheapest_level(runs)
-                         : fit_level_above(fitted, runs, polynomial(static_cast<int>(runs.X.cols()), rho)));
+    fitted.push_back(
+        t == 0 ? fit_cheapest_level(runs)
+               : fit_level_above(fitted, runs,
+                                 polynomial(static_cast<int>(runs.X.cols()), rho, runs.options.levels)));
   }
   FidelityReport report;
   for (const CokrigingLevel& level : fitted) report.levels.push_back(report_of(level));

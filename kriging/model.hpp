@@ -55,10 +55,10 @@ class Model {
     effects_ = detail::parameter_effects(s_);
   }
 
-  /// X: m x d, natural units. Throws std::invalid_argument for another number of columns and for numbers that
-  /// are not finite.
+  /// X: m x d, natural units. Throws std::invalid_argument for another number of columns, for numbers that
+  /// are not finite and for what is no level of a category.
   Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const {
-    check(X.cols(), detail::all_finite(X));
+    check(X);
     Prediction p{Eigen::VectorXd(X.rows()), Eigen::VectorXd(X.rows())};
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
       const Eigen::Index count = std::min(block, X.rows() - i);
@@ -73,7 +73,7 @@ class Model {
 
   /// The mean alone, at a fraction of the cost. Throws as predict.
   Eigen::VectorXd mean(const Eigen::MatrixXd& X) const {
-    check(X.cols(), detail::all_finite(X));
+    check(X);
     Eigen::VectorXd mean(X.rows());
     for (Eigen::Index i = 0; i < X.rows(); i += block) {
       const Eigen::MatrixXd points = X.middleRows(i, std::min(block, X.rows() - i));
@@ -86,10 +86,10 @@ class Model {
   /// The mean at one point x of d entries: a model is a black box itself.
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
 
-  /// Derivatives of the latent mean and variance at one point x of d entries. Cost n² + n d². Throws as
-  /// predict.
+  /// Derivatives of the latent mean and variance at one point x of d entries; 0 by a category, which has
+  /// none. Cost n² + n d². Throws as predict.
   PredictionGradient gradient(const Eigen::VectorXd& x) const {
-    check(x.size(), detail::all_finite(x));
+    check(x.transpose());
     PredictionGradient g{Eigen::VectorXd::Zero(x.size()), Eigen::VectorXd::Zero(x.size())};
     if (s_.X.rows() == 0) return g;
     const SlopesAt at = slopes_at(x);
@@ -113,14 +113,14 @@ class Model {
 
   /// Its mean alone, at a fraction of the cost: n d. Throws as predict.
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {
-    check(x.size(), detail::all_finite(x));
+    check(x.transpose());
     if (s_.X.rows() == 0) return Eigen::VectorXd::Zero(x.size());
     return mean_slope(slopes_at(x));
   }
 
   /// Joint covariance of the latent function at the rows of X: m x m, symmetric. Throws as predict.
   Eigen::MatrixXd covariance(const Eigen::MatrixXd& X) const {
-    check(X.cols(), detail::all_finite(X));
+    check(X);
     if (s_.X.rows() == 0) return detail::scaled_identity(X.rows(), s_.constant_variance);
     const Eigen::MatrixXd scaled = s_.input.apply(X);
     Eigen::MatrixXd R = correlations(scaled), C;
@@ -166,15 +166,16 @@ class Model {
  private:
   static constexpr Eigen::Index block = 128;  // points at a time: 128 x n correlations stay in the cache
 
-  void check(Eigen::Index columns, bool finite) const {
-    if (columns != variables())
-      throw std::invalid_argument("kriging::Model: X has " + std::to_string(columns) +
+  void check(const Eigen::MatrixXd& X) const {
+    if (X.cols() != variables())
+      throw std::invalid_argument("kriging::Model: X has " + std::to_string(X.cols()) +
                                   " columns; the model has " + std::to_string(variables()) +
                                   " variables; give one point per row");
-    if (!finite)
+    if (!detail::all_finite(X))
       throw std::invalid_argument(
           "kriging::Model: X holds a number that is not finite; allowed are finite numbers; remove the "
           "point");
+    detail::require_levels("kriging::Model", X, s_.correlation.levels);
   }
 
   // m x n, without λ: points down, so that all work runs along them.
@@ -193,7 +194,9 @@ class Model {
 
   SlopesAt slopes_at(const Eigen::VectorXd& x) const {
     const Eigen::VectorXd scaled = s_.input.apply(x.transpose()).transpose();
-    const Eigen::VectorXd half_range = s_.input.half_range();
+    Eigen::VectorXd half_range = s_.input.half_range();
+    for (Eigen::Index k = 0; k < half_range.size(); ++k)
+      if (detail::is_category(s_.correlation.levels, k)) half_range[k] = 0.0;  // no slope of the trend
     const detail::TrendPoint point{x, scaled, half_range};
     SlopesAt at{scaled,
                 cross_correlation(s_.X, scaled.transpose(), s_.correlation).col(0),
@@ -223,7 +226,7 @@ class Model {
 
   Eigen::VectorXd mean_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const {
     if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.y_centre);
-    Eigen::VectorXd m = s_.correlation.family == Correlation::gaussian
+    Eigen::VectorXd m = s_.correlation.family == Correlation::gaussian && s_.correlation.levels.empty()
                             ? gaussian_sums(scaled)
                             : detail::product(correlations(scaled), s_.gls.alpha);
     if (s_.trend.is_constant()) {

@@ -16,6 +16,8 @@
 ///   (detail/error_scan.hpp)? What chance does is told by simulation: responses drawn from the fitted model at
 ///   the same runs, θ and λ as fitted, β estimated anew. Errors that cluster only with the run of the largest
 ///   among them are that run's doing (outliers.hpp), not the response's.
+/// A category has no places in a row: it is asked neither for jumps nor for windows, only for neighbours,
+/// which are runs of one level first.
 /// Errors below `matters` of the response's deviation are left alone: every formula is uneven in its last
 /// digits. Cost n² per simulation and per gap, and a fit. Deterministic.
 
@@ -154,7 +156,8 @@ inline bool cluster_without_worst(ModelState s, const Eigen::VectorXd& squares,
   Index worst = 0;
   squares.maxCoeff(&worst);
   return leave_out(s, worst) &&
-         clusters_of(s, ErrorScan(s.X), diagonal_of_P(s.L, s.gls), options).p_value <= options.level;
+         clusters_of(s, ErrorScan(s.X, s.correlation.levels), diagonal_of_P(s.L, s.gls), options).p_value <=
+             options.level;
 }
 
 inline double to_natural(const InputScale& scale, double x, Index k) {
@@ -193,6 +196,7 @@ inline Gap surest_gap(const ModelState& s, const ErrorScan& scan) {
   double most = 0;
   for (int k = 0; k < s.X.cols(); ++k) {
     const auto& order = scan.order(k);
+    if (order.empty()) continue;
     const auto n = static_cast<Index>(order.size());
     Eigen::VectorXd h = Eigen::VectorXd::Zero(n);
     for (Index i = n - 1; i >= fewest; --i) {
@@ -215,6 +219,7 @@ inline Model fit_with_step(const Model& model, int input, double at) {
     for (Index i = 0; i < X.rows(); ++i) X(i, k) = to_natural(s.input, s.X(i, k), k);
   FitOptions options;
   options.correlation = s.correlation.family;
+  options.levels = s.correlation.levels;
   options.trend = Trend::user;
   options.basis.values = [trend = s.trend, scale = s.input, input, at](const Eigen::VectorXd& x) {
     const Eigen::VectorXd scaled = scale.apply(x.transpose()).row(0), half_range = scale.half_range();
@@ -295,7 +300,7 @@ inline Stationarity check_stationarity(const Model& model, const StationarityOpt
       left_out.rmse / std::sqrt(detail::square(centred) / static_cast<double>(centred.size()));
   if (!(result.error_share >= options.matters)) return result;
 
-  const detail::ErrorScan scan(s.X);
+  const detail::ErrorScan scan(s.X, s.correlation.levels);
   const Eigen::VectorXd P = detail::diagonal_of_P(s.L, s.gls);
   const Eigen::VectorXd squares = detail::squared_errors(s.gls.alpha, P);
   const detail::Gap gap = detail::surest_gap(s, scan);

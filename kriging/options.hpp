@@ -14,6 +14,7 @@
 #include <drawpoint/kriging/detail/trend.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace drawpoint::kriging {
 
@@ -38,6 +39,11 @@ struct FitOptions {
   /// The box that is scaled to [-1, 1], natural units, one entry per variable. Empty: the range of the data.
   /// Give the box of the problem when θ is to be compared between fits to different runs.
   Eigen::VectorXd lower = {}, upper = {};
+
+  /// Per variable 0 for a number and L >= 2 for a category, whose values are the indices 0 .. L - 1 of levels
+  /// without an order; doe::level_counts(problem) has it. Empty: all are numbers. The bounds of a category do
+  /// not count. Two different levels correlate alike, by one θ, as the ends of a number's range do.
+  std::vector<int> levels = {};
 
   /// > 0; equal bounds fix θ. At the lower one the correlation across the range of an input is 1 − 5e-5: the
   /// input has no effect. A length scale of 0.01 at the upper one is shorter than runs can lie apart.

@@ -5,7 +5,8 @@
 /// Kriging models as JSON text: `save(model, "wear.json")`, `load("wear.json")`.
 ///
 /// The file holds all that makes the model, the factor of R included, so that a loaded model predicts the
-/// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 2}, on one line.
+/// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 2}, on one line;
+/// with categories the version is 3.
 /// Numbers are the shortest text that reads back as the same double; ±∞ and NaN, which JSON lacks, are the
 /// texts "inf", "-inf" and "nan", where a field may be that. Matrices are {"columns", "rows", "values"} by
 /// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,
@@ -77,6 +78,7 @@ inline ModelState state_of(const JsonReader& in) {
   const Eigen::Index q = n > 0 ? static_cast<Eigen::Index>(s.trend.terms.size()) : 0;
   s.X = in.at("runs").at("X").matrix(n, d);
   s.F = in.at("runs").at("F").matrix(n, q);
+  refuse_other_levels(in.at("runs").at("X"), s.X, s.correlation);
   s.L = unpacked_lower(in.at("factor").vector(n * (n + 1) / 2), n);
   if (!(s.L.diagonal().array() > 0).all()) in.at("factor").fail("its diagonal is not positive");
   read_solution(in.at("solution"), n, q, s.gls);

@@ -4,7 +4,8 @@
 
 /// Co-Kriging models as JSON text: `save(model, "wear.json")`, `load_fidelities("wear.json")`.
 ///
-/// As save.hpp, whose checks hold here too, with "format": "drawpoint co-kriging model" and "version": 1. The
+/// As save.hpp, whose checks hold here too, with "format": "drawpoint co-kriging model" and "version": 1,
+/// with categories 2. The
 /// file holds each level's runs and parameters; what follows from them, factors included, is computed anew by
 /// the same operations, so that a loaded model predicts the same bits. Size 25 bytes per number of the runs,
 /// cost of reading n³/3 per level.
@@ -75,6 +76,7 @@ inline CokrigingLevel level_of(const JsonReader& in) {
   s.y_scale = in.at("response").at("scale").number();
   level.below_centre = in.at("response").at("below").number();
   read_correlation(in.at("correlation"), d, s.correlation);
+  refuse_other_levels(in.at("runs").at("X"), level.X, s.correlation);
   read_noise(in.at("noise"), n, s);
   s.trend.terms = trend_terms(in.at("trend"), d);
   read_rho(in.at("rho"), d, level);

@@ -25,6 +25,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/criterion.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/correlation.hpp>
@@ -39,6 +40,8 @@ namespace drawpoint::kriging {
 struct SuccessOptions {
   /// The box of the problem, natural units, one entry per variable. Empty: the range of the data.
   Eigen::VectorXd lower, upper;
+  /// Per variable 0 for a number, L for a category of L levels (doe::level_counts). Empty: all are numbers.
+  std::vector<int> levels = {};
 };
 
 /// A value that threads may share.
@@ -93,7 +96,7 @@ inline void check_success(const Eigen::MatrixXd& X, const std::vector<bool>& suc
   if (static_cast<Eigen::Index>(succeeded.size()) != X.rows())
     reject_success("X has " + std::to_string(X.rows()) + " rows but succeeded has " +
                    std::to_string(succeeded.size()) + " entries; give one per run");
-  check_points_and_box("kriging::fit_success", X, options.lower, options.upper);
+  check_inputs("kriging::fit_success", X, {options.lower, options.upper, options.levels});
 }
 
 /// Rows that the covariance is estimated from: at most `limit`, failures first while they are half or fewer,
@@ -134,7 +137,7 @@ inline SuccessModel fit_success(const Eigen::MatrixXd& X, const std::vector<bool
                                 const SuccessOptions& options = {}) {
   detail::check_success(X, succeeded, options);
   SuccessModel model;
-  model.input_ = detail::latent_scale(X, options.lower, options.upper);
+  model.input_ = detail::latent_scale(X, {options.lower, options.upper, options.levels});
   model.X_ = model.input_.apply(X);
   std::vector<detail::SuccessRun> all;
   for (const bool success : succeeded) {
@@ -142,7 +145,8 @@ inline SuccessModel fit_success(const Eigen::MatrixXd& X, const std::vector<bool
     model.failures_ += !success;
   }
   detail::LatentFit fitted =
-      detail::fit_latent(model.X_, all, detail::rows_of_both_kinds(succeeded, detail::latent_limit));
+      detail::fit_latent(model.X_, all, detail::rows_of_both_kinds(succeeded, detail::latent_limit),
+                         detail::categories_of(options.levels));
   model.covariance_ = std::move(fitted.covariance);
   model.posterior_ = std::move(fitted.posterior);
   model.left_out_score_ = detail::mean_of(model.posterior_.left_out);
@@ -159,12 +163,9 @@ inline SuccessModel fit_success(const doe::Evaluations& runs) {
     for (Eigen::Index k = 0; k < d; ++k) X(static_cast<Eigen::Index>(succeeded.size()), k) = row.x[k];
     succeeded.push_back(!row.outcome.failed());
   }
-  SuccessOptions box{Eigen::VectorXd(d), Eigen::VectorXd(d)};
-  for (Eigen::Index k = 0; k < d; ++k) {
-    box.lower[k] = runs.problem.variables[static_cast<std::size_t>(k)].lower;
-    box.upper[k] = runs.problem.variables[static_cast<std::size_t>(k)].upper;
-  }
-  return fit_success(X, succeeded, box);
+  return fit_success(
+      X, succeeded,
+      {doe::lower_bounds(runs.problem), doe::upper_bounds(runs.problem), doe::level_counts(runs.problem)});
 }
 
 inline Eigen::VectorXd SuccessModel::probability(const Eigen::MatrixXd& X) const {
@@ -172,6 +173,7 @@ inline Eigen::VectorXd SuccessModel::probability(const Eigen::MatrixXd& X) const
     throw std::invalid_argument("kriging::SuccessModel::probability: X has " + std::to_string(X.cols()) +
                                 " columns; allowed are " + std::to_string(X_.cols()) +
                                 "; give one per variable");
+  detail::require_levels("kriging::SuccessModel::probability", X, covariance_.correlation.levels);
   const Prediction f = detail::latent_at(input_.apply(X), X_, covariance_, posterior_);
   Eigen::VectorXd P = f.mean;
   for (detail::Index i = 0; i < P.size(); ++i)

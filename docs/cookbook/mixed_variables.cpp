@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/kriging/fit.hpp>
@@ -30,7 +31,7 @@ double cost(const Eigen::VectorXd& x) {
 
 int main(int argc, char** argv) {
   const doe::Evaluations runs = doe::evaluate(cost, loading, doe::optimized_latin_hypercube(loading, 60));
-  const kriging::Model model = kriging::fit(runs.X(), runs.y("cost"));
+  const kriging::Model model = kriging::fit(runs.X(), runs.y("cost"), {.levels = doe::level_counts(loading)});
   if (model.status() != kriging::Status::converged) throw std::runtime_error(model.message());
 
   const pareto::Front found = pareto::nsga2(kriging::Surrogates({model}), loading,

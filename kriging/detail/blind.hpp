@@ -71,7 +71,8 @@ inline std::vector<TrendTerm> blind_terms(const ModelState& s) {
   constexpr double worth = 0.99;
   Projection now = projection_of(s);
   double error = square(entry_quotients(now.Py, diagonal(now.P)));
-  const std::vector<TrendTerm> candidates = polynomial(static_cast<int>(s.X.cols()), Trend::quadratic);
+  const std::vector<TrendTerm> candidates =
+      polynomial(static_cast<int>(s.X.cols()), Trend::quadratic, s.correlation.levels);
   std::vector<TrendTerm> chosen{{}};
   while (3 * static_cast<Eigen::Index>(chosen.size() + 1) < s.X.rows()) {
     double least = std::numeric_limits<double>::infinity();

@@ -28,11 +28,16 @@ namespace drawpoint::kriging::detail {
 /// A maximum's mean square error below this share of the other's speaks for it.
 inline constexpr double clearly_better = 0.5;
 
-/// Rows of X: n x d at the least distance from x: d numbers; more than one where runs repeat.
-inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& X, const Eigen::VectorXd& x) {
+/// Rows of X: n x d at the least distance from x: d numbers; more than one where runs repeat. `levels` of the
+/// correlation.
+inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& X, const Eigen::VectorXd& x,
+                                              const std::vector<int>& levels) {
   Eigen::VectorXd distance = Eigen::VectorXd::Zero(X.rows());
   for (Eigen::Index k = 0; k < X.cols(); ++k)
-    for (Eigen::Index i = 0; i < X.rows(); ++i) distance[i] += (X(i, k) - x[k]) * (X(i, k) - x[k]);
+    for (Eigen::Index i = 0; i < X.rows(); ++i) {
+      const double step = distance_between(levels, k, X(i, k), x[k]);
+      distance[i] += step * step;
+    }
   const double least = smallest_entry(distance);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < X.rows(); ++i)
@@ -40,15 +45,18 @@ inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& X, const Ei
   return rows;
 }
 
-/// Share of [-1, 1]^d that is nearest to each row of X, by 50 random points per row; runs that repeat share
-/// alike.
-inline Eigen::VectorXd shares_of_box(const Eigen::MatrixXd& X) {
+/// Share of [-1, 1]^d, with the levels of categories, that is nearest to each row of X, by 50 random points
+/// per row; runs that are as near share alike.
+inline Eigen::VectorXd shares_of_box(const Eigen::MatrixXd& X, const std::vector<int>& levels) {
   doe::RandomStream random(1);
   const Eigen::Index points = 50 * X.rows();
   Eigen::VectorXd share = Eigen::VectorXd::Zero(X.rows()), x(X.cols());
   for (Eigen::Index i = 0; i < points; ++i) {
-    for (double& entry : x) entry = 2.0 * random.uniform() - 1.0;
-    const std::vector<Eigen::Index> nearest = nearest_rows(X, x);
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const double u = random.uniform();
+      x[k] = is_category(levels, k) ? std::floor(u * levels[static_cast<std::size_t>(k)]) : 2.0 * u - 1.0;
+    }
+    const std::vector<Eigen::Index> nearest = nearest_rows(X, x, levels);
     for (const Eigen::Index row : nearest)
       share[row] += 1.0 / static_cast<double>(points * static_cast<Eigen::Index>(nearest.size()));
   }
@@ -70,7 +78,7 @@ struct Choice {
 
 /// `ranked`: highest first, the first one finite.
 inline Choice chosen(Likelihood& likelihood, const std::vector<Climb>& ranked) {
-  const Eigen::VectorXd share = shares_of_box(likelihood.problem().X);
+  const Eigen::VectorXd share = shares_of_box(likelihood.problem().X, likelihood.problem().levels);
   const double highest = predictive_error(likelihood, ranked.front().p(), share);
   Choice choice;
   double least = highest;

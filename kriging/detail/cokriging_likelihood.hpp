@@ -75,7 +75,7 @@ class CokrigingLikelihood {
         g[d] += weight;
         Chunk h(1);
         for (Index k = 0; k < d; ++k) {
-          h.number[0] = std::abs(in_.X(i, k) - in_.X(j, k));
+          h.number[0] = distance_between(f_.levels, k, in_.X(i, k), in_.X(j, k));
           g[k] += weight * slope_in_theta(f_, k, h)[0];
         }
       }

@@ -4,8 +4,8 @@
 
 /// Where squared errors of runs are larger than elsewhere: along an input, and between neighbours.
 ///
-/// Along input k, of every m runs in a row by x_k, for three lengths m; runs with one x_k stay together, so that a
-/// window may be longer: the likelihood ratio of normal errors
+/// Along input k that is a number, of every m runs in a row by x_k, for three lengths m; runs with one x_k
+/// stay together, so that a window may be longer: the likelihood ratio of normal errors
 /// with one variance inside of the window, w, and another outside, v, against one variance u for all,
 ///   −½ [m ln(w/u) + (n − m) ln(v/u)],   counted only where w > v;
 /// the largest counts (Kulldorff 1997, Commun. Stat. Theory Methods 26(6), with normal errors). A square
@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <drawpoint/kriging/detail/dense.hpp>
+#include <drawpoint/kriging/detail/levels.hpp>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -34,9 +35,15 @@ struct ErrorWindow {
 
 class ErrorScan {
  public:
-  /// X: n x d, n of 8 or more.
-  explicit ErrorScan(const Eigen::MatrixXd& X) : neighbours_(nearest_runs(X)) {
+  /// X: n x d, n of 8 or more; `levels` of the correlation.
+  explicit ErrorScan(const Eigen::MatrixXd& X, const std::vector<int>& levels = {})
+      : neighbours_(nearest_runs(X, levels)) {
     for (Index k = 0; k < X.cols(); ++k) {
+      if (is_category(levels, k)) {
+        orders_.emplace_back();
+        begins_.emplace_back();
+        continue;
+      }
       auto& order = orders_.emplace_back(static_cast<std::size_t>(X.rows()));
       std::iota(order.begin(), order.end(), Index{0});
       std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return X(a, k) < X(b, k); });
@@ -50,6 +57,7 @@ class ErrorScan {
           std::max<Index>(4, static_cast<Index>(std::lround(share * static_cast<double>(X.rows())))));
   }
 
+  /// The runs by input; empty where it is a category.
   const std::vector<Index>& order(int input) const { return orders_[static_cast<std::size_t>(input)]; }
 
   ErrorWindow widest_errors(Eigen::VectorXd squares) const {
@@ -74,7 +82,8 @@ class ErrorScan {
   }
 
  private:
-  static std::vector<std::vector<Index>> nearest_runs(const Eigen::MatrixXd& X) {
+  static std::vector<std::vector<Index>> nearest_runs(const Eigen::MatrixXd& X,
+                                                      const std::vector<int>& levels) {
     const Index n = X.rows(), count = std::min(n - 1, 2 * X.cols());
     std::vector<std::vector<Index>> nearest;
     std::vector<std::pair<double, Index>> others;
@@ -82,7 +91,10 @@ class ErrorScan {
       others.clear();
       for (Index j = 0; j < n; ++j) {
         double distance = 0;
-        for (Index k = 0; k < X.cols(); ++k) distance += (X(i, k) - X(j, k)) * (X(i, k) - X(j, k));
+        for (Index k = 0; k < X.cols(); ++k) {
+          const double step = distance_between(levels, k, X(i, k), X(j, k));
+          distance += step * step;
+        }
         if (j != i) others.emplace_back(distance, j);
       }
       std::partial_sort(others.begin(), others.begin() + count, others.end());

@@ -57,7 +57,8 @@ inline CokrigingLevel level_with_mean_below(const CokrigingLevels& levels, const
   level.name = runs.name;
   level.X = runs.X;
   level.below_centre = levels.back().s.y_centre;
-  const std::vector<TrendTerm> f = polynomial(static_cast<int>(runs.X.cols()), runs.options.trend);
+  const std::vector<TrendTerm> f =
+      polynomial(static_cast<int>(runs.X.cols()), runs.options.trend, runs.options.levels);
   const InputScale input = input_scale(runs.X, runs.options);
   const Eigen::MatrixXd scaled_runs = input.apply(runs.X);
   const std::vector<TrendTerm> rho =
@@ -99,7 +100,7 @@ inline CokrigingProblem problem_of(const CokrigingLevels& levels, const Cokrigin
   }
   if (options.estimation == Estimation::penalized_likelihood) {
     std::vector<bool> varying;
-    for (const double factor : s.input.factor) varying.push_back(factor != 0.0);
+    for (Index k = 0; k < s.X.cols(); ++k) varying.push_back(!never_varies(s.X, k));
     problem.prior.emplace(s.X.rows(), varying, s.known_noise == 0, options.nugget_power);
   }
   return problem;
@@ -111,8 +112,7 @@ inline Box cokriging_box(const CokrigingLevel& level, const FitOptions& options)
   const Index d = level.X.cols();
   Box box{Eigen::VectorXd::Constant(d + 2, std::log(options.theta_lower)),
           Eigen::VectorXd::Constant(d + 2, std::log(options.theta_upper))};
-  for (Index k = 0; k < d; ++k)
-    if (level.s.input.factor[k] == 0.0) box.upper[k] = box.lower[k];
+  fix_unvarying(level.s.X, level.s.correlation.levels, box);
   box.lower[d] = std::log(least);
   box.upper[d] = std::log(most);
   box.lower[d + 1] = std::log(options.nugget_lower);

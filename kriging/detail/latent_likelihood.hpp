@@ -66,9 +66,9 @@ inline constexpr double log_own_variance_middle = -2.4079456086518722;  // σ = 
 
 /// (ln θ, ln s²), and ln σ² where runs have one.
 template <class Run>
-LatentCovariance latent_covariance(const Eigen::VectorXd& p) {
+LatentCovariance latent_covariance(const Eigen::VectorXd& p, const std::vector<int>& levels) {
   const Index own = LatentPrior<Run>::of_a_run, d = p.size() - 1 - own;
-  LatentCovariance result{{Correlation::matern52, Eigen::VectorXd(d), {}}, std::exp(p[d])};
+  LatentCovariance result{{Correlation::matern52, Eigen::VectorXd(d), {}, levels}, std::exp(p[d])};
   for (Index k = 0; k < d; ++k) result.correlation.theta[k] = std::exp(p[k]);
   if (own > 0) result.of_a_run = std::exp(p[d + 1]);
   return result;
@@ -78,9 +78,9 @@ LatentCovariance latent_covariance(const Eigen::VectorXd& p) {
 template <class Run>
 class LatentLikelihood {
  public:
-  /// X: n x d on [-1, 1].
-  LatentLikelihood(Eigen::MatrixXd X, std::vector<Run> runs)
-      : X_(std::move(X)), runs_(std::move(runs)), points_(X_.transpose()) {}
+  /// X: n x d on [-1, 1]; `levels` of the correlation.
+  LatentLikelihood(Eigen::MatrixXd X, std::vector<Run> runs, std::vector<int> levels = {})
+      : X_(std::move(X)), runs_(std::move(runs)), levels_(std::move(levels)), points_(X_.transpose()) {}
 
   Index variables() const { return X_.cols(); }
 
@@ -134,7 +134,7 @@ class LatentLikelihood {
   void solve(const Eigen::VectorXd& p) {
     if (p_.size() == p.size() && p_ == p) return;
     p_ = p;
-    covariance_ = latent_covariance<Run>(p);
+    covariance_ = latent_covariance<Run>(p, levels_);
     fill_correlation(X_, covariance_.correlation, C_);
     mirror_lower(C_);
     Eigen::MatrixXd K = C_;
@@ -163,13 +163,15 @@ class LatentLikelihood {
         ones.number[r] = 1.0;
       }
       for (Index k = 0; k < d; ++k)
-        g[k] += dot(w, slope_in_theta(covariance_.correlation, k, rows.distance(k)));
+        g[k] +=
+            dot(w, slope_in_theta(covariance_.correlation, k, distances(covariance_.correlation, rows, k)));
       g[d] += dot(w, ones);
     }
   }
 
   Eigen::MatrixXd X_;
   std::vector<Run> runs_;
+  std::vector<int> levels_;
   Eigen::MatrixXd points_;  // X transposed
   Eigen::VectorXd p_;
   LatentCovariance covariance_;
@@ -205,21 +207,31 @@ struct LatentFit {
   LatentPosterior posterior;
 };
 
-/// X: n x d on [-1, 1]. The covariance by the rows `few`, latent_limit at most, the posterior by all.
+/// X: n x d on [-1, 1]; `levels` of the correlation. The covariance by the rows `few`, latent_limit at most,
+/// the posterior by all.
 template <class Run>
-LatentFit fit_latent(const Eigen::MatrixXd& X, const std::vector<Run>& runs, const std::vector<Index>& few) {
+LatentFit fit_latent(const Eigen::MatrixXd& X, const std::vector<Run>& runs, const std::vector<Index>& few,
+                     const std::vector<int>& levels) {
   std::vector<Run> some;
   for (const Index i : few) some.push_back(runs[static_cast<std::size_t>(i)]);
-  LatentLikelihood<Run> likelihood(rows_of(X, few), some);
+  LatentLikelihood<Run> likelihood(rows_of(X, few), some, levels);
   const Eigen::VectorXd p = likeliest(likelihood);
-  return {latent_covariance<Run>(p),
-          X.rows() <= latent_limit ? likelihood.posterior(p) : LatentLikelihood<Run>(X, runs).posterior(p)};
+  return {latent_covariance<Run>(p, levels), X.rows() <= latent_limit
+                                                 ? likelihood.posterior(p)
+                                                 : LatentLikelihood<Run>(X, runs, levels).posterior(p)};
 }
 
-/// Points and box of runs that give no number with normal noise; `place` names the caller. Throws
-/// std::invalid_argument for numbers that are not finite, and bounds that do not fit or are out of order.
-inline void check_points_and_box(const std::string& place, const Eigen::MatrixXd& X,
-                                 const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+/// What the inputs of such runs are told to be: bounds and, of categories, levels.
+struct LatentInputs {
+  const Eigen::VectorXd &lower, &upper;
+  const std::vector<int>& levels;
+};
+
+/// Points and inputs of runs that give no number with normal noise; `place` names the caller. Throws
+/// std::invalid_argument for numbers that are not finite, bounds that do not fit or are out of order, and
+/// what is no level.
+inline void check_inputs(const std::string& place, const Eigen::MatrixXd& X, const LatentInputs& inputs) {
+  const Eigen::VectorXd &lower = inputs.lower, &upper = inputs.upper;
   const auto refuse = [&](const std::string& what) { throw std::invalid_argument(place + ": " + what); };
   if (!std::all_of(X.data(), X.data() + X.size(), is_usable))
     refuse("X has an entry that is not finite or beyond 1e150; give numbers below it");
@@ -232,14 +244,16 @@ inline void check_points_and_box(const std::string& place, const Eigen::MatrixXd
     if (!(upper[k] - lower[k] >= smallest_range) || !is_usable(lower[k]) || !is_usable(upper[k]))
       refuse("variable " + std::to_string(k) + " has the bounds " + text(lower[k]) + " and " +
              text(upper[k]) + "; allowed are finite ones with lower below upper");
+  check_level_counts(place, inputs.levels, X.cols());
+  require_levels(place, X, inputs.levels);
 }
 
 /// Of the same runs.
-inline InputScale latent_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& lower,
-                               const Eigen::VectorXd& upper) {
+inline InputScale latent_scale(const Eigen::MatrixXd& X, const LatentInputs& inputs) {
   FitOptions box;
-  box.lower = lower;
-  box.upper = upper;
+  box.lower = inputs.lower;
+  box.upper = inputs.upper;
+  box.levels = inputs.levels;
   return input_scale(X, box);
 }
 

@@ -51,8 +51,9 @@ struct LikelihoodProblem {
   Correlation family = Correlation::gaussian;
   Eigen::VectorXd exponent;  ///< given p of power_exponential, d entries; empty: parameters
   int threads = 1;
-  bool prior = false;       ///< LL + ln π instead of LL
-  double nugget_power = 0;  ///< of λ in π
+  bool prior = false;            ///< LL + ln π instead of LL
+  double nugget_power = 0;       ///< of λ in π
+  std::vector<int> levels = {};  ///< of the correlation
 };
 
 /// Remembers the last point, so that value, gradient and Hessian at one p share their factorisation. Not for
@@ -63,6 +64,7 @@ class Likelihood {
     if (in_.F.size() == 0) in_.F = Eigen::MatrixXd::Ones(runs(), 1);
     f_.family = in_.family;
     f_.exponent = in_.exponent;
+    f_.levels = in_.levels;
     estimated_exponents_ = in_.family == Correlation::power_exponential && in_.exponent.size() == 0;
     if (in_.prior) prior_.emplace(runs(), varying(), in_.known_noise == 0, in_.nugget_power);
   }
@@ -146,10 +148,7 @@ class Likelihood {
   // Inputs of which two runs differ.
   std::vector<bool> varying() const {
     std::vector<bool> varies;
-    for (Eigen::Index k = 0; k < variables(); ++k) {
-      const double* x = detail::column(in_.X, k);
-      varies.push_back(std::any_of(x, x + runs(), [&](double value) { return value != x[0]; }));
-    }
+    for (Eigen::Index k = 0; k < variables(); ++k) varies.push_back(!detail::never_varies(in_.X, k));
     return varies;
   }
 
@@ -244,11 +243,11 @@ class Likelihood {
     in_chunks(j, [&](const detail::Rows& rows) {
       const detail::Chunk w = weight(j, rows);
       for (Eigen::Index k = 0; k < d; ++k) {
-        if (f_.family == Correlation::gaussian) {
+        if (f_.family == Correlation::gaussian && !detail::is_category(f_.levels, k)) {
           g[k] -= f_.theta[k] * detail::weighted_squares(w.number, rows.column(k), rows.x[k], rows.count);
           continue;
         }
-        const detail::Chunk h = rows.distance(k);
+        const detail::Chunk h = detail::distances(f_, rows, k);
         g[k] += dot(w, detail::slope_in_theta(f_, k, h));
         if (estimated_exponents_) g[d + k] += dot(w, detail::slope_in_exponent(f_, k, h));
       }

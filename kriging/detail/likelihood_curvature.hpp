@@ -52,7 +52,7 @@ inline void Likelihood::add_second_derivatives(Eigen::MatrixXd& H) const {
     in_chunks(j, [&](const detail::Rows& rows) {
       const detail::Chunk w = weight(j, rows);
       for (Eigen::Index k = 0; k < d; ++k) {
-        const detail::Chunk h = rows.distance(k);
+        const detail::Chunk h = detail::distances(f_, rows, k);
         slopes[k] = detail::slope_in_theta(f_, k, h);
         H(k, k) += dot(w, detail::curvature_in_theta(f_, k, h));
         if (!estimated_exponents_) continue;
@@ -75,7 +75,7 @@ inline void Likelihood::fill_derivative(Eigen::Index a, Eigen::MatrixXd& D) cons
   D.resize(runs(), runs());
   for (Eigen::Index j = 0; j < runs(); ++j)
     in_chunks(j, [&](const detail::Rows& rows) {
-      const detail::Chunk h = rows.distance(k);
+      const detail::Chunk h = detail::distances(f_, rows, k);
       const detail::Chunk slope =
           a < d ? detail::slope_in_theta(f_, k, h) : detail::slope_in_exponent(f_, k, h);
       for (Eigen::Index i = 0; i < rows.count; ++i)

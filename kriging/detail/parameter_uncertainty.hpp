@@ -78,7 +78,7 @@ inline Eigen::MatrixXd parameter_slopes(const ModelState& s, const Eigen::Matrix
       Chunk weighted(rows.count);
       for (Index row = 0; row < rows.count; ++row) weighted.number[row] = R(i + row, j) * s.gls.alpha[j];
       for (Eigen::Index k = 0; k < d; ++k) {
-        const Chunk h = rows.distance(k),
+        const Chunk h = distances(s.correlation, rows, k),
                     slope = entry_products(weighted, slope_in_theta(s.correlation, k, h));
         add_scaled(&G(i, k), 1.0, slope.number, rows.count);
         if (parameters == 2 * d + 1)
@@ -137,7 +137,7 @@ struct MixedSlopes {
 };
 
 inline MixedSlopes mixed_slopes(const CorrelationFunction& f, Eigen::Index k, double step) {
-  if (step == 0.0) return {};
+  if (step == 0.0 || is_category(f.levels, k)) return {};
   Chunk h(1);
   h.number[0] = std::min(std::abs(step), farthest_distance);
   const double curvature = curvature_in_theta(f, k, h)[0];
@@ -160,7 +160,8 @@ inline Eigen::MatrixXd mean_deviation_slopes(const ModelState& s, const Paramete
     for (Eigen::Index a = 0; a < d; ++a) {
       const double step = at.scaled[a] - s.X(i, a);
       Chunk h(1);
-      h.number[0] = std::min(std::abs(step), farthest_distance);
+      h.number[0] =
+          std::min(distance_between(s.correlation.levels, a, at.scaled[a], s.X(i, a)), farthest_distance);
       const double slope = slope_in_theta(s.correlation, a, h)[0], logarithm = logarithms(h)[0];
       const MixedSlopes mixed = mixed_slopes(s.correlation, a, step);
       const double own = s.gls.alpha[i] * at.r[i] * s.input.factor[a];

@@ -116,16 +116,25 @@ class JsonReader {
   std::string file_, place_;
 };
 
-/// What a kind of file is called, and its version.
+/// What a kind of file is called, and its version; of models with categories it is one higher, so that a
+/// reader that knows none does not take them for numbers.
 struct FileKind {
   const char* format;
   int version;
 };
 
+inline bool has_categories(const Json& model) {
+  const auto has = [](const Json& part) {
+    return part.contains("correlation") && part["correlation"].contains("categories");
+  };
+  if (!model.contains("levels")) return has(model);
+  return model["levels"].is_array() && !model["levels"].empty() && has(model["levels"][0]);
+}
+
 /// The text of a file of this kind.
 inline std::string enveloped(const FileKind& kind, const Json& json) {
   return Json{{"format", kind.format},
-              {"version", kind.version},
+              {"version", kind.version + has_categories(json)},
               {"checksum", checksum(json.dump())},
               {"model", json}}
              .dump() +
@@ -140,11 +149,15 @@ auto opened(const FileKind& kind, const std::string& text, const std::string& fi
   if (json.is_discarded()) in.fail("it is no JSON, or not all of it");
   if (in.at("format").text() != kind.format)
     in.at("format").fail("it is not \"" + std::string(kind.format) + "\"");
-  if (const int version = in.at("version").integer(); version != kind.version)
+  const int version = in.at("version").integer();
+  if (version != kind.version && version != kind.version + 1)
     in.at("version").fail("it is " + std::to_string(version) + "; allowed is " +
-                          std::to_string(kind.version));
+                          std::to_string(kind.version) + ", or " + std::to_string(kind.version + 1) +
+                          " with categories");
   if (in.at("checksum").text() != checksum(in.at("model").json().dump()))
     in.at("checksum").fail("it is not that of the model");
+  if (version != kind.version + has_categories(in.at("model").json()))
+    in.at("version").fail("it is not that of the model");
   if (json.dump() + "\n" != text) in.fail("it is not as it was written");
   return read(in.at("model"));
 }

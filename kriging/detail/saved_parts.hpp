@@ -28,9 +28,11 @@ inline Json json_of(const std::vector<TrendTerm>& terms) {
 }
 
 inline Json json_of(const CorrelationFunction& f) {
-  return {{"family", to_string(f.family)},
-          {"theta", json_vector(f.theta)},
-          {"exponent", json_vector(f.exponent)}};
+  Json json{{"family", to_string(f.family)},
+            {"theta", json_vector(f.theta)},
+            {"exponent", json_vector(f.exponent)}};
+  if (!f.levels.empty()) json["categories"] = f.levels;
+  return json;
 }
 
 inline Json json_of_noise(const ModelState& s) {
@@ -62,12 +64,37 @@ inline FitReport report_of(const JsonReader& in) {
           in.at("evaluations").integer(),       in.at("condition").number(false)};
 }
 
+/// Of d inputs, one of them a category.
+inline std::vector<int> read_levels(const JsonReader& in, Eigen::Index d) {
+  std::vector<int> levels;
+  if (!in.json().is_array()) in.fail("it is no list");
+  for (std::size_t k = 0; k < in.json().size(); ++k) levels.push_back(in.entry(k).integer());
+  try {
+    check_level_counts("X", levels, d);
+  } catch (const std::invalid_argument&) {
+    in.fail("it does not fit " + std::to_string(d) + " inputs");
+  }
+  if (categories_of(levels).empty()) in.fail("it names no category");
+  return levels;
+}
+
 inline void read_correlation(const JsonReader& in, Eigen::Index d, CorrelationFunction& f) {
   f.family = in.at("family").enumerator<Correlation>();
   f.theta = in.at("theta").vector(d);
   f.exponent = in.at("exponent").vector(-1);
   if (f.exponent.size() > 0 || f.family == Correlation::power_exponential)
     f.exponent = in.at("exponent").vector(d);
+  if (in.json().contains("categories")) f.levels = read_levels(in.at("categories"), d);
+}
+
+/// X: n x d, in which categories stand by the indices of their levels.
+inline void refuse_other_levels(const JsonReader& in, const Eigen::MatrixXd& X,
+                                const CorrelationFunction& f) {
+  try {
+    require_levels("X", X, f.levels);
+  } catch (const std::invalid_argument&) {
+    in.fail("it holds what is no level of a category");
+  }
 }
 
 inline void read_noise(const JsonReader& in, Eigen::Index n, ModelState& s) {

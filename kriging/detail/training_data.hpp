@@ -6,17 +6,20 @@
 ///
 /// Inputs go to [-1, 1] by the box or the range of the data, the response to mean 0 and standard deviation 1
 /// (n − 1 in the denominator). An input that never varies is scaled to 0 everywhere, so that predictions
-/// ignore it. Noise becomes wᵢ = τᵢ²/mean τ², and the mean is kept when the variances are known.
+/// ignore it; a category keeps the indices of its levels. Noise becomes wᵢ = τᵢ²/mean τ², and the mean is
+/// kept when the variances are known.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/detail/dense.hpp>
+#include <drawpoint/kriging/detail/levels.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace drawpoint::kriging::detail {
 
@@ -41,6 +44,7 @@ struct InputScale {
 
 struct TrainingData {
   Eigen::MatrixXd X;         ///< scaled
+  std::vector<int> levels;   ///< of the correlation
   Eigen::VectorXd y;         ///< standardised; empty when the response is constant
   Eigen::MatrixXd F;         ///< n x q, the trend's terms at the runs
   Eigen::VectorXd observed;  ///< y in its unit
@@ -166,11 +170,16 @@ inline void check_options(const FitOptions& options, Eigen::Index d) {
     reject(options.trend == Trend::user ? "trend is user but basis.values is empty; give the functions"
                                         : "basis.values is given but trend is not user; set trend to user");
   check_exponent(options, d);
+  check_level_counts("kriging::fit", options.levels, d);
 }
 
 inline InputScale input_scale(const Eigen::MatrixXd& X, const FitOptions& options) {
   InputScale scale{Eigen::VectorXd::Zero(X.cols()), Eigen::VectorXd::Zero(X.cols())};
   for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    if (is_category(options.levels, k)) {
+      scale.factor[k] = 1.0;
+      continue;
+    }
     const auto [low, high] = std::minmax_element(column(X, k), column(X, k) + X.rows());
     const double lower = options.lower.size() ? options.lower[k] : *low;
     const double upper = options.upper.size() ? options.upper[k] : *high;
@@ -244,10 +253,12 @@ inline TrainingData prepare(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   check_runs(X, y);
   check_options(options, X.cols());
   check_noise(options, X.rows());
+  require_levels("kriging::fit", X, options.levels);
   TrainingData data;
   data.observed = y;
   data.input = input_scale(X, options);
   data.X = data.input.apply(X);
+  data.levels = categories_of(options.levels);
   data.y_centre = y[0] + mean_of(affine(y, 1.0, -y[0]));
   if (y.size() == 1 || is_constant(y)) return data;
   const double range = largest_entry(y) - smallest_entry(y);
@@ -258,7 +269,7 @@ inline TrainingData prepare(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   data.y = affine(data.y, range / data.y_scale);
   set_noise(data, options);
   const Trend trend = options.trend == Trend::blind ? Trend::constant : options.trend;
-  set_trend(data, X, {polynomial(static_cast<int>(X.cols()), trend), options.basis, {}});
+  set_trend(data, X, {polynomial(static_cast<int>(X.cols()), trend, data.levels), options.basis, {}});
   return data;
 }
 

@@ -6,14 +6,15 @@
 ///
 /// constant: 1. linear: 1, x₁ .. x_d. quadratic: these, the squares and the products xₐx_b. Polynomials are
 /// in the inputs scaled to [-1, 1]. user: any functions of x in natural units. blind: the terms of the
-/// quadratic that lower the leave-one-out error, chosen by fit (blind.hpp). Terms that the runs cannot tell
-/// apart from earlier ones (an input that never varies, x and x² of two levels) are left out. Cost a point:
-/// the number of terms.
+/// quadratic that lower the leave-one-out error, chosen by fit (blind.hpp). A category is in no polynomial.
+/// Terms that the runs cannot tell apart from earlier ones (an input that never varies, x and x² of two
+/// levels) are left out. Cost a point: the number of terms.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/detail/dense.hpp>
+#include <drawpoint/kriging/detail/levels.hpp>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -47,14 +48,18 @@ struct TrendTerm {
 
 namespace detail {
 
-/// 1; then xₐ when linear; then xₐx_b with a <= b when quadratic.
-inline std::vector<TrendTerm> polynomial(int d, Trend trend) {
+/// 1; then xₐ when linear; then xₐx_b with a <= b when quadratic; a and b are the numbers among d inputs, all
+/// where `levels` is empty.
+inline std::vector<TrendTerm> polynomial(int d, Trend trend, const std::vector<int>& levels = {}) {
   std::vector<TrendTerm> terms{{}};
   if (trend == Trend::constant) return terms;
-  for (int a = 0; a < d; ++a) terms.push_back({a, -1});
-  if (trend != Trend::quadratic) return terms;
+  std::vector<int> numbers;
   for (int a = 0; a < d; ++a)
-    for (int b = a; b < d; ++b) terms.push_back({a, b});
+    if (!is_category(levels, a)) numbers.push_back(a);
+  for (const int a : numbers) terms.push_back({a, -1});
+  if (trend != Trend::quadratic) return terms;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t j = i; j < numbers.size(); ++j) terms.push_back({numbers[i], numbers[j]});
   return terms;
 }
 

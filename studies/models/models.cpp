@@ -15,6 +15,7 @@ kriging::FitOptions default_fit(const doe::Problem& problem) {
   options.threads = 0;
   options.lower = doe::lower_bounds(problem);
   options.upper = doe::upper_bounds(problem);
+  options.levels = doe::level_counts(problem);
   return options;
 }
 

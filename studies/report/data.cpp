@@ -51,6 +51,7 @@ json to_json(const Surface& s) {
           {"correlation", to_string(s.correlation.family)},
           {"theta", to_json(s.correlation.theta)},
           {"exponent", to_json(s.correlation.exponent)},
+          {"levels", s.correlation.levels},
           {"X", to_json(s.X)},
           {"weights", to_json(s.weights)},
           {"terms", std::move(terms)},

@@ -5,7 +5,8 @@
 /// matter.
 ///
 /// The mean is constant + Σₜ βₜ sₐ s_b + Σᵢ wᵢ c(s, cᵢ) with s = (x - centre)·factor, the terms sₐ s_b of the
-/// trend and the correlation c of the model (kriging/correlation.hpp). Of a model on another scale
+/// trend and the correlation c of the model (kriging/correlation.hpp); s of a category is the index of its
+/// level, and two different levels are 2 apart. Of a model on another scale
 /// (kriging/transform.hpp) this is z, and the mean is h(z), a sum over the points of `noise`. All of it is
 /// the model's own, so the browser sees its mean to rounding.
 ///

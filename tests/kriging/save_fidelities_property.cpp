@@ -7,6 +7,7 @@
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/kriging/save.hpp>
 #include <drawpoint/kriging/save_fidelities.hpp>
+#include <drawpoint/tests/kriging/categories.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <drawpoint/tests/kriging/saved_text.hpp>
 #include <functional>
@@ -112,4 +113,19 @@ TEST(SavedFidelities, FunctionsOfTheUserAreRefused) {
   const FidelityModel model =
       fit_fidelities({cheap, {"fine", runs, reference::values(fine, runs)}}, {.compare = false});
   EXPECT_THROW(to_text(model), std::invalid_argument);
+}
+
+TEST(SavedFidelities, KeepCategories) {
+  FitOptions options = categories::unit_options(3);
+  options.levels = {0, 0, 4};
+  const categories::Runs cheap = categories::runs(categories::scrambled, 24, 3),
+                         few = categories::runs(categories::idle, 12, 4);
+  const FidelityModel model = fit_fidelities(
+      {{"rough", cheap.X, cheap.y, options}, {"fine", few.X, few.y, options}}, {.compare = false});
+  const FidelityModel again = fidelities_from_text(to_text(model));
+  const MatrixXd Z = categories::points(10, 4, 2);
+  EXPECT_EQ(model.predict(Z).variance, again.predict(Z).variance);
+  EXPECT_EQ(nlohmann::json::parse(to_text(model))["version"], 2);
+  EXPECT_NE(refusal(support::with_checksum(to_text(model), [](auto& file) { file["version"] = 1; })),
+            "accepted");
 }

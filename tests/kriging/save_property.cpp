@@ -8,6 +8,7 @@
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/save.hpp>
+#include <drawpoint/tests/kriging/categories.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <drawpoint/tests/kriging/saved_text.hpp>
 #include <functional>
@@ -137,7 +138,7 @@ TEST(SavedModel, FaultsAreNamedWithTheirPlace) {
   EXPECT_EQ(refusal("{"), "kriging::load: the text: it is no JSON, or not all of it" + end);
   EXPECT_EQ(refusal("[1]"), "kriging::load: the text: \"format\" is missing" + end);
   EXPECT_EQ(refusal(rewritten([](auto& f) { f["version"] = 1; })),
-            "kriging::load: the text: version: it is 1; allowed is 2" + end);
+            "kriging::load: the text: version: it is 1; allowed is 2, or 3 with categories" + end);
   EXPECT_EQ(refusal(rewritten([](auto& f) { f["model"]["correlation"]["theta"][1] = "inf"; })),
             "kriging::load: the text: model/correlation/theta[1]: it is not finite" + end);
   EXPECT_EQ(refusal(rewritten([](auto& f) { f["model"]["runs"]["X"]["values"].push_back(1.0); })),
@@ -173,4 +174,31 @@ TEST(SavedModel, FunctionsOfTheUserAreRefused) {
         "kriging::save: the trend is a function of the user, which no file can hold; allowed are polynomial "
         "trends; save the runs and fit again");
   }
+}
+
+// Categories are kept; their version is one higher, which readers that know none refuse.
+TEST(SavedModel, KeepsCategories) {
+  const categories::Runs runs = categories::runs(categories::scrambled, 16, 5);
+  FitOptions options = categories::unit_options(3);
+  options.levels = {0, 0, 4};
+  const Model model = fit(runs.X, runs.y, options), again = from_text(to_text(model));
+  const Eigen::MatrixXd Z = categories::points(10, 4, 2);
+  EXPECT_EQ(model.predict(Z).mean, again.predict(Z).mean);
+  EXPECT_EQ(model.predict(Z).variance, again.predict(Z).variance);
+  EXPECT_EQ(to_text(again), to_text(model));
+  EXPECT_EQ(nlohmann::json::parse(to_text(model))["version"], 3);
+  const auto after = [&](const std::function<void(nlohmann::json&)>& change) {
+    return refusal(support::with_checksum(to_text(model), change));
+  };
+  const std::string end = "; the file is damaged or of another kind: save the model again";
+  EXPECT_EQ(after([](auto& f) { f["version"] = 2; }),
+            "kriging::load: the text: version: it is not that of the model" + end);
+  EXPECT_EQ(after([](auto& f) {
+              f["model"]["correlation"]["categories"] = {0, 0, 1};
+            }),
+            "kriging::load: the text: model/correlation/categories: it does not fit 3 inputs" + end);
+  EXPECT_EQ(after([](auto& f) {
+              f["model"]["correlation"]["categories"] = {0, 0, 3};
+            }),
+            "kriging::load: the text: model/runs/X: it holds what is no level of a category" + end);
 }

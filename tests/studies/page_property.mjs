@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {csv, tsv} from '../../studies/report/web/delimited.js';
 import {number, setting} from '../../studies/report/web/format.js';
+import {predictor} from '../../studies/report/web/kriging.js';
 import {words} from '../../studies/report/web/inscription.js';
 import {selecting} from '../../studies/report/web/selection.js';
 
@@ -51,6 +52,17 @@ test('clearing gives everything back, and each change is told once', () => {
   assert.equal(selection.active, false);
   assert.equal(selection.areaOwner, null);
   assert.equal(told, 2);
+});
+
+// Levels are 0 or 2 apart, whichever they are: exp(-0.1 * 2^2) = exp(-0.4). A slider between two levels shows the nearer.
+test('a category in a model is no number', () => {
+  const mean = predictor({
+    centre: [0, 0], factor: [1, 1], correlation: 'gaussian', theta: [0.5, 0.1], exponent: [], levels: [0, 4],
+    X: [[0.25, 1]], weights: [3], terms: [], coefficients: [], constant: 7, scale: 'linear',
+  });
+  assert.equal(mean([0.25, 1]), 10);
+  for (const other of [0, 2, 3]) assert.equal(mean([0.25, other]), 7 + 3 * Math.exp(-0.1 * 4));
+  assert.equal(mean([0.25, 1.4]), mean([0.25, 1]));
 });
 
 test('a copied number is the same number', () => {

@@ -7,6 +7,7 @@
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/surface.h>
 #include <drawpoint/studies/report/text.h>
+#include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/tests/studies/report_cases.hpp>
 
 using namespace drawpoint;
@@ -26,6 +27,12 @@ double correlation_of_page(const kriging::CorrelationFunction& f, Eigen::Index k
   return (1.0 + u + (once ? 0.0 : u * u / 3.0)) * std::exp(-u);
 }
 
+double distance_of_page(const detail::Surface& s, Eigen::Index k, double a, double b) {
+  const std::vector<int>& levels = s.correlation.levels;
+  if (!levels.empty() && levels[static_cast<std::size_t>(k)] > 0) return std::round(a) == b ? 0.0 : 2.0;
+  return std::abs(a - b);
+}
+
 double formula_of_page(const detail::Surface& s, const Eigen::VectorXd& x) {
   const Eigen::VectorXd at = (x - s.centre).cwiseProduct(s.factor);
   double mean = s.constant;
@@ -34,7 +41,7 @@ double formula_of_page(const detail::Surface& s, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < s.X.rows(); ++i) {
     double c = 1.0;
     for (Eigen::Index k = 0; k < x.size(); ++k)
-      c *= correlation_of_page(s.correlation, k, std::abs(at[k] - s.X(i, k)));
+      c *= correlation_of_page(s.correlation, k, distance_of_page(s, k, at[k], s.X(i, k)));
     mean += s.weights[i] * c;
   }
   if (s.transform.scale == kriging::Scale::linear) return mean;
@@ -66,6 +73,20 @@ TEST(ReportSurface, TheBrowserSeesTheModelsMean) {
   options.lower = Eigen::VectorXd::Constant(3, 0.0);
   options.upper = Eigen::VectorXd::Constant(3, 2.0);
   expect_same_mean(in, kriging::fit(in.training.X(), in.training.y("y0"), options));  // by the problem's box
+}
+
+TEST(ReportSurface, TheBrowserKnowsCategories) {
+  ReportInput in = input(2, 1, 1, 0);
+  in.problem.variables.push_back(doe::categorical_variable("tool", {"bucket", "blade", "ripper"}));
+  const Eigen::MatrixXd X = doe::uniform_random(in.problem, 24, {.seed = 4});
+  const Eigen::VectorXd y = X.col(0).array().sin() + (X.col(2).array() == 1.0).select(2.0, X.col(1)).array();
+  for (const auto family : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
+    kriging::FitOptions options;
+    options.levels = doe::level_counts(in.problem);
+    options.correlation = family;
+    options.trend = kriging::Trend::linear;
+    expect_same_mean(in, kriging::fit(X, y, options));
+  }
 }
 
 TEST(ReportSurface, ReplicatesOfNoisyRunsAreFine) {

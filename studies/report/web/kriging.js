@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mean of a fitted model in the browser, so that the sliders need no table of prepared slices:
 //   z(x) = constant + sum_t beta_t s_a s_b + sum_i w_i prod_k c_k(|s_k - X_ik|),   s = (x - centre) factor.
+// Of a category s is the index of its level, the nearest one between them, and two different levels are 2 apart.
 // It is z itself, or of a model on another scale what noisy runs at z have in the mean: a sum over points of noise.
 
 /// By family: the factors of one variable, from its theta, its exponent and the distance.
@@ -29,16 +30,17 @@ export function predictor(surface) {
   };
 }
 
-function scaledMean({centre, factor, correlation, theta, exponent, X, weights, terms, coefficients, constant}) {
+function scaledMean({centre, factor, correlation, theta, exponent, levels = [], X, weights, terms, coefficients, constant}) {
   const c = correlations[correlation];
   const d = centre.length;
+  const distance = (k, a, b) => (levels[k] ? (Math.round(a) === b ? 0 : 2) : Math.abs(a - b));
   return (x) => {
     const s = x.map((value, k) => (value - centre[k]) * factor[k]);
     let mean = constant;
     terms.forEach(([a, b], t) => { mean += coefficients[t] * (a < 0 ? 1 : s[a]) * (b < 0 ? 1 : s[b]); });
     for (let i = 0; i < weights.length; ++i) {
       let product = 1;
-      for (let k = 0; k < d; ++k) product *= c(theta[k], exponent[k], Math.abs(s[k] - X[i][k]));
+      for (let k = 0; k < d; ++k) product *= c(theta[k], exponent[k], distance(k, s[k], X[i][k]));
       mean += weights[i] * product;
     }
     return mean;
