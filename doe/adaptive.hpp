@@ -106,21 +106,23 @@ Refinement refined(const F& f, const Problem& problem, const Eigen::MatrixXd& fi
 
 }  // namespace detail
 
-/// first: n x d, the first design, natural units. `sampler` is a sampler or a Mix (criterion.hpp). Throws as
-/// evaluate and propose do, and whatever enough throws.
+/// first: n x d, the first design, natural units. `sampler` is a sampler, a joint one or a Mix
+/// (criterion.hpp). Throws as evaluate and propose do, and whatever enough throws.
 template <class F, class S>
 Refinement refine(const F& f, const Problem& problem, const Eigen::MatrixXd& first, S&& sampler,
                   const RefineOptions& options = {}) {
   using Given = std::remove_reference_t<S>;
   require_black_box<F>();
   if constexpr (!std::same_as<std::remove_const_t<Given>, Mix>) require_sampler<Given>();
+  detail::check_rule(options.propose, JointSamplerFunction<Given>);
   if (options.max_points < 1)
     throw std::invalid_argument("doe::refine: max_points is " + std::to_string(options.max_points) +
                                 "; allowed is 1 or more; give the budget with the first design in it");
   if (first.rows() < 1)
     throw std::invalid_argument(
         "doe::refine: the first design has 0 runs; allowed is 1 or more; start from a Latin hypercube");
-  if constexpr (BlackBox<F> && (std::same_as<std::remove_const_t<Given>, Mix> || SamplerFunction<Given>))
+  if constexpr (BlackBox<F> && (std::same_as<std::remove_const_t<Given>, Mix> || SamplerFunction<Given> ||
+                                JointSamplerFunction<Given>))
     return detail::refined(f, problem, first, sampler, options);
   else
     return {};  // so that the message above stands alone

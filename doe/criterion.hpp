@@ -13,6 +13,9 @@
 ///       return model.predict(X).variance; }; };
 /// Scores of one criterion are compared with each other only, so their scale is free; NaN is never chosen.
 /// Samplers may keep what they learn between calls. This header has those that need no surrogate of ours.
+/// Where points of a batch bear on each other, a joint sampler makes a joint criterion of the runs, which
+/// makes a criterion of the points chosen so far; its rule is BatchRule::joint:
+///   joint criterion:  criterion j(const Eigen::MatrixXd& chosen)   chosen: k x d natural units, k >= 0
 
 #include <Eigen/Core>
 #include <cmath>
@@ -21,6 +24,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,6 +36,8 @@ namespace drawpoint::doe {
 
 using Criterion = std::function<Eigen::VectorXd(const Eigen::MatrixXd& X)>;
 using Sampler = std::function<Criterion(const Evaluations& runs)>;
+using JointCriterion = std::function<Criterion(const Eigen::MatrixXd& chosen)>;
+using JointSampler = std::function<JointCriterion(const Evaluations& runs)>;
 
 namespace detail {
 
@@ -53,6 +59,12 @@ concept SamplerFunction = requires(S& s, const Evaluations& runs) {
   { s(runs) } -> CriterionFunction;
 };
 
+template <class S>
+concept JointSamplerFunction = requires(S& s, const Evaluations& runs, const Eigen::MatrixXd& chosen) {
+  requires !detail::EigenObject<std::remove_cvref_t<decltype(s(runs))>>;
+  { s(runs)(chosen) } -> CriterionFunction;
+};
+
 /// First line of every entry point that takes a sampler.
 template <class S>
 constexpr void require_sampler() {
@@ -62,7 +74,7 @@ constexpr void require_sampler() {
       "doe::Criterion s(const doe::Evaluations& runs), where a criterion is "
       "Eigen::VectorXd c(const Eigen::MatrixXd& X): one score a row of X, higher is better.");
   static_assert(
-      SamplerFunction<S> || !requires(S & s, const Evaluations& runs) { s(runs); },
+      SamplerFunction<S> || JointSamplerFunction<S> || !requires(S & s, const Evaluations& runs) { s(runs); },
       "drawpoint: not a sampler. What it makes of the runs so far is not a criterion. Expected "
       "Eigen::VectorXd c(const Eigen::MatrixXd& X): one score a row of X, higher is better.");
 }

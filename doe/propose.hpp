@@ -12,6 +12,7 @@
 ///   penalty   scores, counted from the lowest, are multiplied by min(1, |x − c|²/r²) for each chosen c; r is
 ///             how far c was from its nearest run. No cell limits it: for scores that vary within cells
 ///   believer  the sampler is asked anew after each choice, with the outcome that `believe` expects there
+///   joint     a joint sampler's criterion knows the points chosen before: for scores of whole batches
 /// A chosen candidate climbs to the next maximum of its score (detail/climb_score.hpp), within the rule,
 /// where it is allowed, with whole and categorical variables as they are, and no nearer than 1e-4 of the unit
 /// box to any run or chosen point. Scores that are constant around a candidate leave it where it is.
@@ -44,6 +45,17 @@ inline void check_propose(const ProposeOptions& options) {
     reject("rule is believer, but believe is empty; give what a run at x would give");
 }
 
+/// The rule joint and a joint sampler belong together.
+inline void check_rule(const ProposeOptions& options, bool joint_sampler) {
+  if (joint_sampler == (options.rule == BatchRule::joint)) return;
+  throw std::invalid_argument(
+      joint_sampler
+          ? "doe::propose: the sampler is a joint one, but the rule is not joint; allowed is "
+            "BatchRule::joint; set it, or give a doe::Sampler"
+          : "doe::propose: the rule is joint, but the sampler does not ask for the points chosen so far; "
+            "allowed is a doe::JointSampler; give one, or another rule");
+}
+
 inline int distinct_points(const Evaluations& runs) {
   int sites = 0;
   site_of_rows(runs, sites);
@@ -53,13 +65,14 @@ inline int distinct_points(const Evaluations& runs) {
 }  // namespace detail
 
 /// Points for the next runs, natural units, batch x d; fewer rows when the candidates run out, as they do
-/// where `allowed` hardly ever holds. `sampler` is a sampler (criterion.hpp) or a Mix of them. Throws
-/// std::invalid_argument for options out of range and for a criterion that miscounts.
+/// where `allowed` hardly ever holds. `sampler` is a sampler or a joint one (criterion.hpp), or a Mix of
+/// samplers. Throws std::invalid_argument for options out of range and for a criterion that miscounts.
 template <class S>
 Eigen::MatrixXd propose(const Evaluations& runs, S&& sampler, const ProposeOptions& options = {}) {
   using Given = std::remove_reference_t<S>;
   check(runs.problem);
   detail::check_propose(options);
+  detail::check_rule(options, JointSamplerFunction<Given>);
   detail::Chooser chooser(runs, options);
   if constexpr (std::same_as<std::remove_const_t<Given>, Mix>) {
     const std::vector<int> turns = sampler.turns(detail::distinct_points(runs), options.batch);
@@ -67,7 +80,9 @@ Eigen::MatrixXd propose(const Evaluations& runs, S&& sampler, const ProposeOptio
       if (turns[k] > 0) chooser.choose(sampler.parts()[k].sampler, turns[k]);
   } else {
     require_sampler<Given>();
-    if constexpr (SamplerFunction<Given>)
+    if constexpr (JointSamplerFunction<Given>)
+      chooser.choose_jointly(sampler(runs), options.batch);
+    else if constexpr (SamplerFunction<Given>)
       chooser.choose([&sampler](const Evaluations& so_far) -> Criterion { return sampler(so_far); },
                      options.batch);
   }

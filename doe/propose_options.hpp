@@ -14,7 +14,7 @@
 
 namespace drawpoint::doe {
 
-enum class BatchRule { cells, penalty, believer };
+enum class BatchRule { cells, penalty, believer, joint };
 
 struct ProposeOptions {
   Seed seed = 1;  ///< of the candidates, together with the number of rows of the table

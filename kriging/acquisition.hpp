@@ -8,11 +8,12 @@
 ///   maximum_variance           σ²
 ///   expected_improvement       E[(f* − Y)⁺] = σ [φ(z) + zΦ(z)]
 ///   log_expected_improvement   its logarithm: the same order, also where the number underflows
+///   predicted_value            −μ: where the model expects the best
 ///   cross_validation_error     |leave-one-out error| of the nearest run: constant in its cell
 /// For a Kriging model the improvement is that of its re-interpolation: of a noisy response the mean at the
 /// runs counts as known, so that no run is asked for again, and f* is the best of these means, not the
-/// luckiest observation. Limits are in acquisition_constraints.hpp, several objectives in
-/// acquisition_hypervolume.hpp.
+/// luckiest observation. Much noise: acquisition_gradient.hpp; whole batches: acquisition_joint.hpp. Limits
+/// are in acquisition_constraints.hpp, several objectives in acquisition_hypervolume.hpp.
 /// Sources: Jones, Schonlau, Welch 1998, J. Global Optimization 13 (EI); Forrester, Keane, Bressloff 2006,
 /// AIAA J. 44(10) (re-interpolation); Ament et al. 2023 (logarithm).
 
@@ -123,6 +124,18 @@ doe::Criterion maximum_variance(S model) {
   detail::require_surrogate<S>();
   return [model = std::move(model)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
     return model.predict(X).variance;
+  };
+}
+
+/// Where the surrogate expects the best: −μ to minimise, μ to maximise. Not to be used alone: it asks beside
+/// the best run. Every third run by it finishes what improvement begins (docs/doe.md, "Searches for an
+/// optimum"). Throws std::invalid_argument for a goal of another kind.
+template <class S>
+doe::Criterion predicted_value(S model, doe::Goal goal) {
+  detail::require_surrogate<S>();
+  const double sign = detail::sign_of("kriging::predicted_value", goal);
+  return [model = std::move(model), sign](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+    return detail::affine(model.mean(X), -sign);
   };
 }
 

@@ -4,7 +4,9 @@
 
 #include <drawpoint/kriging/acquisition.hpp>
 #include <drawpoint/kriging/acquisition_constraints.hpp>
+#include <drawpoint/kriging/acquisition_gradient.hpp>
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
+#include <drawpoint/kriging/acquisition_joint.hpp>
 #include <drawpoint/kriging/any_surrogate.hpp>
 #include <drawpoint/kriging/append.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
@@ -71,7 +73,9 @@
 /// The next run:
 ///   acquisition.hpp                criteria for doe::propose and doe::refine, such as expected improvement
 ///   acquisition_constraints.hpp    how likely a point keeps its limits
+///   acquisition_gradient.hpp       the knowledge gradient: noisy runs that lower the best prediction most
 ///   acquisition_hypervolume.hpp    expected hypervolume improvement
+///   acquisition_joint.hpp          batches that are worth most together
 ///
 /// Apart from these, and not included here because they need nlohmann-json: save.hpp and save_fidelities.hpp,
 /// models as JSON files.

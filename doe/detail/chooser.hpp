@@ -43,17 +43,12 @@ class Chooser {
 
   /// `count` more points by the sampler, fewer when the candidates run out.
   void choose(const Sampler& sampler, int count) {
-    Criterion criterion = sampler(runs_);
-    Eigen::VectorXd score = scores(criterion, X_);
-    for (int k = 0; k < count; ++k) {
-      const Eigen::Index best = best_candidate(score);
-      if (best < 0) return;
-      if (options_.climb) climb(best, criterion, score);
-      accept(best);
-      if (options_.rule != BatchRule::believer || k + 1 == count) continue;
-      criterion = sampler(runs_);
-      score = scores(criterion, X_);
-    }
+    choose_by([&] { return sampler(runs_); }, options_.rule == BatchRule::believer, count);
+  }
+
+  /// The same by a criterion that knows the points chosen before.
+  void choose_jointly(const JointCriterion& joint, int count) {
+    choose_by([&] { return joint(chosen()); }, true, count);
   }
 
   /// Natural units, one per row.
@@ -64,6 +59,22 @@ class Chooser {
   }
 
  private:
+  /// By the criterion that `next` gives, asked for before each choice or once.
+  template <class Next>
+  void choose_by(const Next& next, bool each_time, int count) {
+    Criterion criterion = next();
+    Eigen::VectorXd score = scores(criterion, X_);
+    for (int k = 0; k < count; ++k) {
+      const Eigen::Index best = best_candidate(score);
+      if (best < 0) return;
+      if (options_.climb) climb(best, criterion, score);
+      accept(best);
+      if (!each_time || k + 1 == count) continue;
+      criterion = next();
+      score = scores(criterion, X_);
+    }
+  }
+
   static constexpr double closest = 1e-4;   // to a run, in the unit box
   static constexpr std::size_t climbs = 5;  // per chosen point
 

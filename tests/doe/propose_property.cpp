@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <drawpoint/doe/adaptive.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/lola_voronoi.hpp>
@@ -130,6 +131,51 @@ TEST(Propose, TheBelieverIsAskedAfterEachChoice) {
   const Eigen::MatrixXd X = propose(runs, counting, options);
   EXPECT_EQ(rows, (std::vector<std::size_t>{20, 21, 22}));
   EXPECT_EQ(believed, std::vector<double>(X.col(0).begin(), X.col(0).end()));
+}
+
+// The joint criterion scores the distance to the points chosen alone, which it is told one by one: the second
+// point of the unit square is in the corner farthest from the first, and so on.
+TEST(Propose, AJointSamplerIsToldThePointsChosenSoFar) {
+  const Evaluations runs = some_runs();
+  int fits = 0;
+  std::vector<Eigen::Index> told;
+  const auto apart = [&](const Evaluations&) -> JointCriterion {
+    ++fits;
+    return [&](const Eigen::MatrixXd& chosen) -> Criterion {
+      told.push_back(chosen.rows());
+      return [chosen](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+        if (chosen.rows() == 0) return -X.rowwise().squaredNorm();
+        return detail::nearest_sites(X, chosen).squared_distance;
+      };
+    };
+  };
+  const Eigen::MatrixXd X = propose(runs, apart, {.batch = 4, .rule = BatchRule::joint});
+  EXPECT_EQ(fits, 1);
+  EXPECT_EQ(told, (std::vector<Eigen::Index>{0, 1, 2, 3}));
+  const Eigen::MatrixXd corners = (Eigen::MatrixXd(4, 2) << 0, 0, 1, 1, 0, 1, 1, 0).finished();
+  // A climb ends where differences over 1e-6 of the box show no rise, at a bound it stands on it.
+  EXPECT_LT((X.topRows(2) - corners.topRows(2)).cwiseAbs().maxCoeff(), 1e-6);
+  for (int corner = 2; corner < 4; ++corner)
+    EXPECT_LT((X.bottomRows(2).rowwise() - corners.row(corner)).rowwise().norm().minCoeff(), 1e-6);
+}
+
+TEST(Propose, TheRuleJointAndAJointSamplerBelongTogether) {
+  const Evaluations runs = some_runs();
+  const auto joint = [](const Evaluations& so_far) -> JointCriterion {
+    return [so_far](const Eigen::MatrixXd&) { return peaked(so_far); };
+  };
+  const auto text = [](const auto& call) { return support::thrown_text<std::invalid_argument>(call); };
+  const std::string no_rule =
+      "doe::propose: the sampler is a joint one, but the rule is not joint; allowed is BatchRule::joint; set "
+      "it, or give a doe::Sampler";
+  EXPECT_EQ(text([&] { propose(runs, joint); }), no_rule);
+  EXPECT_EQ(text([&] { propose(runs, peaked, {.rule = BatchRule::joint}); }),
+            "doe::propose: the rule is joint, but the sampler does not ask for the points chosen so far; "
+            "allowed is a doe::JointSampler; give one, or another rule");
+  int calls = 0;
+  const auto f = [&calls](const Eigen::VectorXd& x) { return ++calls + x[0]; };
+  EXPECT_EQ(text([&] { refine(f, runs.problem, runs.X(), joint); }), no_rule);
+  EXPECT_EQ(calls, 0) << "known before the first run";
 }
 
 TEST(Propose, NeverRepeatsARunAndLeavesOutNaN) {
