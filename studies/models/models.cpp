@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/doe/bounds.hpp>
 
 #include <cstdio>
