@@ -13,6 +13,8 @@ endif()
 if(DRAWPOINT_BUILD_CONTACT)
   find_package(fcl 0.7 REQUIRED)
   find_package(hwy 1.0 REQUIRED)
+endif()
+if(DRAWPOINT_BUILD_CONTACT OR DRAWPOINT_BUILD_STUDIES)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5) # FindHDF5 gives paths, which an exported target must not hold
 endif()

@@ -11,19 +11,32 @@ include(GNUInstallDirs)
 
 set(drawpoint_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Drawpoint)
 
-# drawpoint_install(COMPONENT [FOLDER...]): the target, its export file and the headers of its folders.
-function(drawpoint_install component)
+# drawpoint_install_target(COMPONENT): the target and its export file.
+function(drawpoint_install_target component)
   install(TARGETS drawpoint_${component} EXPORT Drawpoint-${component}
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component})
   install(EXPORT Drawpoint-${component} NAMESPACE Drawpoint:: FILE DrawpointTargets-${component}.cmake
           DESTINATION ${drawpoint_cmake_dir} COMPONENT ${component})
+endfunction()
+
+# Headers that the component `record` installs from a folder of another.
+set(drawpoint_headers_elsewhere "^$")
+if(TARGET drawpoint_record)
+  list(JOIN drawpoint_record_headers "|/" drawpoint_headers_elsewhere)
+  string(PREPEND drawpoint_headers_elsewhere "/")
+endif()
+
+# drawpoint_install(COMPONENT [FOLDER...]): the target, its export file and the headers of its folders.
+function(drawpoint_install component)
+  drawpoint_install_target(${component})
   set(folders ${ARGN})
   if(NOT folders)
     set(folders ${component})
   endif()
   foreach(folder IN LISTS folders)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION include/drawpoint/${folder}
-            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" REGEX "/studies/[a-z]+$" EXCLUDE) # rooms, all inside
+            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" REGEX "/studies/[a-z]+$" EXCLUDE # rooms, all inside
+            REGEX "${drawpoint_headers_elsewhere}" EXCLUDE)
   endforeach()
 endfunction()
 
@@ -34,6 +47,10 @@ endforeach()
 file(GLOB drawpoint_examples ${PROJECT_SOURCE_DIR}/tests/consumer/*.cpp ${PROJECT_SOURCE_DIR}/tests/consumer/engine/*.cpp
      ${PROJECT_SOURCE_DIR}/tests/consumer/studies/*.cpp)
 install(FILES ${drawpoint_examples} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint/examples COMPONENT common)
+if(TARGET drawpoint_record)
+  drawpoint_install_target(record)
+  install(FILES ${drawpoint_record_headers} DESTINATION include/drawpoint/engine/record COMPONENT record)
+endif()
 if(DRAWPOINT_BUILD_CONTACT)
   list(TRANSFORM drawpoint_contact_folders PREPEND engine/ OUTPUT_VARIABLE folders)
   drawpoint_install(contact ${folders})
@@ -68,13 +85,14 @@ foreach(component doe kriging pareto)
 endforeach()
 list(JOIN drawpoint_ipopt_components "|" DRAWPOINT_IPOPT_COMPONENTS)
 # pkg-config: drawpoint-COMPONENT.pc, for projects that do not use CMake.
-# drawpoint_pkg_config(COMPONENT DESCRIPTION REQUIRES module... [CFLAGS flag...] [LIBS flag...]): with LIBS of a compiled library,
-# whose file lies beside it.
+# drawpoint_pkg_config(COMPONENT DESCRIPTION REQUIRES module... [CFLAGS flag...] [LIBS flag...]): LIBS is what a compiled library
+# needs, whose file lies beside it.
 function(drawpoint_pkg_config component description)
   cmake_parse_arguments(arg "" "" "REQUIRES;CFLAGS;LIBS" ${ARGN})
   set(folder ${CMAKE_INSTALL_DATADIR}/pkgconfig)
   set(DRAWPOINT_PC_LIBS ${arg_LIBS})
-  if(arg_LIBS)
+  get_target_property(type drawpoint_${component} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
     set(folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
     list(PREPEND DRAWPOINT_PC_LIBS "-L\${prefix}/${CMAKE_INSTALL_LIBDIR}" -ldrawpoint_${component})
   endif()
@@ -99,8 +117,11 @@ drawpoint_pkg_config(doe "Designed experiments over any black box (headers, C++2
 drawpoint_pkg_config(kriging "Regression Kriging (headers, C++20)" REQUIRES "drawpoint-doe ${drawpoint_same}")
 drawpoint_pkg_config(pareto "Multi-objective search (headers, C++20)" REQUIRES "drawpoint-doe ${drawpoint_same}")
 # Neither fcl.pc nor simbody.pc is named: they ask for C++11.
+if(TARGET drawpoint_record)
+  drawpoint_pkg_config(record "Files of numbers, texts and tables in HDF5 (C++20)" REQUIRES hdf5)
+endif()
 if(DRAWPOINT_BUILD_CONTACT)
-  drawpoint_pkg_config(contact "Convex rocks and their contacts (C++20)" REQUIRES "eigen3 >= 3.4" hdf5
+  drawpoint_pkg_config(contact "Convex rocks and their contacts (C++20)" REQUIRES "eigen3 >= 3.4" hdf5 "drawpoint-record ${drawpoint_same}"
                        CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 LIBS -lfcl -lccd -lhwy -pthread)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
@@ -152,10 +173,15 @@ drawpoint_deb(doe "Drawpoint: designed experiments over any black box (headers)"
 drawpoint_deb(kriging "Drawpoint: regression Kriging (headers)" ${toolkit})
 set(CPACK_DEBIAN_KRIGING_PACKAGE_SUGGESTS nlohmann-json3-dev) # for kriging/save.hpp and save_fidelities.hpp alone
 drawpoint_deb(pareto "Drawpoint: multi-objective search (headers)" ${toolkit})
+if(TARGET drawpoint_record)
+  list(APPEND CPACK_COMPONENTS_ALL record)
+  drawpoint_deb(record "Drawpoint: files of numbers, texts and tables in HDF5 (library and headers)"
+                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libhdf5-dev pkg-config)
+endif()
 if(DRAWPOINT_BUILD_CONTACT)
   list(APPEND CPACK_COMPONENTS_ALL contact)
   drawpoint_deb(contact "Drawpoint: convex rocks and their contacts (library and headers)"
-                "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libhwy-dev libhdf5-dev)
+                "libdrawpoint-record-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libhwy-dev libhdf5-dev)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
   list(APPEND CPACK_COMPONENTS_ALL engine)
@@ -165,7 +191,7 @@ endif()
 if(DRAWPOINT_BUILD_STUDIES)
   list(APPEND CPACK_COMPONENTS_ALL studies)
   drawpoint_deb(studies "Drawpoint: a study as a program (library and headers)" "libdrawpoint-kriging-dev ${same_version}"
-                "libdrawpoint-pareto-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev
+                "libdrawpoint-pareto-dev ${same_version}" "libdrawpoint-record-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev
                 libcpp-httplib-dev nlohmann-json3-dev)
   list(APPEND CPACK_COMPONENTS_ALL programs)
   drawpoint_deb(programs "Drawpoint: explore machine designs and strategies by simulation (programs)")

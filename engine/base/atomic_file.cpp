@@ -40,11 +40,16 @@ class TemporaryFile {
     }
   }
 
-  void replace_target() {
+  const std::string& path() const { return path_; }
+
+  void finish() {
     if (::fsync(descriptor_) != 0) fail("write");
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     if (closed != 0) fail("write");
+  }
+
+  void replace_target() {
     if (std::rename(path_.c_str(), target_.c_str()) != 0) fail("replace");
     path_.clear();
   }
@@ -80,9 +85,12 @@ void sync_folder(const std::filesystem::path& target) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& target, std::span<const std::byte> bytes) {
+void write_atomically(const std::filesystem::path& target, std::span<const std::byte> bytes,
+                      const std::function<void(const std::filesystem::path&)>& check) {
   TemporaryFile file(target);
   file.write(bytes);
+  file.finish();
+  if (check) check(file.path());
   file.replace_target();
   sync_folder(target);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <drawpoint/engine/record/table.hpp>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,11 +14,12 @@
 /// Files of named numbers, texts and tables (HDF5), written whole or not at all and verified when read.
 ///
 /// A file has a format name and a version, groups by "/"-paths, attributes (text, real, integer) on groups,
-/// and data: arrays of double, float or int32 with a shape, tables, and lists of text. Data is
-/// gzip-compressed (level 1) in chunks. After the end that HDF5 knows stand 24 bytes: a mark, the length and
-/// the 64-bit FNV-1a checksum of all before; a reader checks them before anything else, seconds per gigabyte.
-/// Other programs (h5dump, h5py, MATLAB) ignore them and read the file as it is. A plain file is for, or of,
-/// other programs: arrays contiguous and uncompressed, nothing after the end, so that its damage is not seen.
+/// and data: arrays of double, float or int32 with a shape, single numbers and texts, tables, and lists of
+/// text. Data is gzip-compressed (level 1) in chunks. After the end that HDF5 knows stand 24 bytes: a mark,
+/// the length and the 64-bit FNV-1a checksum of all before; a reader checks them before anything else,
+/// seconds per gigabyte. Other programs (h5dump, h5py, MATLAB, Octave) ignore them and read the file as it
+/// is. A plain file is for, or of, other programs: arrays contiguous and uncompressed, nothing after the
+/// end, so that its damage is not seen.
 ///
 /// A Writer builds the file in memory; commit() writes it beside the target, syncs it and renames it over the
 /// target, so a full disk, a read-only folder or a killed process leave the old file. Safe to use from
@@ -33,7 +35,7 @@ struct FileKind {
 
 enum class Form { checked, plain };
 
-/// An array as it was stored; empty shape: no values.
+/// An array as it was stored; empty shape: one value.
 template <class T>
 struct Array {
   std::vector<T> values;  ///< row-major
@@ -59,6 +61,8 @@ class Writer {
   void array(const std::string& path, std::span<const std::int32_t> values,
              std::vector<std::size_t> shape = {});
   void texts(const std::string& path, const std::vector<std::string>& values);
+  void scalar(const std::string& path, double value);
+  void scalar(const std::string& path, const std::string& value);
   void table(const std::string& path, const Table& table);
   void group(const std::string& path);
   /// Attributes "unit", "description" and, where there is one, "frame" of data that is written: the axes that
@@ -66,8 +70,9 @@ class Writer {
   void describe(const std::string& path, const std::string& unit, const std::string& description,
                 const std::string& frame = {});
 
-  /// Writes the target; afterwards the writer is spent. Without it nothing appears on the disk.
-  void commit();
+  /// Writes the target; afterwards the writer is spent. Without it nothing appears on the disk. `check` reads
+  /// the written file before that becomes the target; what it throws leaves the target as it was.
+  void commit(const std::function<void(const std::filesystem::path&)>& check = {});
 
  private:
   struct State;

@@ -10,6 +10,8 @@ namespace drawpoint::engine::record::detail {
 
 static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<int, herr_t>,
               "record: handles assume HDF5 1.10 or later, whose identifiers are 64-bit integers");
+static_assert(static_cast<int>(Characters::ascii) == H5T_CSET_ASCII &&
+              static_cast<int>(Characters::utf8) == H5T_CSET_UTF8);
 
 namespace {
 
@@ -27,7 +29,7 @@ Library::Library() : lock_(library_mutex()) {
 
 Library::~Library() { H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_); }
 
-Handle element_type(Element element, std::size_t length) {
+Handle element_type(Element element, std::size_t length, Characters characters) {
   switch (element) {
     case Element::real64:
       return {H5Tcopy(H5T_IEEE_F64LE), H5Tclose};
@@ -43,7 +45,7 @@ Handle element_type(Element element, std::size_t length) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.get(), element_size(Element::text, length));
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  H5Tset_cset(type.get(), static_cast<H5T_cset_t>(characters));
   return type;
 }
 

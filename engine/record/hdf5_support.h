@@ -57,8 +57,12 @@ class Library {
 
 enum class Element : std::int32_t { real64 = 1, real32 = 2, int32 = 3, int64 = 4, text = 5 };
 
+/// What a text is said to be; its bytes are UTF-8 in either. Data is said to be ASCII: Octave loads no other
+/// text, and none of a file that has other.
+enum class Characters : std::int32_t { ascii = 0, utf8 = 1 };
+
 /// The library's type; for text of `length` bytes, at least 1.
-Handle element_type(Element element, std::size_t length = 0);
+Handle element_type(Element element, std::size_t length = 0, Characters characters = Characters::utf8);
 /// As NumPy says: "float64".
 std::string numpy_name(Element element);
 std::size_t element_size(Element element, std::size_t length = 0);

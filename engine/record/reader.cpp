@@ -42,6 +42,14 @@ std::optional<Element> element_of(hid_t type) {
   }
 }
 
+// For reading what is stored: the library converts numbers, and no text into other characters.
+Handle memory_type(hid_t stored, Element element) {
+  const auto characters = element == Element::text && H5Tget_cset(stored) == H5T_CSET_ASCII
+                              ? detail::Characters::ascii
+                              : detail::Characters::utf8;
+  return detail::element_type(element, H5Tget_size(stored), characters);
+}
+
 std::vector<std::size_t> shape_of(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   std::vector<hsize_t> extents(static_cast<std::size_t>(std::max(rank, 0)));
@@ -150,7 +158,7 @@ struct Reader::State {
     Raw raw{*element, H5Tget_size(stored.get()), {}, {}};
     const Handle space(H5Aget_space(found.get()), H5Sclose);
     raw.bytes.resize(raw.length * static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
-    if (H5Aread(found.get(), detail::element_type(*element, raw.length).get(), raw.bytes.data()) < 0)
+    if (H5Aread(found.get(), memory_type(stored.get(), *element).get(), raw.bytes.data()) < 0)
       fail("is damaged at attribute \"" + name + "\" of \"/" + at + "\"" + write_anew);
     return raw;
   }
@@ -188,7 +196,7 @@ struct Reader::State {
       fail("holds " + detail::numpy_name(raw.element) + " at \"/" + at + "\", not " +
            detail::numpy_name(wanted) + "; let it be written as that");
     raw.bytes.resize(raw.length * count_of(raw.shape));
-    const Handle type = detail::element_type(wanted, raw.length);
+    const Handle type = memory_type(Handle(H5Dget_type(data.get()), H5Tclose).get(), wanted);
     if (!raw.bytes.empty() &&
         H5Dread(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.bytes.data()) < 0)
       fail("is damaged at \"/" + at + "\"" + write_anew);

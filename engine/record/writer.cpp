@@ -40,6 +40,11 @@ Handle memory_file(const std::string& name) {
   return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation(H5P_FILE_CREATE).get(), access.get()), H5Fclose};
 }
 
+// One dimension where no shape is given.
+std::vector<std::size_t> shape_or_count(std::vector<std::size_t> shape, std::size_t count) {
+  return shape.empty() ? std::vector{count} : std::move(shape);
+}
+
 // Whole trailing dimensions first, up to about 32 768 numbers a chunk.
 std::vector<hsize_t> chunk_of(const std::vector<std::size_t>& shape) {
   std::size_t room = 32768;
@@ -54,7 +59,7 @@ std::vector<hsize_t> chunk_of(const std::vector<std::size_t>& shape) {
 
 Handle array_creation(const std::vector<std::size_t>& shape, std::size_t count, Form form) {
   Handle list = creation(H5P_DATASET_CREATE);
-  if (count == 0 || form == Form::plain) return list;
+  if (count == 0 || shape.empty() || form == Form::plain) return list;
   const std::vector<hsize_t> chunk = chunk_of(shape);
   H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(list.get());
@@ -143,14 +148,13 @@ void Writer::State::array(const std::string& data_path, Element element, Bytes b
   require_open();
   const std::string path = detail::plain_path(data_path);
   const std::size_t count = bytes.size() / detail::element_size(element, length);
-  if (shape.empty()) shape = {count};
   if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) != count)
     throw std::invalid_argument("record::Writer: \"" + path + "\" has " + std::to_string(count) +
                                 " values, not as many as its shape; give the shape of the values");
   if (exists(path))
     throw std::invalid_argument("record::Writer: \"" + path + "\" is written twice; choose another name");
   group(path.substr(0, path.rfind('/') == std::string::npos ? 0 : path.rfind('/')));
-  const Handle type = detail::element_type(element, length);
+  const Handle type = detail::element_type(element, length, detail::Characters::ascii);
   const std::vector<hsize_t> extents(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
   const Handle list = array_creation(shape, count, form);
@@ -195,18 +199,31 @@ void Writer::integer(const std::string& group, const std::string& name, std::int
 
 void Writer::array(const std::string& path, std::span<const double> values, std::vector<std::size_t> shape) {
   const Library library;
-  state_->array(path, Element::real64, std::as_bytes(values), std::move(shape));
+  state_->array(path, Element::real64, std::as_bytes(values),
+                shape_or_count(std::move(shape), values.size()));
 }
 
 void Writer::array(const std::string& path, std::span<const float> values, std::vector<std::size_t> shape) {
   const Library library;
-  state_->array(path, Element::real32, std::as_bytes(values), std::move(shape));
+  state_->array(path, Element::real32, std::as_bytes(values),
+                shape_or_count(std::move(shape), values.size()));
 }
 
 void Writer::array(const std::string& path, std::span<const std::int32_t> values,
                    std::vector<std::size_t> shape) {
   const Library library;
-  state_->array(path, Element::int32, std::as_bytes(values), std::move(shape));
+  state_->array(path, Element::int32, std::as_bytes(values), shape_or_count(std::move(shape), values.size()));
+}
+
+void Writer::scalar(const std::string& path, double value) {
+  const Library library;
+  state_->array(path, Element::real64, std::as_bytes(std::span(&value, 1)), {});
+}
+
+void Writer::scalar(const std::string& path, const std::string& value) {
+  const Library library;
+  const std::string stored = value.empty() ? std::string(1, '\0') : value;
+  state_->array(path, Element::text, std::as_bytes(std::span(stored)), {}, stored.size());
 }
 
 void Writer::texts(const std::string& path, const std::vector<std::string>& values) {
@@ -258,13 +275,13 @@ void Writer::describe(const std::string& data, const std::string& unit, const st
     state_->attribute(object.get(), "frame", Element::text, std::as_bytes(std::span(frame)));
 }
 
-void Writer::commit() {
+void Writer::commit(const std::function<void(const std::filesystem::path&)>& check) {
   const Library library;
   state_->require_open();
   std::vector<std::byte> image = image_of(state_->file.get());
   state_->file.reset();
   if (state_->form == Form::checked) detail::append_trailer(image);
-  write_atomically(state_->target, image);
+  write_atomically(state_->target, image, check);
 }
 
 }  // namespace drawpoint::engine::record

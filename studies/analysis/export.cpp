@@ -31,12 +31,47 @@ void append_point(std::vector<json>& row, const doe::Problem& problem, const Eig
 }
 
 void append_variables(ExportTable& table, const doe::Problem& problem) {
-  for (const auto& variable : problem.variables) table.columns.push_back({variable.name, variable.unit});
+  for (const auto& variable : problem.variables)
+    table.columns.push_back({variable.name, variable.unit,
+                             variable.levels.empty() ? ColumnType::number : ColumnType::text,
+                             variable.description.empty() ? "variable" : variable.description});
 }
 
-void append_responses(ExportTable& table, const doe::Problem& problem, const std::string& ending) {
+void append_responses(ExportTable& table, const doe::Problem& problem, const std::string& ending,
+                      const std::string& description) {
   for (const auto& response : problem.responses)
-    table.columns.push_back({response.name + ending, response.unit});
+    table.columns.push_back({response.name + ending, response.unit, ColumnType::number, description});
+}
+
+void append_simulated(ExportTable& table, const doe::Problem& problem) {
+  for (const auto& response : problem.responses)
+    table.columns.push_back({response.name, response.unit, ColumnType::number,
+                             response.description.empty() ? "response" : response.description});
+}
+
+constexpr const char* lower_end = "lower end of the interval that should hold 95 of 100 such runs";
+constexpr const char* upper_end = "upper end of the interval that should hold 95 of 100 such runs";
+
+/// What names a run, in both tables of runs.
+std::vector<ExportColumn> run_columns() {
+  return {{"run", "", ColumnType::whole, "number of the run"},
+          {"kind", "", ColumnType::text, "training, adaptive, confirmation, imported or validation"},
+          {"point", "", ColumnType::whole, "number of the point within its kind, from 1"},
+          {"replicate", "", ColumnType::whole, "number of the run at that point, from 0"},
+          {"seed", "", ColumnType::text, "of the run, 64 bits without sign"}};
+}
+
+std::vector<json> run_values(const Run& run) {
+  return {run.id, name_of(run.kind), run.point, run.replicate, std::to_string(run.seed)};
+}
+
+/// Of what is expected of a run, its noise left out (n x responses).
+Eigen::MatrixXd standard_errors(const std::vector<kriging::TransformedModel>& models,
+                                const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd errors(X.rows(), static_cast<Eigen::Index>(models.size()));
+  for (std::size_t j = 0; j < models.size(); ++j)
+    errors.col(static_cast<Eigen::Index>(j)) = models[j].predict(X).variance.cwiseMax(0.0).cwiseSqrt();
+  return errors;
 }
 
 std::string csv_text(const json& value) {
@@ -49,27 +84,18 @@ std::string csv_text(const json& value) {
 }  // namespace
 
 ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs) {
-  ExportTable table{.columns = {{"run", ""},
-                                {"kind", ""},
-                                {"point", ""},
-                                {"replicate", ""},
-                                {"seed", ""},
-                                {"status", ""},
-                                {"reason", ""},
-                                {"seconds", "s"}},
-                    .rows = {}};
+  ExportTable table{.columns = run_columns(), .rows = {}};
+  table.columns.push_back({"status", "", ColumnType::text, "planned, running, done or failed"});
+  table.columns.push_back({"reason", "", ColumnType::text, "why the run failed"});
+  table.columns.push_back({"seconds", "s", ColumnType::number, "wall time of the run"});
   append_variables(table, identity.problem);
-  for (const char* ending : {"", "_predicted", "_lower", "_upper"})
-    append_responses(table, identity.problem, ending);
+  append_simulated(table, identity.problem);
+  append_responses(table, identity.problem, "_predicted", "what the models before the run expected of it");
+  append_responses(table, identity.problem, "_lower", lower_end);
+  append_responses(table, identity.problem, "_upper", upper_end);
   for (const Run& run : runs) {
-    std::vector<json> row = {run.id,
-                             name_of(run.kind),
-                             run.point,
-                             run.replicate,
-                             std::to_string(run.seed),
-                             name_of(run.status),
-                             run.reason,
-                             run.seconds};
+    std::vector<json> row = run_values(run);
+    row.insert(row.end(), {name_of(run.status), run.reason, run.seconds});
     append_point(row, identity.problem, run.x);
     for (const auto* values : {&run.y, &run.predicted, &run.lower, &run.upper}) append_numbers(row, *values);
     table.rows.push_back(std::move(row));
@@ -78,11 +104,10 @@ ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs) {
 }
 
 ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs) {
-  ExportTable table{.columns = {{"run", ""}, {"kind", ""}, {"point", ""}, {"replicate", ""}, {"seed", ""}},
-                    .rows = {}};
+  ExportTable table{.columns = run_columns(), .rows = {}};
   append_variables(table, identity.problem);
   for (const Run& run : runs) {
-    std::vector<json> row = {run.id, name_of(run.kind), run.point, run.replicate, std::to_string(run.seed)};
+    std::vector<json> row = run_values(run);
     append_point(row, identity.problem, run.x);
     table.rows.push_back(std::move(row));
   }
@@ -97,10 +122,14 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
   const pareto::Front& front = predicted.found.front;
   ExportTable table;
   append_variables(table, problem);
-  for (const char* ending : {"", "_lower", "_upper"}) append_responses(table, problem, ending);
-  table.columns.push_back({"success", "1"});
+  append_responses(table, problem, "", "what the models expect of a run");
+  append_responses(table, problem, "_lower", lower_end);
+  append_responses(table, problem, "_upper", upper_end);
+  append_responses(table, problem, "_standard_error", "of what the models expect, noise left out");
+  table.columns.push_back({"success", "1", ColumnType::number, "probability that a run succeeds"});
   if (front.X.rows() == 0) return table;
   const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
+  const Eigen::MatrixXd errors = standard_errors(fitted.models, front.X);
   const Eigen::VectorXd success = predicted.failures.probability_of_success(front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;
@@ -108,16 +137,45 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
     append_numbers(row, front.responses.row(i));
     append_numbers(row, points.lower.row(i));
     append_numbers(row, points.upper.row(i));
+    append_numbers(row, errors.row(i));
     row.push_back(number_or_null(success[i]));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
+ExportTable variables_table(const doe::Problem& problem) {
+  ExportTable table{.columns = {{"name", "", ColumnType::text, "of each variable"},
+                                {"unit", "", ColumnType::text, "of its values and bounds"},
+                                {"lower", "", ColumnType::number, "lower bound, in the variable's unit"},
+                                {"upper", "", ColumnType::number, "upper bound, in the variable's unit"},
+                                {"kind", "", ColumnType::text, "real, integer or categorical"},
+                                {"description", "", ColumnType::text, "what it is"}},
+                    .rows = {}};
+  for (const doe::Variable& v : problem.variables)
+    table.rows.push_back({v.name, v.unit, v.lower, v.upper, to_string(v.kind), v.description});
+  return table;
+}
+
+ExportTable responses_table(const doe::Problem& problem) {
+  ExportTable table{
+      .columns = {{"name", "", ColumnType::text, "of each response"},
+                  {"unit", "", ColumnType::text, "of its values, bounds and limit"},
+                  {"goal", "", ColumnType::text, "minimize, maximize, at_most, at_least or record"},
+                  {"limit", "", ColumnType::number, "of at_most and at_least, in the response's unit"},
+                  {"lower", "", ColumnType::number, "no value lies below, in the response's unit"},
+                  {"upper", "", ColumnType::number, "no value lies above, in the response's unit"},
+                  {"description", "", ColumnType::text, "what it is"}},
+      .rows = {}};
+  for (const doe::Response& r : problem.responses)
+    table.rows.push_back({r.name, r.unit, to_string(r.goal), r.limit, r.lower, r.upper, r.description});
+  return table;
+}
+
 std::string as_csv(const ExportTable& table) {
   doe::detail::CsvRecord record;
-  for (const auto& [name, unit] : table.columns)
-    record.push_back(unit.empty() ? name : name + " [" + unit + "]");
+  for (const ExportColumn& column : table.columns)
+    record.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
   std::string text = doe::detail::csv_line(record);
   for (const auto& row : table.rows) {
     record.clear();
@@ -130,7 +188,8 @@ std::string as_csv(const ExportTable& table) {
 std::string as_json(const std::string& study, const ExportTable& table) {
   nlohmann::ordered_json data = {{"study", study}};
   data["columns"] = nlohmann::ordered_json::array();
-  for (const auto& [name, unit] : table.columns) data["columns"].push_back({{"name", name}, {"unit", unit}});
+  for (const ExportColumn& column : table.columns)
+    data["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
   data["rows"] = nlohmann::ordered_json::array();
   for (const auto& row : table.rows) data["rows"].push_back(row);
   return data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

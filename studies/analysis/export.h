@@ -11,13 +11,18 @@
 
 namespace drawpoint::studies {
 
+enum class ColumnType { number, whole, text };
+
 struct ExportColumn {
   std::string name, unit;  ///< unit "": not a quantity
+  ColumnType type = ColumnType::number;
+  std::string description = {};  ///< for people; not in CSV and JSON
 };
 
 struct ExportTable {
   std::vector<ExportColumn> columns;
-  std::vector<std::vector<nlohmann::json>> rows;  ///< numbers, text, or null where there is nothing
+  /// Numbers, or null where there is none; whole numbers; text.
+  std::vector<std::vector<nlohmann::json>> rows;
 };
 
 /// All runs in order of id: run, kind, point, replicate, seed (text, 64 bits), status, reason, seconds, then
@@ -27,9 +32,14 @@ ExportTable runs_table(const Identity& identity, const std::vector<Run>& runs);
 /// Runs to be made elsewhere: run, kind, point, replicate, seed, then the variables.
 ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs);
 
-/// The predicted front of the present models: the variables, the responses, and of each response the ends
-/// of the 95 % interval of one run. Throws std::runtime_error if the runs do not allow models.
+/// The predicted front of the present models: the variables, the responses, of each response the ends of the
+/// 95 % interval of one run and the standard error of what is predicted, noise left out, and the probability
+/// that a run succeeds. Throws std::runtime_error if the runs do not allow models.
 ExportTable front_table(const Identity& identity, const std::vector<Run>& runs);
+
+/// The problem: a row per variable or response.
+ExportTable variables_table(const doe::Problem& problem);
+ExportTable responses_table(const doe::Problem& problem);
 
 /// RFC 4180, the first line being "name [unit]"; every double reads back as the same bits.
 std::string as_csv(const ExportTable& table);

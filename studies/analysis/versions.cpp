@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/store/sqlite_version.h>
+#include <drawpoint/engine/record/hdf5_version.hpp>
 #include <drawpoint/kriging/detail/ipopt_version.hpp>
 
 namespace drawpoint::studies {
@@ -22,7 +23,10 @@ std::string version_text(const Study& study) {
   std::string text = std::string("Drawpoint ") + DRAWPOINT_VERSION + "\ncommit " + commit() + "\ncompiler " +
                      __VERSION__ + "\nEigen " + eigen_version() + "\nIpopt " +
                      kriging::detail::ipopt_version() + "\nSQLite " + sqlite_version();
-  for (const std::string& library : study.libraries) text += "\n" + library;
+  const std::string hdf5 = "HDF5 " + engine::record::hdf5_version();
+  text += "\n" + hdf5;
+  for (const std::string& library : study.libraries)
+    if (library != hdf5) text += "\n" + library;
   return text;
 }
 

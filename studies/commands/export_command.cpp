@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/export.h>
+#include <drawpoint/studies/analysis/whole_study.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/output_file.h>
 #include <drawpoint/studies/runs/session.h>
@@ -22,11 +23,32 @@ void write_table(const Study& study, const ExportTable& table, const ExportSetti
   std::fprintf(stderr, "%zu rows in %s\n", table.rows.size(), settings.file.c_str());
 }
 
+namespace {
+
+/// Problem, runs and front in one file.
+void export_study(const Identity& identity, const std::vector<Run>& runs, const ExportSettings& wanted) {
+  if (wanted.file.empty())
+    throw UsageError(
+        "--format hdf5: such a file does not go to standard output; name one with --file, such as --file "
+        "study.h5");
+  if (!wanted.what.empty())
+    throw UsageError("--what: an HDF5 file holds the runs and the front; leave it out");
+  const std::string no_front = write_whole_study(wanted.file, identity, runs);
+  std::fprintf(stderr, "the study with %zu runs in %s\n", runs.size(), wanted.file.c_str());
+  if (!no_front.empty()) std::fprintf(stderr, "without a front: %s\n", no_front.c_str());
+}
+
+}  // namespace
+
 int export_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   const ExportSettings& wanted = settings.exported;
   if (!wanted.file.empty()) check_output_file(folder, wanted.file);
+  if (wanted.format == "hdf5") {
+    export_study(store.identity(), store.runs(), wanted);
+    return 0;
+  }
   write_table(study,
               wanted.what == "front" ? front_table(store.identity(), store.runs())
                                      : runs_table(store.identity(), store.runs()),

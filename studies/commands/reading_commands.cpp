@@ -10,11 +10,13 @@ namespace {
 constexpr int most_points = 1'000'000;
 constexpr int most_run = 1'000'000'000;
 
-void add_export_options(CLI::App& command, ExportSettings& settings) {
+void add_export_options(CLI::App& command, const Study& study, ExportSettings& settings) {
   command.add_option("--what", settings.what, "every run, or the front that the models predict")
       ->check(CLI::IsMember({"runs", "front"}))
-      ->capture_default_str();
-  add_table_options(command, settings);
+      ->default_str("runs");
+  add_table_options(command, settings, {"csv", "json", "hdf5"});
+  command.footer("hdf5 is the whole study in one file: problem, runs and front.\nExample: " + study.name +
+                 " export --format hdf5 --file " + study.name + ".h5");
 }
 
 void add_front_options(CLI::App& command, const Study& study, FrontSettings& settings) {
@@ -98,9 +100,12 @@ void add_folder_option(CLI::App& command, Settings& settings) {
       ->capture_default_str();
 }
 
-void add_table_options(CLI::App& command, ExportSettings& settings) {
-  command.add_option("--format", settings.format, "comma-separated values, or one JSON object")
-      ->check(CLI::IsMember({"csv", "json"}))
+void add_table_options(CLI::App& command, ExportSettings& settings, const std::vector<std::string>& formats) {
+  command
+      .add_option("--format", settings.format,
+                  formats.size() > 2 ? "comma-separated values, one JSON object, or an HDF5 file"
+                                     : "comma-separated values, or one JSON object")
+      ->check(CLI::IsMember(formats))
       ->capture_default_str();
   command.add_option("--file", settings.file, "file to write (default: standard output)");
 }
@@ -144,7 +149,7 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
   CLI::App& exported =
       commands.add("export", "write the runs or the front as a table for other programs", export_command);
   add_folder_option(exported, settings);
-  add_export_options(exported, settings.exported);
+  add_export_options(exported, study, settings.exported);
 }
 
 }  // namespace drawpoint::studies

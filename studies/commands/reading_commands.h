@@ -20,7 +20,8 @@ std::string folder_complaint(const std::string& text);
 void add_folder_option(CLI::App& command, Settings& settings);
 
 /// --format and --file of a table.
-void add_table_options(CLI::App& command, ExportSettings& settings);
+void add_table_options(CLI::App& command, ExportSettings& settings,
+                       const std::vector<std::string>& formats = {"csv", "json"});
 
 /// --out and --json.
 void add_folder_options(CLI::App& command, Settings& settings);

@@ -32,6 +32,7 @@ std::vector<std::string> words_for_ffmpeg(const Video& video, const fs::path& fr
   std::snprintf(rate, sizeof rate, "%.9g", video.fps);
   std::vector<std::string> words = {"-hide_banner",
                                     "-nostdin",
+                                    "-xerror",  // also of a disk that fills at the end: a cut film is none
                                     "-loglevel",
                                     "warning",
                                     "-y",
@@ -83,8 +84,9 @@ void film(const Video& video, const fs::path& folder, const fs::path& ffmpeg) {
     ends = pool.wait(std::chrono::milliseconds(100));
   }
   if (ends.front().wait_status != 0)
-    throw std::runtime_error("replay: " + video.file.string() + " was not made: ffmpeg " +
-                             doe::describe(ends.front()) + "; " + last_words(printed));
+    throw std::runtime_error(
+        "replay: " + video.file.string() + " was not made: ffmpeg " + doe::describe(ends.front()) +
+        "; check the free space in its folder, or name another file; " + last_words(printed));
   unfinished.replace_target();
 }
 

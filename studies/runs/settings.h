@@ -36,8 +36,8 @@ struct AskSettings {
 
 /// Options of `export`; of `ask` but for `what`.
 struct ExportSettings {
-  std::string what = "runs";        ///< or front
-  std::string format = "csv";       ///< or json
+  std::string what = {};            ///< runs, which empty stands for, or front
+  std::string format = "csv";       ///< or json; of `export` also hdf5, the whole study
   std::filesystem::path file = {};  ///< empty: standard output
 };
 

@@ -53,6 +53,7 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " confirm --x=0.5,26" + out(), 2, "y = 26 deg is outside its range -5 to 25 deg");
   expect_refused(study + " confirm" + out(), 1, "there is no study in");
   expect_refused(study + " export --format xls" + out(), 2, "--format");
+  expect_refused(study + " ask --format hdf5" + out(), 2, "--format");
   expect_refused(study + " export" + out(), 1, "there is no study in");
   expect_refused(study + " frobnicate", 2,
                  "unknown command \"frobnicate\"; the commands are run, confirm, ask, tell, status, live, "
@@ -283,51 +284,6 @@ TEST_F(BadInput, AFullStandardOutput) {
   const Ended end = run(study + " evaluate --x 0.1,0.1 > /dev/full");
   EXPECT_EQ(end.code, 1);
   EXPECT_TRUE(contains(end.err, "cannot write to standard output"));
-}
-
-/// Commands in a mount namespace of their own, with a small file system at dir(); skipped where the system
-/// allows none.
-class SmallDisk : public BadInput {
- protected:
-  void SetUp() override {
-    std::filesystem::create_directories(dir());
-    if (run(inside("true", "3m")).code != 0) GTEST_SKIP() << "no mount namespaces here";
-  }
-  std::string inside(const std::string& script, const std::string& size) const {
-    return std::string("unshare ") + (geteuid() == 0 ? "-m" : "-rm") +
-           " sh -c 'mount -t tmpfs -o size=" + size + " tmpfs " + dir().string() + " && " + script + "'";
-  }
-};
-
-/// 3 MiB, of which 1 MiB must stay free. "large": logs of 0.3 MB, so the study stops before the disk is full.
-/// "huge": logs of 2 MB, so the second run meets the full disk itself.
-TEST_F(SmallDisk, AFullDiskStopsTheStudyAndMoreSpaceLetsItGoOn) {
-  for (const std::string size : {"large", "huge"}) {
-    const std::string command = with(size) + "--runs 8 --validation 2 --jobs 1" + out();
-    const std::string status = study + " status --json" + out();
-    const Ended end = run(inside(command + "; echo code $?; " + status + "; mount -o remount,size=90m " +
-                                     dir().string() + " && " + command + " && " + status,
-                                 "3m"));
-    EXPECT_EQ(end.code, 0) << end.err;
-    EXPECT_TRUE(contains(end.err,
-                         "is full; free some space and give the same command again; finished runs are kept"));
-    EXPECT_TRUE(contains(end.out, "code 1\n"));
-    const std::size_t start = end.out.find('{', end.out.find("code 1"));
-    const auto before =
-        nlohmann::json::parse(end.out.substr(start, end.out.find('\n', start) - start), nullptr, false);
-    EXPECT_GE(before["training"]["done"].get<int>(), size == "large" ? 5 : 1);
-    EXPECT_EQ(before["training"]["failed"], 0);
-    EXPECT_EQ(before["training"]["running"], 0);
-    EXPECT_EQ(end.json()["training"]["done"], 8);
-    EXPECT_EQ(end.json()["validation"]["done"], 2);
-  }
-}
-
-TEST_F(SmallDisk, AReadOnlyFolder) {
-  const Ended end = run(inside("mount -o remount,ro " + dir().string() + " && exec " + study + out(), "3m"));
-  EXPECT_EQ(end.code, 1);
-  EXPECT_TRUE(
-      contains(end.err, "Read-only file system; allow writing there, or choose another folder with --out"));
 }
 
 }  // namespace

@@ -135,6 +135,21 @@ TEST_F(FormulaDemo, ExportsRunsAndFront) {
   EXPECT_EQ(front["columns"][4]["unit"], "kg/s");
   EXPECT_EQ(front["columns"][7]["name"], "production_lower");
   for (const auto& row : front["rows"]) EXPECT_LT(row[7].get<double>(), row[10].get<double>());
+  EXPECT_EQ(front["columns"][13]["name"], "production_standard_error");
+}
+
+TEST_F(FormulaDemo, ExportsTheWholeStudy) {
+  ASSERT_EQ(run(demo + " --runs 20 --validation 0" + out()).code, 0);
+  const std::string file = (place_ / "study.h5").string(), again = (place_ / "again.h5").string();
+  const std::string wanted = demo + " export --format hdf5" + out();
+  const Ended end = run(wanted + " --file " + file);
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_TRUE(contains(end.err, "the study with 20 runs in " + file));
+  EXPECT_EQ(run(wanted + " --file " + again).code, 0);
+  EXPECT_EQ(contents(file), contents(again));
+  expect_refused(wanted, 2, "does not go to standard output; name one with --file");
+  expect_refused(wanted + " --what front --file " + file, 2, "holds the runs and the front; leave it out");
+  expect_refused(wanted + " --file " + database().string(), 2, "is where the study keeps its own");
 }
 
 TEST_F(FormulaDemo, ShowsTheFrontInTheTerminal) {

@@ -89,7 +89,7 @@ TEST_F(Front, CompletesStudiesCommandsOptionsAndValues) {
   EXPECT_EQ(lines("complete --v"), Lines{"--version"});
   EXPECT_EQ(lines("complete formula_demo re"), (Lines{"report", "replay", "rerun-responses"}));
   EXPECT_EQ(lines("complete formula_demo --ru"), Lines{"--runs"}) << "of run, which may be left out";
-  EXPECT_EQ(lines("complete formula_demo export --format ''"), (Lines{"csv", "json"}));
+  EXPECT_EQ(lines("complete formula_demo export --format ''"), (Lines{"csv", "json", "hdf5"}));
   EXPECT_EQ(lines("complete formula_demo export --format = j"), Lines{"json"}) << "as bash splits it";
   EXPECT_EQ(lines("complete formula_demo export --file ''"), Lines{}) << "a file";
   EXPECT_EQ(lines("complete lhd_loading --materials = l"), Lines{"lindmark2016"});

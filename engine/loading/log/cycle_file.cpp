@@ -11,29 +11,35 @@ using record::Reader;
 using record::Table;
 using record::Writer;
 
+struct NumberName {
+  const char* name;
+  LogNumber meaning;
+};
+
 // One list of the plan's and the cycle's numbers serves writing and reading.
 template <class PlanOrConst, class Visit>
 void visit_numbers(PlanOrConst& plan, Visit&& visit) {
-  visit("y_m", plan.y);
-  visit("depth_m", plan.depth);
-  visit("height_m", plan.height);
-  visit("tilt_rad", plan.tilt);
-  visit("slope_rad", plan.slope);
-  visit("toe_m", plan.toe);
-  visit("volume_centre_m", plan.volume_centre);
-  visit("crest_m", plan.crest);
-  visit("height_limit_m", plan.height_limit);
-  visit("area_m2", plan.area);
-  visit("phi_max_rad", plan.phi_max);
+  visit({"y_m", {"m", "lateral place of the bucket's middle"}}, plan.y);
+  visit({"depth_m", {"m", "horizontal thickness of the slice"}}, plan.depth);
+  visit({"height_m", {"m", "of the slice"}}, plan.height);
+  visit({"tilt_rad", {"rad", "of the bucket at the end of the lift"}}, plan.tilt);
+  visit({"slope_rad", {"rad", "of the pile in the row"}}, plan.slope);
+  visit({"toe_m", {"m", "x of the pile's toe in the row"}}, plan.toe);
+  visit({"volume_centre_m", {"m", "x of the row's centre of volume"}}, plan.volume_centre);
+  visit({"crest_m", {"m", "highest point of the row's contour"}}, plan.crest);
+  visit({"height_limit_m", {"m", "largest height of the slice"}}, plan.height_limit);
+  visit({"area_m2", {"m²", "of the slice"}}, plan.area);
+  visit({"phi_max_rad", {"rad", "angle of the bucket at the end of the curl"}}, plan.phi_max);
 }
 
 template <class CycleOrConst, class Visit>
 void visit_cycle_numbers(CycleOrConst& cycle, Visit&& visit) {
-  visit("t_start_s", cycle.t_start);
-  visit("t_end_s", cycle.t_end);
-  visit("loaded_mass_kg", cycle.loaded_mass);
-  visit("front_mass_kg", cycle.front_mass);
-  visit("spilled_mass_kg", cycle.spilled_mass);
+  visit({"t_start_s", {"s", "start of the drive-in"}}, cycle.t_start);
+  visit({"t_end_s", {"s", "end of backing out"}}, cycle.t_end);
+  visit({"loaded_mass_kg", {"kg", "that the bucket carries once it stands"}}, cycle.loaded_mass);
+  visit({"front_mass_kg", {"kg", "in front of the pile at the end of the cycle"}}, cycle.front_mass);
+  visit({"spilled_mass_kg", {"kg", "of that, rocks that did not lie there before the run"}},
+        cycle.spilled_mass);
 }
 
 struct ArrayName {
@@ -51,7 +57,9 @@ void visit_arrays(CycleOrConst& cycle, Visit&& visit) {
 }
 
 void write_plan(Writer& file, const std::string& group, const Plan& plan) {
-  visit_numbers(plan, [&](const char* name, double value) { file.number(group, name, value); });
+  visit_numbers(plan, [&](const NumberName& number, double value) {
+    write_number(file, group + "/" + number.name, value, &number.meaning);
+  });
   file.text(group, "message", plan.message);
   file.integer(group, "feasible", plan.feasible);
   file.integer(group, "limited", plan.limited);
@@ -70,7 +78,8 @@ void write_plan(Writer& file, const std::string& group, const Plan& plan) {
 
 Plan read_plan(const Reader& file, const std::string& group) {
   Plan plan;
-  visit_numbers(plan, [&](const char* name, double& value) { value = file.number(group, name); });
+  visit_numbers(
+      plan, [&](const NumberName& number, double& value) { value = read_number(file, group, number.name); });
   plan.message = file.text(group, "message");
   plan.feasible = file.integer(group, "feasible") != 0;
   plan.limited = file.integer(group, "limited") != 0;
@@ -129,7 +138,9 @@ void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycl
     contradiction(group + " has " + std::to_string(cycle.column_heights.size()) + " column heights for " +
                   std::to_string(nx) + " x " + std::to_string(ny) + " columns");
   file.integer(group, "number", cycle.number);
-  visit_cycle_numbers(cycle, [&](const char* name, double value) { file.number(group, name, value); });
+  visit_cycle_numbers(cycle, [&](const NumberName& number, double value) {
+    write_number(file, group + "/" + number.name, value, &number.meaning);
+  });
   visit_arrays(cycle, [&](const ArrayName& data, const std::vector<double>& values) {
     const std::string path = group + "/" + data.name;
     file.array(path, std::span(values));
@@ -149,7 +160,8 @@ void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycl
 CycleRecord read_cycle(const Reader& file, const std::string& group) {
   CycleRecord cycle;
   cycle.number = static_cast<int>(file.integer(group, "number"));
-  visit_cycle_numbers(cycle, [&](const char* name, double& value) { value = file.number(group, name); });
+  visit_cycle_numbers(
+      cycle, [&](const NumberName& number, double& value) { value = read_number(file, group, number.name); });
   visit_arrays(cycle, [&](const ArrayName& data, std::vector<double>& values) {
     values = file.doubles(group + "/" + data.name).values;
   });

@@ -6,8 +6,9 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-// Version 5 added the descriptions of signals, the masses of bodies and the mass in the bucket.
-const record::FileKind kind{"drawpoint loading log", 5, 4};
+// Version 5 added the descriptions of signals, the masses of bodies and the mass in the bucket; from version
+// 6 on single numbers and texts are data, with units, where they were attributes.
+const record::FileKind kind{"drawpoint loading log", 6, 4};
 
 }  // namespace
 
@@ -28,6 +29,33 @@ void require_fit(const record::Reader& file, bool fits, const std::string& data,
                              "; let the run be written anew");
 }
 
+void write_number(record::Writer& file, const std::string& path, double value, const LogNumber* meaning) {
+  file.scalar(path, value);
+  if (meaning) file.describe(path, meaning->unit, meaning->description);
+}
+
+double read_number(const record::Reader& file, const std::string& group, const std::string& name) {
+  if (file.version() < 6) return file.number(group, name);
+  const auto values = file.doubles(group + "/" + name).values;
+  require_fit(file, values.size() == 1, group + "/" + name, "one number");
+  return values.front();
+}
+
+namespace {
+
+std::vector<std::string> names_in(const record::Reader& file, const std::string& group) {
+  return file.version() < 6 ? file.attributes(group) : file.children(group);
+}
+
+std::string read_text(const record::Reader& file, const std::string& group, const std::string& name) {
+  if (file.version() < 6) return file.text(group, name);
+  const auto texts = file.texts(group + "/" + name);
+  require_fit(file, texts.size() == 1, group + "/" + name, "one text");
+  return texts.front();
+}
+
+}  // namespace
+
 void write_log(const std::filesystem::path& path, const LoadingLog& log) {
   record::Writer file(path, kind);
   file.integer("/", "completed", log.completed);
@@ -35,8 +63,9 @@ void write_log(const std::filesystem::path& path, const LoadingLog& log) {
   file.group("numbers");
   file.group("texts");
   file.group("cycles");
-  for (const auto& [name, value] : log.numbers) file.number("numbers", name, value);
-  for (const auto& [name, value] : log.texts) file.text("texts", name, value);
+  for (const auto& [name, value] : log.numbers)
+    write_number(file, "numbers/" + name, value, log_number(name));
+  for (const auto& [name, value] : log.texts) file.scalar("texts/" + name, value);
   file.table("signals", log.signals);
   file.describe("signals/values", "signals/units", "a row per step, a column per name in signals/columns");
   for (std::size_t k = 0; k < log.cycles.size(); ++k) write_cycle(file, numbered("cycles", k), log.cycles[k]);
@@ -49,8 +78,9 @@ LoadingLog read_log(const std::filesystem::path& path) {
   LoadingLog log;
   log.completed = file.integer("/", "completed") != 0;
   log.message = file.text("/", "message");
-  for (const std::string& name : file.attributes("numbers")) log.numbers[name] = file.number("numbers", name);
-  for (const std::string& name : file.attributes("texts")) log.texts[name] = file.text("texts", name);
+  for (const std::string& name : names_in(file, "numbers"))
+    log.numbers[name] = read_number(file, "numbers", name);
+  for (const std::string& name : names_in(file, "texts")) log.texts[name] = read_text(file, "texts", name);
   log.signals = file.table("signals");
   const std::size_t cycles = file.children("cycles").size();
   for (std::size_t k = 0; k < cycles; ++k) log.cycles.push_back(read_cycle(file, numbered("cycles", k)));

@@ -80,8 +80,8 @@ struct LoadingLog {
 /// std::invalid_argument if the log contradicts itself.
 void write_log(const std::filesystem::path& path, const LoadingLog& log);
 
-/// Of this version and of version 4. Throws std::runtime_error if the file is missing, truncated, damaged or
-/// no loading log.
+/// Of this version and of versions 4 and 5. Throws std::runtime_error if the file is missing, truncated,
+/// damaged or no loading log.
 LoadingLog read_log(const std::filesystem::path& path);
 
 }  // namespace drawpoint::engine::loading

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/loading/log/log_numbers.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <string>
 
-/// The parts of a loading log in its file. Every array of numbers has the attributes "unit", "description"
-/// and, where its numbers are in axes, "frame".
+/// The parts of a loading log in its file. Every number and array of numbers has the attributes "unit",
+/// "description" and, where its numbers are in axes, "frame".
 namespace drawpoint::engine::loading {
 
 /// "group/0007".
@@ -26,6 +27,11 @@ inline constexpr const char* world_frame =
 /// As described in CycleRecord; below `group`.
 void write_cycle(record::Writer& file, const std::string& group, const CycleRecord& cycle);
 CycleRecord read_cycle(const record::Reader& file, const std::string& group);
+
+/// A number as data with its unit and description, and one of a file, which had it as an attribute up to
+/// version 5.
+void write_number(record::Writer& file, const std::string& path, double value, const LogNumber* meaning);
+double read_number(const record::Reader& file, const std::string& group, const std::string& name);
 
 /// Below "scene".
 void write_scene(record::Writer& file, const SceneRecord& scene);

@@ -8,6 +8,7 @@
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
+#include <drawpoint/engine/record/file.hpp>
 
 using namespace drawpoint::engine;
 using namespace drawpoint::engine::loading;
@@ -50,6 +51,22 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
             most_iterations(small_case().world.solver, log.numbers.at("most_contact_points")));
   EXPECT_EQ(cycle.stages.size(), 4u);
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
+}
+
+// Who opens the file in another program finds the unit of every number, and what it is.
+TEST(LoadingCycle, EveryNumberOfTheLogSaysWhatItIs) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "drawpoint_cycle_log.h5";
+  write_log(path, cycle_log());
+  const record::Reader file(path, {"drawpoint loading log", 6});
+  const std::vector<std::string> names = file.children("numbers");
+  EXPECT_EQ(names.size(), cycle_log().numbers.size());
+  for (const std::string& name : names) {
+    const std::vector<std::string> expected{"description", "unit"};
+    EXPECT_EQ(file.attributes("numbers/" + name), expected) << name;
+  }
+  EXPECT_EQ(file.text("numbers/hydraulic_pressure", "unit"), "Pa");
+  EXPECT_EQ(read_log(path).numbers, cycle_log().numbers);
+  std::filesystem::remove(path);
 }
 
 // Bounds that any loading cycle keeps: solid rock fills no more than the heaped bucket; to bring a tonne to

@@ -87,7 +87,8 @@ LoadingLog example_log() {
   return log;
 }
 
-// Paths of all arrays: what has no children, but for the two groups that hold attributes alone.
+// Paths of all arrays: what has no children, but for the two groups of numbers and texts, which each log names
+// as it likes.
 std::vector<std::string> arrays_below(const record::Reader& file, const std::string& group) {
   std::vector<std::string> paths;
   for (const std::string& name : file.children(group)) {
@@ -190,9 +191,10 @@ TEST(LoadingLog, KeepsTheScene) {
 TEST(LoadingLog, EveryArraySaysWhatItIs) {
   const Folder folder;
   write_log(folder.path / "run.h5", example_log());
-  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 5});
+  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 6});
   const std::vector<std::string> arrays = arrays_below(file, "");
-  EXPECT_EQ(arrays.size(), 4u + 2 * 11 + 2 + 5 + 5) << "signals, two cycles, shapes, bodies, frames";
+  EXPECT_EQ(arrays.size(), 4u + 2 * (11 + 5 + 11) + 2 + 5 + 5)
+      << "signals, two cycles, shapes, bodies, frames";
   for (const std::string& path : arrays) {
     const std::string name = path.substr(path.rfind('/') + 1);
     if (name == "columns" || name == "units" || name == "descriptions") continue;
@@ -204,15 +206,37 @@ TEST(LoadingLog, EveryArraySaysWhatItIs) {
   EXPECT_EQ(file.text("scene/frames/poses", "frame"),
             "world: x from the machine into the drift, y to the left, z up, floor at z = 0");
   EXPECT_EQ(file.text("cycles/0001/column_heights_m", "unit"), "m");
+  EXPECT_EQ(file.text("cycles/0001/loaded_mass_kg", "unit"), "kg");
+  EXPECT_EQ(file.text("numbers/density", "unit"), "kg/m³");
+  EXPECT_EQ(file.doubles("numbers/density").values, std::vector<double>{4500});
+  EXPECT_EQ(file.texts("texts/machine"), std::vector<std::string>{"LH621 class"});
 }
 
-// As version 4 wrote it: no descriptions, no masses. What is missing is not a number.
+// As version 4 wrote it: numbers and texts as attributes, no descriptions, no masses. What is missing is not a
+// number.
 TEST(LoadingLog, OfTheVersionBeforeIsRead) {
   const Folder folder;
   record::Writer file(folder.path / "old.h5", {"drawpoint loading log", 4});
   file.integer("/", "completed", 1);
   file.text("/", "message", "");
-  for (const char* group : {"numbers", "texts", "cycles"}) file.group(group);
+  file.number("numbers", "density", 4500);
+  file.text("texts", "machine", "LH621 class");
+  file.number("cycles/0000", "loaded_mass_kg", 3000);
+  for (const char* name : {"t_start_s", "t_end_s", "front_mass_kg", "spilled_mass_kg"})
+    file.number("cycles/0000", name, 1);
+  file.integer("cycles/0000", "number", 1);
+  for (const char* name :
+       {"loaded_rock_masses_kg", "planned_x_m", "planned_z_m", "contour_x_m", "contour_z_m"})
+    file.array("cycles/0000/" + std::string(name), std::span<const double>());
+  file.array("cycles/0000/column_heights_m", std::span<const double>(), {0, 0});
+  file.table("cycles/0000/stages", {});
+  for (const char* name : {"y_m", "depth_m", "height_m", "tilt_rad", "slope_rad", "toe_m", "volume_centre_m",
+                           "crest_m", "height_limit_m", "area_m2", "phi_max_rad"})
+    file.number("cycles/0000/plan", name, 0.5);
+  file.text("cycles/0000/plan", "message", "");
+  for (const char* name : {"feasible", "limited", "row", "curl", "lift"})
+    file.integer("cycles/0000/plan", name, 0);
+  file.array("cycles/0000/plan/corners_x_z_phi", std::span<const double>(std::vector<double>(15)), {5, 3});
   file.texts("signals/columns", {"time"});
   file.texts("signals/units", {"s"});
   file.array("signals/values", std::span<const double>(std::vector<double>{0.01, 0.02}), {2, 1});
@@ -231,6 +255,11 @@ TEST(LoadingLog, OfTheVersionBeforeIsRead) {
   const LoadingLog log = read_log(folder.path / "old.h5");
   EXPECT_EQ(log.signals.columns.front().name, "time");
   EXPECT_EQ(log.signals.columns.front().description, "");
+  EXPECT_EQ(log.numbers.at("density"), 4500);
+  EXPECT_EQ(log.texts.at("machine"), "LH621 class");
+  ASSERT_EQ(log.cycles.size(), 1u);
+  EXPECT_EQ(log.cycles.front().loaded_mass, 3000);
+  EXPECT_EQ(log.cycles.front().plan.depth, 0.5);
   EXPECT_EQ(log.signals.values, (std::vector<double>{0.01, 0.02}));
   ASSERT_EQ(log.scene.bodies.size(), 1u);
   EXPECT_TRUE(std::isnan(log.scene.bodies.front().mass));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written is what is read, for every kind of content, and other programs see plain HDF5.
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -95,6 +96,84 @@ TEST_F(RecordFile, KeepsTables) {
   EXPECT_EQ(back.columns[1].unit, "N m");
   EXPECT_EQ(back.column("torque")[999], 999e5);
   EXPECT_EQ(reader.table("bare").rows(), 0u);
+}
+
+TEST_F(RecordFile, KeepsScalars) {
+  Writer writer(file(), kind);
+  writer.scalar("mass", 2.5);
+  writer.describe("mass", "kg", "of a rock");
+  writer.scalar("name", "drift é");
+  writer.scalar("empty", "");
+  writer.commit();
+  const Reader reader(file(), kind);
+  EXPECT_EQ(reader.doubles("mass").values, std::vector<double>{2.5});
+  EXPECT_TRUE(reader.doubles("mass").shape.empty());
+  EXPECT_EQ(reader.texts("name"), std::vector<std::string>{"drift é"});
+  EXPECT_EQ(reader.texts("empty"), std::vector<std::string>{""});
+}
+
+// What Octave's `load` needs of a file: no text in data that says to be UTF-8, none of variable length, no
+// compound. Attributes it does not look at.
+TEST_F(RecordFile, TextInDataIsWhatOctaveLoads) {
+  Writer writer(file(), kind);
+  writer.texts("list", {"a", "µm"});
+  writer.scalar("one", "µm");
+  writer.commit();
+  const hid_t read = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const char* name : {"list", "one"}) {
+    const hid_t data = H5Dopen2(read, name, H5P_DEFAULT), type = H5Dget_type(data);
+    EXPECT_EQ(H5Tget_class(type), H5T_STRING) << name;
+    EXPECT_EQ(H5Tget_cset(type), H5T_CSET_ASCII) << name;
+    EXPECT_EQ(H5Tis_variable_str(type), 0) << name;
+    H5Tclose(type);
+    H5Dclose(data);
+  }
+  H5Fclose(read);
+}
+
+// As programs wrote them until the texts of data were said to be ASCII, and as h5py writes a str.
+TEST_F(RecordFile, ReadsTextsOfEitherKind) {
+  Writer writer(file(), kind, Form::plain);
+  writer.commit();
+  const hid_t made = H5Fopen(file().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+  H5Tset_size(type, 3);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  for (const H5T_cset_t characters : {H5T_CSET_ASCII, H5T_CSET_UTF8}) {
+    H5Tset_cset(type, characters);
+    const char* name = characters == H5T_CSET_UTF8 ? "utf8" : "ascii";
+    const hid_t data = H5Dcreate2(made, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t attribute = H5Acreate2(made, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, "abc"), 0);
+    EXPECT_GE(H5Awrite(attribute, type, "def"), 0);
+    H5Aclose(attribute);
+    H5Dclose(data);
+  }
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(made);
+  const Reader reader(file(), kind, Form::plain);
+  for (const char* name : {"utf8", "ascii"}) {
+    EXPECT_EQ(reader.texts(name), std::vector<std::string>{"abc"}) << name;
+    EXPECT_EQ(reader.text("/", name), "def") << name;
+  }
+}
+
+TEST_F(RecordFile, ACheckThatFailsLeavesTheOldFile) {
+  for (const double x : {1.0, 2.0}) {
+    Writer writer(file(), kind);
+    writer.number("/", "x", x);
+    const auto check = [&](const fs::path& written) {
+      EXPECT_EQ(Reader(written, kind).number("/", "x"), x);
+      if (x == 2.0) throw std::runtime_error("not as it should be");
+    };
+    if (x == 1.0)
+      writer.commit(check);
+    else
+      EXPECT_THROW(writer.commit(check), std::runtime_error);
+    EXPECT_EQ(Reader(file(), kind).number("/", "x"), 1.0);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(file().parent_path()), {}), 1);
 }
 
 TEST_F(RecordFile, CompressesWhatRepeats) {
