@@ -48,7 +48,7 @@
 ///
 /// The problem and its runs:
 ///   problem.hpp                      named variables in a box, named responses with a goal each
-///   bounds.hpp                       the box as two vectors
+///   bounds.hpp                       the box as two vectors, the levels of categories
 ///   black_box.hpp                    what may be called: f(x), f(x, seed), f(x, seed, stop), f(X, seeds)
 ///   outcome.hpp                      what a run gives: values, or a failure with its reason
 ///   value_and_jacobian.hpp           what a function with derivatives gives
@@ -84,7 +84,7 @@
 ///
 /// Adaptive sampling:
 ///   adaptive.hpp                     first design, then batches where a criterion says, until it suffices
-///   criterion.hpp                    what scores a candidate point, and mixes of criteria
+///   criterion.hpp                    what scores a candidate point, alone or with those of its batch; mixes
 ///   lola_voronoi.hpp                 run more where the response bends and where there are holes
 ///   propose.hpp                      the best of many candidates, moved uphill, kept apart
 ///   propose_options.hpp              batch, candidates, rule, where it is allowed

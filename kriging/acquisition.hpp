@@ -30,9 +30,9 @@
 #include <vector>
 
 #include <drawpoint/doe/criterion.hpp>
-#include <drawpoint/doe/detail/nearest.hpp>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/kriging/detail/left_out.hpp>
+#include <drawpoint/kriging/detail/nearest_rows.hpp>
 #include <drawpoint/kriging/detail/normal.hpp>
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
@@ -211,7 +211,8 @@ doe::Criterion log_expected_improvement(const S& model, doe::Goal goal) {
                                             true);
 }
 
-/// |leave-one-out error| of the run nearest to each point, distances in the model's scaled inputs; unit of y.
+/// |leave-one-out error| of the run nearest to each point, distances in the model's scaled inputs, any two
+/// levels of a category equally far; unit of y.
 /// Take it with doe::BatchRule::cells. A constant model scores 0.
 inline doe::Criterion cross_validation_error(const Model& model) {
   const detail::ModelState& s = model.state();
@@ -219,10 +220,12 @@ inline doe::Criterion cross_validation_error(const Model& model) {
     return [](const Eigen::MatrixXd& X) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(X.rows()); };
   Eigen::VectorXd error = detail::left_out_errors(s.L, s.gls);
   for (double& e : error) e = s.y_scale * std::abs(e);
-  return [input = s.input, runs = s.X, error](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
-    const std::vector<int> site = doe::detail::nearest_sites(input.apply(X), runs).site;
+  return [input = s.input, runs = s.X, levels = s.correlation.levels,
+          error](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+    const Eigen::MatrixXd scaled = input.apply(X);
     Eigen::VectorXd score(X.rows());
-    for (Eigen::Index i = 0; i < score.size(); ++i) score[i] = error[site[static_cast<std::size_t>(i)]];
+    for (Eigen::Index i = 0; i < score.size(); ++i)
+      score[i] = error[detail::nearest_rows(runs, scaled.row(i).transpose(), levels).front()];
     return score;
   };
 }

@@ -102,6 +102,14 @@ inline JointTarget joint_target(const char* place, const Model& model, doe::Goal
   return {std::move(interpolating), smallest_entry(affine(fitted_values(model), sign)), sign, floor};
 }
 
+inline void check_chosen(const Model& model, const Eigen::MatrixXd& chosen) {
+  const Index d = model.state().input.factor.size();
+  if (chosen.rows() > 0 && chosen.cols() != d)
+    throw std::invalid_argument("kriging::joint_improvement: the chosen points have " +
+                                std::to_string(chosen.cols()) + " columns; allowed are " + std::to_string(d) +
+                                ", one per input");
+}
+
 /// Chosen points with draws of their values, and the improvement of any other point on those.
 class ChosenPoints {
  public:
@@ -119,7 +127,8 @@ class ChosenPoints {
     for (Index j = 0; j < Z.rows(); ++j) {
       for (Index i = 0; i < j; ++i)
         root_(j, i) = part_along(i, C(j, i), [&](Index a) { return root_(j, a); });
-      double left = p.variance[j];
+      double left =
+          std::isfinite(p.variance[j]) ? p.variance[j] : 0.0;  // of one run nothing is known elsewhere
       for (Index i = 0; i < j; ++i) left -= root_(j, i) * root_(j, i);
       root_(j, j) = left > target_.floor ? std::sqrt(left) : 0.0;
       for (Index k = 0; k < best_.size(); ++k) {
@@ -136,6 +145,10 @@ class ChosenPoints {
     const Eigen::MatrixXd C = covariance_(X);
     Eigen::VectorXd score(X.rows()), w(root_.rows()), gain(best_.size());
     for (Index i = 0; i < X.rows(); ++i) {
+      if (std::isinf(p.variance[i])) {
+        score[i] = std::numeric_limits<double>::infinity();
+        continue;
+      }
       double variance = p.variance[i];
       for (Index j = 0; j < w.size(); ++j) {
         w[j] = part_along(j, C(i, j), [&](Index a) { return w[a]; });
@@ -176,6 +189,7 @@ inline doe::JointCriterion joint_improvement(const Model& model, doe::Goal goal,
                                              const JointOptions& options = {}) {
   const detail::JointTarget target = detail::joint_target("kriging::joint_improvement", model, goal, options);
   return [target, options](const Eigen::MatrixXd& chosen) -> doe::Criterion {
+    detail::check_chosen(*target.model, chosen);
     return [points = detail::ChosenPoints(target, chosen, options),
             options](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
       Eigen::VectorXd score = points.log_improvement(X);

@@ -20,7 +20,9 @@
 #include <cmath>
 #include <cstddef>
 #include <drawpoint/kriging/compare.hpp>
+#include <drawpoint/kriging/cross_validation.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
+#include <drawpoint/kriging/validate.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -34,6 +36,8 @@ struct FitStanding {
   double log_score = 0;       ///< −ln of the predicted density, mean over the runs, unit ln(unit of y)
   double gain = 0;            ///< the first way's less this
   double standard_error = 0;  ///< of the gain
+  /// The gain where both are fitted anew to runs that they do not score; NaN where that was not asked.
+  double refitted_gain = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct FitChoice {
@@ -77,17 +81,50 @@ inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& s
                 : std::numeric_limits<double>::infinity()};
 }
 
-/// NaN, which constant models score, is no gain.
-inline std::size_t best_standing(const std::vector<FitStanding>& table) {
-  std::size_t best = 0;
+/// Of each run, as predicted by the way fitted to the four fifths of the runs that it is not among.
+inline Eigen::VectorXd refitted_scores(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                                       const ResponseRange& range, const WayToFit& way) {
+  Eigen::VectorXd scores(y.size());
+  for (const std::vector<Eigen::Index>& out : folds_of(X.rows(), std::min<Eigen::Index>(5, X.rows()), 1)) {
+    const std::vector<Eigen::Index> in = rows_besides(out, X.rows());
+    const TransformedModel model = way.fitter(rows_of(X, in), entries_of(y, in));
+    const Validation v = validate(model, rows_of(X, out), entries_of(y, out));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      scores[out[i]] = log_score(predicted_run(v, row), v.observed[row], range);
+    }
+  }
+  return scores;
+}
+
+/// The places of those that beat the first by more than chance, best first. NaN, which constant models score,
+/// is no gain.
+inline std::vector<std::size_t> better_standings(const std::vector<FitStanding>& table) {
+  std::vector<std::size_t> better;
   for (std::size_t k = 1; k < table.size(); ++k)
-    if (table[k].gain > table[k].standard_error && table[k].gain > table[best].gain) best = k;
-  return best;
+    if (table[k].gain > table[k].standard_error) better.push_back(k);
+  std::stable_sort(better.begin(), better.end(),
+                   [&](std::size_t a, std::size_t b) { return table[a].gain > table[b].gain; });
+  return better;
+}
+
+/// The best that also wins on runs that it has not seen, else the first. Writes the gains that it looks at.
+inline std::size_t best_standing(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                                 const ResponseRange& range, const std::vector<WayToFit>& ways,
+                                 std::vector<FitStanding>& table) {
+  Eigen::VectorXd first;
+  for (const std::size_t k : better_standings(table)) {
+    if (first.size() == 0) first = refitted_scores(X, y, range, ways.front());
+    table[k].refitted_gain = mean_of(difference(first, refitted_scores(X, y, range, ways[k])));
+    if (table[k].refitted_gain > 0) return k;
+  }
+  return 0;
 }
 
 }  // namespace detail
 
-/// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. Throws
+/// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. A way
+/// is a function of the runs that it is given, which are fewer than all now and then. Throws
 /// std::invalid_argument without ways, and as the ways do.
 inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
                             const std::vector<WayToFit>& ways) {
@@ -102,7 +139,7 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
     if (table.empty()) first = scores;
     table.push_back(detail::standing_of(way.name, scores, first));
   }
-  const std::size_t best = detail::best_standing(table);
+  const std::size_t best = detail::best_standing(X, y, range, ways, table);
   return {std::move(table), best, std::move(models[best])};
 }
 

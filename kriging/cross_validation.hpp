@@ -58,13 +58,28 @@ inline std::vector<Eigen::Index> shuffled(Eigen::Index n, doe::Seed seed) {
   return doe::detail::permutation(n, random);
 }
 
+/// The rows 0..n-1 that are not in `out`, which is sorted.
+inline std::vector<Eigen::Index> rows_besides(const std::vector<Eigen::Index>& out, Eigen::Index n) {
+  std::vector<Eigen::Index> in;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!std::binary_search(out.begin(), out.end(), i)) in.push_back(i);
+  return in;
+}
+
+/// The rows 0..n-1 dealt out at random to sorted folds.
+inline std::vector<std::vector<Eigen::Index>> folds_of(Eigen::Index n, Eigen::Index folds, doe::Seed seed) {
+  const std::vector<Eigen::Index> order = shuffled(n, seed);
+  std::vector<std::vector<Eigen::Index>> all(static_cast<std::size_t>(folds));
+  for (std::size_t i = 0; i < order.size(); ++i) all[i % all.size()].push_back(order[i]);
+  for (std::vector<Eigen::Index>& fold : all) std::sort(fold.begin(), fold.end());
+  return all;
+}
+
 /// Fits without the runs of `out`, sorted, and writes its predictions of them into v.
 template <class F>
 void predict_without(const std::vector<Eigen::Index>& out, const Eigen::MatrixXd& X, const F& fitter,
                      Validation& v) {
-  std::vector<Eigen::Index> in;
-  for (Eigen::Index i = 0; i < X.rows(); ++i)
-    if (!std::binary_search(out.begin(), out.end(), i)) in.push_back(i);
+  const std::vector<Eigen::Index> in = rows_besides(out, X.rows());
   const auto model = fitter(rows_of(X, in), entries_of(v.observed, in));
   const Eigen::MatrixXd points = rows_of(X, out);
   const Prediction p = model.predict(points), run = model.predict(points, Target::observation);
@@ -97,14 +112,9 @@ Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds,
   if (folds < 2 || folds > X.rows())
     throw std::invalid_argument("kriging::k_fold: folds is " + std::to_string(folds) +
                                 "; allowed is 2 to the " + std::to_string(X.rows()) + " runs; use 5");
-  const std::vector<Eigen::Index> order = detail::shuffled(X.rows(), options.seed);
   Validation v = detail::blank_validation(y);
-  for (int fold = 0; fold < folds; ++fold) {
-    std::vector<Eigen::Index> out;
-    for (std::size_t i = fold; i < order.size(); i += folds) out.push_back(order[i]);
-    std::sort(out.begin(), out.end());
+  for (const std::vector<Eigen::Index>& out : detail::folds_of(X.rows(), folds, options.seed))
     detail::predict_without(out, X, fitter, v);
-  }
   return detail::scored(std::move(v));
 }
 

@@ -67,7 +67,7 @@
 ///   cross_validation.hpp           leave-one-out, k-fold, hold-out
 ///   outliers.hpp                   runs that do not belong to the others
 ///   nonstationarity.hpp            responses that jump, or are rougher or noisier in one part of the box
-///   score.hpp                      RMSE, NRMSE, Q2 and their kin
+///   score.hpp                      RMSE, NRMSE, Q2 and their kin; the error without the noise of runs
 ///   compare.hpp                    several ways to fit, scored alike, and the best of them
 ///
 /// The next run:

@@ -181,9 +181,13 @@ struct ErrorWithoutNoise {
 
 /// Of runs that scatter no model gets an rmse below `noise`. The standard error is that of rmse²,
 /// √((2/n) (noise⁴ + 2 noise² rmse²)), and takes the model's noise as known. Predictions on another scale
-/// than that of y have noise that differs from run to run; it then holds roughly. Throws as score().
+/// than that of y have noise that differs from run to run; it then holds roughly. NaN where a variance is not
+/// finite, as of a model of one run. Throws as score().
 inline ErrorWithoutNoise error_without_noise(const Validation& v) {
   const double all = score(v, ErrorFunction::rmse), n = static_cast<double>(v.observed.size());
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!detail::all_finite(v.variance) || !detail::all_finite(v.observation_variance))
+    return {none, none, none, none};
   const double noise = std::max(detail::mean_of(detail::difference(v.observation_variance, v.variance)), 0.0);
   const double rest = std::max(all * all - noise, 0.0);
   const double deviation = std::sqrt(2.0 / n * noise * (noise + 2.0 * rest));

@@ -20,6 +20,7 @@
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/kriging/detail/nearest_rows.hpp>
 #include <limits>
 #include <vector>
 
@@ -27,23 +28,6 @@ namespace drawpoint::kriging::detail {
 
 /// A maximum's mean square error below this share of the other's speaks for it.
 inline constexpr double clearly_better = 0.5;
-
-/// Rows of X: n x d at the least distance from x: d numbers; more than one where runs repeat. `levels` of the
-/// correlation.
-inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& X, const Eigen::VectorXd& x,
-                                              const std::vector<int>& levels) {
-  Eigen::VectorXd distance = Eigen::VectorXd::Zero(X.rows());
-  for (Eigen::Index k = 0; k < X.cols(); ++k)
-    for (Eigen::Index i = 0; i < X.rows(); ++i) {
-      const double step = distance_between(levels, k, X(i, k), x[k]);
-      distance[i] += step * step;
-    }
-  const double least = smallest_entry(distance);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < X.rows(); ++i)
-    if (distance[i] == least) rows.push_back(i);
-  return rows;
-}
 
 /// Share of [-1, 1]^d, with the levels of categories, that is nearest to each row of X, by 50 random points
 /// per row; runs that are as near share alike.

@@ -114,7 +114,7 @@ ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs) 
   return table;
 }
 
-ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) {
+ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, std::string* missing) {
   const doe::Problem& problem = identity.problem;
   const Tables tables = tables_of(runs, problem);
   const Models fitted = models_or_reason(tables);
@@ -127,6 +127,7 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs) 
   append_responses(table, problem, "_upper", upper_end);
   append_responses(table, problem, "_standard_error", "of what the models expect, noise left out");
   table.columns.push_back({"success", "1", ColumnType::number, "probability that a run succeeds"});
+  if (missing) *missing = predicted.missing;
   if (front.X.rows() == 0) return table;
   const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
   const Eigen::MatrixXd errors = standard_errors(fitted.models, front.X);

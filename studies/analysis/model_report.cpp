@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
+#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/kriging/cross_validation.hpp>
@@ -25,12 +26,11 @@ std::string with_unit(double value, const std::string& unit) {
   return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
-/// What single runs scatter by, where that counts.
 std::string noise_part_text(const kriging::Validation& v, const doe::Response& response) {
-  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
-  if (parts.noise < 0.1 * v.rmse) return "";
-  return " (noise of a run " + with_unit(parts.noise, response.unit) + ", without it " +
-         with_unit(parts.rmse, response.unit) + ", " + number(parts.lower) + " to " + number(parts.upper) +
+  const auto parts = telling_noise(v);
+  if (!parts) return "";
+  return " (noise of a run " + with_unit(parts->noise, response.unit) + ", without it " +
+         with_unit(parts->rmse, response.unit) + ", " + number(parts->lower) + " to " + number(parts->upper) +
          ")";
 }
 

@@ -67,8 +67,10 @@ void append(std::vector<Dataset>& contents, const std::string& group, const Expo
 std::string append_front(std::vector<Dataset>& contents, const Identity& identity,
                          const std::vector<Run>& runs) {
   try {
-    append(contents, "front", front_table(identity, runs));
-    return "";
+    std::string missing;
+    append(contents, "front", front_table(identity, runs, &missing));
+    if (!missing.empty()) contents.push_back({"study/no_front", "", "why there is no front", missing});
+    return missing;
   } catch (const std::runtime_error& e) {
     contents.push_back({"study/no_front", "", "why there is no front", std::string(e.what())});
     return e.what();

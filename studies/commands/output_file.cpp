@@ -20,12 +20,19 @@ bool is_within(const fs::path& file, const fs::path& place) {
 }  // namespace
 
 void check_output_file(const Folder& folder, const fs::path& file, const std::string& option) {
-  for (const fs::path& own :
-       {folder.store(), folder.logs(), folder.shared(), folder.shared_checksums(), folder.slurm()}) {
+  if (fs::exists(file) && !fs::is_regular_file(file) && !fs::is_directory(file))
+    throw UsageError(option + ": " + file.string() +
+                     " is a device or a pipe, whose place a file written whole would take; name a file");
+  for (const fs::path& own : {folder.store(), folder.logs(), folder.shared(), folder.shared_checksums(),
+                              folder.slurm(), folder.report()}) {
     if (is_within(file, own))
       throw UsageError(option + ": " + file.string() + " is where the study keeps its own (" + own.string() +
                        "); name another");
   }
+}
+
+fs::path behind_links(const fs::path& file) {
+  return fs::is_symlink(file) ? fs::weakly_canonical(file) : file;
 }
 
 }  // namespace drawpoint::studies

@@ -66,10 +66,8 @@ Models fit_models(const Tables& tables) {
     const Eigen::VectorXd y = tables.training.y(response.name);
     const kriging::ResponseRange range = range_of(response);
     const kriging::FitChoice on_scale = kriging::choose_scale(X, y, range, default_fit(problem));
-    auto ways = ways_to_fit(problem, response, on_scale.scale());
-    // The first way is how the scales were compared: it has its model.
-    ways.front().fitter = [&](const Eigen::MatrixXd&, const Eigen::VectorXd&) { return on_scale.model; };
-    kriging::FitChoice choice = kriging::choose_fit(X, y, range, ways);
+    kriging::FitChoice choice =
+        kriging::choose_fit(X, y, range, ways_to_fit(problem, response, on_scale.scale()));
     fitted.ways.push_back(choice.name());
     fitted.models.push_back(std::move(choice.model));
     if (X_new.rows() == 0) continue;

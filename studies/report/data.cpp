@@ -3,6 +3,7 @@
 
 #include <drawpoint/studies/report/data.h>
 #include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/surface.h>
@@ -88,10 +89,14 @@ json to_json(const kriging::Validation& v, const doe::Response& response) {
     lower.push_back(interval.lower);
     upper.push_back(interval.upper);
   }
-  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
+  json noise, rest;
+  if (const auto parts = telling_noise(v)) {
+    noise = parts->noise;
+    rest = {parts->rmse, parts->lower, parts->upper};
+  }
   return {{"rmse", v.rmse},
-          {"noise", parts.noise},
-          {"rmse_without_noise", {parts.rmse, parts.lower, parts.upper}},
+          {"noise", std::move(noise)},
+          {"rmse_without_noise", std::move(rest)},
           {"nrmse", v.nrmse},
           {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
           {"observed", to_json(v.observed)},

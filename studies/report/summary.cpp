@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
@@ -226,10 +227,12 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
 /// Of the typical error, what single runs scatter by: more cycles or replicates help against that, more runs
 /// against the rest. Nothing where it does not count.
 std::string noise_clause(const kriging::Validation& v, const doe::Response& r) {
-  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
-  if (parts.noise < 0.1 * v.rmse) return "";
-  return " (one run scatters by " + number_with_unit(parts.noise, r.unit) +
-         "; the mean of many is missed by some " + number_with_unit(parts.rmse, r.unit) + ")";
+  const auto parts = telling_noise(v);
+  if (!parts) return "";
+  const std::string rest = parts->lower > 0.0 ? "some " + number_with_unit(parts->rmse, r.unit)
+                                              : number_with_unit(parts->upper, r.unit) + " at most";
+  return " (one run scatters by " + number_with_unit(parts->noise, r.unit) +
+         "; the mean of many is missed by " + rest + ")";
 }
 
 json grade(const ReportInput& input, std::size_t j) {
@@ -252,11 +255,11 @@ json grade(const ReportInput& input, std::size_t j) {
 /// Against a large error: it is the model's, or what single runs scatter by, which more runs of the kind do
 /// not change.
 std::string remedy(const kriging::Validation& v) {
-  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
-  return parts.noise > parts.rmse
-             ? "most of that is the scatter of single runs; make them longer, if they can be, or "
-               "begin a study with more --replicates"
-             : "add runs";
+  const auto parts = telling_noise(v);
+  return parts && parts->noise > parts->rmse ? "most of that is the scatter of single runs; make them "
+                                               "longer, if they can be, or begin a study with more "
+                                               "--replicates"
+                                             : "add runs";
 }
 
 void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {

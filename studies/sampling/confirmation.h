@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A round of simulations at the points of a predicted front that a decision would rest on
-/// (analysis/decision_points.h).
+/// (models/decision_points.h).
 
 #include <drawpoint/studies/store/store.h>
 

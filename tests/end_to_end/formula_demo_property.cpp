@@ -3,6 +3,7 @@
 /// The whole pipeline on a formula: what scripts read, what the store holds, and that the same command gives
 /// the same result.
 
+#include <sys/stat.h>
 #include <drawpoint/tests/end_to_end/support.hpp>
 
 #include <algorithm>
@@ -150,6 +151,20 @@ TEST_F(FormulaDemo, ExportsTheWholeStudy) {
   expect_refused(wanted, 2, "does not go to standard output; name one with --file");
   expect_refused(wanted + " --what front --file " + file, 2, "holds the runs and the front; leave it out");
   expect_refused(wanted + " --file " + database().string(), 2, "is where the study keeps its own");
+}
+
+// What a file takes the place of, whole, is a file: not the pipe or the device that somebody else reads, nor
+// a link.
+TEST_F(FormulaDemo, ExportsBehindALinkAndToNoDevice) {
+  ASSERT_EQ(run(demo + " --runs 20 --validation 0" + out()).code, 0);
+  const auto file = place_ / "runs.csv", link = place_ / "link.csv", pipe = place_ / "pipe";
+  std::filesystem::create_symlink(file, link);
+  EXPECT_EQ(run(demo + " export --file " + link.string() + out()).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_refused(demo + " export --file " + pipe.string() + out(), 2, "is a device or a pipe");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST_F(FormulaDemo, ShowsTheFrontInTheTerminal) {

@@ -246,3 +246,17 @@ TEST(Acquisition, RefusesWhatItCannotServe) {
             "kriging::constrained_improvement: the problem has 0 objectives; allowed is 1; use "
             "expected_hypervolume_improvement for more");
 }
+
+// Any two levels are as far apart: a level without runs is nearest to the run that is nearest otherwise.
+TEST(CrossValidationError, TakesALevelForNoLength) {
+  MatrixXd X(6, 2);
+  X << 0.0, 0, 0.2, 9, 0.4, 0, 0.6, 9, 0.8, 0, 1.0, 9;
+  const VectorXd y = (VectorXd(6) << 1, 2, 4, 3, 5, 9).finished();
+  const Model model = fit(X, y, {.levels = {0, 10}});
+  const Validation v = leave_one_out(model);
+  const doe::Criterion error = cross_validation_error(model);
+  const VectorXd score = error((MatrixXd(2, 2) << 0.41, 1, 0.41, 8).finished());
+  EXPECT_EQ(score[0], score[1]);
+  // Round-off of a difference of numbers of the size of y, some ε·9.
+  EXPECT_NEAR(score[0], std::abs(v.observed[2] - v.predicted[2]), 1e-13);
+}

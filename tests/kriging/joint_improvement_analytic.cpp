@@ -197,6 +197,14 @@ TEST(JointImprovement, ProposesEachPointForWhatItAdds) {
   EXPECT_EQ(batch, doe::propose(runs, together, {.batch = 4, .rule = doe::BatchRule::joint}));
 }
 
+// One run says nothing of any other place: all are worth the same, and keep apart.
+TEST(JointImprovement, AfterOneRunKeepsPointsApart) {
+  const MatrixXd batch = doe::propose(runs_of(1), together, {.batch = 4, .rule = doe::BatchRule::joint});
+  ASSERT_EQ(batch.rows(), 4);
+  for (Eigen::Index j = 0; j < 4; ++j)
+    for (Eigen::Index i = 0; i < j; ++i) EXPECT_GT((batch.row(i) - batch.row(j)).norm(), 0.1);
+}
+
 TEST(JointImprovement, RefusesWhatItCannotServe) {
   const auto refusal = [](const auto& call) -> std::string {
     try {
@@ -212,4 +220,6 @@ TEST(JointImprovement, RefusesWhatItCannotServe) {
   EXPECT_EQ(refusal([&] { joint_expected_improvement(model, Goal::at_most, MatrixXd::Zero(1, 2)); }),
             "kriging::joint_expected_improvement: goal is at_most; allowed are minimize and maximize; use "
             "probability_of_feasibility for limits");
+  EXPECT_EQ(refusal([&] { joint_improvement(model, Goal::minimize)(MatrixXd::Zero(2, 3)); }),
+            "kriging::joint_improvement: the chosen points have 3 columns; allowed are 2, one per input");
 }

@@ -55,6 +55,13 @@ TEST(Score, KnowsNoErrorBelowTheNoise) {
   EXPECT_DOUBLE_EQ(error_without_noise(v).upper, std::sqrt(6.5 / std::sqrt(2.0)));
 }
 
+TEST(Score, DoesNotKnowTheNoiseOfOneRun) {
+  Validation v = example();
+  v.variance[1] = v.observation_variance[1] = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(std::isnan(error_without_noise(v).noise));
+  EXPECT_TRUE(std::isnan(error_without_noise(v).rmse));
+}
+
 // Of 4000 sets of 25 runs with errors b = 1.5 and noise 2 the square of the rest is b² = 2.25 in the mean,
 // within four standard errors of such a mean, 4·√((2/25)·4·(4 + 4.5)/4000) = 0.104. The stated interval holds
 // b in 0.670 of 400 000 sets of another program (nearly the 0.683 of one standard error, which is estimated

@@ -266,6 +266,25 @@ TEST_F(Report, TellsNoiseFromErrorsOfTheSurrogate) {
   EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "most of that is the scatter of single runs"));
 }
 
+// Of exact responses a fit has the least noise that it can have; of one run none is known.
+TEST_F(Report, SaysNothingOfNoiseThatIsNone) {
+  ReportInput in = input(2, 1, 8, 6);
+  kriging::Validation& v = in.validations[0];
+  v = {.rmse = 1e-6,
+       .nrmse = 1e-7,
+       .observed = Eigen::Vector2d(0, 10),
+       .predicted = Eigen::Vector2d(0, 10),
+       .variance = Eigen::Vector2d(0, 0),
+       .observation_variance = Eigen::Vector2d(1e-10, 1e-10)};
+  auto data = written(in);
+  EXPECT_TRUE(data.at("validations").at(0).at("noise").is_null());
+  v.variance = v.observation_variance = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  data = written(in);
+  EXPECT_TRUE(data.at("validations").at(0).at("noise").is_null());
+  EXPECT_EQ(data.at("summary").at("trust").at(0).at("text").get<std::string>().find("scatters"),
+            std::string::npos);
+}
+
 TEST_F(Report, FlagsWhatCannotBeTrusted) {
   ReportInput in = input(2, 1, 8, 6);
   in.validation.rows[3].outcome = doe::Failure{"stuck"};

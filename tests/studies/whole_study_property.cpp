@@ -153,6 +153,10 @@ TEST(WholeStudy, SaysWhyThereIsNoFront) {
   const record::Reader file = opened(folder / "study.h5");
   EXPECT_EQ(file.texts("study/no_front"), std::vector<std::string>{why});
   EXPECT_FALSE(file.has("front"));
+  Identity records_only = awkward_study();
+  for (doe::Response& response : records_only.problem.responses) response.goal = doe::Goal::record;
+  EXPECT_NE(write_whole_study(folder / "records.h5", records_only, made_runs(12)), "");
+  EXPECT_TRUE(opened(folder / "records.h5").has("study/no_front"));
   write_whole_study(folder / "none.h5", awkward_study(), {});
   EXPECT_TRUE(opened(folder / "none.h5").doubles("runs/production").values.empty());
 }

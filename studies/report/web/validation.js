@@ -38,7 +38,7 @@ function row(name, model, check, inputs) {
 }
 
 /// By how much the mean of many runs is missed, within a standard error.
-const withoutNoise = ({rmse_without_noise: [middle, lower, upper]}) => `${number(middle)} (${number(lower)} to ${number(upper)})`;
+const withoutNoise = ({rmse_without_noise: rest}) => (rest ? `${number(rest[0])} (${number(rest[1])} to ${number(rest[2])})` : '');
 
 /// Index of each validation run that ended, in the order of the checks.
 const checkedRuns = ({runs}) => runs.map((_, i) => i).filter((i) => runs[i].kind === 'validation' && runs[i].y);
