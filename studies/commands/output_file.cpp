@@ -32,7 +32,11 @@ void check_output_file(const Folder& folder, const fs::path& file, const std::st
 }
 
 fs::path behind_links(const fs::path& file) {
-  return fs::is_symlink(file) ? fs::weakly_canonical(file) : file;
+  constexpr int most_links = 40;  // as the system follows
+  fs::path end = file;
+  for (int link = 0; link < most_links && fs::is_symlink(end); ++link)
+    end = end.parent_path() / fs::read_symlink(end);
+  return end;
 }
 
 }  // namespace drawpoint::studies

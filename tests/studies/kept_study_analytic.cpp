@@ -12,6 +12,7 @@
 
 using namespace drawpoint;
 using namespace drawpoint::studies;
+using test::TestFolder;
 
 // The cycles of a run say what a run's production is known to: 58 kg/s (headline noise_of_production). A
 // model whose noise is half of that follows the noise. It was taken once, for its leave-one-out, and had an
