@@ -126,7 +126,8 @@ inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::V
   if (s.noise.size()) s.noise = detail::stacked(s.noise, detail::affine(noise_variance, 1.0 / s.noise_unit));
   const double raised = detail::extend_factor(s);
   detail::estimate(s);
-  s.report.message += "; " + std::to_string(y.size()) + " runs appended without a new fit";
+  s.report.message +=
+      "; " + std::to_string(y.size()) + (y.size() == 1 ? " run" : " runs") + " appended without a new fit";
   if (raised > 0) {
     s.report.status = Status::ill_conditioned;
     s.report.message +=

@@ -107,7 +107,9 @@ inline void add_remarks(const TrainingData& data, FitReport& report) {
     if (!is_category(data.levels, k)) continue;
     const std::string missing = levels_without_runs(data.X, data.levels, k);
     if (!missing.empty())
-      report.message += "; input " + std::to_string(k) + " has no run of level " + missing +
+      report.message += "; the fit had no run of level" +
+                        std::string(missing.find(',') < missing.size() ? "s " : " ") + missing +
+                        " of input " + std::to_string(k) +
                         (never_varies(data.X, k) ? ": predictions there are the trend"
                                                  : ": predictions there rest on the other levels") +
                         ", with intervals that are too narrow; run it";

@@ -106,6 +106,7 @@ inline void check_box(const FitOptions& options, Eigen::Index d) {
            std::to_string(options.upper.size()) + " upper bounds but X has " + std::to_string(d) +
            " columns; give one of each a variable, or neither");
   for (Eigen::Index k = 0; k < d; ++k) {
+    if (is_category(options.levels, k)) continue;  // its levels are its box
     check_number(options.lower[k], "lower[" + std::to_string(k) + "]");
     check_number(options.upper[k], "upper[" + std::to_string(k) + "]");
     if (!(options.lower[k] < options.upper[k]))
@@ -153,6 +154,7 @@ inline void check_noise(const FitOptions& options, Eigen::Index n) {
 inline void check_options(const FitOptions& options, Eigen::Index d) {
   check_bounds("theta", options.theta_lower, options.theta_upper);
   check_bounds("nugget", options.nugget_lower, options.nugget_upper);
+  check_level_counts("kriging::fit", options.levels, d);
   check_box(options, d);
   if (!std::isfinite(options.nugget_power) || options.nugget_power < 0)
     reject("nugget_power is " + text(options.nugget_power) +
@@ -170,7 +172,6 @@ inline void check_options(const FitOptions& options, Eigen::Index d) {
     reject(options.trend == Trend::user ? "trend is user but basis.values is empty; give the functions"
                                         : "basis.values is given but trend is not user; set trend to user");
   check_exponent(options, d);
-  check_level_counts("kriging::fit", options.levels, d);
 }
 
 inline InputScale input_scale(const Eigen::MatrixXd& X, const FitOptions& options) {

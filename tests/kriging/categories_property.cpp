@@ -127,11 +127,22 @@ TEST(Categories, ALevelWithoutRunsIsUncertain) {
   for (Eigen::Index i = 0; i < X.rows(); ++i)
     if (X(i, 2) != 2.0) rows.push_back(i);
   const Model model = fit(X(rows, Eigen::all), y(rows), four_levels());
-  EXPECT_NE(model.message().find("input 2 has no run of level 2: predictions there rest on the other levels"),
+  EXPECT_NE(model.message().find(
+                "the fit had no run of level 2 of input 2: predictions there rest on the other levels"),
             std::string::npos)
       << model.message();
   const double there = model.predict(at_level(2)).variance[0], here = model.predict(at_level(1)).variance[0];
   EXPECT_GT(there, 100 * here);
+}
+
+TEST(Categories, NeedNoBounds) {
+  const auto [X, y] = categories::runs(categories::scrambled, 24, 5);
+  FitOptions options = four_levels();
+  options.lower = VectorXd::Zero(3);
+  options.upper = VectorXd::Ones(3);
+  const VectorXd with = fit(X, y, options).mean(at_level(1));
+  options.upper[2] = 0;
+  EXPECT_EQ(fit(X, y, options).mean(at_level(1)), with);
 }
 
 // All runs at one level tell nothing of the others: the trend, with the variance s² and that of the trend.
@@ -139,7 +150,8 @@ TEST(Categories, OneLevelAloneTellsNothingOfOthers) {
   auto [X, y] = categories::runs(categories::idle, 24, 5);
   X.col(2).setConstant(1.0);
   const Model model = fit(X, y, four_levels());
-  EXPECT_NE(model.message().find("input 2 has no run of level 0, 2, 3: predictions there are the trend"),
+  EXPECT_NE(model.message().find(
+                "the fit had no run of levels 0, 2, 3 of input 2: predictions there are the trend"),
             std::string::npos)
       << model.message();
   EXPECT_NEAR(model(at_level(3).row(0)), model.trend(), 1e-12 * (1 + std::abs(model.trend())));
