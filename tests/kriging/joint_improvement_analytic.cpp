@@ -8,6 +8,7 @@
 #include <drawpoint/kriging/acquisition_joint.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
+#include <drawpoint/tests/kriging/test_functions.hpp>
 #include <numeric>
 
 using namespace drawpoint;
@@ -18,12 +19,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-double hilly(const VectorXd& x) { return std::sin(6 * x[0]) + std::cos(5 * x[1]) + x[0] * x[1]; }
-
 // Few runs, some noise: a model with much to win, of any trend.
 Model few_runs(Trend trend = Trend::constant, Correlation correlation = Correlation::gaussian) {
   const MatrixXd X = reference::design(14, 2, 3);
-  VectorXd y = reference::values(hilly, X);
+  VectorXd y = reference::values(reference::hilly2, X);
   doe::RandomStream random(5);
   for (double& value : y) value += 0.05 * random.normal();
   FitOptions options;
@@ -79,7 +78,8 @@ TEST(CovarianceWith, IsTheCornerOfTheJointCovariance) {
         options.parameter_uncertainty = unknown;
         options.nugget_lower = 1e-2;
         const MatrixXd X = reference::design(14, 2, 3), points = reference::design(9, 2, 8);
-        const auto model = std::make_shared<const Model>(fit(X, reference::values(hilly, X), options));
+        const auto model =
+            std::make_shared<const Model>(fit(X, reference::values(reference::hilly2, X), options));
         const MatrixXd Z = points.topRows(4), all = model->covariance(points);
         const MatrixXd with = detail::CovarianceWith(model, Z)(points);
         EXPECT_LT((with - all.leftCols(4)).cwiseAbs().maxCoeff(), 2e-12 * model->process_variance());
@@ -175,7 +175,7 @@ namespace {
 doe::Evaluations runs_of(int n) {
   const doe::Problem problem{.variables = {{"a", "1", 0, 1}, {"b", "1", 0, 1}},
                              .responses = {{"y", "1", Goal::minimize}}};
-  return doe::evaluate(hilly, problem, reference::design(n, 2, 3));
+  return doe::evaluate(reference::hilly2, problem, reference::design(n, 2, 3));
 }
 
 doe::JointCriterion together(const doe::Evaluations& runs) {

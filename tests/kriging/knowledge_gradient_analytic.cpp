@@ -7,6 +7,7 @@
 #include <drawpoint/kriging/append.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
+#include <drawpoint/tests/kriging/test_functions.hpp>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
@@ -16,11 +17,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-double hilly(const VectorXd& x) { return std::sin(6 * x[0]) + std::cos(5 * x[1]) + x[0] * x[1]; }
-
 struct Noisy {
   MatrixXd X = reference::design(14, 2, 3);
-  VectorXd y = reference::values(hilly, X);
+  VectorXd y = reference::values(reference::hilly2, X);
   Noisy() {
     doe::RandomStream random(5);
     for (double& value : y) value += 0.3 * random.normal();
@@ -102,7 +101,7 @@ TEST(KnowledgeGradient, AsksForARunAgainForNoiseAlone) {
   FitOptions exact;
   exact.nugget_lower = exact.nugget_upper = 1e-10;
   exact.theta_lower = exact.theta_upper = 2.0;
-  const Model sure = fit(data.X, reference::values(hilly, data.X), exact);
+  const Model sure = fit(data.X, reference::values(reference::hilly2, data.X), exact);
   exact.nugget_lower = exact.nugget_upper = 0.3;
   const Model unsure = fit(data.X, data.y, exact);
   // At a run s² is below λs²(1 + 1/4), so b is below √λ s = 1e-5 s.

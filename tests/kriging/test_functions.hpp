@@ -8,8 +8,9 @@
 /// "Virtual Library of Simulation Experiments"); franke2: Franke 1979. waves5, rational5, saturating4 and
 /// step3 are ours: smooth waves, a ratio, a production that saturates, and a jump. process4 is a draw of the
 /// Gaussian process that a fit takes for granted: rates 4, 2, 1 and 0.5 on [0, 1]⁴, by 500 random cosines
-/// (Rahimi, Recht 2007), whose covariance misses the Gaussian's by 1/√500 at most. nothing4 is 0. Where
-/// `noise` is above 0, runs are observed with normal noise of that deviation.
+/// (Rahimi, Recht 2007), whose covariance misses the Gaussian's by 1/√500 at most. nothing4 is 0. hilly2, with
+/// several minima, is for searches. Where `noise` is above 0, runs are observed with normal noise of that
+/// deviation.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -29,6 +30,10 @@ struct TestFunction {
 };
 
 inline double friedman5(const Eigen::VectorXd& x) { return noisy4(x) + 5 * x[4]; }
+
+inline double hilly2(const Eigen::VectorXd& x) {
+  return std::sin(6 * x[0]) + std::cos(5 * x[1]) + x[0] * x[1];
+}
 
 inline double waves5(const Eigen::VectorXd& x) {
   return std::sin(3 * x[0] + 2 * x[1]) + std::cos(4 * x[2] * x[3]) + 0.5 * std::sin(5 * x[4]);
