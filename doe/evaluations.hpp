@@ -67,6 +67,15 @@ struct Evaluations {
     return values;
   }
 
+  /// What the runs themselves know of the noise of one response, aligned with y(): the squares of its
+  /// standard errors; empty where the problem names none. Throws as y().
+  Eigen::VectorXd noise_variance(std::string_view response) const {
+    const std::string& told =
+        problem.responses[static_cast<std::size_t>(response_index(problem, response))].standard_error;
+    if (told.empty()) return {};
+    return y(told).cwiseAbs2();
+  }
+
  private:
   Eigen::Index succeeded() const { return static_cast<Eigen::Index>(rows.size()) - failed(); }
 };

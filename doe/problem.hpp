@@ -59,6 +59,10 @@ struct Response {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::string description = {};  ///< what it is, in a few words, for help and reports
+  /// Name of the response that is the standard error of this one: what each run knows of its own noise, where
+  /// it is a mean of cycles or samples. That one is recorded, of the same unit and at least 0. Empty:
+  /// unknown.
+  std::string standard_error = {};
 };
 
 struct Problem {
@@ -202,11 +206,29 @@ inline void check_response(const Response& r) {
            with_unit(r.lower, r.unit) + " to " + with_unit(r.upper, r.unit) + "; give one among them");
 }
 
+/// That the response which tells the noise of `of` can.
+inline void check_standard_error(const Response& of, const std::vector<Response>& all) {
+  if (of.standard_error.empty()) return;
+  const std::string place =
+      "response \"" + of.name + "\": its standard error is \"" + of.standard_error + "\", ";
+  const auto told =
+      std::find_if(all.begin(), all.end(), [&](const Response& r) { return r.name == of.standard_error; });
+  if (told == all.end()) reject(place + "which is no response; add one of that name and the goal record");
+  if (&*told == &of) reject(place + "which is the response itself; name another");
+  if (told->goal != Goal::record)
+    reject(place + "whose goal is " + std::string(to_string(told->goal)) + "; it must be record");
+  if (!(told->lower >= 0)) reject(place + "which may be below 0; give it the lower bound 0");
+  if (told->unit != of.unit)
+    reject(place + "in \"" + told->unit + "\"; give both the same unit, \"" + of.unit + "\"");
+  if (!told->standard_error.empty()) reject(place + "which names a standard error itself; remove that one");
+}
+
 }  // namespace detail
 
 /// Throws std::invalid_argument that names the first fault: no variable or response, an empty or repeated
 /// name, a bound that is not finite or not in order, one that its kind does not allow, a constraint without a
-/// limit, a limit without a constraint or outside the response's range.
+/// limit, a limit without a constraint or outside the response's range, a standard error that is no recorded
+/// response of that unit and at least 0.
 inline void check(const Problem& problem) {
   if (problem.variables.empty()) detail::reject("no variables; name at least one");
   if (problem.responses.empty()) detail::reject("no responses; name at least one");
@@ -219,6 +241,7 @@ inline void check(const Problem& problem) {
     detail::check_name("response", problem.responses[i].name, i, seen);
     detail::check_response(problem.responses[i]);
   }
+  for (const Response& r : problem.responses) detail::check_standard_error(r, problem.responses);
 }
 
 /// Place of a response in Problem::responses; throws std::invalid_argument when there is none of that name.

@@ -5,12 +5,12 @@
 /// A problem as JSON, for stores, reports and programs in other languages:
 ///
 ///     {"variables": [{"name", "unit", "lower", "upper", "kind", "levels"}, ...],
-///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper"}, ...]}
+///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error"}, ...]}
 ///
 /// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a
-/// real variable, "levels" for one that is not categorical, "limit" where there is none. Numbers are the
-/// shortest text that reads back as the same double. This is the only header of the module that needs
-/// nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
+/// real variable, "levels" for one that is not categorical, "limit", bounds and "standard_error" where there
+/// are none. Numbers are the shortest text that reads back as the same double. This is the only header of the
+/// module that needs nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
 
 #include <cmath>
 #include <limits>
@@ -36,6 +36,7 @@ inline nlohmann::json to_json(const Problem& problem) {
     if (!std::isnan(r.limit)) entry["limit"] = r.limit;
     if (std::isfinite(r.lower)) entry["lower"] = r.lower;
     if (std::isfinite(r.upper)) entry["upper"] = r.upper;
+    if (!r.standard_error.empty()) entry["standard_error"] = r.standard_error;
     responses.push_back(std::move(entry));
   }
   return {{"variables", std::move(variables)}, {"responses", std::move(responses)}};
@@ -52,11 +53,14 @@ inline Problem problem_from_json(const nlohmann::json& json) {
          v.value("levels", std::vector<std::string>{})});
   for (const auto& r : json.at("responses"))
     problem.responses.push_back(
-        {r.at("name"), r.at("unit"),
+        {r.at("name"),
+         r.at("unit"),
          detail::enumerator_of<Goal>(r.at("goal").get<std::string>()).value_or(Goal::record),
          r.value("limit", std::numeric_limits<double>::quiet_NaN()),
          r.value("lower", -std::numeric_limits<double>::infinity()),
-         r.value("upper", std::numeric_limits<double>::infinity())});
+         r.value("upper", std::numeric_limits<double>::infinity()),
+         {},
+         r.value("standard_error", std::string{})});
   return problem;
 }
 

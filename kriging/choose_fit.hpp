@@ -18,14 +18,16 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
-#include <drawpoint/kriging/compare.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -49,7 +51,46 @@ struct FitChoice {
   Scale scale() const { return model.transform().scale; }
 };
 
-using WayToFit = NamedFitter<TransformedModel>;
+/// Noise of runs as a choice among ways takes it along; `variance`: as FitOptions::noise_variance, n entries,
+/// none for the nugget.
+struct RunNoise {
+  Noise noise = Noise::nugget;
+  Eigen::VectorXd variance = {};
+};
+
+/// f(X, y) or f(X, y, noise_variance) that gives a TransformedModel, behind one type. It may be given fewer
+/// runs than all, and then the variances of these.
+class RunFitter {
+ public:
+  template <class F>
+  requires(!std::same_as<std::remove_cvref_t<F>, RunFitter>) RunFitter(F f)  // NOLINT: any such function
+      : f_(erase(std::move(f))) {}
+
+  TransformedModel operator()(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                              const Eigen::VectorXd& noise_variance = {}) const {
+    return f_(X, y, noise_variance);
+  }
+
+ private:
+  using Runs = const Eigen::MatrixXd&;
+  using Entries = const Eigen::VectorXd&;
+  using Erased = std::function<TransformedModel(Runs, Entries, Entries)>;
+
+  template <class F>
+  static Erased erase(F f) {
+    if constexpr (std::is_invocable_r_v<TransformedModel, const F&, Runs, Entries, Entries>)
+      return f;
+    else
+      return [f = std::move(f)](Runs X, Entries y, Entries) { return TransformedModel(f(X, y)); };
+  }
+
+  Erased f_;
+};
+
+struct WayToFit {
+  std::string name;
+  RunFitter fitter;
+};
 
 namespace detail {
 
@@ -81,17 +122,37 @@ inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& s
                 : std::numeric_limits<double>::infinity()};
 }
 
+/// What ways are compared on.
+struct ComparedRuns {
+  const Eigen::MatrixXd& X;
+  const Eigen::VectorXd& y;
+  const ResponseRange& range;
+  const RunNoise& noise;
+
+  Eigen::VectorXd noise_of(const std::vector<Eigen::Index>& rows) const {
+    return noise.variance.size() == 0 ? Eigen::VectorXd() : entries_of(noise.variance, rows);
+  }
+};
+
+/// The runs of `out` as a model of the others predicts them, each with its own noise where that is known.
+inline Validation validate_on(const TransformedModel& model, const ComparedRuns& runs,
+                              const std::vector<Eigen::Index>& out) {
+  const Eigen::MatrixXd X = rows_of(runs.X, out);
+  const Eigen::VectorXd y = entries_of(runs.y, out);
+  return runs.noise.noise == Noise::known ? validate(model, X, y, runs.noise_of(out)) : validate(model, X, y);
+}
+
 /// Of each run, as predicted by the way fitted to the four fifths of the runs that it is not among.
-inline Eigen::VectorXd refitted_scores(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                                       const ResponseRange& range, const WayToFit& way) {
-  Eigen::VectorXd scores(y.size());
-  for (const std::vector<Eigen::Index>& out : folds_of(X.rows(), std::min<Eigen::Index>(5, X.rows()), 1)) {
-    const std::vector<Eigen::Index> in = rows_besides(out, X.rows());
-    const TransformedModel model = way.fitter(rows_of(X, in), entries_of(y, in));
-    const Validation v = validate(model, rows_of(X, out), entries_of(y, out));
+inline Eigen::VectorXd refitted_scores(const ComparedRuns& runs, const WayToFit& way) {
+  Eigen::VectorXd scores(runs.y.size());
+  const Eigen::Index n = runs.X.rows();
+  for (const std::vector<Eigen::Index>& out : folds_of(n, std::min<Eigen::Index>(5, n), 1)) {
+    const std::vector<Eigen::Index> in = rows_besides(out, n);
+    const TransformedModel model = way.fitter(rows_of(runs.X, in), entries_of(runs.y, in), runs.noise_of(in));
+    const Validation v = validate_on(model, runs, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      scores[out[i]] = log_score(predicted_run(v, row), v.observed[row], range);
+      scores[out[i]] = log_score(predicted_run(v, row), v.observed[row], runs.range);
     }
   }
   return scores;
@@ -109,13 +170,12 @@ inline std::vector<std::size_t> better_standings(const std::vector<FitStanding>&
 }
 
 /// The best that also wins on runs that it has not seen, else the first. Writes the gains that it looks at.
-inline std::size_t best_standing(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                                 const ResponseRange& range, const std::vector<WayToFit>& ways,
+inline std::size_t best_standing(const ComparedRuns& runs, const std::vector<WayToFit>& ways,
                                  std::vector<FitStanding>& table) {
   Eigen::VectorXd first;
   for (const std::size_t k : better_standings(table)) {
-    if (first.size() == 0) first = refitted_scores(X, y, range, ways.front());
-    table[k].refitted_gain = mean_of(difference(first, refitted_scores(X, y, range, ways[k])));
+    if (first.size() == 0) first = refitted_scores(runs, ways.front());
+    table[k].refitted_gain = mean_of(difference(first, refitted_scores(runs, ways[k])));
     if (table[k].refitted_gain > 0) return k;
   }
   return 0;
@@ -124,22 +184,25 @@ inline std::size_t best_standing(const Eigen::MatrixXd& X, const Eigen::VectorXd
 }  // namespace detail
 
 /// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. A way
-/// is a function of the runs that it is given, which are fewer than all now and then. Throws
-/// std::invalid_argument without ways, and as the ways do.
+/// is a function of the runs that it is given, which are fewer than all now and then. Noise that is known is
+/// given to the ways that take it, and runs are judged by it where they are predicted by a model of others.
+/// Throws std::invalid_argument without ways, for variances that are not one per run, and as the ways do.
 inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
-                            const std::vector<WayToFit>& ways) {
+                            const std::vector<WayToFit>& ways, const RunNoise& noise = {}) {
   if (ways.empty())
     throw std::invalid_argument("kriging::choose_fit: 0 ways; allowed is 1 or more; name at least one");
+  if (noise.noise != Noise::nugget)
+    detail::check_run_noise(noise.variance, X.rows(), "kriging::choose_fit: ");
   std::vector<TransformedModel> models;
   std::vector<FitStanding> table;
   Eigen::VectorXd first;
   for (const WayToFit& way : ways) {
-    models.push_back(way.fitter(X, y));
+    models.push_back(way.fitter(X, y, noise.variance));
     const Eigen::VectorXd scores = detail::left_out_scores(models.back(), range);
     if (table.empty()) first = scores;
     table.push_back(detail::standing_of(way.name, scores, first));
   }
-  const std::size_t best = detail::best_standing(X, y, range, ways, table);
+  const std::size_t best = detail::best_standing({X, y, range, noise}, ways, table);
   return {std::move(table), best, std::move(models[best])};
 }
 
@@ -150,11 +213,14 @@ inline FitChoice choose_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& y
   for (const Scale scale : {Scale::linear, Scale::square_root, Scale::logarithm, Scale::logit}) {
     if (!allows(range, scale)) continue;
     ways.push_back({std::string(to_string(scale)),
-                    [scale, range, options](const Eigen::MatrixXd& P, const Eigen::VectorXd& v) {
-                      return fit_transformed(P, v, scale, range, options);
+                    [scale, range, options](const Eigen::MatrixXd& P, const Eigen::VectorXd& v,
+                                            const Eigen::VectorXd& noise_variance) {
+                      FitOptions of_runs = options;
+                      of_runs.noise_variance = noise_variance;
+                      return fit_transformed(P, v, scale, range, of_runs);
                     }});
   }
-  return choose_fit(X, y, range, ways);
+  return choose_fit(X, y, range, ways, {options.noise, options.noise_variance});
 }
 
 }  // namespace drawpoint::kriging

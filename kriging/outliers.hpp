@@ -31,6 +31,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace drawpoint::kriging {
@@ -39,6 +40,9 @@ struct OutlierOptions {
   double level = 0.01;  ///< chance that normal runs have a suspect by their distance alone, 0 to 1
   double spoilt = 0.7;  ///< 0 to 1; 1: also those that do no harm
   double most = 0.1;    ///< share of the runs, 0 to 0.5
+  /// Of the runs where it is known, n entries, unit of y squared; the fitter may then be f(X, y,
+  /// noise_variance).
+  Eigen::VectorXd noise_variance = {};
 };
 
 struct Outlier {
@@ -80,6 +84,19 @@ inline double error_of(const Validation& left_out, const std::vector<Eigen::Inde
   return std::sqrt(square(error) / static_cast<double>(rows.size()));
 }
 
+/// Fitted to these runs; with their noise where that is known and the fitter takes it.
+template <class F>
+TransformedModel fitted_to(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& X,
+                           const Eigen::VectorXd& y, const F& fitter, const Eigen::VectorXd& noise) {
+  const Eigen::MatrixXd P = rows_of(X, rows);
+  const Eigen::VectorXd v = entries_of(y, rows);
+  if constexpr (std::is_invocable_v<const F&, const Eigen::MatrixXd&, const Eigen::VectorXd&,
+                                    const Eigen::VectorXd&>)
+    return fitter(P, v, noise.size() == 0 ? noise : entries_of(noise, rows));
+  else
+    return fitter(P, v);
+}
+
 inline std::vector<Eigen::Index> without(std::vector<Eigen::Index> rows, Eigen::Index place) {
   rows.erase(rows.begin() + place);
   return rows;
@@ -101,6 +118,8 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
     reject(std::to_string(X.rows()) + " points and " + std::to_string(y.size()) +
            " responses for a model of " + std::to_string(model.runs()) +
            " runs; give those that it was fitted to");
+  if (options.noise_variance.size() != 0)
+    detail::check_run_noise(options.noise_variance, X.rows(), "kriging::find_outliers: ");
   for (const auto& [name, value, most] :
        {std::tuple("level", options.level, 1.0), std::tuple("spoilt", options.spoilt, 1.0),
         std::tuple("most", options.most, 0.5)})
@@ -118,7 +137,7 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
     suspects.push_back(rows[static_cast<std::size_t>(far.run)]);
     if (static_cast<double>(suspects.size()) > options.most * static_cast<double>(X.rows())) return {};
     rows = detail::without(std::move(rows), far.run);
-    best = fitter(detail::rows_of(X, rows), detail::entries_of(y, rows));
+    best = detail::fitted_to(rows, X, y, fitter, options.noise_variance);
     left_out = leave_one_out(best);
   }
   if (suspects.empty() || left_out.rmse > options.spoilt * detail::error_of(all, rows)) return {};
@@ -126,15 +145,15 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
   std::sort(suspects.begin(), suspects.end());
   std::vector<Outlier> outliers;
   const Eigen::MatrixXd P = detail::rows_of(X, suspects);
-  const Eigen::VectorXd mean = best.mean(P), lower = best.quantile(P, 0.025, Target::observation),
-                        upper = best.quantile(P, 0.975, Target::observation);
-  const Prediction scaled = best.model().predict(P, Target::observation);
+  const Eigen::VectorXd observed = detail::entries_of(y, suspects), &noise = options.noise_variance;
+  const Validation v = noise.size() == 0 ? validate(best, P, observed)
+                                         : validate(best, P, observed, detail::entries_of(noise, suspects));
   for (std::size_t k = 0; k < suspects.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const detail::PredictedRun p{best.transform(), scaled.mean[i],
-                                 std::sqrt(std::max(scaled.variance[i], 0.0))};
-    if (detail::too_far(detail::deviations_of(p, y[suspects[k]]), X.rows(), options.level))
-      outliers.push_back({suspects[k], y[suspects[k]], mean[i], lower[i], upper[i]});
+    if (detail::too_far(detail::deviations_of(detail::predicted_run(v, i), observed[i]), X.rows(),
+                        options.level))
+      outliers.push_back({suspects[k], observed[i], v.predicted[i], predicted_quantile(v, i, 0.025),
+                          predicted_quantile(v, i, 0.975)});
   }
   return outliers;
 }

@@ -125,6 +125,21 @@ inline double back_slope(const Transform& t, double z) {
   return 1;
 }
 
+/// Variance on the scale of z of noise about y that has this variance there: the square of half the distance
+/// between what y less and y plus a standard deviation is on it, of one side where the scale does not reach
+/// the other. First order, variance/(dg⁻¹/dz)², where neither is reached, and to which it tends for small
+/// noise; on a bound of a square root that alone would be ∞.
+inline double noise_on_scale(const Transform& t, double y, double variance) {
+  if (t.scale == Scale::linear || !(variance > 0)) return variance;
+  const double deviation = std::sqrt(variance), z = transformed(t, y);
+  const bool below = reaches(t, y - deviation), above = reaches(t, y + deviation);
+  if (!below && !above) return variance / back_slope(t, z) / back_slope(t, z);
+  const double down = below ? z - transformed(t, y - deviation) : 0.0;
+  const double up = above ? transformed(t, y + deviation) - z : 0.0;
+  const double half = below && above ? 0.5 * (down + up) : down + up;
+  return half * half;
+}
+
 namespace detail {
 
 /// Points and weights for the mean over a standard normal variable; both sides alike.

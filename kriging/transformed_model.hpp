@@ -72,14 +72,28 @@ class TransformedModel {
   /// That of probability p, one entry per row of X. Throws as predict, and std::invalid_argument for p
   /// outside of (0, 1).
   Eigen::VectorXd quantile(const Eigen::MatrixXd& X, double p, Target target = Target::latent) const {
-    if (!(p > 0 && p < 1))
-      throw std::invalid_argument("kriging::TransformedModel: quantile of " + detail::text(p) +
-                                  "; allowed are numbers between 0 and 1; use 0.025 and 0.975");
-    const double t = detail::normal_quantile(p);
+    const double t = checked_normal_quantile(p);
     const Prediction z = scaled(X, target);
     Eigen::VectorXd q(X.rows());
     for (Eigen::Index i = 0; i < q.size(); ++i)  // 0 times ∞ is not the median of one run
       q[i] = back(t == 0 ? z.mean[i] : z.mean[i] + t * std::sqrt(std::max(z.variance[i], 0.0)), target);
+    return q;
+  }
+
+  /// That of one run whose noise has this variance about y, one entry per row of X, >= 0, unit of y squared.
+  /// Throws as quantile, and std::invalid_argument for other variances.
+  Eigen::VectorXd run_quantile(const Eigen::MatrixXd& X, double p,
+                               const Eigen::VectorXd& noise_variance) const {
+    detail::check_run_noise(noise_variance, X.rows(), "kriging::TransformedModel: ");
+    const double t = checked_normal_quantile(p);
+    const Prediction z = scaled(X, Target::latent);
+    Eigen::VectorXd q(X.rows());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      const double noise =
+          noise_on_scale(transform_, back_transformed(transform_, z.mean[i]), noise_variance[i]);
+      const double variance = std::max(z.variance[i], 0.0) + noise;
+      q[i] = back_transformed(transform_, t == 0 ? z.mean[i] : z.mean[i] + t * std::sqrt(variance));
+    }
     return q;
   }
 
@@ -139,6 +153,13 @@ class TransformedModel {
  private:
   bool is_linear() const { return transform_.scale == Scale::linear; }
 
+  static double checked_normal_quantile(double p) {
+    if (!(p > 0 && p < 1))
+      throw std::invalid_argument("kriging::TransformedModel: quantile of " + detail::text(p) +
+                                  "; allowed are numbers between 0 and 1; use 0.025 and 0.975");
+    return detail::normal_quantile(p);
+  }
+
   // Of z, without the round-off of an interpolating model.
   Prediction scaled(const Eigen::MatrixXd& X, Target target) const {
     Prediction p = model_.predict(X, target);
@@ -167,14 +188,29 @@ class TransformedModel {
 
 static_assert(SmoothSurrogate<TransformedModel> && Regression<TransformedModel>);
 
-/// X: n x d, natural units; y: n, within the range. Throws as transform_for and fit.
+namespace detail {
+
+/// The options with the noise of each run as it is on the scale of z; `known` only.
+inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, const Eigen::VectorXd& y) {
+  check_noise(options, y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+    options.noise_variance[i] = noise_on_scale(t, y[i], options.noise_variance[i]);
+  return options;
+}
+
+}  // namespace detail
+
+/// X: n x d, natural units; y: n, within the range. Variances of Noise::known are about y, in its unit
+/// squared (noise_on_scale); those of Noise::proportional are taken for shares of the noise on the scale.
+/// Throws as transform_for and fit.
 inline TransformedModel fit_transformed(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
                                         const ResponseRange& range, const FitOptions& options = {}) {
   const Transform transform = transform_for(scale, y, range);
   if (transform.scale == Scale::linear) return fit(X, y, options);
   Eigen::VectorXd z = y;
   for (double& entry : z) entry = transformed(transform, entry);
-  return {fit(X, z, options), transform, y};
+  if (options.noise != Noise::known) return {fit(X, z, options), transform, y};
+  return {fit(X, z, detail::with_noise_on_scale(options, transform, y)), transform, y};
 }
 
 }  // namespace drawpoint::kriging

@@ -7,7 +7,9 @@
 /// Use runs drawn independently of the training runs.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <concepts>
+#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/score.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <stdexcept>
@@ -32,6 +34,30 @@ inline void check_validation(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
   if (X.rows() == 0) reject("X has 0 runs; allowed is 1 or more; give runs that the model has not seen");
   if (!all_finite(y))
     reject("y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
+}
+
+inline void check_run_noise(const Eigen::VectorXd& noise_variance, Index n, const std::string& place) {
+  const auto reject = [&](const std::string& what) { throw std::invalid_argument(place + what); };
+  if (noise_variance.size() != n)
+    reject("noise_variance has " + std::to_string(noise_variance.size()) + " entries but X has " +
+           std::to_string(n) + " rows; give one variance per run");
+  for (Index i = 0; i < n; ++i)
+    if (!(noise_variance[i] >= 0) || !std::isfinite(noise_variance[i]))
+      reject("noise_variance[" + std::to_string(i) + "] is " + doe::detail::number_text(noise_variance[i]) +
+             "; allowed are finite numbers from 0 on; give variances, the squares of standard deviations");
+}
+
+/// What is predicted of the runs where their noise is this, on another scale than that of y. `latent`:
+/// variance of the latent function on the scale.
+inline void set_run_noise(Validation& v, const Eigen::VectorXd& latent,
+                          const Eigen::VectorXd& noise_variance) {
+  for (Index i = 0; i < v.observed.size(); ++i) {
+    const double about = back_transformed(v.transform, v.scaled_mean[i]);
+    v.scaled_variance[i] = latent[i] + noise_on_scale(v.transform, about, noise_variance[i]);
+    const PredictedRun run = predicted_run(v, i);
+    const double half = 0.5 * (run.quantile(1) - run.quantile(-1));
+    v.observation_variance[i] = half * half;
+  }
 }
 
 /// Surrogates whose predictions are normal on another scale than that of y.
@@ -63,6 +89,20 @@ Validation validate(const S& model, const Eigen::MatrixXd& X, const Eigen::Vecto
     v.scaled_mean = z.mean;
     v.scaled_variance = z.variance;
   }
+  return detail::scored(std::move(v));
+}
+
+/// The same for runs whose noise is known: of variance noise_variance, n entries from 0 on in the unit of y
+/// squared, whatever noise the model expects of a run. Throws also for other numbers of them.
+template <class S>
+Validation validate(const S& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                    const Eigen::VectorXd& noise_variance) {
+  detail::check_run_noise(noise_variance, X.rows(), "kriging::validate: ");
+  Validation v = validate(model, X, y);
+  for (Eigen::Index i = 0; i < y.size(); ++i) v.observation_variance[i] = v.variance[i] + noise_variance[i];
+  if constexpr (detail::OnAnotherScale<S>)
+    if (v.transform.scale != Scale::linear)
+      detail::set_run_noise(v, model.model().predict(X).variance, noise_variance);
   return detail::scored(std::move(v));
 }
 

@@ -143,7 +143,7 @@ doe::Variable variable_from(const Section& in) {
 }
 
 doe::Response response_from(const Section& in) {
-  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper", "description"});
+  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper", "description", "standard_error"});
   doe::Response response{.name = in.text("name"), .unit = in.text("unit", "1")};
   response.goal = in.one_of("goal", {doe::Goal::minimize, doe::Goal::maximize, doe::Goal::at_most,
                                      doe::Goal::at_least, doe::Goal::record});
@@ -151,6 +151,7 @@ doe::Response response_from(const Section& in) {
   response.lower = in.number("lower", response.lower);
   response.upper = in.number("upper", response.upper);
   response.description = in.text("description", "");
+  response.standard_error = in.text("standard_error", "");
   return response;
 }
 

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/report/run_noise.h>
+#include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/kriging/cross_validation.hpp>
@@ -57,8 +58,9 @@ Json errors_json(const kriging::Validation& v, const doe::Response& response) {
 /// Of one run, on the scale that is fitted.
 std::string noise_text(const kriging::TransformedModel& model, const std::string& unit) {
   const double noise = std::sqrt(model.noise_variance());
-  if (model.transform().scale == kriging::Scale::linear) return with_unit(noise, unit);
-  return number(noise) + " on the scale " + std::string(to_string(model.transform().scale));
+  const std::string told = knows_noise(model) ? ", in the mean square, as the runs tell it" : "";
+  if (model.transform().scale == kriging::Scale::linear) return with_unit(noise, unit) + told;
+  return number(noise) + " on the scale " + std::string(to_string(model.transform().scale)) + told;
 }
 
 }  // namespace
@@ -96,6 +98,7 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
         {"message", model.message()},
         {"theta", theta},
         {"noise_deviation", number_or_null(std::sqrt(model.noise_variance()))},
+        {"noise_told", knows_noise(model)},
         {"leave_one_out", errors_json(leave_one_out(model), problem.responses[j])}};
   }
   return all;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/doe/bounds.hpp>
 
@@ -36,22 +37,50 @@ std::string name_of(kriging::Scale scale) {
 
 kriging::ResponseRange range_of(const doe::Response& response) { return {response.lower, response.upper}; }
 
+/// With the noise of the runs, or without a word of it where `told` is not.
+kriging::WayToFit way_to_fit(const kriging::FitOptions& options, const kriging::ResponseRange& range,
+                             kriging::Scale scale, bool told) {
+  const std::string slope = options.trend == kriging::Trend::linear ? ", linear trend" : "";
+  return {std::string(to_string(options.correlation)) + slope + name_of(scale) +
+              (told ? ", noise as the runs tell it" : ""),
+          [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
+            if (!told) return kriging::fit_transformed(X, y, scale, range, options);
+            kriging::FitOptions with_noise = options;
+            with_noise.noise = kriging::Noise::known;
+            with_noise.noise_variance = noise_variance;
+            return kriging::fit_transformed(X, y, scale, range, with_noise);
+          }};
+}
+
+/// On runs that the model has not seen; by the noise that these tell where the model was fitted with it.
+kriging::Validation validation_of(const kriging::TransformedModel& model, const doe::Evaluations& runs,
+                                  const doe::Response& response) {
+  const Eigen::MatrixXd X = runs.X();
+  const Eigen::VectorXd y = runs.y(response.name);
+  if (!knows_noise(model)) return kriging::validate(model, X, y);
+  return kriging::validate(model, X, y, runs.noise_variance(response.name));
+}
+
 }  // namespace
 
+kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response) {
+  const Eigen::VectorXd variance = runs.noise_variance(response.name);
+  if (variance.size() == 0 || !(variance.maxCoeff() > 0)) return {};
+  return {kriging::Noise::known, variance};
+}
+
 std::vector<kriging::WayToFit> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
-                                           kriging::Scale scale) {
+                                           kriging::Scale scale, const kriging::RunNoise& noise) {
   std::vector<kriging::WayToFit> ways;
-  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
-    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
-      kriging::FitOptions options = default_fit(problem);
-      options.correlation = correlation;
-      options.trend = trend;
-      const std::string slope = trend == kriging::Trend::linear ? ", linear trend" : "";
-      ways.push_back(
-          {std::string(to_string(correlation)) + slope + name_of(scale),
-           [options, scale, range = range_of(response)](const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
-             return kriging::fit_transformed(X, y, scale, range, options);
-           }});
+  for (const bool told : {false, true}) {
+    if (told && noise.noise != kriging::Noise::known) break;
+    for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
+      for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
+        kriging::FitOptions options = default_fit(problem);
+        options.correlation = correlation;
+        options.trend = trend;
+        ways.push_back(way_to_fit(options, range_of(response), scale, told));
+      }
     }
   }
   return ways;
@@ -66,13 +95,13 @@ Models fit_models(const Tables& tables) {
     const Eigen::VectorXd y = tables.training.y(response.name);
     const kriging::ResponseRange range = range_of(response);
     const kriging::FitChoice on_scale = kriging::choose_scale(X, y, range, default_fit(problem));
+    const kriging::RunNoise noise = told_noise(tables.training, response);
     kriging::FitChoice choice =
-        kriging::choose_fit(X, y, range, ways_to_fit(problem, response, on_scale.scale()));
+        kriging::choose_fit(X, y, range, ways_to_fit(problem, response, on_scale.scale(), noise), noise);
     fitted.ways.push_back(choice.name());
     fitted.models.push_back(std::move(choice.model));
-    if (X_new.rows() == 0) continue;
-    fitted.validations.push_back(
-        kriging::validate(fitted.models.back(), X_new, tables.validation.y(response.name)));
+    if (X_new.rows() > 0)
+      fitted.validations.push_back(validation_of(fitted.models.back(), tables.validation, response));
   }
   return fitted;
 }
@@ -103,10 +132,9 @@ PlannedPoints with_predictions(const std::vector<kriging::TransformedModel>& mod
   for (std::size_t j = 0; j < models.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     const auto bounded = [&](double y) { return doe::within_range(problem.responses[j], y); };
-    const auto end = [&](double p) { return models[j].quantile(X, p, kriging::Target::observation); };
     points.predicted.col(column) = models[j].mean(X).unaryExpr(bounded);
-    points.lower.col(column) = end(0.5 - 0.5 * stated_level).unaryExpr(bounded);
-    points.upper.col(column) = end(0.5 + 0.5 * stated_level).unaryExpr(bounded);
+    points.lower.col(column) = run_quantile(models, problem, j, X, 0.5 - 0.5 * stated_level);
+    points.upper.col(column) = run_quantile(models, problem, j, X, 0.5 + 0.5 * stated_level);
   }
   return points;
 }

@@ -15,10 +15,14 @@
 
 namespace drawpoint::studies {
 
+/// What the runs that succeeded tell of the noise of a response (doe::Response::standard_error); nothing
+/// where they do not, or tell none but 0.
+kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response);
+
 /// The ways to fit a response on this scale that are compared: smooth and less smooth, without and with a
-/// slope. The first is the default.
+/// slope, with noise that is estimated and, where `noise` is known, with that. The first is the default.
 std::vector<kriging::WayToFit> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
-                                           kriging::Scale scale);
+                                           kriging::Scale scale, const kriging::RunNoise& noise = {});
 
 struct Models {
   std::vector<kriging::TransformedModel> models;  ///< one per response, in order

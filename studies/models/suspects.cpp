@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/suspects.h>
+#include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/outliers.hpp>
 
@@ -35,12 +36,15 @@ std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
     const doe::Response& response = problem.responses[j];
     const kriging::TransformedModel& model = fitted.models[j];
-    const auto ways = ways_to_fit(problem, response, model.transform().scale);
+    const kriging::RunNoise noise = told_noise(tables.training, response);
+    const auto ways = ways_to_fit(problem, response, model.transform().scale, noise);
     const auto way = std::find_if(ways.begin(), ways.end(),
                                   [&](const kriging::WayToFit& w) { return w.name == fitted.ways[j]; });
     if (way == ways.end()) continue;
+    kriging::OutlierOptions options;
+    if (knows_noise(model)) options.noise_variance = noise.variance;
     for (const kriging::Outlier& outlier :
-         kriging::find_outliers(model, X, tables.training.y(response.name), way->fitter))
+         kriging::find_outliers(model, X, tables.training.y(response.name), way->fitter, options))
       sentences.push_back(sentence(outlier, response, runs[static_cast<std::size_t>(outlier.run)]));
   }
   return sentences;

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/report/data.h>
 #include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/run_noise.h>
+#include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/surface.h>
@@ -147,11 +148,8 @@ Eigen::MatrixXd ends_of_intervals(const ReportInput& input, double probability) 
   if (input.models.empty() || input.front.X.rows() == 0) return {};
   Eigen::MatrixXd all(input.front.X.rows(), static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const doe::Response& response = input.problem.responses[chosen[k]];
     all.col(static_cast<Eigen::Index>(k)) =
-        input.models[chosen[k]]
-            .quantile(input.front.X, probability, kriging::Target::observation)
-            .unaryExpr([&](double y) { return doe::within_range(response, y); });
+        run_quantile(input.models, input.problem, chosen[k], input.front.X, probability);
   }
   return all;
 }

@@ -49,6 +49,8 @@ std::string between(const doe::Response& there, const doe::Response& here) {
     return changed(subject + "least value", bound_text(there.lower), bound_text(here.lower));
   if (there.upper != here.upper)
     return changed(subject + "largest value", bound_text(there.upper), bound_text(here.upper));
+  if (there.standard_error != here.standard_error)
+    return changed(subject + "standard error", quoted(there.standard_error), quoted(here.standard_error));
   return "";
 }
 

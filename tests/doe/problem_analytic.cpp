@@ -128,6 +128,30 @@ TEST(Problem, ResponsesHaveARange) {
   EXPECT_EQ(within_range(Response{.name = "any", .unit = "1"}, -7), -7);
 }
 
+TEST(Problem, AStandardErrorIsARecordedResponseOfTheSameUnit) {
+  const auto fault = [](const std::function<void(Response&)>& change) {
+    return fault_after([&](Problem& p) {
+      p.responses.push_back({.name = "error", .unit = p.responses[0].unit, .lower = 0});
+      p.responses[0].standard_error = "error";
+      change(p.responses.back());
+    });
+  };
+  const std::string place = "doe::Problem: response \"production\": its standard error is \"error\", ";
+  EXPECT_EQ(fault([](Response&) {}), "");
+  EXPECT_EQ(fault([](Response& r) { r.name = "other"; }),
+            place + "which is no response; add one of that name and the goal record");
+  EXPECT_EQ(fault([](Response& r) { r.goal = Goal::minimize; }),
+            place + "whose goal is minimize; it must be record");
+  EXPECT_EQ(fault([](Response& r) { r.lower = -1; }),
+            place + "which may be below 0; give it the lower bound 0");
+  EXPECT_EQ(fault([](Response& r) { r.unit = "t"; }), place + "in \"t\"; give both the same unit, \"kg/s\"");
+  EXPECT_EQ(fault([](Response& r) { r.standard_error = "error"; }),
+            place + "which names a standard error itself; remove that one");
+  EXPECT_EQ(fault_after([](Problem& p) { p.responses[0].standard_error = p.responses[0].name; }),
+            "doe::Problem: response \"production\": its standard error is \"production\", which is the "
+            "response itself; name another");
+}
+
 TEST(Problem, SignsOfGoalsTurnToLessIsBetter) {
   for (const Goal goal : {Goal::minimize, Goal::at_most}) EXPECT_EQ(sign_of(goal), 1.0);
   for (const Goal goal : {Goal::maximize, Goal::at_least}) EXPECT_EQ(sign_of(goal), -1.0);

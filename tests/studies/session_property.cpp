@@ -184,6 +184,11 @@ TEST(Problems, SurviveTheStoreAsText) {
   other.responses[0].upper = 800;
   EXPECT_EQ(difference(problem, other), "response \"production\": largest value none there, 800.0 here");
   other = problem;
+  other.responses[1].standard_error = "production_error";
+  EXPECT_EQ(difference(doe::problem_from_json(nlohmann::json::parse(to_json(other).dump())), other), "");
+  EXPECT_EQ(difference(problem, other), "response \"" + problem.responses[1].name +
+                                            "\": standard error \"\" there, \"production_error\" here");
+  other = problem;
   other.variables[1].levels[1] = "c";
   EXPECT_EQ(difference(problem, other), "variable \"tool\": levels [\"a\",\"b\"] there, [\"a\",\"c\"] here");
   other = real;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the models of a study say of one run at a new point, its noise included. Where runs tell their own
+/// standard error and the fit took their word, a run's noise at a point is what the model of the standard
+/// errors expects there; else it is the same everywhere, as the fit estimated it.
+
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// Whether the model was fitted with the noise that the runs told.
+inline bool knows_noise(const kriging::TransformedModel& model) {
+  return model.model().state().known_noise > 0;
+}
+
+/// Quantile of response j, one model per response, at the rows of X (n x d): n entries, within its range.
+inline Eigen::VectorXd run_quantile(const std::vector<kriging::TransformedModel>& models,
+                                    const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& X,
+                                    double probability) {
+  const doe::Response& response = problem.responses[j];
+  const auto quantile = [&]() -> Eigen::VectorXd {
+    if (!knows_noise(models[j])) return models[j].quantile(X, probability, kriging::Target::observation);
+    const int told = doe::response_index(problem, response.standard_error);
+    const Eigen::VectorXd error = models[static_cast<std::size_t>(told)].mean(X).cwiseMax(0.0);
+    return models[j].run_quantile(X, probability, error.cwiseAbs2());
+  };
+  return quantile().unaryExpr([&](double y) { return doe::within_range(response, y); });
+}
+
+}  // namespace drawpoint::studies

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// Runs that tell their own standard error, from the table of runs to what is predicted of the next.
+
+#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/models/suspects.h>
+#include <gtest/gtest.h>
+#include <drawpoint/doe/latin_hypercube.hpp>
+#include <drawpoint/doe/seed.hpp>
+
+#include <cmath>
+#include <string>
+
+using namespace drawpoint;
+using namespace drawpoint::studies;
+
+namespace {
+
+/// Of one variable: a mean of samples with noise of 0.02 on the left, rising fiftyfold to the right.
+double deviation(double x) { return 0.02 * std::pow(50.0, x); }
+double mean(double x) { return 5 + std::sin(6 * x); }
+
+doe::Problem problem() {
+  return {.variables = {{"x", "m", 0.0, 1.0}},
+          .responses = {
+              {.name = "load", .unit = "t", .goal = doe::Goal::maximize, .standard_error = "load_error"},
+              {.name = "load_error", .unit = "t", .lower = 0}}};
+}
+
+/// Twenty samples each: the standard error that a run tells is known to a sixth of itself.
+doe::Outcome run(double x, doe::RandomStream& random) {
+  constexpr int samples = 20;
+  Eigen::VectorXd values(samples);
+  for (double& value : values) value = mean(x) + deviation(x) * std::sqrt(samples) * random.normal();
+  const double scatter = (values.array() - values.mean()).square().sum() / (samples - 1);
+  return {values.mean(), std::sqrt(scatter / samples)};
+}
+
+doe::Evaluations runs(int n, doe::Seed seed) {
+  doe::Evaluations table{problem(), {}};
+  const Eigen::MatrixXd X = doe::latin_hypercube(table.problem, n, {.seed = seed});
+  doe::RandomStream random(seed);
+  for (int i = 0; i < n; ++i) table.rows.push_back({i + 1, 0, 1, X.row(i), run(X(i, 0), random), 0.0});
+  return table;
+}
+
+double width(const Models& fitted, double x) {
+  const PlannedPoints p = with_predictions(fitted.models, problem(), Eigen::MatrixXd::Constant(1, 1, x));
+  return p.upper(0, 0) - p.lower(0, 0);
+}
+
+}  // namespace
+
+// 60 runs. The interval of a run is 2 * 1.96 of its deviation where the model of the mean is far better known
+// than that, as it is in the middle and on the right: 60 runs put its error at some third of a run's. The
+// standard errors are told to a sixth each, and their model has ten runs per place to learn from. A third of
+// the width either way leaves room for both.
+TEST(ToldNoise, IntervalsAreAsWideAsRunsScatterThere) {
+  const Models fitted = fit_models({runs(60, 1), {problem(), {}}});
+  EXPECT_NE(fitted.ways[0].find("noise as the runs tell it"), std::string::npos) << fitted.ways[0];
+  EXPECT_EQ(fitted.ways[1].find("noise as the runs tell it"), std::string::npos) << fitted.ways[1];
+  for (const double x : {0.3, 0.6, 0.9}) {
+    const double own = 2 * 1.96 * deviation(x);
+    EXPECT_GT(width(fitted, x), own / 1.33) << x;
+    EXPECT_LT(width(fitted, x), own * 1.33) << x;
+  }
+}
+
+// 300 fresh runs, by halves: noise of the right half is sevenfold that of the left, and intervals of one
+// width would miss on the right and hold all on the left. Of 150 runs 95 % within have a standard error of
+// 1.8 %; standard errors told to a sixth of themselves are a normal variable over that of Student's t with 19
+// degrees of freedom, of which 1.96 hold 93.5 %. Three standard errors below that are 88 %; that all of 150
+// hold has a chance of 5e-4.
+TEST(ToldNoise, IntervalsHoldOnBothSides) {
+  const Models fitted = fit_models({runs(60, 1), runs(300, 2)});
+  const kriging::Validation& v = fitted.validations[0];
+  const doe::Evaluations fresh = runs(300, 2);
+  int held[2] = {}, all[2] = {};
+  for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
+    const int side = fresh.X()(i, 0) > 0.5;
+    ++all[side];
+    held[side] += kriging::predicted_quantile(v, i, 0.025) <= v.observed[i] &&
+                  v.observed[i] <= kriging::predicted_quantile(v, i, 0.975);
+  }
+  for (const int side : {0, 1}) {
+    EXPECT_GT(held[side], 0.88 * all[side]);
+    EXPECT_LT(held[side], all[side]);
+  }
+  EXPECT_TRUE(suspects(fitted, {runs(60, 1), {problem(), {}}}).empty());
+}
+
+// All runs exact: nothing is told, and fits estimate as ever.
+TEST(ToldNoise, OfExactRunsIsNone) {
+  doe::Evaluations table = runs(20, 1);
+  for (doe::Evaluation& row : table.rows) row.outcome = {mean(row.x[0]), 0.0};
+  EXPECT_EQ(told_noise(table, table.problem.responses[0]).noise, kriging::Noise::nugget);
+  EXPECT_EQ(told_noise(table, table.problem.responses[1]).noise, kriging::Noise::nugget);
+  EXPECT_NEAR(fit_models({table, {problem(), {}}}).models[0](Eigen::VectorXd::Constant(1, 0.5)), mean(0.5),
+              1e-3);
+}
