@@ -41,12 +41,13 @@ std::vector<Run> next_runs(Store& store, const Settings& settings) {
 int ask_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   check_request(study, settings);
-  if (!settings.exported.file.empty()) check_output_file(folder, settings.exported.file);
+  ExportSettings wanted = settings.exported;
+  wanted.file = output_file(folder, wanted.file);
   make_writable(folder);
   const FolderLock lock(folder);
   Store store = plan_study(study, folder, settings);
   const std::vector<Run> asked = next_runs(store, settings);
-  write_table(study, asked_table(store.identity(), asked), settings.exported);
+  write_table(study, asked_table(store.identity(), asked), wanted);
   std::fprintf(
       stderr,
       asked.empty() ? "no run is wanted\n" : "%zu runs to make; say what came out with the command tell\n",

@@ -44,8 +44,7 @@ int export_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   ExportSettings wanted = settings.exported;
-  if (!wanted.file.empty()) check_output_file(folder, wanted.file);
-  wanted.file = behind_links(wanted.file);
+  wanted.file = output_file(folder, wanted.file);
   if (wanted.format == "hdf5") {
     export_study(store.identity(), store.runs(), wanted);
     return 0;

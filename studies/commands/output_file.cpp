@@ -17,9 +17,18 @@ bool is_within(const fs::path& file, const fs::path& place) {
   return std::mismatch(of.begin(), of.end(), whole.begin(), whole.end()).first == of.end();
 }
 
+fs::path behind_links(const fs::path& file) {
+  constexpr int most_links = 40;  // as the system follows
+  fs::path end = file;
+  for (int link = 0; link < most_links && fs::is_symlink(end); ++link)
+    end = end.parent_path() / fs::read_symlink(end);
+  return end;
+}
+
 }  // namespace
 
-void check_output_file(const Folder& folder, const fs::path& file, const std::string& option) {
+fs::path output_file(const Folder& folder, const fs::path& file, const std::string& option) {
+  if (file.empty()) return file;
   if (fs::exists(file) && !fs::is_regular_file(file) && !fs::is_directory(file))
     throw UsageError(option + ": " + file.string() +
                      " is a device or a pipe, whose place a file written whole would take; name a file");
@@ -29,14 +38,7 @@ void check_output_file(const Folder& folder, const fs::path& file, const std::st
       throw UsageError(option + ": " + file.string() + " is where the study keeps its own (" + own.string() +
                        "); name another");
   }
-}
-
-fs::path behind_links(const fs::path& file) {
-  constexpr int most_links = 40;  // as the system follows
-  fs::path end = file;
-  for (int link = 0; link < most_links && fs::is_symlink(end); ++link)
-    end = end.parent_path() / fs::read_symlink(end);
-  return end;
+  return behind_links(file);
 }
 
 }  // namespace drawpoint::studies

@@ -9,12 +9,10 @@
 
 namespace drawpoint::studies {
 
-/// Of a file or folder that a command is told to write with an option. Throws UsageError where a study keeps
-/// its own: the store, run logs, what runs share; and for what is neither file nor folder.
-void check_output_file(const Folder& folder, const std::filesystem::path& file,
-                       const std::string& option = "--file");
-
-/// Where a link leads: a file that is written whole replaces that file, not the link.
-std::filesystem::path behind_links(const std::filesystem::path& file);
+/// The file or folder that a command is told to write with an option, empty as it is; where it is a link, the
+/// file that it leads to: what is written whole replaces that, not the link. Throws UsageError where a study
+/// keeps its own, the store, run logs, what runs share, and for what is neither file nor folder.
+std::filesystem::path output_file(const Folder& folder, const std::filesystem::path& file,
+                                  const std::string& option = "--file");
 
 }  // namespace drawpoint::studies

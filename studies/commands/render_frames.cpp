@@ -28,10 +28,14 @@ std::string seconds_text(double value) {
   return text;
 }
 
+FrameSettings with_files(const Folder& folder, FrameSettings settings) {
+  settings.folder = output_file(folder, settings.folder, "--frames");
+  settings.video = output_file(folder, settings.video, "--video");
+  return settings;
+}
+
 /// What can be told before the log is read.
-FrameSize checked_size(const Folder& folder, const FrameSettings& settings) {
-  if (!settings.folder.empty()) check_output_file(folder, settings.folder, "--frames");
-  if (!settings.video.empty()) check_output_file(folder, settings.video, "--video");
+FrameSize checked_size(const FrameSettings& settings) {
   const FrameSize size = frame_size_from(settings.size).value();
   if (!settings.video.empty() && (size.width % 2 != 0 || size.height % 2 != 0))
     throw UsageError("--size: a film has an even number of pixels each way, not " + settings.size +
@@ -85,9 +89,9 @@ std::string message_after_signal(const FrameSettings& settings) {
 
 }  // namespace
 
-int render_frames(const Study& study, const Folder& folder, const Run& run, const FrameSettings& settings) {
-  Rendering rendering{
-      .scene = {}, .times = {}, .size = checked_size(folder, settings), .camera = settings.camera};
+int render_frames(const Study& study, const Folder& folder, const Run& run, const FrameSettings& wanted) {
+  const FrameSettings settings = with_files(folder, wanted);
+  Rendering rendering{.scene = {}, .times = {}, .size = checked_size(settings), .camera = settings.camera};
   const fs::path ffmpeg = settings.video.empty() ? "" : found_ffmpeg();
   const Browser browser{.program = found_browser()};
   rendering.scene = existing_scene(study, folder, run);

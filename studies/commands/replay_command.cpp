@@ -22,8 +22,8 @@ int replay_command(const Study& study, const Settings& settings) {
   const Store store = open_store(study, folder);
   const Run run = stored_run(store, folder, wanted.run);
   if (frames) return render_frames(study, folder, run, wanted.frames);
-  if (!wanted.file.empty()) check_output_file(folder, wanted.file);
-  const std::filesystem::path file = wanted.file.empty() ? folder.replay(run.id) : wanted.file;
+  const std::filesystem::path file =
+      wanted.file.empty() ? folder.replay(run.id) : output_file(folder, wanted.file);
   replay(study, store, folder, run, file, settings.command);
   std::printf("%s\n", std::filesystem::absolute(file).lexically_normal().c_str());
   return 0;

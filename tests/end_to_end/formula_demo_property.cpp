@@ -162,6 +162,11 @@ TEST_F(FormulaDemo, ExportsBehindALinkAndToNoDevice) {
   EXPECT_EQ(run(demo + " export --file " + link.string() + out()).code, 0);
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_TRUE(std::filesystem::is_regular_file(file));
+  const auto asked = place_ / "asked.csv", other_link = place_ / "other.csv";
+  std::filesystem::create_symlink("asked.csv", other_link);
+  EXPECT_EQ(run(demo + " ask --runs 24 --file " + other_link.string() + out()).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(other_link));
+  EXPECT_TRUE(std::filesystem::is_regular_file(asked));
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   expect_refused(demo + " export --file " + pipe.string() + out(), 2, "is a device or a pipe");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
