@@ -19,6 +19,7 @@
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <drawpoint/kriging/outliers.hpp>
@@ -47,6 +48,7 @@
 ///   fit_fidelities.hpp             co-Kriging: few true runs and more of a cheaper setting, in one model
 ///   fidelity_model.hpp             that model
 ///   replicates.hpp                 repeated runs as one run with a known noise
+///   noise_model.hpp                the noise that a run has at a place, from what runs tell of theirs
 ///   polynomial.hpp                 polynomial regression
 ///   radial.hpp                     radial basis functions
 ///   fit_radial.hpp                 their fit

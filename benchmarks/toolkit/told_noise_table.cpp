@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-/// told_noise_table: what it is worth that runs tell their own standard error. Each run is the mean of a few noisy
-/// samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell, and the
-/// choice among the two. Takes no options; prints a table: errors over the deviation of the response, and how
-/// many of fresh runs lie within their 95 % interval, where the noise is small and where it is large.
+/// told_noise_table: what it is worth that runs tell their own standard error. Each run is the mean of a few
+/// noisy samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell,
+/// fits with a model of that, and the choice among the three. Takes no options; prints a table: errors over
+/// the deviation of the response, and how many of fresh runs lie within their 95 % interval, where the noise
+/// is small and where it is large.
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
+#include <drawpoint/kriging/noise_model.hpp>
 #include <exception>
 #include <string>
 #include <utility>
@@ -23,7 +25,8 @@ using namespace drawpoint;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int designs = 15, fresh = 200;
+/// Columns: the three ways, and the chosen one.
+constexpr int designs = 15, fresh = 200, columns = 4;
 
 /// On the unit square.
 struct Function {
@@ -93,27 +96,44 @@ Runs runs_of(const Function& function, const Noise& noise, int n, int samples, d
   return r;
 }
 
+kriging::FitOptions known(const VectorXd& noise_variance) {
+  kriging::FitOptions options;
+  options.noise = kriging::Noise::known;
+  options.noise_variance = noise_variance;
+  return options;
+}
+
 std::vector<kriging::WayToFit> ways() {
   return {{"estimated", [](const MatrixXd& X,
                            const VectorXd& y) { return kriging::TransformedModel(kriging::fit(X, y)); }},
-          {"told", [](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
-             kriging::FitOptions options;
-             options.noise = kriging::Noise::known;
-             options.noise_variance = noise_variance;
-             return kriging::TransformedModel(kriging::fit(X, y, options));
+          {"told",
+           [](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
+             return kriging::TransformedModel(kriging::fit(X, y, known(noise_variance)));
+           }},
+          {"modelled", [](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
+             const kriging::FitOptions modelled = kriging::with_modelled_noise(known(noise_variance), X);
+             return kriging::TransformedModel(kriging::fit(X, y, modelled));
            }}};
+}
+
+/// Of the fresh runs, as the way k of the three has it; none for the first.
+kriging::RunNoise noise_of(std::size_t k, const Runs& training, const Runs& check) {
+  if (k == 0) return {};
+  if (k == 1) return {kriging::Noise::known, check.noise_variance};
+  const kriging::TransformedModel model = kriging::fit_noise(training.X, training.noise_variance);
+  return {kriging::Noise::known, kriging::noise_variance_at(model, check.X)};
 }
 
 struct Result {
   double error = 0, quiet = 0, noisy = 0;  // held, of the fresh runs with less and with more noise
 };
 
-/// Told models know the noise of the fresh runs as these tell it, by as many samples.
-Result judged(const kriging::TransformedModel& model, const Function& function, const Runs& r) {
+Result judged(const kriging::TransformedModel& model, const Function& function, const Runs& r,
+              const kriging::RunNoise& noise) {
   const Scale scale = scale_of(function);
-  const bool told = model.model().state().known_noise > 0;
-  const kriging::Validation v =
-      told ? kriging::validate(model, r.X, r.y, r.noise_variance) : kriging::validate(model, r.X, r.y);
+  const kriging::Validation v = noise.noise == kriging::Noise::known
+                                    ? kriging::validate(model, r.X, r.y, noise.variance)
+                                    : kriging::validate(model, r.X, r.y);
   const double middle = std::sqrt(r.deviation.minCoeff() * r.deviation.maxCoeff());
   double sum = 0;
   int held[2] = {}, all[2] = {};
@@ -140,28 +160,28 @@ std::string text(double share) {
 }
 
 void print_row(const Function& function, const Noise& noise, int n, int samples) {
-  std::vector<double> error[3], quiet[3], noisy[3];
-  int chosen = 0;
+  std::vector<double> error[columns], quiet[columns], noisy[columns];
+  int chosen[3] = {};
   for (int design = 1; design <= designs; ++design) {
     const auto seed = static_cast<doe::Seed>(design);
     const Runs r = runs_of(function, noise, n, samples, seed);
     const Runs check = runs_of(function, noise, fresh, samples, seed + 1000);
     const auto choice = kriging::choose_fit(r.X, r.y, {}, ways(), {kriging::Noise::known, r.noise_variance});
-    chosen += choice.best == 1;
-    const std::array models = {ways()[0].fitter(r.X, r.y), ways()[1].fitter(r.X, r.y, r.noise_variance),
-                               choice.model};
-    for (std::size_t k = 0; k < models.size(); ++k) {
-      const Result result = judged(models[k], function, check);
+    ++chosen[choice.best];
+    for (std::size_t k = 0; k < columns; ++k) {
+      const std::size_t way = k < 3 ? k : choice.best;
+      const Result result =
+          judged(ways()[way].fitter(r.X, r.y, r.noise_variance), function, check, noise_of(way, r, check));
       error[k].push_back(result.error);
       quiet[k].push_back(result.quiet);
       noisy[k].push_back(result.noisy);
     }
   }
   std::printf("| %s | %s | %d | %d |", function.name, noise.name, n, samples);
-  for (int k = 0; k < 3; ++k) std::printf(" %.3f |", median(error[k]));
-  for (int k = 0; k < 3; ++k)
+  for (const auto& errors : error) std::printf(" %.3f |", median(errors));
+  for (int k = 0; k < columns; ++k)
     std::printf(" %s / %s |", text(median(quiet[k])).c_str(), text(median(noisy[k])).c_str());
-  std::printf(" %d |\n", chosen);
+  std::printf(" %d / %d / %d |\n", chosen[0], chosen[1], chosen[2]);
   std::fflush(stdout);
 }
 
@@ -170,9 +190,10 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
 int main() {
   try {
     std::printf(
-        "| Function | Noise of a run | Runs | Samples | Error: estimated | told | chosen | "
-        "Held %%, quiet / noisy runs: estimated | told | chosen | Told chosen of %d |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| Function | Noise of a run | Runs | Samples | Error: estimated | told | modelled | chosen | Held "
+        "%%, "
+        "quiet / noisy runs: estimated | told | modelled | chosen | Chosen, of %d |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         designs);
     for (const Function& function : functions)
       for (const Noise& noise : noises)

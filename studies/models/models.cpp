@@ -4,6 +4,7 @@
 #include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/doe/bounds.hpp>
+#include <drawpoint/kriging/noise_model.hpp>
 
 #include <cstdio>
 #include <stdexcept>
@@ -37,28 +38,49 @@ std::string name_of(kriging::Scale scale) {
 
 kriging::ResponseRange range_of(const doe::Response& response) { return {response.lower, response.upper}; }
 
-/// With the noise of the runs, or without a word of it where `told` is not.
-kriging::WayToFit way_to_fit(const kriging::FitOptions& options, const kriging::ResponseRange& range,
-                             kriging::Scale scale, bool told) {
-  const std::string slope = options.trend == kriging::Trend::linear ? ", linear trend" : "";
-  return {std::string(to_string(options.correlation)) + slope + name_of(scale) +
-              (told ? ", noise as the runs tell it" : ""),
-          [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
-            if (!told) return kriging::fit_transformed(X, y, scale, range, options);
-            kriging::FitOptions with_noise = options;
-            with_noise.noise = kriging::Noise::known;
-            with_noise.noise_variance = noise_variance;
-            return kriging::fit_transformed(X, y, scale, range, with_noise);
-          }};
+std::string name_of(NoiseOfRuns noise) {
+  switch (noise) {
+    case NoiseOfRuns::estimated:
+      return "";
+    case NoiseOfRuns::told:
+      return ", noise as the runs tell it";
+    case NoiseOfRuns::modelled:
+      return ", noise as a model of what the runs tell";
+  }
+  return "";
 }
 
-/// On runs that the model has not seen; by the noise that these tell where the model was fitted with it.
-kriging::Validation validation_of(const kriging::TransformedModel& model, const doe::Evaluations& runs,
-                                  const doe::Response& response) {
+StudyWay way_to_fit(const kriging::FitOptions& options, const kriging::ResponseRange& range,
+                    kriging::Scale scale, NoiseOfRuns noise) {
+  const std::string slope = options.trend == kriging::Trend::linear ? ", linear trend" : "";
+  return {{std::string(to_string(options.correlation)) + slope + name_of(scale) + name_of(noise),
+           [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
+             if (noise == NoiseOfRuns::estimated)
+               return kriging::fit_transformed(X, y, scale, range, options);
+             kriging::FitOptions known = options;
+             known.noise = kriging::Noise::known;
+             known.noise_variance = noise_variance;
+             if (noise == NoiseOfRuns::modelled) known = kriging::with_modelled_noise(known, X);
+             return kriging::fit_transformed(X, y, scale, range, known);
+           }},
+          noise};
+}
+
+/// Of response j on runs that the models have not seen, by the noise that these tell, or are expected to
+/// have, where the model was fitted with such noise.
+kriging::Validation validation_of(const Models& fitted, const doe::Evaluations& runs, std::size_t j) {
+  const doe::Response& response = runs.problem.responses[j];
   const Eigen::MatrixXd X = runs.X();
   const Eigen::VectorXd y = runs.y(response.name);
-  if (!knows_noise(model)) return kriging::validate(model, X, y);
-  return kriging::validate(model, X, y, runs.noise_variance(response.name));
+  switch (fitted.noise[j]) {
+    case NoiseOfRuns::estimated:
+      return kriging::validate(fitted.models[j], X, y);
+    case NoiseOfRuns::told:
+      return kriging::validate(fitted.models[j], X, y, runs.noise_variance(response.name));
+    case NoiseOfRuns::modelled:
+      break;
+  }
+  return kriging::validate(fitted.models[j], X, y, expected_noise(fitted.models, runs.problem, j, X));
 }
 
 }  // namespace
@@ -69,17 +91,17 @@ kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& 
   return {kriging::Noise::known, variance};
 }
 
-std::vector<kriging::WayToFit> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
-                                           kriging::Scale scale, const kriging::RunNoise& noise) {
-  std::vector<kriging::WayToFit> ways;
-  for (const bool told : {false, true}) {
-    if (told && noise.noise != kriging::Noise::known) break;
+std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
+                                  kriging::Scale scale, const kriging::RunNoise& noise) {
+  std::vector<StudyWay> ways;
+  for (const NoiseOfRuns source : {NoiseOfRuns::estimated, NoiseOfRuns::told, NoiseOfRuns::modelled}) {
+    if (source != NoiseOfRuns::estimated && noise.noise != kriging::Noise::known) break;
     for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
       for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
         kriging::FitOptions options = default_fit(problem);
         options.correlation = correlation;
         options.trend = trend;
-        ways.push_back(way_to_fit(options, range_of(response), scale, told));
+        ways.push_back(way_to_fit(options, range_of(response), scale, source));
       }
     }
   }
@@ -89,20 +111,21 @@ std::vector<kriging::WayToFit> ways_to_fit(const doe::Problem& problem, const do
 Models fit_models(const Tables& tables) {
   const doe::Problem& problem = tables.training.problem;
   const Eigen::MatrixXd X = tables.training.X();
-  const Eigen::MatrixXd X_new = tables.validation.X();
   Models fitted;
   for (const auto& response : problem.responses) {
     const Eigen::VectorXd y = tables.training.y(response.name);
     const kriging::ResponseRange range = range_of(response);
     const kriging::FitChoice on_scale = kriging::choose_scale(X, y, range, default_fit(problem));
     const kriging::RunNoise noise = told_noise(tables.training, response);
-    kriging::FitChoice choice =
-        kriging::choose_fit(X, y, range, ways_to_fit(problem, response, on_scale.scale(), noise), noise);
+    const std::vector<StudyWay> ways = ways_to_fit(problem, response, on_scale.scale(), noise);
+    kriging::FitChoice choice = kriging::choose_fit(X, y, range, {ways.begin(), ways.end()}, noise);
     fitted.ways.push_back(choice.name());
+    fitted.noise.push_back(ways[choice.best].noise);
     fitted.models.push_back(std::move(choice.model));
-    if (X_new.rows() > 0)
-      fitted.validations.push_back(validation_of(fitted.models.back(), tables.validation, response));
   }
+  if (tables.validation.X().rows() == 0) return fitted;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    fitted.validations.push_back(validation_of(fitted, tables.validation, j));
   return fitted;
 }
 

@@ -19,14 +19,27 @@ namespace drawpoint::studies {
 /// where they do not, or tell none but 0.
 kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response);
 
+/// Where a fit has the noise of a run from.
+enum class NoiseOfRuns {
+  estimated,  ///< the same for all runs
+  told,       ///< by each run
+  modelled    ///< what the others tell, too: kriging/noise_model.hpp
+};
+
+struct StudyWay : kriging::WayToFit {
+  NoiseOfRuns noise = NoiseOfRuns::estimated;
+};
+
 /// The ways to fit a response on this scale that are compared: smooth and less smooth, without and with a
-/// slope, with noise that is estimated and, where `noise` is known, with that. The first is the default.
-std::vector<kriging::WayToFit> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
-                                           kriging::Scale scale, const kriging::RunNoise& noise = {});
+/// slope, with noise that is estimated and, where `noise` is known, with that and a model of it. The first is
+/// the default.
+std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
+                                  kriging::Scale scale, const kriging::RunNoise& noise = {});
 
 struct Models {
   std::vector<kriging::TransformedModel> models;  ///< one per response, in order
   std::vector<std::string> ways;                  ///< how each was fitted: a name of ways_to_fit
+  std::vector<NoiseOfRuns> noise;                 ///< where each has the noise of a run from
   std::vector<kriging::Validation> validations;   ///< one per response; empty without validation runs
 };
 

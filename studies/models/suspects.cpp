@@ -38,8 +38,8 @@ std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
     const kriging::TransformedModel& model = fitted.models[j];
     const kriging::RunNoise noise = told_noise(tables.training, response);
     const auto ways = ways_to_fit(problem, response, model.transform().scale, noise);
-    const auto way = std::find_if(ways.begin(), ways.end(),
-                                  [&](const kriging::WayToFit& w) { return w.name == fitted.ways[j]; });
+    const auto way =
+        std::find_if(ways.begin(), ways.end(), [&](const StudyWay& w) { return w.name == fitted.ways[j]; });
     if (way == ways.end()) continue;
     kriging::OutlierOptions options;
     if (knows_noise(model)) options.noise_variance = noise.variance;

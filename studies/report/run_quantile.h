@@ -6,6 +6,7 @@
 /// errors expects there; else it is the same everywhere, as the fit estimated it.
 
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 
 #include <Eigen/Core>
@@ -19,6 +20,14 @@ inline bool knows_noise(const kriging::TransformedModel& model) {
   return model.model().state().known_noise > 0;
 }
 
+/// Variance of the noise of response j that runs at the rows of X (n x d) are expected to tell: n entries, by
+/// the model of its standard error, which it must name.
+inline Eigen::VectorXd expected_noise(const std::vector<kriging::TransformedModel>& models,
+                                      const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& X) {
+  const int told = doe::response_index(problem, problem.responses[j].standard_error);
+  return kriging::noise_variance_at(models[static_cast<std::size_t>(told)], X);
+}
+
 /// Quantile of response j, one model per response, at the rows of X (n x d): n entries, within its range.
 inline Eigen::VectorXd run_quantile(const std::vector<kriging::TransformedModel>& models,
                                     const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& X,
@@ -26,9 +35,7 @@ inline Eigen::VectorXd run_quantile(const std::vector<kriging::TransformedModel>
   const doe::Response& response = problem.responses[j];
   const auto quantile = [&]() -> Eigen::VectorXd {
     if (!knows_noise(models[j])) return models[j].quantile(X, probability, kriging::Target::observation);
-    const int told = doe::response_index(problem, response.standard_error);
-    const Eigen::VectorXd error = models[static_cast<std::size_t>(told)].mean(X).cwiseMax(0.0);
-    return models[j].run_quantile(X, probability, error.cwiseAbs2());
+    return models[j].run_quantile(X, probability, expected_noise(models, problem, j, X));
   };
   return quantile().unaryExpr([&](double y) { return doe::within_range(response, y); });
 }

@@ -57,8 +57,8 @@ double width(const Models& fitted, double x) {
 // the width either way leaves room for both.
 TEST(ToldNoise, IntervalsAreAsWideAsRunsScatterThere) {
   const Models fitted = fit_models({runs(60, 1), {problem(), {}}});
-  EXPECT_NE(fitted.ways[0].find("noise as the runs tell it"), std::string::npos) << fitted.ways[0];
-  EXPECT_EQ(fitted.ways[1].find("noise as the runs tell it"), std::string::npos) << fitted.ways[1];
+  EXPECT_NE(fitted.noise[0], NoiseOfRuns::estimated) << fitted.ways[0];
+  EXPECT_EQ(fitted.noise[1], NoiseOfRuns::estimated) << fitted.ways[1];
   for (const double x : {0.3, 0.6, 0.9}) {
     const double own = 2 * 1.96 * deviation(x);
     EXPECT_GT(width(fitted, x), own / 1.33) << x;

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The noise that a run has at a place, learnt from what runs tell of theirs.
+///
+/// Standard errors of a few samples are off by chance, two samples' by their own size, so a fit should not
+/// take each for the truth (Noise::known). Where noise varies smoothly over the box, a Kriging model of all
+/// standard errors, on the scale of their logarithm, knows it better than any of them; its own noise is how
+/// far samples miss. It expects of normal samples 0.8 to 1.0 of their deviation, two samples to many. It does
+/// not know of a run that is worse than its neighbours. Sources: Ankenman, Nelson, Staum 2010, Operations
+/// Research 58(2), "Stochastic Kriging for Simulation Metamodeling", section 4; Kersting, Plagemann, Pfaff,
+/// Burgard 2007, ICML, "Most Likely Heteroscedastic Gaussian Process Regression" (the logarithm).
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <drawpoint/kriging/detail/training_data.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
+
+namespace drawpoint::kriging {
+
+/// Of standard deviations, unit of y. X: n x d, natural units; noise_variance: n, from 0 on, unit of y
+/// squared; options: box, correlation and trend of the model, with Noise::nugget. Throws as fit.
+inline TransformedModel fit_noise(const Eigen::MatrixXd& X, const Eigen::VectorXd& noise_variance,
+                                  const FitOptions& options = {}) {
+  Eigen::VectorXd deviation = noise_variance;
+  for (double& entry : deviation) entry = std::sqrt(entry);
+  return fit_transformed(X, deviation, Scale::logarithm, {.lower = 0}, options);
+}
+
+/// What it expects at the rows of X (m x d): m variances, unit of y squared.
+inline Eigen::VectorXd noise_variance_at(const TransformedModel& noise, const Eigen::MatrixXd& X) {
+  Eigen::VectorXd variance = noise.mean(X);
+  for (double& entry : variance) entry = std::max(entry, 0.0) * std::max(entry, 0.0);
+  return variance;
+}
+
+/// Runs with noise that is known, but for chance: FitOptions with the noise of `known` modelled. Throws as
+/// fit does for Noise::known.
+inline FitOptions with_modelled_noise(FitOptions known, const Eigen::MatrixXd& X) {
+  detail::check_noise(known, X.rows());
+  FitOptions of_noise = known;
+  of_noise.noise = Noise::nugget;
+  of_noise.noise_variance.resize(0);
+  known.noise_variance = noise_variance_at(fit_noise(X, known.noise_variance, of_noise), X);
+  return known;
+}
+
+}  // namespace drawpoint::kriging
