@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Correlations of two points a and b, products over the variables k, with Δₖ = |aₖ − bₖ|:
+/// Correlations of two points a and b, with Δₖ = |aₖ − bₖ|. As products over the variables k:
 ///
 ///   gaussian           exp(−Σ θₖ Δₖ²)
 ///   power_exponential  exp(−Σ θₖ Δₖ^pₖ),  1 <= pₖ <= 2
 ///   matern32           Π (1 + √3 hₖ) exp(−√3 hₖ),              hₖ = √(2θₖ) Δₖ
 ///   matern52           Π (1 + √5 hₖ + 5/3 hₖ²) exp(−√5 hₖ)
+///
+/// The structure says how the factors cₖ of one variable each make the whole, whichever family they are of:
+///
+///   product    c = Π cₖ, a θ per variable
+///   isotropic  the same with one θ, and one exponent, for all variables that are numbers; categories keep
+///              their own. Of the Gaussian c depends on the distance |a − b| alone; Matérn's stay products
+///   additive   c = Σ wₖcₖ, wₖ >= 0, Σ wₖ = 1: of sums of functions of one variable. Full factorials make
+///              C singular: of the corners of a rectangle in two variables, those of its two diagonals sum
+///              up to the same (docs/kriging.md)
 ///
 /// A variable that is a category has Δ = 0 for one level and Δ = 2, the ends of a range, for two different
 /// ones (detail/levels.hpp): with the Gaussian its factor is exp(−4θ) then, whichever levels they are.
@@ -18,7 +27,9 @@
 /// lose the digits of close points, on which a nearly singular matrix depends. Cost O(n² d).
 ///
 /// Sources: Forrester, Sóbester, Keane 2008, "Engineering Design via Surrogate Modelling", section 2.4;
-/// Roustant, Ginsbourger, Deville 2012, "DiceKriging, DiceOptim", table 1 (Matérn's as products).
+/// Roustant, Ginsbourger, Deville 2012, "DiceKriging, DiceOptim", table 1 (Matérn's as products); Durrande,
+/// Ginsbourger, Roustant 2012, Annales de la Faculté des Sciences de Toulouse 21(3), "Additive covariance
+/// kernels for high-dimensional Gaussian process modeling".
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -50,12 +61,29 @@ inline std::string_view to_string(Correlation family) {
   return "unknown";
 }
 
+/// How the factors of the variables make the whole.
+enum class Structure { product, isotropic, additive };
+
+inline std::string_view to_string(Structure structure) {
+  switch (structure) {
+    case Structure::product:
+      return "product";
+    case Structure::isotropic:
+      return "isotropic";
+    case Structure::additive:
+      return "additive";
+  }
+  return "unknown";
+}
+
 struct CorrelationFunction {
   Correlation family = Correlation::gaussian;
-  Eigen::VectorXd theta;     ///< d entries
+  Eigen::VectorXd theta;     ///< d entries, those that are shared repeated
   Eigen::VectorXd exponent;  ///< pₖ of power_exponential, d entries; unused by the others
   /// Per variable 0 for a number, L for a category of L levels; empty: all are numbers.
   std::vector<int> levels = {};
+  Structure structure = Structure::product;
+  Eigen::VectorXd weight = {};  ///< wₖ of additive, d entries; unused by the others
 };
 
 namespace detail {
@@ -193,67 +221,37 @@ inline void correlate_levels(const CorrelationFunction& f, const Rows& all, doub
   }
 }
 
+/// cₖ at the distances h in variable k.
+inline Chunk correlations_in(const CorrelationFunction& f, Index k, const Chunk& h) {
+  Chunk factor(h.count), logarithm(h.count);
+  std::fill_n(factor.number, h.count, 1.0);
+  std::fill_n(logarithm.number, h.count, 0.0);
+  if (f.family == Correlation::gaussian)
+    add_scaled(logarithm.number, -f.theta[k], entry_products(h, h).number, h.count);
+  else if (f.family == Correlation::power_exponential)
+    add_scaled(logarithm.number, -1.0, scaled_powers(h, f.theta[k], f.exponent[k]).number, h.count);
+  else
+    multiply_matern(f, k, h, factor, logarithm);
+  exp_in_place(logarithm.number, h.count);
+  return entry_products(logarithm, factor);
+}
+
+/// Σ wₖcₖ.
+inline void correlate_sum(const CorrelationFunction& f, const Rows& all, double* out) {
+  std::fill_n(out, all.count, 0.0);
+  for (Index i = 0; i < all.count; i += chunk_rows) {
+    const Rows rows{all.Z, all.first + i, std::min(chunk_rows, all.count - i), all.x};
+    for (Index k = 0; k < all.Z.cols(); ++k) {
+      if (f.weight[k] == 0.0) continue;
+      add_scaled(out + i, f.weight[k], correlations_in(f, k, distances(f, rows, k)).number, rows.count);
+    }
+  }
+}
+
 /// out[i] = c(row first + i of Z, x) for i < count.
 inline void correlate(const CorrelationFunction& f, const Rows& all, double* out) {
+  if (f.structure == Structure::additive) return correlate_sum(f, all, out);
   f.levels.empty() ? correlate_numbers(f, all, out) : correlate_levels(f, all, out);
-}
-
-/// ∂ln c/∂(ln θₖ) from the distances h in variable k.
-inline Chunk slope_in_theta(const CorrelationFunction& f, Index k, const Chunk& h) {
-  using Two = Chunk::Two;
-  const double theta = f.theta[k];
-  if (f.family == Correlation::gaussian) return mapped(h, [=](const Two& x) { return -theta * x * x; });
-  if (f.family == Correlation::power_exponential) return scaled_powers(h, -theta, f.exponent[k]);
-  const double rate = matern_rate(f.family, theta);
-  if (f.family == Correlation::matern32)
-    return mapped(h, [=](const Two& x) { return -0.5 * rate * rate * x * x / (1.0 + rate * x); });
-  return mapped(h, [=](const Two& x) {
-    const Two u = rate * x;
-    return -u * u * (1.0 + u) / (6.0 + 6.0 * u + 2.0 * u * u);
-  });
-}
-
-/// ∂²ln c/∂(ln θₖ)².
-inline Chunk curvature_in_theta(const CorrelationFunction& f, Index k, const Chunk& h) {
-  using Two = Chunk::Two;
-  if (f.family == Correlation::gaussian || f.family == Correlation::power_exponential)
-    return slope_in_theta(f, k, h);
-  const double rate = matern_rate(f.family, f.theta[k]);
-  if (f.family == Correlation::matern32)
-    return mapped(h, [=](const Two& x) {
-      const Two u = rate * x;
-      return -0.25 * u * u * (2.0 + u) / ((1.0 + u) * (1.0 + u));
-    });
-  return mapped(h, [=](const Two& x) {
-    const Two u = rate * x, bottom = 6.0 + 6.0 * u + 2.0 * u * u;
-    return -0.5 * u * u * ((2.0 + 3.0 * u) * bottom - u * (1.0 + u) * (6.0 + 4.0 * u)) / (bottom * bottom);
-  });
-}
-
-/// ln h, 0 where h = 0.
-inline Chunk logarithms(const Chunk& h) {
-  Chunk y(h.count);
-  for (Index i = 0; i < h.count; ++i) y.number[i] = h.number[i] > 0.0 ? std::log(h.number[i]) : 0.0;
-  return y;
-}
-
-/// ∂ln c/∂pₖ = −θ Δ^p ln Δ, 0 where Δ = 0.
-inline Chunk slope_in_exponent(const CorrelationFunction& f, Index k, const Chunk& h) {
-  return entry_products(slope_in_theta(f, k, h), logarithms(h));
-}
-
-/// dln c/dxₖ at the point x for one run at a signed distance of `step` = xₖ − runₖ. Simplification: the
-/// power_exponential with p = 1 has a kink at a run; 0 is given there. A category has no slope: 0.
-inline double slope_in_place(const CorrelationFunction& f, Index k, double step) {
-  if (is_category(f.levels, k)) return 0.0;
-  const double theta = f.theta[k], h = std::abs(step), sign = step < 0 ? -1.0 : 1.0;
-  if (f.family == Correlation::gaussian) return -2.0 * theta * step;
-  if (h == 0.0) return 0.0;
-  if (f.family == Correlation::power_exponential)
-    return -sign * theta * f.exponent[k] * std::pow(h, f.exponent[k] - 1.0);
-  const double rate = matern_rate(f.family, theta), u = std::min(rate * h, 1e100);
-  if (f.family == Correlation::matern32) return -sign * rate * u / (1.0 + u);
-  return -sign * rate * u * (1.0 + u) / (3.0 + 3.0 * u + u * u);
 }
 
 }  // namespace detail
@@ -295,3 +293,5 @@ inline Eigen::MatrixXd cross_correlation(const Eigen::MatrixXd& X, const Eigen::
 }
 
 }  // namespace drawpoint::kriging
+
+#include <drawpoint/kriging/detail/correlation_slopes.hpp>

@@ -6,7 +6,8 @@
 ///
 /// θ, the exponents and λ maximise the concentrated log likelihood (likelihood.hpp), by default with a prior
 /// (prior.hpp); search.hpp says how they are found. The default is regression Kriging with the Gaussian
-/// correlation and a constant trend.
+/// correlation and a constant trend. Isotropic and additive correlations (correlation.hpp) are fitted alike,
+/// with fewer and with more parameters.
 ///
 /// Deterministic: equal input gives equal bits on any number of threads. Safe to call concurrently; the last
 /// part of the searches then wait for each other. Cost: see search.hpp; O(n²) memory. A model is always
@@ -46,34 +47,48 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
           doe::detail::thread_count(options.threads),
           options.estimation == Estimation::penalized_likelihood,
           options.nugget_power,
-          data.levels};
+          data.levels,
+          data.structure};
 }
 
-/// Fixes the ln θ of inputs that never vary, which no run tells: of numbers at no effect, of categories where
-/// other levels are not correlated with the one that was run. X: n x d; ln θ stand first in the box.
-inline void fix_unvarying(const Eigen::MatrixXd& X, const std::vector<int>& levels, Box& box) {
+/// Bounds of the vₖ of a sum's weights: each may be e^10 times another.
+inline constexpr double weight_range = 10.0;
+
+/// Fixes what no run tells: ln θ and vₖ of inputs that never vary, of numbers at no effect, of categories
+/// where other levels are not correlated with the one that was run. At the one distance of a category the
+/// exponent says what θ says, and in a sum θ what the weight says: they are fixed. X: n x d, scaled.
+inline void fix_untold(const Eigen::MatrixXd& X, const CorrelationFunction& f, const ParameterPlaces& places,
+                       Box& box) {
+  std::vector<bool> varies(static_cast<std::size_t>(places.theta_count), false);
+  for (Eigen::Index k = 0; k < X.cols(); ++k)
+    if (!never_varies(X, k)) varies[static_cast<std::size_t>(places.theta(k))] = true;
   for (Eigen::Index k = 0; k < X.cols(); ++k) {
-    if (!never_varies(X, k)) continue;
-    if (is_category(levels, k))
-      box.lower[k] = box.upper[k];
-    else
-      box.upper[k] = box.lower[k];
+    const Eigen::Index a = places.theta(k);
+    const bool told = varies[static_cast<std::size_t>(a)], category = is_category(f.levels, k);
+    if (category && (!told || places.weights))
+      box.lower[a] = box.upper[a];
+    else if (!told)
+      box.upper[a] = box.lower[a];
+    if (places.exponents && (category || !told))
+      box.lower[places.exponent(k)] = box.upper[places.exponent(k)];
+    if (places.weights && !told) box.lower[places.weight(k)] = box.upper[places.weight(k)] = 0.0;
   }
 }
 
-/// Bounds of (ln θ, exponents, ln λ). At its one distance the exponent of a category says what θ says: it is
-/// fixed.
+/// Bounds of (ln θ, exponents, weights, ln λ).
 inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood, const FitOptions& options) {
-  const Eigen::Index d = data.X.cols(), last = likelihood.parameters() - 1;
+  const ParameterPlaces& places = likelihood.places();
+  const Eigen::Index last = places.count() - 1;
   Box box{Eigen::VectorXd::Constant(last + 1, 1.0), Eigen::VectorXd::Constant(last + 1, 2.0)};
-  std::fill_n(box.lower.begin(), d, std::log(options.theta_lower));
-  std::fill_n(box.upper.begin(), d, std::log(options.theta_upper));
+  std::fill_n(box.lower.begin(), places.theta_count, std::log(options.theta_lower));
+  std::fill_n(box.upper.begin(), places.theta_count, std::log(options.theta_upper));
+  for (Eigen::Index k = places.weight(0); k < last; ++k) {
+    box.lower[k] = -weight_range;
+    box.upper[k] = weight_range;
+  }
   box.lower[last] = std::log(options.nugget_lower);
   box.upper[last] = std::log(options.nugget_upper);
-  fix_unvarying(data.X, data.levels, box);
-  if (!likelihood.estimates_exponents()) return box;
-  for (Eigen::Index k = 0; k < d; ++k)
-    if (is_category(data.levels, k) || never_varies(data.X, k)) box.lower[d + k] = box.upper[d + k];
+  fix_untold(data.X, likelihood.correlation(), places, box);
   return box;
 }
 
@@ -110,8 +125,9 @@ inline void add_remarks(const TrainingData& data, FitReport& report) {
       report.message += "; the fit had no run of level" +
                         std::string(missing.find(',') < missing.size() ? "s " : " ") + missing +
                         " of input " + std::to_string(k) +
-                        (never_varies(data.X, k) ? ": predictions there are the trend"
-                                                 : ": predictions there rest on the other levels") +
+                        (!never_varies(data.X, k) ? ": predictions there rest on the other levels"
+                         : data.structure == Structure::additive ? ": predictions there ignore it"
+                                                                 : ": predictions there are the trend") +
                         ", with intervals that are too narrow; run it";
   }
   if (data.terms_dropped > 0)
@@ -130,8 +146,11 @@ inline Model constant_model(const TrainingData& data, const FitOptions& options)
   s.observed = data.observed;
   s.y_centre = data.y_centre;
   s.y_scale = 0;
-  s.correlation = {options.correlation, Eigen::VectorXd::Constant(data.X.cols(), options.theta_lower),
-                   options.exponent, data.levels};
+  const auto d = data.X.cols();
+  s.correlation = {options.correlation, Eigen::VectorXd::Constant(d, options.theta_lower), options.exponent,
+                   data.levels, data.structure};
+  if (data.structure == Structure::additive)
+    s.correlation.weight = Eigen::VectorXd::Constant(d, 1.0 / static_cast<double>(d));
   s.nugget = options.nugget_lower;
   s.X.resize(0, data.X.cols());
   if (data.observed.size() == 1) {

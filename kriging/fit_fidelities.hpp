@@ -87,6 +87,9 @@ inline void check_runs_of_level(const std::vector<FidelityLevel>& levels, std::s
     reject_fidelities(place +
                       "its options.levels differ from those of the cheapest level; allowed are the same "
                       "categories everywhere; give all levels the same");
+  if (level.options.structure != Structure::product)
+    reject_fidelities(place + "its options.structure is " + std::string(to_string(level.options.structure)) +
+                      "; allowed with several levels is product; leave it at that");
   if (is_constant(level.y))
     reject_fidelities(place + "all " + std::to_string(level.y.size()) + " responses equal " +
                       text(level.y[0]) +

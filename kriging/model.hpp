@@ -216,19 +216,24 @@ class Model {
 
   // n x d: derivatives of r by the natural inputs.
   Eigen::MatrixXd slopes_of(const Eigen::VectorXd& r, const Eigen::VectorXd& scaled) const {
+    const bool sum = s_.correlation.structure == Structure::additive;
     Eigen::MatrixXd J(r.size(), scaled.size());
-    for (Eigen::Index k = 0; k < J.cols(); ++k)
+    for (Eigen::Index k = 0; k < J.cols(); ++k) {
+      const Eigen::VectorXd c = sum ? detail::summands(s_.correlation, k, s_.X, scaled) : r;
       for (Eigen::Index i = 0; i < J.rows(); ++i)
         J(i, k) =
-            r[i] * s_.input.factor[k] * detail::slope_in_place(s_.correlation, k, scaled[k] - s_.X(i, k));
+            c[i] * s_.input.factor[k] * detail::slope_in_place(s_.correlation, k, scaled[k] - s_.X(i, k));
+    }
     return J;
   }
 
   Eigen::VectorXd mean_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const {
     if (s_.X.rows() == 0) return Eigen::VectorXd::Constant(X.rows(), s_.y_centre);
-    Eigen::VectorXd m = s_.correlation.family == Correlation::gaussian && s_.correlation.levels.empty()
-                            ? gaussian_sums(scaled)
-                            : detail::product(correlations(scaled), s_.gls.alpha);
+    const bool of_distances = s_.correlation.family == Correlation::gaussian &&
+                              s_.correlation.levels.empty() &&
+                              s_.correlation.structure != Structure::additive;
+    Eigen::VectorXd m =
+        of_distances ? gaussian_sums(scaled) : detail::product(correlations(scaled), s_.gls.alpha);
     if (s_.trend.is_constant()) {
       m = detail::affine(m, 1.0, s_.gls.beta[0]);
     } else {

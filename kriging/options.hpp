@@ -68,6 +68,9 @@ struct FitOptions {
   bool parameter_uncertainty = true;
 
   Correlation correlation = Correlation::gaussian;
+  /// isotropic: one θ, and one exponent, for all variables that are numbers, where runs are few for their
+  /// number. additive: the response is a sum of functions of one variable (correlation.hpp has both).
+  Structure structure = Structure::product;
   /// power_exponential only: pₖ in [1, 2], one entry per variable. Empty: estimated.
   Eigen::VectorXd exponent = {};
 

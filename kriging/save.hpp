@@ -6,7 +6,7 @@
 ///
 /// The file holds all that makes the model, the factor of R included, so that a loaded model predicts the
 /// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 2}, on one line;
-/// with categories the version is 3.
+/// with categories the version is 3, and 4 where the correlation is isotropic or additive.
 /// Numbers are the shortest text that reads back as the same double; ±∞ and NaN, which JSON lacks, are the
 /// texts "inf", "-inf" and "nan", where a field may be that. Matrices are {"columns", "rows", "values"} by
 /// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,
@@ -82,7 +82,7 @@ inline ModelState state_of(const JsonReader& in) {
   s.L = unpacked_lower(in.at("factor").vector(n * (n + 1) / 2), n);
   if (!(s.L.diagonal().array() > 0).all()) in.at("factor").fail("its diagonal is not positive");
   read_solution(in.at("solution"), n, q, s.gls);
-  s.parameter_spread = read_spread(in.at("parameter_spread"), d);
+  s.parameter_spread = read_spread(in.at("parameter_spread"), d, s.correlation);
   s.process_variance = in.at("process_variance").number();
   s.log_likelihood = in.at("log_likelihood").number(false);
   s.constant_variance = in.at("constant_variance").number(false);
@@ -90,7 +90,7 @@ inline ModelState state_of(const JsonReader& in) {
   return s;
 }
 
-inline constexpr FileKind model_file{"drawpoint kriging model", 2};
+inline constexpr FileKind model_file{"drawpoint kriging model", 2, true};
 
 inline Model model_of_text(const std::string& text, const std::string& file) {
   return opened(model_file, text, file, [](const JsonReader& in) { return Model(state_of(in)); });

@@ -76,11 +76,13 @@ inline CokrigingLevel level_of(const JsonReader& in) {
   s.y_scale = in.at("response").at("scale").number();
   level.below_centre = in.at("response").at("below").number();
   read_correlation(in.at("correlation"), d, s.correlation);
+  if (s.correlation.structure != Structure::product)
+    in.at("correlation").at("structure").fail("it is not \"product\"");
   refuse_other_levels(in.at("runs").at("X"), level.X, s.correlation);
   read_noise(in.at("noise"), n, s);
   s.trend.terms = trend_terms(in.at("trend"), d);
   read_rho(in.at("rho"), d, level);
-  s.parameter_spread = read_spread(in.at("parameter_spread"), d);
+  s.parameter_spread = read_spread(in.at("parameter_spread"), d, s.correlation);
   s.process_variance = in.at("process_variance").number();
   if (!(s.process_variance > 0)) in.at("process_variance").fail("it is not positive");
   if (!(s.y_scale > 0)) in.at("response").at("scale").fail("it is not positive");

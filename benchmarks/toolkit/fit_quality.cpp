@@ -14,6 +14,7 @@
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
+#include <drawpoint/tests/kriging/wide_functions.hpp>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -27,12 +28,14 @@ using namespace drawpoint;
 using namespace drawpoint::kriging;
 
 constexpr const char* help =
-    R"(Fits the functions of tests/kriging/test_functions.hpp on several designs and says how far the
-predictions are off and how often their intervals hold 500 new observations.
+    R"(Fits the functions of tests/kriging/test_functions.hpp, and those of wide_functions.hpp that are
+asked for by name, on several designs and says how far the predictions are off and how often their intervals
+hold 500 new observations.
 
   fit_quality
   fit_quality --functions friedman5,waves5 --designs corners --runs 60
   fit_quality --runs 40 --noise 0.01 --ways default,expect-none
+  fit_quality --functions sum10,pairs10 --runs 30,50 --designs latin --ways default,isotropic,additive
   fit_quality --runs 50,100 --write cases     # for the same table of another library
 
 One row per function, design, number of runs and way to fit; medians over the seeds. NRMSE is the error of the
@@ -42,7 +45,8 @@ intervals, the noise that was found over the true one (without noise: over the r
 how many fits did not converge.
 
 Ways: `default`; `plug-in`, the same with its parameters taken as known; `likeliest`, plain maximum likelihood
-with its parameters taken as known; `expect-none`, the default with nugget_power 0, which expects no noise.
+with its parameters taken as known; `expect-none`, the default with nugget_power 0, which expects no noise;
+`isotropic` and `additive`, the default with these correlations.
 
 Designs: `latin`, a random Latin hypercube; `maximin`, an optimised one; `lattice`, the same from a lattice
 where that lies farther apart; `discrepancy`, optimised by centred discrepancy; `corners`, maximin with the 2^d
@@ -54,10 +58,20 @@ struct Way {
 };
 
 std::vector<Way> ways() {
-  std::vector<Way> all{{"default", {}}, {"plug-in", {}}, {"likeliest", {}}, {"expect-none", {}}};
+  std::vector<Way> all{{"default", {}},     {"plug-in", {}},   {"likeliest", {}},
+                       {"expect-none", {}}, {"isotropic", {}}, {"additive", {}}};
   all[1].options.parameter_uncertainty = all[2].options.parameter_uncertainty = false;
   all[2].options.estimation = Estimation::maximum_likelihood;
   all[3].options.nugget_power = 0;
+  all[4].options.structure = Structure::isotropic;
+  all[5].options.structure = Structure::additive;
+  return all;
+}
+
+/// All that can be asked for by name.
+std::vector<reference::TestFunction> functions() {
+  std::vector<reference::TestFunction> all = reference::test_functions();
+  for (const reference::TestFunction& f : reference::wide_functions()) all.push_back(f);
   return all;
 }
 
@@ -192,10 +206,12 @@ void measure(const Settings& settings, const reference::TestFunction& f, const s
 
 Settings settings_of(int argc, char** argv) {
   Settings settings;
-  std::vector<std::string> names;
-  for (const reference::TestFunction& f : reference::test_functions()) names.push_back(f.name);
+  std::vector<std::string> names, usual;
+  for (const reference::TestFunction& f : functions()) names.push_back(f.name);
+  for (const reference::TestFunction& f : reference::test_functions()) usual.push_back(f.name);
   CLI::App app(help);
-  app.add_option("--functions", settings.functions, "of the list, with commas between (default: all)")
+  app.add_option("--functions", settings.functions,
+                 "of the list, with commas between (default: those of test_functions.hpp)")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
   app.add_option("--designs", settings.designs, "with commas between")
@@ -204,7 +220,7 @@ Settings settings_of(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--ways", settings.ways, "with commas between")
       ->delimiter(',')
-      ->check(CLI::IsMember({"default", "plug-in", "likeliest", "expect-none"}))
+      ->check(CLI::IsMember({"default", "plug-in", "likeliest", "expect-none", "isotropic", "additive"}))
       ->capture_default_str();
   app.add_option("--runs", settings.runs, "of a design")
       ->delimiter(',')
@@ -221,7 +237,7 @@ Settings settings_of(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::exit(app.exit(error));
   }
-  if (settings.functions.empty()) settings.functions = names;
+  if (settings.functions.empty()) settings.functions = usual;
   return settings;
 }
 
@@ -235,7 +251,7 @@ int main(int argc, char** argv) {
     else
       std::printf("%-12s %-8s %4s %-11s %9s %9s  %5s %5s %5s  %7s %7s %4s\n", "function", "design", "runs",
                   "way", "NRMSE", "worst", "50 %", "80 %", "95 %", "noise", "CPU s", "not");
-    for (const reference::TestFunction& f : reference::test_functions())
+    for (const reference::TestFunction& f : functions())
       if (contains(settings.functions, f.name))
         for (const std::string& kind : settings.designs)
           for (const int runs : settings.runs)

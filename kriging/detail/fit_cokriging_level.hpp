@@ -112,7 +112,7 @@ inline Box cokriging_box(const CokrigingLevel& level, const FitOptions& options)
   const Index d = level.X.cols();
   Box box{Eigen::VectorXd::Constant(d + 2, std::log(options.theta_lower)),
           Eigen::VectorXd::Constant(d + 2, std::log(options.theta_upper))};
-  fix_unvarying(level.s.X, level.s.correlation.levels, box);
+  fix_untold(level.s.X, level.s.correlation, parameter_places(level.s.correlation, d, false), box);
   box.lower[d] = std::log(least);
   box.upper[d] = std::log(most);
   box.lower[d + 1] = std::log(options.nugget_lower);

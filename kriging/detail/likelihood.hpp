@@ -10,9 +10,11 @@
 ///   ∂LL/∂a = ½ Σᵢⱼ Mᵢⱼ (Rₐ)ᵢⱼ,  M = ααᵀ/s² − R⁻¹,  Rₐ = ∂R/∂a
 ///   ∂²LL/∂a∂b = ½ Σᵢⱼ Mᵢⱼ (R_ab)ᵢⱼ − αᵀRₐ P R_b α/s² + qₐq_b/(2n s⁴) + ½ tr(R⁻¹Rₐ R⁻¹R_b)
 /// with qₐ = −αᵀRₐα, P = R⁻¹ − R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹. Parameters: ln θ, the exponents p where they are
-/// estimated, ln λ. s² = S/n is concentrated out. Known noise of mean τ² ties s² = τ²/λ instead: then the
-/// derivatives by ln λ gain those through ln s², and the term with qₐq_b is gone. With a prior, value,
-/// gradient and Hessian are those of LL + ln π (prior.hpp); the estimates keep LL itself.
+/// estimated, ln λ (detail/parameter_places.hpp). s² = S/n is concentrated out. Known noise of mean τ² ties
+/// s² = τ²/λ instead: then the derivatives by ln λ gain those through ln s², and the term with qₐq_b is gone.
+/// Isotropic, Rₐ of a shared θ is the sum of those of its variables; of a sum, parameters are also the vₖ of
+/// its weights. With a prior, value, gradient and Hessian are those of LL + ln π (prior.hpp); the estimates
+/// keep LL itself.
 ///
 /// Cost: value n³/3, gradient n³, Hessian about 3 parameters · n³ more; O(n²) memory whatever d is. Where R
 /// is not numerically positive definite the value is −∞. Source: Forrester, Sóbester, Keane 2008, section 2.4
@@ -30,6 +32,7 @@
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/detail/parameter_places.hpp>
 #include <drawpoint/kriging/detail/prior.hpp>
 
 namespace drawpoint::kriging {
@@ -54,6 +57,7 @@ struct LikelihoodProblem {
   bool prior = false;            ///< LL + ln π instead of LL
   double nugget_power = 0;       ///< of λ in π
   std::vector<int> levels = {};  ///< of the correlation
+  Structure structure = Structure::product;
 };
 
 /// Remembers the last point, so that value, gradient and Hessian at one p share their factorisation. Not for
@@ -65,8 +69,13 @@ class Likelihood {
     f_.family = in_.family;
     f_.exponent = in_.exponent;
     f_.levels = in_.levels;
-    estimated_exponents_ = in_.family == Correlation::power_exponential && in_.exponent.size() == 0;
-    if (in_.prior) prior_.emplace(runs(), varying(), in_.known_noise == 0, in_.nugget_power);
+    f_.structure = in_.structure;
+    places_ = detail::parameter_places(
+        f_, variables(), in_.family == Correlation::power_exponential && in_.exponent.size() == 0);
+    if (places_.weights) weight_prior_.emplace(places_.weight(0), varying(), in_.prior);
+    if (in_.prior)
+      prior_.emplace(detail::spacing_of(f_, places_, runs(), varying()), in_.known_noise == 0,
+                     in_.nugget_power);
   }
 
   /// Gaussian correlation, constant trend, the same noise everywhere.
@@ -74,37 +83,32 @@ class Likelihood {
 
   Eigen::Index runs() const { return in_.X.rows(); }
   Eigen::Index variables() const { return in_.X.cols(); }
-  bool estimates_exponents() const { return estimated_exponents_; }
-  Eigen::Index parameters() const { return variables() * (estimated_exponents_ ? 2 : 1) + 1; }
+  bool estimates_exponents() const { return places_.exponents; }
+  Eigen::Index parameters() const { return places_.count(); }
+  const detail::ParameterPlaces& places() const { return places_; }
   const LikelihoodProblem& problem() const { return in_; }
 
   /// Number of matrices factored so far.
   int factorizations() const { return factorizations_; }
 
-  /// LL(p), with ln π where a prior is asked for, or −∞ where R is not numerically positive definite.
+  /// LL(p), with ln π where a prior is asked for and with what holds the weights of a sum, or −∞ where R is
+  /// not numerically positive definite.
   double value(const Eigen::VectorXd& p) {
     factor(p);
-    return estimates_.log_likelihood + (prior_ ? prior_->value(p) : 0.0);
+    return estimates_.log_likelihood + (prior_ ? prior_->value(p) : 0.0) +
+           (weight_prior_ ? weight_prior_->value(p) : 0.0);
   }
 
   /// One entry a parameter; zero where the value is −∞.
   Eigen::VectorXd gradient(const Eigen::VectorXd& p) {
     if (!invert(p)) return Eigen::VectorXd::Zero(parameters());
-    constexpr Eigen::Index columns = 64;
     const Eigen::Index n = runs(), last = parameters() - 1;
-    const int blocks = static_cast<int>((n + columns - 1) / columns);
-    Eigen::MatrixXd sums =
-        Eigen::MatrixXd::Zero(last, blocks);  // added up in order: equal bits on any threads
-    detail::for_each_task(blocks, n < 500 ? 1 : in_.threads, [&](int t) {
-      for (Eigen::Index j = t * columns; j < std::min(n, (t + 1) * columns); ++j)
-        add_slopes(j, detail::column(sums, t));
-    });
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(last + 1);
-    for (int t = 0; t < blocks; ++t) detail::add_scaled(g.data(), 1.0, detail::column(sums, t), last);
+    Eigen::VectorXd g = correlation_slopes();
     const double s2 = estimates_.process_variance;
     g[last] = slope_in_nugget();
     if (in_.known_noise > 0) g[last] += 0.5 * static_cast<double>(n) - 0.5 * gls_.sum_of_squares / s2;
     if (prior_) prior_->add_gradient(p, g);
+    if (weight_prior_) weight_prior_->add_gradient(p, g);
     return g;
   }
 
@@ -186,8 +190,10 @@ class Likelihood {
     inverted_ = false;
     estimates_ = {};
     f_.theta.resize(d);
-    for (Eigen::Index k = 0; k < d; ++k) f_.theta[k] = std::exp(p[k]);
-    if (estimated_exponents_) f_.exponent = p.segment(d, d);
+    for (Eigen::Index k = 0; k < d; ++k) f_.theta[k] = std::exp(p[places_.theta(k)]);
+    if (places_.exponents) f_.exponent.resize(d);
+    for (Eigen::Index k = 0; places_.exponents && k < d; ++k) f_.exponent[k] = p[places_.exponent(k)];
+    if (places_.weights) set_weights(p);
     nugget_ = std::exp(p[p.size() - 1]);
   }
 
@@ -220,16 +226,6 @@ class Likelihood {
     return true;
   }
 
-  // Rows j + first .. of column j of M∘C below the diagonal.
-  detail::Chunk weight(Eigen::Index j, const detail::Rows& rows) const {
-    const double* alpha = gls_.alpha.data() + rows.first;
-    const double *K = &K_(rows.first, j), *C = &C_(rows.first, j),
-                 scale = gls_.alpha[j] / estimates_.process_variance;
-    detail::Chunk w(rows.count);
-    for (Eigen::Index i = 0; i < rows.count; ++i) w.number[i] = (alpha[i] * scale - K[i]) * C[i];
-    return w;
-  }
-
   // Calls use(rows) for column j in pieces of at most 256 rows from the diagonal on.
   template <class Use>
   void in_chunks(Eigen::Index j, const Use& use) const {
@@ -237,24 +233,15 @@ class Likelihood {
       use(detail::Rows{in_.X, i, std::min(detail::chunk_rows, runs() - i), &points_(0, j)});
   }
 
-  // ½ Σ M Rₐ of column j, doubled for its mirror; the diagonal of Rₐ is 0 but for the noise.
-  void add_slopes(Eigen::Index j, double* g) const {
-    const Eigen::Index d = variables();
-    in_chunks(j, [&](const detail::Rows& rows) {
-      const detail::Chunk w = weight(j, rows);
-      for (Eigen::Index k = 0; k < d; ++k) {
-        if (f_.family == Correlation::gaussian && !detail::is_category(f_.levels, k)) {
-          g[k] -= f_.theta[k] * detail::weighted_squares(w.number, rows.column(k), rows.x[k], rows.count);
-          continue;
-        }
-        const detail::Chunk h = detail::distances(f_, rows, k);
-        g[k] += dot(w, detail::slope_in_theta(f_, k, h));
-        if (estimated_exponents_) g[d + k] += dot(w, detail::slope_in_exponent(f_, k, h));
-      }
-    });
-  }
-
-  void add_second_derivatives(Eigen::MatrixXd& H) const;
+  void set_weights(const Eigen::VectorXd& p);
+  detail::Chunk multipliers(Eigen::Index j, const detail::Rows& rows) const;
+  detail::Chunk weight(Eigen::Index j, const detail::Rows& rows) const;
+  Eigen::VectorXd correlation_slopes() const;
+  void add_slopes(Eigen::Index j, double* g) const;
+  void add_sum_slopes(Eigen::Index j, double* g) const;
+  void add_second_derivatives_of_product(Eigen::MatrixXd& H) const;
+  void add_second_derivatives_of_sum(Eigen::MatrixXd& H) const;
+  detail::Chunk slope(Eigen::Index a, Eigen::Index j, const detail::Rows& rows) const;
   void fill_derivative(Eigen::Index a, Eigen::MatrixXd& D) const;
   void add_traces(Eigen::MatrixXd& H);
   Eigen::VectorXd traces() const;
@@ -262,8 +249,9 @@ class Likelihood {
 
   LikelihoodProblem in_;
   Eigen::MatrixXd points_;  // X transposed
-  bool estimated_exponents_ = false;
+  detail::ParameterPlaces places_;
   std::optional<detail::JointlyRobustPrior> prior_;
+  std::optional<detail::WeightPrior> weight_prior_;
   Eigen::VectorXd p_;
   CorrelationFunction f_;
   double nugget_ = 0;
@@ -277,3 +265,4 @@ class Likelihood {
 }  // namespace drawpoint::kriging
 
 #include <drawpoint/kriging/detail/likelihood_curvature.hpp>
+#include <drawpoint/kriging/detail/likelihood_slopes.hpp>

@@ -18,11 +18,13 @@ inline Eigen::MatrixXd Likelihood::hessian(const Eigen::VectorXd& p) {
   const Eigen::VectorXd g = gradient(p);
   if (!std::isfinite(estimates_.log_likelihood)) return H;
   detail::mirror_lower(K_);
-  add_second_derivatives(H);
+  places_.weights ? add_second_derivatives_of_sum(H) : add_second_derivatives_of_product(H);
+  H(m - 1, m - 1) += slope_in_nugget();
   add_traces(H);
   add_trend_and_scale(H);
   detail::mirror_lower(H);
   if (prior_) prior_->add_hessian(p, H);
+  if (weight_prior_) weight_prior_->add_hessian(H);
   return H;
 }
 
@@ -44,42 +46,13 @@ inline Eigen::MatrixXd Likelihood::fisher(const Eigen::VectorXd& p) {
   return F;
 }
 
-// ½ Σ M R_ab, lower triangle. R_ab = C (slopeₐ slope_b + second derivative of ln c).
-inline void Likelihood::add_second_derivatives(Eigen::MatrixXd& H) const {
-  const Eigen::Index d = variables(), last = parameters() - 1;
-  std::vector<detail::Chunk> slopes(static_cast<std::size_t>(last), detail::Chunk(0));
-  for (Eigen::Index j = 0; j < runs(); ++j) {
-    in_chunks(j, [&](const detail::Rows& rows) {
-      const detail::Chunk w = weight(j, rows);
-      for (Eigen::Index k = 0; k < d; ++k) {
-        const detail::Chunk h = detail::distances(f_, rows, k);
-        slopes[k] = detail::slope_in_theta(f_, k, h);
-        H(k, k) += dot(w, detail::curvature_in_theta(f_, k, h));
-        if (!estimated_exponents_) continue;
-        slopes[d + k] = detail::slope_in_exponent(f_, k, h);
-        H(d + k, k) += dot(w, slopes[d + k]);
-        H(d + k, d + k) += dot(entry_products(w, slopes[d + k]), detail::logarithms(h));
-      }
-      for (Eigen::Index a = 0; a < last; ++a) {
-        const detail::Chunk v = entry_products(w, slopes[a]);
-        for (Eigen::Index b = 0; b <= a; ++b) H(a, b) += dot(v, slopes[b]);
-      }
-    });
-  }
-  H(last, last) += slope_in_nugget();
-}
-
-// Rₐ of a θ or an exponent: n x n, both triangles.
+// Rₐ of any parameter but λ: n x n, both triangles.
 inline void Likelihood::fill_derivative(Eigen::Index a, Eigen::MatrixXd& D) const {
-  const Eigen::Index d = variables(), k = a % d;
   D.resize(runs(), runs());
   for (Eigen::Index j = 0; j < runs(); ++j)
     in_chunks(j, [&](const detail::Rows& rows) {
-      const detail::Chunk h = detail::distances(f_, rows, k);
-      const detail::Chunk slope =
-          a < d ? detail::slope_in_theta(f_, k, h) : detail::slope_in_exponent(f_, k, h);
-      for (Eigen::Index i = 0; i < rows.count; ++i)
-        D(rows.first + i, j) = C_(rows.first + i, j) * slope.number[i];
+      const detail::Chunk one = slope(a, j, rows);
+      std::copy_n(one.number, rows.count, &D(rows.first, j));
     });
   detail::mirror_lower(D);
 }

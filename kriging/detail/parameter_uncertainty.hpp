@@ -42,9 +42,9 @@ inline Eigen::MatrixXd inverse_root(Eigen::MatrixXd H, const Eigen::VectorXd& fl
 
 /// D: one entry a parameter.
 inline Eigen::VectorXd least_curvature(const Likelihood& likelihood) {
-  Eigen::VectorXd floor = Eigen::VectorXd::Constant(likelihood.parameters(), 0.25);
-  if (likelihood.estimates_exponents())
-    for (Eigen::Index k = 0; k < likelihood.variables(); ++k) floor[likelihood.variables() + k] = 12.0;
+  const ParameterPlaces& places = likelihood.places();
+  Eigen::VectorXd floor = Eigen::VectorXd::Constant(places.count(), 0.25);
+  for (Eigen::Index a = places.theta_count; a < places.weight(0); ++a) floor[a] = 12.0;
   return floor;
 }
 
@@ -65,24 +65,51 @@ inline Eigen::MatrixXd parameter_spread(Likelihood& likelihood, const Eigen::Vec
   return spread;
 }
 
+/// Rows of points against one run, the first of them row `first` of all.
+struct AgainstRun {
+  const Rows& rows;
+  const double* c;  ///< correlations, one a row
+  double alpha;     ///< of the run
+  Index first;
+};
+
+/// Adds α ∂c/∂pₐ of a sum to G: one row a point, one column a parameter.
+inline void add_sum_slopes(const CorrelationFunction& f, const ParameterPlaces& places, const AgainstRun& at,
+                           Eigen::MatrixXd& G) {
+  const auto add = [&](Index a, const Chunk& slope) {
+    add_scaled(&G(at.first, a), at.alpha, slope.number, slope.count);
+  };
+  for (Index k = 0; k < places.variables(); ++k) {
+    const Summand summand(f, at.rows, k);
+    add(places.theta(k), summand.slope_in_theta());
+    if (places.exponents) add(places.exponent(k), summand.slope_in_exponent());
+    add(places.weight(k), summand.slope_in_weight(at.c));
+  }
+}
+
 /// Σⱼ αⱼ ∂c(x, xⱼ)/∂pₐ at the rows of `scaled`: m x d, whose correlations with the runs are R: m x n. Gives m
 /// rows, one column a parameter; that of λ is 0.
 inline Eigen::MatrixXd parameter_slopes(const ModelState& s, const Eigen::MatrixXd& R,
                                         const Eigen::MatrixXd& scaled) {
   const Eigen::Index d = scaled.cols(), parameters = s.parameter_spread.rows();
+  const ParameterPlaces places = places_among(s.correlation, d, parameters);
   const Eigen::MatrixXd runs = s.X.transpose();
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(scaled.rows(), parameters);
   for (Eigen::Index j = 0; j < s.X.rows(); ++j)
     for (Eigen::Index i = 0; i < scaled.rows(); i += chunk_rows) {
       const Rows rows{scaled, i, std::min(chunk_rows, scaled.rows() - i), &runs(0, j)};
+      if (places.weights) {
+        add_sum_slopes(s.correlation, places, {rows, &R(i, j), s.gls.alpha[j], i}, G);
+        continue;
+      }
       Chunk weighted(rows.count);
       for (Index row = 0; row < rows.count; ++row) weighted.number[row] = R(i + row, j) * s.gls.alpha[j];
       for (Eigen::Index k = 0; k < d; ++k) {
         const Chunk h = distances(s.correlation, rows, k),
                     slope = entry_products(weighted, slope_in_theta(s.correlation, k, h));
-        add_scaled(&G(i, k), 1.0, slope.number, rows.count);
-        if (parameters == 2 * d + 1)
-          add_scaled(&G(i, d + k), 1.0, entry_products(slope, logarithms(h)).number, rows.count);
+        add_scaled(&G(i, places.theta(k)), 1.0, slope.number, rows.count);
+        if (places.exponents)
+          add_scaled(&G(i, places.exponent(k)), 1.0, entry_products(slope, logarithms(h)).number, rows.count);
       }
     }
   return G;
@@ -151,11 +178,35 @@ struct PredictedSlopes {
   const Eigen::MatrixXd &slopes, &trend_slopes;  ///< n x d and q x d
 };
 
-/// ∂(Sᵀg)/∂x: k x d.
-inline Eigen::MatrixXd mean_deviation_slopes(const ModelState& s, const ParameterEffects& effects,
-                                             const PredictedSlopes& at) {
-  const Eigen::Index d = at.scaled.size(), parameters = s.parameter_spread.rows();
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(parameters, d);
+/// Σᵢ αᵢ ∂²c/∂pₐ∂x of a sum, where one variable's slope depends on its own θ and exponent, and on all
+/// weights.
+inline Eigen::MatrixXd mixed_slopes_of_sum(const ModelState& s, const ParameterPlaces& places,
+                                           const PredictedSlopes& at) {
+  const Eigen::Index d = at.scaled.size();
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(places.count(), d);
+  const Eigen::VectorXd along = transposed_product(at.slopes, s.gls.alpha);
+  for (Eigen::Index k = 0; k < d; ++k) {
+    for (Eigen::Index i = 0; i < s.X.rows(); ++i) {
+      const Summand summand(s.correlation, {s.X, i, 1, at.scaled.data()}, k);
+      const MixedSlopes mixed = mixed_slopes(s.correlation, k, at.scaled[k] - s.X(i, k));
+      const double slope = slope_in_theta(s.correlation, k, summand.h)[0],
+                   own = summand.part[0] * s.input.factor[k];
+      G(places.theta(k), k) += s.gls.alpha[i] * (at.slopes(i, k) * slope + own * mixed.theta);
+      if (places.exponents)
+        G(places.exponent(k), k) +=
+            s.gls.alpha[i] * (at.slopes(i, k) * slope * logarithms(summand.h)[0] + own * mixed.exponent);
+    }
+    for (Eigen::Index l = 0; l < d; ++l)
+      G(places.weight(l), k) = ((k == l ? 1.0 : 0.0) - s.correlation.weight[l]) * along[k];
+  }
+  return G;
+}
+
+/// The same of a product.
+inline Eigen::MatrixXd mixed_slopes_of_product(const ModelState& s, const ParameterPlaces& places,
+                                               const PredictedSlopes& at) {
+  const Eigen::Index d = at.scaled.size();
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(places.count(), d);
   for (Eigen::Index i = 0; i < s.X.rows(); ++i)
     for (Eigen::Index a = 0; a < d; ++a) {
       const double step = at.scaled[a] - s.X(i, a);
@@ -165,13 +216,24 @@ inline Eigen::MatrixXd mean_deviation_slopes(const ModelState& s, const Paramete
       const double slope = slope_in_theta(s.correlation, a, h)[0], logarithm = logarithms(h)[0];
       const MixedSlopes mixed = mixed_slopes(s.correlation, a, step);
       const double own = s.gls.alpha[i] * at.r[i] * s.input.factor[a];
-      for (Eigen::Index k = 0; k < d; ++k) G(a, k) += s.gls.alpha[i] * at.slopes(i, k) * slope;
-      G(a, a) += own * mixed.theta;
-      if (parameters != 2 * d + 1) continue;
+      const Eigen::Index by_theta = places.theta(a);
+      for (Eigen::Index k = 0; k < d; ++k) G(by_theta, k) += s.gls.alpha[i] * at.slopes(i, k) * slope;
+      G(by_theta, a) += own * mixed.theta;
+      if (!places.exponents) continue;
+      const Eigen::Index by_exponent = places.exponent(a);
       for (Eigen::Index k = 0; k < d; ++k)
-        G(d + a, k) += s.gls.alpha[i] * at.slopes(i, k) * slope * logarithm;
-      G(d + a, a) += own * mixed.exponent;
+        G(by_exponent, k) += s.gls.alpha[i] * at.slopes(i, k) * slope * logarithm;
+      G(by_exponent, a) += own * mixed.exponent;
     }
+  return G;
+}
+
+/// ∂(Sᵀg)/∂x: k x d.
+inline Eigen::MatrixXd mean_deviation_slopes(const ModelState& s, const ParameterEffects& effects,
+                                             const PredictedSlopes& at) {
+  const ParameterPlaces places = places_among(s.correlation, at.scaled.size(), s.parameter_spread.rows());
+  const Eigen::MatrixXd G =
+      places.weights ? mixed_slopes_of_sum(s, places, at) : mixed_slopes_of_product(s, places, at);
   Eigen::MatrixXd W = transposed_product(s.parameter_spread, G);
   const Eigen::MatrixXd by_alpha = transposed_product(effects.alpha, at.slopes);
   const Eigen::MatrixXd by_beta = transposed_product(effects.beta, at.trend_slopes);

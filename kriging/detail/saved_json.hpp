@@ -117,10 +117,11 @@ class JsonReader {
 };
 
 /// What a kind of file is called, and its version; of models with categories it is one higher, so that a
-/// reader that knows none does not take them for numbers.
+/// reader that knows none does not take them for numbers, and of isotropic and additive correlations two.
 struct FileKind {
   const char* format;
   int version;
+  bool structures = false;  ///< whether there are such
 };
 
 inline bool has_categories(const Json& model) {
@@ -131,10 +132,16 @@ inline bool has_categories(const Json& model) {
   return model["levels"].is_array() && !model["levels"].empty() && has(model["levels"][0]);
 }
 
+/// What the version of a model is beyond that of its kind.
+inline int added_version(const Json& model) {
+  if (model.contains("correlation") && model["correlation"].contains("structure")) return 2;
+  return has_categories(model) ? 1 : 0;
+}
+
 /// The text of a file of this kind.
 inline std::string enveloped(const FileKind& kind, const Json& json) {
   return Json{{"format", kind.format},
-              {"version", kind.version + has_categories(json)},
+              {"version", kind.version + added_version(json)},
               {"checksum", checksum(json.dump())},
               {"model", json}}
              .dump() +
@@ -150,13 +157,16 @@ auto opened(const FileKind& kind, const std::string& text, const std::string& fi
   if (in.at("format").text() != kind.format)
     in.at("format").fail("it is not \"" + std::string(kind.format) + "\"");
   const int version = in.at("version").integer();
-  if (version != kind.version && version != kind.version + 1)
+  const auto or_with = [&](int more, const char* what) {
+    return ", or " + std::to_string(kind.version + more) + " with " + what;
+  };
+  if (version < kind.version || version > kind.version + (kind.structures ? 2 : 1))
     in.at("version").fail("it is " + std::to_string(version) + "; allowed is " +
-                          std::to_string(kind.version) + ", or " + std::to_string(kind.version + 1) +
-                          " with categories");
+                          std::to_string(kind.version) + or_with(1, "categories") +
+                          (kind.structures ? or_with(2, "a structure") : ""));
   if (in.at("checksum").text() != checksum(in.at("model").json().dump()))
     in.at("checksum").fail("it is not that of the model");
-  if (version != kind.version + has_categories(in.at("model").json()))
+  if (version != kind.version + added_version(in.at("model").json()))
     in.at("version").fail("it is not that of the model");
   if (json.dump() + "\n" != text) in.fail("it is not as it was written");
   return read(in.at("model"));

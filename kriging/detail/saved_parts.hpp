@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <drawpoint/kriging/detail/model_state.hpp>
+#include <drawpoint/kriging/detail/parameter_places.hpp>
 #include <drawpoint/kriging/detail/saved_json.hpp>
 
 namespace drawpoint::kriging::detail {
@@ -32,6 +33,8 @@ inline Json json_of(const CorrelationFunction& f) {
             {"theta", json_vector(f.theta)},
             {"exponent", json_vector(f.exponent)}};
   if (!f.levels.empty()) json["categories"] = f.levels;
+  if (f.structure != Structure::product) json["structure"] = to_string(f.structure);
+  if (f.structure == Structure::additive) json["weights"] = json_vector(f.weight);
   return json;
 }
 
@@ -85,6 +88,12 @@ inline void read_correlation(const JsonReader& in, Eigen::Index d, CorrelationFu
   if (f.exponent.size() > 0 || f.family == Correlation::power_exponential)
     f.exponent = in.at("exponent").vector(d);
   if (in.json().contains("categories")) f.levels = read_levels(in.at("categories"), d);
+  if (!in.json().contains("structure")) return;
+  f.structure = in.at("structure").enumerator<Structure>();
+  if (f.structure != Structure::additive) return;
+  f.weight = in.at("weights").vector(d);
+  if (!(f.weight.array() >= 0).all() || !(std::abs(f.weight.sum() - 1.0) <= 1e-12 * static_cast<double>(d)))
+    in.at("weights").fail("they are not shares of 1");
 }
 
 /// X: n x d, in which categories stand by the indices of their levels.
@@ -106,9 +115,10 @@ inline void read_noise(const JsonReader& in, Eigen::Index n, ModelState& s) {
 }
 
 /// S of d inputs.
-inline Eigen::MatrixXd read_spread(const JsonReader& in, Eigen::Index d) {
+inline Eigen::MatrixXd read_spread(const JsonReader& in, Eigen::Index d, const CorrelationFunction& f) {
   const int parameters = in.at("rows").integer(), directions = in.at("columns").integer();
-  if (parameters != 0 && parameters != d + 1 && parameters != 2 * d + 1)
+  if (parameters != 0 && parameters != parameter_places(f, d, false).count() &&
+      parameters != parameter_places(f, d, true).count())
     in.fail("it has " + std::to_string(parameters) + " rows");
   if (directions < 0 || directions > parameters) in.fail("it has more columns than rows");
   return in.matrix(parameters, directions);

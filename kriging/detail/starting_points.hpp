@@ -5,7 +5,8 @@
 /// Where the local searches start: the likeliest of many random candidates that are not close to each other.
 ///
 /// A candidate has a common length scale, a factor on it for each variable and a nugget, all log-uniform. The
-/// common length grows with √d, as distances in the unit box do. Interpolation (λ below 1e-4) and noise are
+/// common length grows with √d, as distances in the unit box do; not in a sum, which has none of these. Its
+/// weights differ by a factor of up to ten. Interpolation (λ below 1e-4) and noise are
 /// two explanations of the same data with separate maxima, so the best candidate of each is always a start.
 /// Candidates are ranked on at most 250 runs, evenly picked, where ranking needs no more. Deterministic in
 /// the seed. Cost: candidates · min(n, 250)³/3.
@@ -32,13 +33,16 @@ inline double log_uniform(doe::RandomStream& random, double lower, double upper)
   return std::log(lower) + random.uniform() * std::log(upper / lower);
 }
 
-/// (ln θ, exponents, ln λ) inside the box of m parameters for d variables.
-inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, Eigen::Index d) {
-  const Eigen::Index m = box.lower.size();
-  const double common = log_uniform(random, 0.1, 1.0) + 0.5 * std::log(static_cast<double>(d));
+/// (ln θ, exponents, weights, ln λ) inside the box.
+inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, const ParameterPlaces& places) {
+  const Eigen::Index m = box.lower.size(), of_weights = places.weight(0);
+  const auto d = static_cast<double>(places.weights ? 1 : places.variables());
+  const double common = log_uniform(random, 0.1, 1.0) + 0.5 * std::log(d);
   Eigen::VectorXd p(m);
-  for (Eigen::Index k = 0; k < d; ++k) p[k] = -std::log(8.0) - 2.0 * (common + log_uniform(random, 0.5, 4.0));
-  for (Eigen::Index k = d; k + 1 < m; ++k) p[k] = 1.5 + 0.49 * random.uniform();
+  for (Eigen::Index k = 0; k < places.theta_count; ++k)
+    p[k] = -std::log(8.0) - 2.0 * (common + log_uniform(random, 0.5, 4.0));
+  for (Eigen::Index k = places.theta_count; k < of_weights; ++k) p[k] = 1.5 + 0.49 * random.uniform();
+  for (Eigen::Index k = of_weights; k + 1 < m; ++k) p[k] = log_uniform(random, 0.3, 3.0);
   p[m - 1] = log_uniform(random, 1e-8, 0.3);
   return moved(box, p, 0.0, p);
 }
@@ -73,7 +77,7 @@ inline std::vector<RankedPoint> ranked_candidates(Likelihood& likelihood, const 
   std::vector<RankedPoint> all(count), ranked;
   std::vector<double> values;
   for (RankedPoint& c : all) {
-    c.p = candidate(random, box, likelihood.variables());
+    c.p = candidate(random, box, likelihood.places());
     c.value = likelihood.value(c.p);
     values.push_back(c.value);
   }

@@ -43,8 +43,9 @@ struct InputScale {
 };
 
 struct TrainingData {
-  Eigen::MatrixXd X;         ///< scaled
-  std::vector<int> levels;   ///< of the correlation
+  Eigen::MatrixXd X;        ///< scaled
+  std::vector<int> levels;  ///< of the correlation
+  Structure structure = Structure::product;
   Eigen::VectorXd y;         ///< standardised; empty when the response is constant
   Eigen::MatrixXd F;         ///< n x q, the trend's terms at the runs
   Eigen::VectorXd observed;  ///< y in its unit
@@ -260,6 +261,7 @@ inline TrainingData prepare(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   data.input = input_scale(X, options);
   data.X = data.input.apply(X);
   data.levels = categories_of(options.levels);
+  data.structure = options.structure;
   data.y_centre = y[0] + mean_of(affine(y, 1.0, -y[0]));
   if (y.size() == 1 || is_constant(y)) return data;
   const double range = largest_entry(y) - smallest_entry(y);

@@ -251,7 +251,7 @@ json report_data(const ReportInput& input) {
     if (!formula)
       known.warnings.push_back(
           "The response surface of " + pretty(input.problem.responses[j].name) +
-          " is not drawn: the trend of its model is a function that this page does not know.");
+          " is not drawn: its model has a trend or a correlation that this page does not know.");
     models.push_back(to_json(model, formula));
     validations.push_back(
         j < input.validations.size() ? to_json(input.validations[j], input.problem.responses[j]) : json());

@@ -11,7 +11,8 @@ namespace drawpoint::studies::detail {
 
 std::optional<Surface> surface(const kriging::TransformedModel& model) {
   const auto& state = model.model().state();
-  if (state.trend.by_user()) return std::nullopt;
+  if (state.trend.by_user() || state.correlation.structure == kriging::Structure::additive)
+    return std::nullopt;
   Surface s{state.input.centre, state.input.factor, state.correlation, state.X, {}, {}, {},
             state.y_centre,     model.transform()};
   if (s.transform.scale != kriging::Scale::linear)

@@ -11,6 +11,7 @@
 #include <drawpoint/tests/kriging/categories.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <drawpoint/tests/kriging/saved_text.hpp>
+#include <drawpoint/tests/kriging/structures.hpp>
 #include <functional>
 
 using namespace drawpoint;
@@ -91,6 +92,7 @@ TEST(SavedModel, EveryEnumeratorReadsBack) {
   };
   read_back(Status::converged, 6);
   read_back(Correlation::gaussian, 4);
+  read_back(Structure::product, 3);
 }
 
 TEST(SavedModel, CanBeAppendedTo) {
@@ -137,8 +139,10 @@ TEST(SavedModel, FaultsAreNamedWithTheirPlace) {
   const std::string end = "; the file is damaged or of another kind: save the model again";
   EXPECT_EQ(refusal("{"), "kriging::load: the text: it is no JSON, or not all of it" + end);
   EXPECT_EQ(refusal("[1]"), "kriging::load: the text: \"format\" is missing" + end);
-  EXPECT_EQ(refusal(rewritten([](auto& f) { f["version"] = 1; })),
-            "kriging::load: the text: version: it is 1; allowed is 2, or 3 with categories" + end);
+  EXPECT_EQ(
+      refusal(rewritten([](auto& f) { f["version"] = 1; })),
+      "kriging::load: the text: version: it is 1; allowed is 2, or 3 with categories, or 4 with a structure" +
+          end);
   EXPECT_EQ(refusal(rewritten([](auto& f) { f["model"]["correlation"]["theta"][1] = "inf"; })),
             "kriging::load: the text: model/correlation/theta[1]: it is not finite" + end);
   EXPECT_EQ(refusal(rewritten([](auto& f) { f["model"]["runs"]["X"]["values"].push_back(1.0); })),
@@ -174,6 +178,34 @@ TEST(SavedModel, FunctionsOfTheUserAreRefused) {
         "kriging::save: the trend is a function of the user, which no file can hold; allowed are polynomial "
         "trends; save the runs and fit again");
   }
+}
+
+// Isotropic and additive correlations are kept, beside categories and exponents too; their version is one
+// that readers of products refuse.
+TEST(SavedModel, KeepsStructures) {
+  const std::string end = "; the file is damaged or of another kind: save the model again";
+  for (const Structure structure : structures::others)
+    for (const Correlation family : {Correlation::gaussian, Correlation::power_exponential}) {
+      const structures::Reference r = structures::some_runs(structure, family);
+      const Model model = fit(r.X, r.y, structures::options_of(r)), again = from_text(to_text(model));
+      EXPECT_EQ(model.predict(r.X).mean, again.predict(r.X).mean);
+      EXPECT_EQ(model.predict(r.X).variance, again.predict(r.X).variance);
+      EXPECT_EQ(model.gradient(r.X.row(1)).variance, again.gradient(r.X.row(1)).variance);
+      EXPECT_EQ(to_text(again), to_text(model));
+      EXPECT_EQ(nlohmann::json::parse(to_text(model))["version"], 4);
+      const auto after = [&](const std::function<void(nlohmann::json&)>& change) {
+        return refusal(support::with_checksum(to_text(model), change));
+      };
+      EXPECT_EQ(after([](auto& f) { f["version"] = 3; }),
+                "kriging::load: the text: version: it is not that of the model" + end);
+      EXPECT_EQ(after([](auto& f) { f["model"]["correlation"]["structure"] = "sum"; }),
+                "kriging::load: the text: model/correlation/structure: \"sum\" is unknown" + end);
+      if (structure != Structure::additive) continue;
+      EXPECT_EQ(after([](auto& f) {
+                  f["model"]["correlation"]["weights"] = {0.5, 0.6, -0.1};
+                }),
+                "kriging::load: the text: model/correlation/weights: they are not shares of 1" + end);
+    }
 }
 
 // Categories are kept; their version is one higher, which readers that know none refuse.

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of fit_quality for scikit-learn and OpenTURNS: fit_quality_peers.py FOLDER [sklearn] [openturns]
+"""The table of fit_quality for scikit-learn and OpenTURNS: fit_quality_peers.py FOLDER [sklearn] [isotropic] [openturns]
 
 FOLDER: what `fit_quality --write FOLDER` wrote. scikit-learn: constant times squared exponential plus white noise, no
-restarts (its default) and five. OpenTURNS: squared exponential, constant trend, the best of nine nuggets by its own
+restarts (its default) and five; isotropic the same with one length for all inputs, where asked for. OpenTURNS: squared exponential, constant trend, the best of nine nuggets by its own
 likelihood, since it does not estimate one. Medians over the seeds; columns as in fit_quality, but the
 noise is in the unit of the response."""
 import itertools
@@ -19,17 +19,18 @@ import numpy
 PERCENT = {50: 0.6744898, 80: 1.2815516, 95: 1.9599640}
 
 
-def sklearn_fits():
+def sklearn_fits(isotropic=False):
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
     def predict(restarts, X, y, Z):
-        kernel = ConstantKernel(1.0, (1e-3, 1e6)) * RBF([0.5] * X.shape[1], (0.01, 100.0)) + WhiteKernel(1e-3, (1e-10, 10.0))
+        kernel = ConstantKernel(1.0, (1e-3, 1e6)) * RBF(0.5 if isotropic else [0.5] * X.shape[1], (0.01, 100.0)) + WhiteKernel(1e-3, (1e-10, 10.0))
         model = GaussianProcessRegressor(kernel, alpha=0.0, n_restarts_optimizer=restarts, random_state=1).fit(X, y)
         mean, deviation = model.predict(Z, return_std=True)
         return mean, deviation, numpy.sqrt(model.kernel_.k2.noise_level)
 
-    return {f"sklearn{r}": lambda X, y, Z, r=r: predict(r, X, y, Z) for r in (0, 5)}
+    name = "skl_iso" if isotropic else "sklearn"
+    return {f"{name}{r}": lambda X, y, Z, r=r: predict(r, X, y, Z) for r in (0, 5)}
 
 
 def openturns_fits():
@@ -68,7 +69,7 @@ def main():
     warnings.simplefilter("ignore")  # of lengths at their bounds, which are expected here
     fits = {}
     for name in wanted:
-        fits.update({"sklearn": sklearn_fits, "openturns": openturns_fits}[name]())
+        fits.update({"sklearn": sklearn_fits, "isotropic": lambda: sklearn_fits(True), "openturns": openturns_fits}[name]())
     stems = sorted(str(path)[:-len("-train.csv")] for path in folder.glob("*-train.csv"))
     print(f"{'function':12} {'design':8} {'runs':>4} {'way':9} {'NRMSE':>9} {'worst':>9}  {'50 %':>5} {'80 %':>5} {'95 %':>5}"
           f"  {'noise':>9} {'CPU s':>7} {'not':>4}")
