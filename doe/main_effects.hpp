@@ -127,7 +127,7 @@ inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::In
 }  // namespace detail
 
 /// One curve a variable and response, variables outermost. Throws std::invalid_argument for options out of
-/// range and more than 37 variables, std::runtime_error when options.evaluate.stop ended the runs, and as
+/// range and more than 1111 variables, std::runtime_error when options.evaluate.stop ended the runs, and as
 /// evaluate does.
 template <class F>
 std::vector<MainEffect> main_effects(const F& f, const Problem& problem,

@@ -111,7 +111,8 @@ inline Draws draws_of_normals(const PredictedResponses& p, const DrawOptions& op
   const Eigen::Index n = p.mean.rows(), r = p.mean.cols();
   Draws draws(static_cast<std::size_t>(options.draws), p.mean);
   if (n == 0 || r == 0) return draws;
-  const Eigen::Index block = doe::detail::sobol_max_dimensions / r;
+  constexpr Eigen::Index even = 37;  // dimensions of a net, the first and most even ones where they suffice
+  const Eigen::Index block = std::max<Eigen::Index>(even / r, 1);
   for (Eigen::Index first = 0; first < n; first += block) {
     const Eigen::Index points = std::min(block, n - first);
     const auto number = static_cast<std::uint64_t>(first);

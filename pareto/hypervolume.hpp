@@ -22,7 +22,7 @@
 #include <vector>
 
 #include <drawpoint/pareto/detail/box_union.hpp>
-#include <drawpoint/pareto/detail/rising_order.hpp>
+#include <drawpoint/pareto/detail/ordered_points.hpp>
 #include <drawpoint/pareto/detail/volume_contributions.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
@@ -32,24 +32,39 @@ inline constexpr int most_volume_objectives = 8;
 
 namespace detail {
 
-/// Points as boxes below the reference, every side positive, the last side falling; `rows` are their rows.
+/// Points as boxes below the reference, every side positive, the last side falling; `rows` are their rows,
+/// `sides` has as many at least.
 struct Boxes {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> sides;
+  RowMajor sides;
   std::vector<int> rows;
 
-  Eigen::Index size() const { return sides.rows(); }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(rows.size()); }
   const double* side(Eigen::Index i) const { return sides.data() + i * sides.cols(); }
+
+  /// Nothing where that row has no box.
+  void remove(int row) {
+    const auto place = std::find(rows.begin(), rows.end(), row);
+    if (place == rows.end()) return;
+    double* box = sides.data() + (place - rows.begin()) * sides.cols();
+    std::copy(box + sides.cols(), sides.data() + size() * sides.cols(), box);
+    rows.erase(place);
+  }
 };
 
 inline Boxes boxes(const Eigen::MatrixXd& points, const Eigen::VectorXd& reference) {
-  Boxes result;
+  const Eigen::Index m = points.cols();
   std::vector<KeyedRow> rows;
+  rows.reserve(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if ((points.row(i).transpose().array() < reference.array()).all())
-      rows.push_back({rising_bits(points(i, points.cols() - 1)), static_cast<int>(i)});
+      rows.push_back({rising_bits(points(i, m - 1)), static_cast<int>(i)});
   sort_by_key(rows);
+  Boxes result{RowMajor(rows.size(), m), {}};
+  result.rows.reserve(rows.size());
   for (const KeyedRow& r : rows) result.rows.push_back(r.row);
-  result.sides = (-points(result.rows, Eigen::all)).rowwise() + reference.transpose();
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      result.sides(i, j) = reference[j] - points(rows[static_cast<std::size_t>(i)].row, j);
   return result;
 }
 
@@ -155,8 +170,7 @@ inline void contributions_of_volumes(const Boxes& boxes, Eigen::VectorXd& result
 }
 
 template <int M>
-Eigen::VectorXd contributions(const Boxes& boxes, Eigen::Index n) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(n);
+void contributions(const Boxes& boxes, Eigen::VectorXd& result) {
   if constexpr (M == 1) {
     contributions_of_lengths(boxes, result);
   } else if constexpr (M == 2) {
@@ -166,6 +180,12 @@ Eigen::VectorXd contributions(const Boxes& boxes, Eigen::Index n) {
   } else {
     contributions_by_unions<M>(boxes, result);
   }
+}
+
+/// n numbers; 0 for rows without a box.
+inline Eigen::VectorXd contributions(const Boxes& boxes, Eigen::Index n) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(n);
+  with_dimension(boxes.sides.cols(), [&](auto m) { contributions<decltype(m)::value>(boxes, result); });
   return result;
 }
 
@@ -185,9 +205,7 @@ inline double hypervolume(const Eigen::MatrixXd& points, const Eigen::VectorXd& 
 inline Eigen::VectorXd hypervolume_contributions(const Eigen::MatrixXd& points,
                                                  const Eigen::VectorXd& reference) {
   detail::check_volume_input("pareto::hypervolume_contributions: ", points, reference);
-  const detail::Boxes boxes = detail::boxes(points, reference);
-  return detail::with_dimension(
-      points.cols(), [&](auto m) { return detail::contributions<decltype(m)::value>(boxes, points.rows()); });
+  return detail::contributions(detail::boxes(points, reference), points.rows());
 }
 
 /// The same in natural signs; reference: m, worse than what counts in every objective.

@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,17 +44,21 @@ class VolumeSurvival {
     std::vector<int> rows;
     for (std::size_t i = 0; i < ranking.fronts.size(); ++i) {
       const auto places = static_cast<std::size_t>(population_) - rows.size();
-      std::vector<int> front = ranking.fronts[i];
-      if (front.size() > places && i < ranking.feasible) front = reduced(pool, front, places);
-      front.resize(std::min(front.size(), places));
-      rows.insert(rows.end(), front.begin(), front.end());
+      const std::vector<int>& front = ranking.fronts[i];
+      if (front.size() > places && i < ranking.feasible) {
+        const std::vector<int> kept = reduced(pool, front, places);
+        rows.insert(rows.end(), kept.begin(), kept.end());
+      } else {
+        const auto taken = static_cast<std::ptrdiff_t>(std::min(front.size(), places));
+        rows.insert(rows.end(), front.begin(), front.begin() + taken);
+      }
     }
     const std::size_t size = rows.size();
     return {std::move(rows), std::vector<int>(size, 0), std::vector<double>(size, 0.0)};
   }
 
  private:
-  std::vector<int> reduced(const Population& pool, std::vector<int> front, std::size_t places) const {
+  std::vector<int> reduced(const Population& pool, const std::vector<int>& front, std::size_t places) const {
     const Eigen::MatrixXd Y = pool.Y(front, Eigen::all);
     const Eigen::RowVectorXd low = Y.colwise().minCoeff();
     Eigen::RowVectorXd range = Y.colwise().maxCoeff() - low;
@@ -61,12 +66,16 @@ class VolumeSurvival {
       if (r <= 0.0) r = 1.0;
     const Eigen::MatrixXd scaled = (Y.rowwise() - low) * range.cwiseInverse().asDiagonal();
     const Eigen::VectorXd reference = Eigen::VectorXd::Constant(Y.cols(), 1.0 + reference_offset_);
+    check_volume_input("pareto::sms_emoa: ", scaled, reference);
+    Boxes left = boxes(scaled, reference);
     std::vector<int> kept(front.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = static_cast<int>(i);
+    std::iota(kept.begin(), kept.end(), 0);
     while (kept.size() > places) {
-      Eigen::Index least;
-      hypervolume_contributions(scaled(kept, Eigen::all), reference).minCoeff(&least);
-      kept.erase(kept.begin() + least);
+      const Eigen::VectorXd share = contributions(left, scaled.rows());
+      const auto least =
+          std::min_element(kept.begin(), kept.end(), [&](int a, int b) { return share[a] < share[b]; });
+      left.remove(*least);
+      kept.erase(least);
     }
     for (int& i : kept) i = front[i];
     return kept;

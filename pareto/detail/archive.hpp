@@ -22,14 +22,15 @@ namespace drawpoint::pareto::detail {
 
 /// The `count` rows of largest distance, in rising order; the earlier row wins a tie.
 inline std::vector<int> least_crowded(const Eigen::VectorXd& distance, int count) {
+  const auto before = [&](int a, int b) {
+    return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
+  };
   std::vector<int> rows(static_cast<std::size_t>(distance.size()));
   std::iota(rows.begin(), rows.end(), 0);
-  const auto kept = rows.begin() + count;
-  std::nth_element(rows.begin(), kept, rows.end(), [&](int a, int b) {
-    return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
-  });
-  rows.erase(kept, rows.end());
-  std::sort(rows.begin(), rows.end());
+  if (count == static_cast<int>(rows.size())) return rows;
+  std::vector<int> ordered = rows;
+  std::nth_element(ordered.begin(), ordered.begin() + count, ordered.end(), before);
+  std::erase_if(rows, [&, first_left_out = ordered[count]](int i) { return !before(i, first_left_out); });
   return rows;
 }
 
@@ -39,13 +40,10 @@ class Archive {
 
   const Population& members() const { return members_; }
 
-  void add(const Population& candidates) {
-    std::vector<int> feasible;
-    for (int i = 0; i < static_cast<int>(candidates.size()); ++i)
-      if (candidates.feasible(i)) feasible.push_back(i);
+  /// candidates: feasible rows of `from`.
+  void add(const Population& from, const std::vector<int>& candidates) {
     const bool first = members_.U.cols() == 0;
-    Population all =
-        first ? selected(candidates, feasible) : joined(members_, selected(candidates, feasible));
+    const Population added = selected(from, candidates), all = first ? added : joined(members_, added);
     members_ = selected(all, thinned(all.Y));
   }
 

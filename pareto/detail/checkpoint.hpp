@@ -208,9 +208,11 @@ class CheckpointReader {
 
   void item(const char* name, Population& p) {
     int size = 0;
+    Eigen::MatrixXd U;
     std::vector<double> failed;
     item(name, size);
-    item("U", p.U);
+    item("U", U);
+    p.U = U;
     item("responses", p.responses);
     item("Y", p.Y);
     item("violations", p.violations);

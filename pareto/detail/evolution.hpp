@@ -11,11 +11,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <drawpoint/pareto/ask_and_tell.hpp>
 #include <drawpoint/pareto/detail/archive.hpp>
+#include <drawpoint/pareto/detail/newcomer.hpp>
 
 namespace drawpoint::pareto::detail {
 
@@ -42,13 +44,15 @@ class Evolution : public Search {
     const int step = step_++;
     const auto first_new = static_cast<int>(parents_.size());
     const Population pool = step == 0 ? std::move(told) : joined(parents_, told);
-    const Ranking ranking = on_one_front_ && pool.size() == first_new + 1 ? rank_with_newcomer(pool)
-                                                                          : rank(pool, largest_violations());
-    if (archived()) archive_.add(selected(pool, first_front(ranking, first_new)));
+    const Ranking ranking = parents_ranking_ ? rank_with_newcomer(pool, std::move(*parents_ranking_))
+                                             : rank(pool, largest_violations());
+    if (archived()) archive_.add(pool, first_front(ranking, first_new));
     if (step % steps() == 0) close(step, pool, ranking);
     doe::RandomStream random(stream(step, survival_stream));
     Survivors survivors = survive_(pool, ranking, random);
-    on_one_front_ = ranking.feasible > 0 && are_among(ranking.fronts.front(), survivors.rows);
+    parents_ranking_.reset();
+    if (setting().children == 1)
+      parents_ranking_ = ranking_of_survivors(ranking, survivors.rows, pool.size());
     if (!are_the_old(survivors.rows, first_new)) parents_ = selected(pool, survivors.rows);
     return breeder().children({parents_, std::move(survivors.rank), std::move(survivors.distance)},
                               setting().children, doe::RandomStream(stream(step, generation_stream)));
@@ -57,12 +61,6 @@ class Evolution : public Search {
   Population best() const override { return archived() ? archive_.members() : best_of(parents_); }
 
   bool archived() const { return setting().archive > 0; }
-
-  /// Both in rising order, else false.
-  static bool are_among(const std::vector<int>& all, const std::vector<int>& rows) {
-    return std::is_sorted(rows.begin(), rows.end()) &&
-           std::includes(all.begin(), all.end(), rows.begin(), rows.end());
-  }
 
   /// The old parents, all of them in their order.
   static bool are_the_old(const std::vector<int>& rows, int first_new) {
@@ -98,7 +96,7 @@ class Evolution : public Search {
   void write(CheckpointWriter& out) const override { fields(*this, out); }
   void read(CheckpointReader& in) override {
     fields(*this, in);
-    on_one_front_ = false;
+    parents_ranking_.reset();
   }
 
   template <class Self, class Stream>
@@ -112,8 +110,9 @@ class Evolution : public Search {
   S survive_;
   Archive archive_;
   Population parents_;
-  int step_ = 0;               // the next one's number
-  bool on_one_front_ = false;  // the parents: all feasible, none dominates another; false also where unknown
+  int step_ = 0;  // the next one's number
+  std::optional<Ranking>
+      parents_ranking_;  // with one child per step, where all parents are feasible and it is known
 };
 
 }  // namespace drawpoint::pareto::detail

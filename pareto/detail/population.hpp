@@ -22,10 +22,12 @@
 
 namespace drawpoint::pareto::detail {
 
-/// One point per row: place in the unit box, responses in natural units, minimised objectives, constraint
-/// violations. The rows of a failed point hold zeros beyond U.
+/// One point per row: place in the unit box (contiguous, for places are most of what is copied), responses
+/// in natural units, minimised objectives, constraint violations. The rows of a failed point hold zeros
+/// beyond U.
 struct Population {
-  Eigen::MatrixXd U, responses, Y, violations;
+  RowMajor U;
+  Eigen::MatrixXd responses, Y, violations;
   std::vector<char> failed;
 
   Eigen::Index size() const { return U.rows(); }
@@ -55,18 +57,31 @@ inline Population assess(const doe::Problem& problem, Eigen::MatrixXd U,
   return p;
 }
 
+/// Neighbours are copied as one block.
+inline RowMajor selected_places(const RowMajor& U, const std::vector<int>& rows) {
+  RowMajor result(rows.size(), U.cols());
+  for (std::size_t k = 0, next; k < rows.size(); k = next) {
+    for (next = k + 1; next < rows.size() && rows[next] == rows[next - 1] + 1;) ++next;
+    const auto count = static_cast<Eigen::Index>(next - k);
+    result.middleRows(static_cast<Eigen::Index>(k), count) = U.middleRows(rows[k], count);
+  }
+  return result;
+}
+
 inline Population selected(const Population& from, const std::vector<int>& rows) {
-  Population p{from.U(rows, Eigen::all),
+  Population p{selected_places(from.U, rows),
                from.responses(rows, Eigen::all),
                from.Y(rows, Eigen::all),
                from.violations(rows, Eigen::all),
                {}};
+  p.failed.reserve(rows.size());
   for (const int i : rows) p.failed.push_back(from.failed[i]);
   return p;
 }
 
-inline Eigen::MatrixXd stacked(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
-  Eigen::MatrixXd all(top.rows() + bottom.rows(), top.cols());
+template <class Matrix>
+Matrix stacked(const Matrix& top, const Matrix& bottom) {
+  Matrix all(top.rows() + bottom.rows(), top.cols());
   all.topRows(top.rows()) = top;
   all.bottomRows(bottom.rows()) = bottom;
   return all;
@@ -112,23 +127,6 @@ inline Ranking rank(const Population& p, const Eigen::RowVectorXd& largest) {
   rank_infeasible(p, largest, std::move(infeasible), ranking);
   if (!failed.empty()) ranking.fronts.push_back(std::move(failed));
   return ranking;
-}
-
-/// As `rank`, of feasible points, none of which dominates another, and one more in the last row: what the
-/// sort would find, in one look at each point.
-inline Ranking rank_with_newcomer(const Population& p) {
-  const auto last = static_cast<int>(p.size()) - 1;
-  const auto newcomer = p.Y.row(last);
-  std::vector<int> level, beaten;  // with the newcomer, and what it dominates
-  bool is_beaten = !p.feasible(last);
-  for (int i = 0; i < last; ++i) {
-    is_beaten = is_beaten || dominates(p.Y.row(i), newcomer);
-    (!is_beaten && dominates(newcomer, p.Y.row(i)) ? beaten : level).push_back(i);
-  }
-  if (is_beaten) return {{std::move(level), {last}}, p.feasible(last) ? std::size_t{2} : std::size_t{1}};
-  level.push_back(last);
-  if (beaten.empty()) return {{std::move(level)}, 1};
-  return {{std::move(level), std::move(beaten)}, 2};
 }
 
 /// The feasible points that no other point of the population dominates.

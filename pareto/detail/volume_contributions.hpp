@@ -22,7 +22,11 @@ namespace drawpoint::pareto::detail {
 
 class VolumeContributions {
  public:
-  explicit VolumeContributions(std::size_t n) { boxes_.reserve(n); }
+  explicit VolumeContributions(std::size_t n) {
+    boxes_.reserve(n);
+    corners_.reserve(n);
+    steps_.reserve(n);
+  }
 
   /// Sides above 0; z must not rise from call to call.
   void add(double x, double y, double z) {
@@ -31,15 +35,15 @@ class VolumeContributions {
     const std::size_t above = first_as_high(y);
     if (above < steps_.size() && step(above).x >= x) {
       settle(above, z);
-      hide(step(above).hidden, {x, y});
+      hide(step(above), x, y);
       measure(above);
       return;
     }
     std::size_t last = above + (above < steps_.size() && step(above).y == y), first = above;
     while (first > 0 && step(first - 1).x <= x) --first;
-    for (std::size_t k = first; k < last; ++k) {
+    for (std::size_t k = last; k-- > first;) {
       settle(k, z);
-      boxes_.back().hidden.push_back({step(k).x, step(k).y});
+      boxes_.back().hidden = corner(step(k).x, step(k).y, boxes_.back().hidden);
     }
     replace(first, last, box);
     for (std::size_t k = first > 0 ? first - 1 : 0; k < std::min(first + 2, steps_.size()); ++k) {
@@ -57,14 +61,18 @@ class VolumeContributions {
   }
 
  private:
+  static constexpr int none = -1;
+
+  /// Of what one box hides: a staircase too, y rising and x falling, from corner to corner.
   struct Corner {
     double x, y;
+    int next;
   };
   struct Box {
     double x, y;
     double level;  // down to which `volume` is counted
     double area = 0.0, volume = 0.0;
-    std::vector<Corner> hidden{};  // a staircase too: y rising, x falling
+    int hidden = none;  // the first corner
   };
 
   Box& step(std::size_t k) { return boxes_[static_cast<std::size_t>(steps_[k])]; }
@@ -92,14 +100,23 @@ class VolumeContributions {
     }
   }
 
-  static void hide(std::vector<Corner>& hidden, Corner corner) {
-    const auto place =
-        std::partition_point(hidden.begin(), hidden.end(), [&](const Corner& c) { return c.y < corner.y; });
-    if (place != hidden.end() && place->x >= corner.x) return;
-    const auto end = place + (place != hidden.end() && place->y == corner.y);
-    auto begin = place;
-    while (begin != hidden.begin() && std::prev(begin)->x <= corner.x) --begin;
-    hidden.insert(hidden.erase(begin, end), corner);
+  /// A new corner before `next`: all stand in one array, so that none costs an allocation.
+  int corner(double x, double y, int next) {
+    corners_.push_back({x, y, next});
+    return static_cast<int>(corners_.size()) - 1;
+  }
+
+  Corner& at(int corner) { return corners_[static_cast<std::size_t>(corner)]; }
+
+  void hide(Box& box, double x, double y) {
+    const int added = corner(x, y, none);
+    int* place = &box.hidden;
+    while (*place != none && at(*place).y < y && at(*place).x > x) place = &at(*place).next;
+    int next = *place;
+    while (next != none && at(next).y <= y && at(next).x <= x) next = at(next).next;
+    if (next != none && at(next).x >= x) return;
+    at(added).next = next;
+    *place = added;
   }
 
   /// The area that step k owns. What it hides outside its rectangle stays outside, for rectangles only
@@ -107,19 +124,19 @@ class VolumeContributions {
   void measure(std::size_t k) {
     Box& b = step(k);
     const double left = k + 1 < steps_.size() ? step(k + 1).x : 0.0, low = k > 0 ? step(k - 1).y : 0.0;
-    auto& hidden = b.hidden;
-    while (!hidden.empty() && hidden.back().x <= left) hidden.pop_back();
-    hidden.erase(hidden.begin(), std::partition_point(hidden.begin(), hidden.end(),
-                                                      [&](const Corner& c) { return c.y <= low; }));
     double bottom = low;
     b.area = (b.x - left) * (b.y - low);
-    for (const Corner& c : hidden) {
-      b.area -= (c.x - left) * (c.y - bottom);
-      bottom = c.y;
+    while (b.hidden != none && at(b.hidden).y <= low) b.hidden = at(b.hidden).next;
+    int* place = &b.hidden;
+    for (; *place != none && at(*place).x > left; place = &at(*place).next) {
+      b.area -= (at(*place).x - left) * (at(*place).y - bottom);
+      bottom = at(*place).y;
     }
+    *place = none;
   }
 
   std::vector<Box> boxes_;
+  std::vector<Corner> corners_;
   std::vector<int> steps_;  // y rising, x falling
 };
 

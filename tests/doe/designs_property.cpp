@@ -181,8 +181,9 @@ TEST(Designs, TooFewRunsAreRefused) {
             "corners = false");
   EXPECT_EQ(text([&] { uniform_random(problem, -3); }),
             "doe::uniform_random: runs is -3; allowed is 1 or more; ask for at least one run");
-  EXPECT_EQ(text([&] { scrambled_sobol(support::unit_problem(38), 8); }),
-            "doe::scrambled_sobol: the problem has 38 variables; allowed is up to 37; use latin_hypercube");
+  EXPECT_EQ(
+      text([&] { scrambled_sobol(support::unit_problem(1112), 8); }),
+      "doe::scrambled_sobol: the problem has 1112 variables; allowed is up to 1111; use latin_hypercube");
 }
 
 TEST(FullFactorial, WrongLevelsAreRefused) {

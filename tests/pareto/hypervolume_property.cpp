@@ -6,6 +6,8 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/pareto/generators.hpp>
 #include <drawpoint/tests/pareto/test_functions.hpp>
+#include <numeric>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::pareto;
@@ -78,6 +80,25 @@ TEST(HypervolumeContributions, OfThreeObjectivesByTwoMethods) {
   detail::contributions_by_unions<3>(detail::boxes(Y, reference), by_unions);
   EXPECT_LE((hypervolume_contributions(Y, reference) - by_unions).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_GT(by_unions.maxCoeff(), 1e-6);
+}
+
+// Some of the points have no box: they reach the reference.
+RC_GTEST_PROP(HypervolumeContributions, OfBoxesThatAreLeftAreThoseOfTheirPoints, ()) {
+  const int m = *rc::gen::inRange(1, 5);
+  const Eigen::MatrixXd Y = support::whole_points(*rc::gen::inRange(1, 25), m, 7);
+  const Eigen::VectorXd reference = Eigen::VectorXd::Constant(m, 6.0);
+  const auto n = static_cast<int>(Y.rows());
+  detail::Boxes boxes = detail::boxes(Y, reference);
+  std::vector<int> left(static_cast<std::size_t>(n));
+  std::iota(left.begin(), left.end(), 0);
+  while (left.size() > 1) {
+    const auto gone =
+        left.begin() + *rc::gen::inRange<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(left.size()));
+    boxes.remove(*gone);
+    left.erase(gone);
+    const Eigen::VectorXd expected = hypervolume_contributions(Y(left, Eigen::all), reference);
+    RC_ASSERT(detail::contributions(boxes, n)(left) == expected);
+  }
 }
 
 TEST(Hypervolume, PointsBeyondTheReferenceAddNothing) {

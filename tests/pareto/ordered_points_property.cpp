@@ -58,4 +58,32 @@ TEST(OrderedPoints, BitsRiseWithTheNumber) {
   EXPECT_EQ(detail::rising_bits(0.0), detail::rising_bits(-0.0));
 }
 
+// Keys of three ways of sorting (63, 64 to 511, and more rows): spread evenly, over many powers of ten, close
+// together far from a single other one, which leaves all but that to the insertion, and few values.
+TEST(SortByKey, IsTheStableSort) {
+  for (const int n : {1, 63, 64, 101, 511, 512, 2000})
+    for (int kind = 0; kind < 4; ++kind) {
+      doe::RandomStream random(static_cast<doe::Seed>(10 * n + kind));
+      std::vector<detail::KeyedRow> rows;
+      for (int i = 0; i < n; ++i) {
+        const double u = random.uniform() - 0.5;
+        const double lone = i == n / 2 ? -1e200 : 1.0 + 1e-9 * u;
+        const double value = kind == 0   ? u
+                             : kind == 1 ? std::pow(u, 99)
+                             : kind == 2 ? lone
+                                         : std::round(5.0 * u);
+        rows.push_back({detail::rising_bits(value), i});
+      }
+      std::vector<detail::KeyedRow> expected = rows;
+      std::stable_sort(expected.begin(), expected.end(),
+                       [](const auto& a, const auto& b) { return a.key < b.key; });
+      detail::sort_by_key(rows);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        ASSERT_EQ(rows[i].row, expected[i].row) << n << " " << kind;
+        const bool tie = i > 0 && rows[i].key == rows[i - 1].key;
+        ASSERT_EQ(tie, i > 0 && expected[i].key == expected[i - 1].key);
+      }
+    }
+}
+
 }  // namespace
