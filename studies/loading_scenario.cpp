@@ -45,9 +45,8 @@ std::vector<StudyOption> loading_options() {
        {engine::loading::scene_names.begin(), engine::loading::scene_names.end()}},
       {"sizes",
        "of the rocks: 0.3 to 0.8 m as in Lindmark (2016), half of it boulders; with a quarter of the "
-       "mass as 0.2 m; with a tenth as 0.1 m; or broken well, 0.2 to 0.5 m. Finer rock costs three, "
-       "eight and "
-       "four times as much",
+       "mass as 0.2 m; with a tenth as 0.1 m; or broken well, 0.2 to 0.5 m. That is three, eight and four "
+       "times as many rocks, and more than so many times the time",
        "mine",
        {engine::granular::size_names.begin(), engine::granular::size_names.end()}},
       {"speeds",

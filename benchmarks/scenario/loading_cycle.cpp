@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "command.hpp"
+#include "loading_flags.hpp"
 #include "setting.hpp"
 #include "step_times.hpp"
 
@@ -25,7 +26,8 @@ constexpr const char* about =
     "counted.\n\n"
     "  loading_cycle /tmp/small.h5                       the default scene: 120 t\n"
     "  loading_cycle /tmp/full.h5 --scene lindmark2016   the scale of Lindmark (2016): 290 t, some 4300 "
-    "rocks\n\n"
+    "rocks\n"
+    "  loading_cycle /tmp/fine.h5 --sizes well_broken    what finer rock costs\n\n"
     "Fields of --json:\n"
     "  seconds_per_cycle   processor time of a cycle, from its start to the next, refill and wait for rest\n"
     "                      included; real_time_factor: simulated over that\n"
@@ -34,7 +36,8 @@ constexpr const char* about =
     "  loaded_kg, production_kg_s, damage_s, spill   what came out, means over the cycles";
 
 struct Settings {
-  std::string pile, scene = "small", setting;
+  std::string pile, setting;
+  PileFlags rock;
   int cycles = 1, threads = 1;
   bool json = false;
 };
@@ -46,7 +49,7 @@ double processor_seconds() {
 }
 
 Scenario scenario_of(const Settings& s) {
-  Scenario scenario = scene_named(s.scene);
+  Scenario scenario = s.rock.scenario();
   scenario.cycles = s.cycles;
   scenario.strategy = {1.2, 0.8, 0.8, 0.2};
   scenario.pile_file = s.pile;
@@ -74,7 +77,8 @@ nlohmann::json run(const Settings& s) {
   double loaded = 0;
   for (const CycleRecord& cycle : log.cycles) loaded += cycle.loaded_mass / cycles;
   nlohmann::json out = times.per_step();
-  out.update({{"scene", s.scene},
+  out.update({{"scene", s.rock.scene},
+              {"sizes", s.rock.sizes},
               {"threads", s.threads},
               {"cycles", log.cycles.size()},
               {"simulated_s", simulated},
@@ -119,9 +123,7 @@ int main(int argc, char** argv) {
   Settings s;
   CLI::App app(about, "loading_cycle");
   app.add_option("PILE_FILE", s.pile, "where the pile is kept; poured when missing")->required();
-  app.add_option("--scene", s.scene, "small (the default scene) or lindmark2016 (full scale)")
-      ->check(one_of(scene_names))
-      ->capture_default_str();
+  add_pile_flags(app, s.rock);
   app.add_option("--cycles", s.cycles, "of one run, each from the pile that the last one left")
       ->check(between(1, 1000, "", "1 to 5 are usual"))
       ->capture_default_str();

@@ -52,9 +52,10 @@ void add_pile_flags(CLI::App& app, PileFlags& flags) {
       ->check(one_of(scene_names))
       ->capture_default_str();
   app.add_option("--mass", flags.mass, "of the piles [t]")->check(between(10, 1e4, "t", "leave it out"));
-  app.add_option("--sizes", flags.sizes,
-                 "of the rocks: 0.3 to 0.8 m; with a quarter of the mass as 0.2 m, at three times the cost; "
-                 "with a tenth as 0.1 m, at eight times; 0.2 to 0.5 m, at four times")
+  app.add_option(
+         "--sizes", flags.sizes,
+         "of the rocks: 0.3 to 0.8 m; with a quarter of the mass as 0.2 m, three times as many; with a "
+         "tenth as 0.1 m, eight times as many, twelve times the time; 0.2 to 0.5 m, four times as many")
       ->check(one_of(size_names))
       ->capture_default_str();
 }
