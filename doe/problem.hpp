@@ -218,7 +218,8 @@ inline void check_standard_error(const Response& of, const std::vector<Response>
   if (told->goal != Goal::record)
     reject(place + "whose goal is " + std::string(to_string(told->goal)) + "; it must be record");
   if (!(told->lower >= 0)) reject(place + "which may be below 0; give it the lower bound 0");
-  if (told->unit != of.unit)
+  const auto pure = [](const std::string& unit) { return unit.empty() || unit == "1"; };
+  if (told->unit != of.unit && !(pure(told->unit) && pure(of.unit)))
     reject(place + "in \"" + told->unit + "\"; give both the same unit, \"" + of.unit + "\"");
   if (!told->standard_error.empty()) reject(place + "which names a standard error itself; remove that one");
 }

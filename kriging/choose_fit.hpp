@@ -21,6 +21,7 @@
 #include <concepts>
 #include <cstddef>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <functional>
@@ -191,7 +192,7 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
                             const std::vector<WayToFit>& ways, const RunNoise& noise = {}) {
   if (ways.empty())
     throw std::invalid_argument("kriging::choose_fit: 0 ways; allowed is 1 or more; name at least one");
-  if (noise.noise != Noise::nugget)
+  if (noise.noise != Noise::nugget || noise.variance.size() > 0)
     detail::check_run_noise(noise.variance, X.rows(), "kriging::choose_fit: ");
   std::vector<TransformedModel> models;
   std::vector<FitStanding> table;
@@ -217,6 +218,7 @@ inline FitChoice choose_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& y
                                             const Eigen::VectorXd& noise_variance) {
                       FitOptions of_runs = options;
                       of_runs.noise_variance = noise_variance;
+                      if (options.noise == Noise::known) of_runs = with_known_noise(options, noise_variance);
                       return fit_transformed(P, v, scale, range, of_runs);
                     }});
   }

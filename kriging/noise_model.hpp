@@ -17,13 +17,28 @@
 #include <cmath>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
+#include <drawpoint/kriging/validate.hpp>
+#include <stdexcept>
+#include <string>
 
 namespace drawpoint::kriging {
+
+/// For runs whose noise is known to be this, n entries, unit of y squared. Where all are exact, as a part of
+/// some runs may be, λ stays at its lower bound.
+inline FitOptions with_known_noise(FitOptions options, const Eigen::VectorXd& noise_variance) {
+  const bool noisy =
+      std::any_of(noise_variance.begin(), noise_variance.end(), [](double v) { return v > 0; });
+  options.noise = noisy ? Noise::known : Noise::nugget;
+  options.noise_variance = noisy ? noise_variance : Eigen::VectorXd();
+  if (!noisy) options.nugget_upper = options.nugget_lower;
+  return options;
+}
 
 /// Of standard deviations, unit of y. X: n x d, natural units; noise_variance: n, from 0 on, unit of y
 /// squared; options: box, correlation and trend of the model, with Noise::nugget. Throws as fit.
 inline TransformedModel fit_noise(const Eigen::MatrixXd& X, const Eigen::VectorXd& noise_variance,
                                   const FitOptions& options = {}) {
+  detail::check_run_noise(noise_variance, X.rows(), "kriging::fit_noise: ");
   Eigen::VectorXd deviation = noise_variance;
   for (double& entry : deviation) entry = std::sqrt(entry);
   return fit_transformed(X, deviation, Scale::logarithm, {.lower = 0}, options);
@@ -36,15 +51,18 @@ inline Eigen::VectorXd noise_variance_at(const TransformedModel& noise, const Ei
   return variance;
 }
 
-/// Runs with noise that is known, but for chance: FitOptions with the noise of `known` modelled. Throws as
-/// fit does for Noise::known.
-inline FitOptions with_modelled_noise(FitOptions known, const Eigen::MatrixXd& X) {
+/// Of runs with noise that is known, but for chance: the options with what a model makes of it. Throws
+/// std::invalid_argument for another noise than known, and as fit does for that.
+inline FitOptions with_modelled_noise(const FitOptions& known, const Eigen::MatrixXd& X) {
+  if (known.noise != Noise::known)
+    throw std::invalid_argument("kriging::with_modelled_noise: noise is " +
+                                std::string(known.noise == Noise::nugget ? "nugget" : "proportional") +
+                                "; allowed is known; give noise_variance with it");
   detail::check_noise(known, X.rows());
   FitOptions of_noise = known;
   of_noise.noise = Noise::nugget;
   of_noise.noise_variance.resize(0);
-  known.noise_variance = noise_variance_at(fit_noise(X, known.noise_variance, of_noise), X);
-  return known;
+  return with_known_noise(known, noise_variance_at(fit_noise(X, known.noise_variance, of_noise), X));
 }
 
 }  // namespace drawpoint::kriging

@@ -220,6 +220,7 @@ inline Model fit_with_step(const Model& model, int input, double at) {
   FitOptions options;
   options.correlation = s.correlation.family;
   options.levels = s.correlation.levels;
+  options.structure = s.correlation.structure;
   options.trend = Trend::user;
   options.basis.values = [trend = s.trend, scale = s.input, input, at](const Eigen::VectorXd& x) {
     const Eigen::VectorXd scaled = scale.apply(x.transpose()).row(0), half_range = scale.half_range();

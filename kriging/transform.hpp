@@ -125,19 +125,26 @@ inline double back_slope(const Transform& t, double z) {
   return 1;
 }
 
-/// Variance on the scale of z of noise about y that has this variance there: the square of half the distance
-/// between what y less and y plus a standard deviation is on it, of one side where the scale does not reach
-/// the other. First order, variance/(dg⁻¹/dz)², where neither is reached, and to which it tends for small
-/// noise; on a bound of a square root that alone would be ∞.
-inline double noise_on_scale(const Transform& t, double y, double variance) {
+/// Variance τ² on the scale of z of noise that has this variance about g⁻¹(z): noise of which y at a
+/// deviation above and below is 2√variance apart, (g⁻¹(z + τ) − g⁻¹(z − τ))/2 = √variance. Rises with the
+/// variance, is first order, variance/(dg⁻¹/dz)², where that is small, and finite on a bound of a square
+/// root. Between the bounds of a logit no noise is wider than they are: it counts as almost that.
+inline double noise_on_scale(const Transform& t, double z, double variance) {
   if (t.scale == Scale::linear || !(variance > 0)) return variance;
-  const double deviation = std::sqrt(variance), z = transformed(t, y);
-  const bool below = reaches(t, y - deviation), above = reaches(t, y + deviation);
-  if (!below && !above) return variance / back_slope(t, z) / back_slope(t, z);
-  const double down = below ? z - transformed(t, y - deviation) : 0.0;
-  const double up = above ? transformed(t, y + deviation) - z : 0.0;
-  const double half = below && above ? 0.5 * (down + up) : down + up;
-  return half * half;
+  const double deviation = std::sqrt(variance);
+  double tau = 0;
+  if (t.scale == Scale::logarithm) {
+    tau = std::asinh(deviation * std::exp(-z));
+  } else if (t.scale == Scale::square_root) {
+    const double root = std::max(z, 0.0);
+    tau = deviation < 2 * root * root ? deviation / (2 * root) : std::sqrt(2 * deviation) - root;
+  } else {  // sinh τ/(cosh τ + cosh z) = q, a quadratic in e^τ
+    constexpr double most = 1 - 1e-6;
+    const double q = std::min(2 * deviation / (t.upper - t.lower + t.offset + t.upper_offset), most);
+    const double c = q * std::cosh(z);
+    tau = std::log((c + std::sqrt(c * c + (1 - q) * (1 + q))) / (1 - q));
+  }
+  return tau * tau;
 }
 
 namespace detail {

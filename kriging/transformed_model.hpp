@@ -89,8 +89,7 @@ class TransformedModel {
     const Prediction z = scaled(X, Target::latent);
     Eigen::VectorXd q(X.rows());
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      const double noise =
-          noise_on_scale(transform_, back_transformed(transform_, z.mean[i]), noise_variance[i]);
+      const double noise = noise_on_scale(transform_, z.mean[i], noise_variance[i]);
       const double variance = std::max(z.variance[i], 0.0) + noise;
       q[i] = back_transformed(transform_, t == 0 ? z.mean[i] : z.mean[i] + t * std::sqrt(variance));
     }
@@ -194,7 +193,7 @@ namespace detail {
 inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, const Eigen::VectorXd& y) {
   check_noise(options, y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i)
-    options.noise_variance[i] = noise_on_scale(t, y[i], options.noise_variance[i]);
+    options.noise_variance[i] = noise_on_scale(t, transformed(t, y[i]), options.noise_variance[i]);
   return options;
 }
 

@@ -42,9 +42,9 @@ inline void check_run_noise(const Eigen::VectorXd& noise_variance, Index n, cons
     reject("noise_variance has " + std::to_string(noise_variance.size()) + " entries but X has " +
            std::to_string(n) + " rows; give one variance per run");
   for (Index i = 0; i < n; ++i)
-    if (!(noise_variance[i] >= 0) || !std::isfinite(noise_variance[i]))
+    if (!(noise_variance[i] >= 0) || noise_variance[i] > largest)
       reject("noise_variance[" + std::to_string(i) + "] is " + doe::detail::number_text(noise_variance[i]) +
-             "; allowed are finite numbers from 0 on; give variances, the squares of standard deviations");
+             "; allowed are 0 to 1e150; give variances, the squares of standard deviations");
 }
 
 /// What is predicted of the runs where their noise is this, on another scale than that of y. `latent`:
@@ -52,8 +52,7 @@ inline void check_run_noise(const Eigen::VectorXd& noise_variance, Index n, cons
 inline void set_run_noise(Validation& v, const Eigen::VectorXd& latent,
                           const Eigen::VectorXd& noise_variance) {
   for (Index i = 0; i < v.observed.size(); ++i) {
-    const double about = back_transformed(v.transform, v.scaled_mean[i]);
-    v.scaled_variance[i] = latent[i] + noise_on_scale(v.transform, about, noise_variance[i]);
+    v.scaled_variance[i] = latent[i] + noise_on_scale(v.transform, v.scaled_mean[i], noise_variance[i]);
     const PredictedRun run = predicted_run(v, i);
     const double half = 0.5 * (run.quantile(1) - run.quantile(-1));
     v.observation_variance[i] = half * half;

@@ -86,7 +86,7 @@ constexpr std::uint32_t polynomial_product(std::uint32_t a, std::uint32_t b, std
   return product;
 }
 
-/// Whether x has the order 2^degree - 1 modulo the polynomial: neither less nor more powers of it are 1.
+/// Whether x has the order 2^degree - 1 modulo the polynomial: the least power of it that is 1.
 constexpr bool is_primitive(std::uint32_t polynomial, int degree) {
   const auto power_is_one = [&](std::uint32_t exponent) {
     std::uint32_t result = 1, base = 2;

@@ -130,6 +130,15 @@ inline void check_exponent(const FitOptions& options, Eigen::Index d) {
     if (!(options.exponent[k] >= 1.0 && options.exponent[k] <= 2.0))
       reject("exponent[" + std::to_string(k) + "] is " + text(options.exponent[k]) +
              "; allowed are numbers from 1 to 2; use 2 for a smooth response");
+  if (options.structure != Structure::isotropic) return;
+  const auto number = [&](Eigen::Index k) { return !is_category(options.levels, k); };
+  Eigen::Index first = 0;
+  while (first < d && !number(first)) ++first;
+  for (Eigen::Index k = first; k < d; ++k)
+    if (number(k) && options.exponent[k] != options.exponent[first])
+      reject("exponent[" + std::to_string(k) + "] is " + text(options.exponent[k]) + " and exponent[" +
+             std::to_string(first) + "] " + text(options.exponent[first]) +
+             "; an isotropic correlation has one for all numbers; give them alike, or take product");
 }
 
 inline void check_noise(const FitOptions& options, Eigen::Index n) {

@@ -74,6 +74,14 @@ Eigen::MatrixXd standard_errors(const std::vector<kriging::TransformedModel>& mo
   return errors;
 }
 
+/// Of the columns of standard_errors: another where the runs tell a response of the first name.
+const char* ending_of_errors(const doe::Problem& problem) {
+  for (const doe::Response& a : problem.responses)
+    for (const doe::Response& b : problem.responses)
+      if (b.name == a.name + "_standard_error") return "_error_of_mean";
+  return "_standard_error";
+}
+
 std::string csv_text(const json& value) {
   if (value.is_null()) return "";
   if (value.is_string()) return value.get<std::string>();
@@ -125,7 +133,8 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, 
   append_responses(table, problem, "", "what the models expect of a run");
   append_responses(table, problem, "_lower", lower_end);
   append_responses(table, problem, "_upper", upper_end);
-  append_responses(table, problem, "_standard_error", "of what the models expect, noise left out");
+  append_responses(table, problem, ending_of_errors(problem),
+                   "standard error of what the models expect, noise left out");
   table.columns.push_back({"success", "1", ColumnType::number, "probability that a run succeeds"});
   if (missing) *missing = predicted.missing;
   if (front.X.rows() == 0) return table;
@@ -166,10 +175,12 @@ ExportTable responses_table(const doe::Problem& problem) {
                   {"limit", "", ColumnType::number, "of at_most and at_least, in the response's unit"},
                   {"lower", "", ColumnType::number, "no value lies below, in the response's unit"},
                   {"upper", "", ColumnType::number, "no value lies above, in the response's unit"},
-                  {"description", "", ColumnType::text, "what it is"}},
+                  {"description", "", ColumnType::text, "what it is"},
+                  {"standard_error", "", ColumnType::text, "name of the response that tells its noise"}},
       .rows = {}};
   for (const doe::Response& r : problem.responses)
-    table.rows.push_back({r.name, r.unit, to_string(r.goal), r.limit, r.lower, r.upper, r.description});
+    table.rows.push_back(
+        {r.name, r.unit, to_string(r.goal), r.limit, r.lower, r.upper, r.description, r.standard_error});
   return table;
 }
 

@@ -98,7 +98,7 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
         {"message", model.message()},
         {"theta", theta},
         {"noise_deviation", number_or_null(std::sqrt(model.noise_variance()))},
-        {"noise_told", knows_noise(model)},
+        {"noise_source", to_string(fitted.noise[j])},
         {"leave_one_out", errors_json(leave_one_out(model), problem.responses[j])}};
   }
   return all;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <system_error>
 
 namespace drawpoint::studies {
 namespace {
@@ -25,15 +26,25 @@ fs::path behind_links(const fs::path& file) {
   return end;
 }
 
+fs::path beside(fs::path file, const char* ending) { return file += ending; }
+
 }  // namespace
 
 fs::path output_file(const Folder& folder, const fs::path& file, const std::string& option) {
   if (file.empty()) return file;
+  std::error_code broken;
+  if (fs::status(file, broken).type() == fs::file_type::none)
+    throw UsageError(option + ": " + file.string() + " cannot be reached: " + broken.message() +
+                     "; name another");
   if (fs::exists(file) && !fs::is_regular_file(file) && !fs::is_directory(file))
-    throw UsageError(option + ": " + file.string() +
-                     " is a device or a pipe, whose place a file written whole would take; name a file");
-  for (const fs::path& own : {folder.store(), folder.logs(), folder.shared(), folder.shared_checksums(),
-                              folder.slurm(), folder.report()}) {
+    throw UsageError(
+        option + ": " + file.string() +
+        " is a device or a pipe, and no file; name a file, or for a table on standard output leave " +
+        option + " out");
+  for (const fs::path& own :
+       {folder.store(), folder.logs(), folder.shared(), folder.shared_checksums(), folder.slurm(),
+        folder.report(), folder.lock(), beside(folder.store(), "-journal"), beside(folder.store(), "-wal"),
+        beside(folder.store(), "-shm")}) {
     if (is_within(file, own))
       throw UsageError(option + ": " + file.string() + " is where the study keeps its own (" + own.string() +
                        "); name another");

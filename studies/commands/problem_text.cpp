@@ -41,7 +41,10 @@ std::string problem_text(const doe::Problem& problem) {
   std::string text = "Variables:\n";
   for (const auto& v : problem.variables) text += described(v.name, range_of(v), v.description);
   text += "Responses:\n";
-  for (const auto& r : problem.responses) text += described(r.name, wanted_of(r), r.description);
+  for (const auto& r : problem.responses)
+    text += described(r.name,
+                      wanted_of(r) + (r.standard_error.empty() ? "" : "; runs tell its " + r.standard_error),
+                      r.description);
   return text;
 }
 

@@ -57,10 +57,9 @@ StudyWay way_to_fit(const kriging::FitOptions& options, const kriging::ResponseR
            [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
              if (noise == NoiseOfRuns::estimated)
                return kriging::fit_transformed(X, y, scale, range, options);
-             kriging::FitOptions known = options;
-             known.noise = kriging::Noise::known;
-             known.noise_variance = noise_variance;
-             if (noise == NoiseOfRuns::modelled) known = kriging::with_modelled_noise(known, X);
+             kriging::FitOptions known = kriging::with_known_noise(options, noise_variance);
+             if (noise == NoiseOfRuns::modelled && known.noise == kriging::Noise::known)
+               known = kriging::with_modelled_noise(known, X);
              return kriging::fit_transformed(X, y, scale, range, known);
            }},
           noise};
@@ -85,9 +84,22 @@ kriging::Validation validation_of(const Models& fitted, const doe::Evaluations& 
 
 }  // namespace
 
+std::string_view to_string(NoiseOfRuns noise) {
+  switch (noise) {
+    case NoiseOfRuns::estimated:
+      return "estimated";
+    case NoiseOfRuns::told:
+      return "told";
+    case NoiseOfRuns::modelled:
+      return "modelled";
+  }
+  return "unknown";
+}
+
 kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response) {
   const Eigen::VectorXd variance = runs.noise_variance(response.name);
-  if (variance.size() == 0 || !(variance.maxCoeff() > 0)) return {};
+  if (variance.size() == 0 || !(variance.maxCoeff() > 0) || !(variance.maxCoeff() <= most_told_variance))
+    return {};
   return {kriging::Noise::known, variance};
 }
 

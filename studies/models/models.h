@@ -11,12 +11,16 @@
 #include <drawpoint/kriging/validate.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drawpoint::studies {
 
+/// What runs may tell of their noise, unit of the response squared: it is squared again.
+inline constexpr double most_told_variance = 1e150;
+
 /// What the runs that succeeded tell of the noise of a response (doe::Response::standard_error); nothing
-/// where they do not, or tell none but 0.
+/// where they do not, tell none but 0, or one tells what cannot be.
 kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response);
 
 /// Where a fit has the noise of a run from.
@@ -25,6 +29,8 @@ enum class NoiseOfRuns {
   told,       ///< by each run
   modelled    ///< what the others tell, too: kriging/noise_model.hpp
 };
+
+std::string_view to_string(NoiseOfRuns noise);
 
 struct StudyWay : kriging::WayToFit {
   NoiseOfRuns noise = NoiseOfRuns::estimated;

@@ -6,6 +6,7 @@
 #include <drawpoint/kriging/outliers.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 
@@ -26,13 +27,30 @@ std::string sentence(const kriging::Outlier& outlier, const doe::Response& respo
          std::to_string(run) + ": a fault of the simulator, or a place where the response jumps.";
 }
 
+/// Of the first run of each response that tells a standard error that cannot be.
+std::vector<std::string> absurd_errors(const Tables& tables) {
+  const std::vector<std::int64_t> runs = runs_with_values(tables.training);
+  std::vector<std::string> sentences;
+  for (const doe::Response& response : tables.training.problem.responses) {
+    const Eigen::VectorXd variance = tables.training.noise_variance(response.name);
+    Eigen::Index largest = 0;
+    if (variance.size() == 0 || variance.maxCoeff(&largest) <= most_told_variance) continue;
+    const std::string run = std::to_string(runs[static_cast<std::size_t>(largest)]);
+    sentences.push_back("Run " + run + " tells " + response.standard_error + " as " +
+                        doe::detail::with_unit(std::sqrt(variance[largest]), response.unit) +
+                        "; allowed is 1e75 at most. What the runs tell of the noise of " + response.name +
+                        " is left out; make the run again with evaluate --run " + run + ".");
+  }
+  return sentences;
+}
+
 }  // namespace
 
 std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
   const doe::Problem& problem = tables.training.problem;
   const Eigen::MatrixXd X = tables.training.X();
   const std::vector<std::int64_t> runs = runs_with_values(tables.training);
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = absurd_errors(tables);
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
     const doe::Response& response = problem.responses[j];
     const kriging::TransformedModel& model = fitted.models[j];

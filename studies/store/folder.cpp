@@ -92,7 +92,7 @@ std::uintmax_t free_space(const fs::path& path) {
 }
 
 FolderLock::FolderLock(const Folder& folder) {
-  const fs::path file = folder.path / ".lock";
+  const fs::path file = folder.lock();
   descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) refuse(file, errno);
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -120,7 +120,7 @@ FolderLock::FolderLock(const Folder& folder) {
 FolderLock::~FolderLock() { close(descriptor_); }
 
 std::optional<FolderHolder> holder_of(const Folder& folder) {
-  const fs::path file = folder.path / ".lock";
+  const fs::path file = folder.lock();
   struct stat status = {};
   std::int64_t process = 0;
   if (stat(file.c_str(), &status) != 0 || !(std::ifstream(file) >> process)) return std::nullopt;

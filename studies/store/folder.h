@@ -30,6 +30,7 @@ struct Folder {
   std::filesystem::path path;
 
   std::filesystem::path store() const { return path / "study.db"; }
+  std::filesystem::path lock() const { return path / ".lock"; }
   std::filesystem::path report() const { return path / "report.html"; }
   std::filesystem::path replay(std::int64_t id) const;  ///< replay_0001.html
   std::filesystem::path shared() const { return path / "shared"; }

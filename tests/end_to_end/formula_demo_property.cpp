@@ -167,6 +167,12 @@ TEST_F(FormulaDemo, ExportsBehindALinkAndToNoDevice) {
   EXPECT_EQ(run(demo + " ask --runs 24 --file " + other_link.string() + out()).code, 0);
   EXPECT_TRUE(std::filesystem::is_symlink(other_link));
   EXPECT_TRUE(std::filesystem::is_regular_file(asked));
+  for (const char* own : {".lock", "study.db-journal", "study.db-wal"})
+    expect_refused(demo + " export --file " + (database().parent_path() / own).string() + out(), 2,
+                   "is where the study keeps its own");
+  const auto loop = place_ / "loop";
+  std::filesystem::create_symlink("loop", loop);
+  expect_refused(demo + " export --file " + loop.string() + out(), 2, "cannot be reached");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   expect_refused(demo + " export --file " + pipe.string() + out(), 2, "is a device or a pipe");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));

@@ -62,22 +62,36 @@ std::string refusal(const auto& f) {
 
 }  // namespace
 
-// To first order the noise of ln y is that of y over y²; the half distance of logarithms is (σ/y)(1 +
-// (σ/y)²/3 + ...), so at σ/y = 0.01 its square is off by 2/3 1e-4 of itself. The same for √y: σ²/(4y), off by
-// (σ/y)²/4.
+// To first order the noise of ln y is that of y over y²: asinh(r) = r(1 − r²/6 + ...), so at σ/y = 0.01 its
+// square is off by 1/3 1e-4 of itself. Of √y it is σ²/(4y) exactly while y has more than half of σ below it.
 TEST(KnownNoise, OnAnotherScaleIsItsFirstOrderWhereItIsSmall) {
   const Transform logarithm{Scale::logarithm, 0, 0, 0, 0}, root{Scale::square_root, 0, 0, 0, 0};
-  EXPECT_NEAR(noise_on_scale(logarithm, 5, 0.05 * 0.05), 1e-4, 1e-8);
-  EXPECT_NEAR(noise_on_scale(root, 5, 0.05 * 0.05), 0.05 * 0.05 / 20, 1e-4 * 0.05 * 0.05 / 20);
+  EXPECT_NEAR(noise_on_scale(logarithm, std::log(5.0), 0.05 * 0.05), 1e-4, 1e-8);
+  EXPECT_NEAR(noise_on_scale(root, std::sqrt(5.0), 0.05 * 0.05), 0.05 * 0.05 / 20, 1e-15);
   EXPECT_EQ(noise_on_scale({}, 5, 0.3), 0.3);
-  EXPECT_EQ(noise_on_scale(logarithm, 5, 0), 0);
+  EXPECT_EQ(noise_on_scale(logarithm, std::log(5.0), 0), 0);
 }
 
-// On the bound of a square root one deviation above is √σ away; first order knows no slope there. Between the
-// bounds of a logit that noise reaches beyond, both, first order is left: y = 0.5 has the slope 0.25.
-TEST(KnownNoise, OnABoundIsThatOfTheSideThatThereIs) {
-  EXPECT_DOUBLE_EQ(noise_on_scale({Scale::square_root, 0, 0, 0, 0}, 0, 0.04), 0.2);
-  EXPECT_DOUBLE_EQ(noise_on_scale({Scale::logit, 0, 1, 0, 0}, 0.5, 1), 16);
+// What it says: back on the scale of y, a deviation above and one below are two of the given ones apart. For
+// 200 sizes from far below to far above what lies between y and its bounds, and the more the more.
+TEST(KnownNoise, OnAnotherScaleIsAsWideOnThatOfY) {
+  for (const Transform& t :
+       {Transform{Scale::logarithm, 1, 0, 0.5, 0}, Transform{Scale::square_root, 1, 0, 0, 0},
+        Transform{Scale::logit, 1, 3, 0.1, 0.2}})
+    for (const double z : {0.0, 0.3, 1.2}) {
+      double before = 0;
+      for (int k = 0; k < 200; ++k) {
+        const double deviation = 1e-3 * std::pow(10.0, 0.03 * k);
+        const double tau = std::sqrt(noise_on_scale(t, z, deviation * deviation));
+        EXPECT_GE(tau, before);
+        if (t.scale != Scale::logit || deviation < 1.1) {
+          EXPECT_NEAR((back_transformed(t, z + tau) - back_transformed(t, z - tau)) / 2 / deviation, 1, 1e-9)
+              << to_string(t.scale) << " " << z << " " << deviation;
+        }
+        EXPECT_TRUE(std::isfinite(tau));
+        before = tau;
+      }
+    }
 }
 
 // A run is the latent function and its own noise: exact sums, on the linear scale.
@@ -103,8 +117,7 @@ TEST(KnownNoise, OfAValidationRunOnAnotherScaleIsItsOwnThere) {
   const Prediction z = model.model().predict(fresh.X);
   const VectorXd ends = model.run_quantile(fresh.X, 0.975, 0.01 * fresh.noise_variance);
   for (Eigen::Index i = 0; i < 9; ++i) {
-    const double noise =
-        noise_on_scale(model.transform(), std::exp(z.mean[i]), 0.01 * fresh.noise_variance[i]);
+    const double noise = noise_on_scale(model.transform(), z.mean[i], 0.01 * fresh.noise_variance[i]);
     EXPECT_NEAR(predicted_quantile(v, i, 0.975),
                 std::exp(z.mean[i] + 1.959963984540054 * std::sqrt(z.variance[i] + noise)), 1e-12);
     EXPECT_NEAR(ends[i], predicted_quantile(v, i, 0.975), 1e-12);
@@ -194,9 +207,29 @@ TEST(KnownNoise, IsModelledForFitsThatKnowIt) {
   const FitOptions modelled = with_modelled_noise(options, r.X);
   EXPECT_EQ(modelled.noise, Noise::known);
   EXPECT_EQ(modelled.noise_variance, noise_variance_at(fit_noise(r.X, r.noise_variance), r.X));
+  EXPECT_EQ(refusal([&] { with_modelled_noise({}, r.X); }),
+            "kriging::with_modelled_noise: noise is nugget; allowed is known; give noise_variance with it");
   options.noise_variance.conservativeResize(29);
   EXPECT_NE(refusal([&] { with_modelled_noise(options, r.X); }).find("noise_variance has 29 entries"),
             std::string::npos);
+}
+
+// One run of all tells an error, the others are exact: what a choice leaves out of the runs may leave none
+// that is noisy. Exact runs are fitted as such: λ at its lower bound.
+TEST(KnownNoise, OfRunsThatAreAllExactIsNone) {
+  Runs r = runs(20, 1);
+  r.y = r.X.col(0).unaryExpr(&wave);
+  r.y[7] += 2;
+  r.noise_variance.setZero();
+  r.noise_variance[7] = 4;
+  FitOptions options;
+  const FitOptions exact = with_known_noise(options, VectorXd::Zero(20));
+  EXPECT_EQ(exact.noise, Noise::nugget);
+  EXPECT_EQ(exact.nugget_upper, options.nugget_lower);
+  options = with_known_noise(options, r.noise_variance);
+  EXPECT_EQ(options.noise, Noise::known);
+  EXPECT_NO_THROW(choose_scale(r.X, r.y, {.lower = 0}, options));
+  EXPECT_NO_THROW(with_modelled_noise(options, r.X));
 }
 
 TEST(KnownNoise, IsRefusedWhereItCannotBe) {
@@ -206,9 +239,10 @@ TEST(KnownNoise, IsRefusedWhereItCannotBe) {
             "kriging::validate: noise_variance has 11 entries but X has 12 rows; give one variance per run");
   VectorXd bad = r.noise_variance;
   bad[3] = -1;
-  EXPECT_EQ(refusal([&] {
-              choose_fit(r.X, r.y, {}, {told()}, {Noise::known, bad});
-            }),
-            "kriging::choose_fit: noise_variance[3] is -1; allowed are finite numbers from 0 on; give "
-            "variances, the squares of standard deviations");
+  EXPECT_EQ(
+      refusal([&] {
+        choose_fit(r.X, r.y, {}, {told()}, {Noise::known, bad});
+      }),
+      "kriging::choose_fit: noise_variance[3] is -1; allowed are 0 to 1e150; give variances, the squares of "
+      "standard deviations");
 }

@@ -98,3 +98,22 @@ TEST(ToldNoise, OfExactRunsIsNone) {
   EXPECT_NEAR(fit_models({table, {problem(), {}}}).models[0](Eigen::VectorXd::Constant(1, 0.5)), mean(0.5),
               1e-3);
 }
+
+// What the others leave out may leave no run that is noisy, or none whose noise can be: models stay.
+TEST(ToldNoise, OfOneRunSpoilsNoModel) {
+  doe::Evaluations table = runs(25, 1);
+  for (doe::Evaluation& row : table.rows)
+    row.outcome = row.run == 10 ? doe::Outcome{mean(row.x[0]) + 3, 3.0} : doe::Outcome{mean(row.x[0]), 0.0};
+  const Tables one{table, {problem(), {}}};
+  const Models fitted = fit_models(one);
+  EXPECT_NO_THROW(suspects(fitted, one));
+  table.rows[2].outcome = {mean(table.rows[2].x[0]), 1e99};
+  const Tables absurd{table, {problem(), {}}};
+  EXPECT_EQ(told_noise(table, table.problem.responses[0]).noise, kriging::Noise::nugget);
+  const std::vector<std::string> said = suspects(fit_models(absurd), absurd);
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said[0],
+            "Run 3 tells load_error as 1e+99 t; allowed is 1e75 at most. What the runs tell of the noise of "
+            "load is "
+            "left out; make the run again with evaluate --run 3.");
+}
