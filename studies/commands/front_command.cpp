@@ -23,9 +23,9 @@ ReportInput input_with_front(const Study& study, const Settings& settings) {
     add_models(input, store.identity().seed);
   } catch (const std::invalid_argument& e) {
     if (input.training.X().rows() == 0) {
-      const std::string failed = failure_warning(input);
-      throw std::runtime_error("front: no training run has given values" +
-                               (failed.empty() ? "" : ": " + failed) + "; the command status says more");
+      std::string said = "front: no training run has given values";
+      if (const std::string failed = failure_warning(input); !failed.empty()) said += ": " + failed;
+      throw std::runtime_error(said + "; the command status says more");
     }
     throw std::runtime_error("front: there are no models: " + std::string(e.what()) +
                              "; make more runs with the command run, or ask and tell");

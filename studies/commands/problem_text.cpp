@@ -41,10 +41,11 @@ std::string problem_text(const doe::Problem& problem) {
   std::string text = "Variables:\n";
   for (const auto& v : problem.variables) text += described(v.name, range_of(v), v.description);
   text += "Responses:\n";
-  for (const auto& r : problem.responses)
-    text += described(r.name,
-                      wanted_of(r) + (r.standard_error.empty() ? "" : "; runs tell its " + r.standard_error),
-                      r.description);
+  for (const auto& r : problem.responses) {
+    std::string wanted = wanted_of(r);
+    if (!r.standard_error.empty()) wanted += "; runs tell its " + r.standard_error;
+    text += described(r.name, wanted, r.description);
+  }
   return text;
 }
 
