@@ -68,12 +68,12 @@ inline Eigen::MatrixXd parameter_spread(Likelihood& likelihood, const Eigen::Vec
 /// Rows of points against one run, the first of them row `first` of all.
 struct AgainstRun {
   const Rows& rows;
-  const double* c;  ///< correlations, one a row
+  const double* c;  ///< correlations, one per row
   double alpha;     ///< of the run
   Index first;
 };
 
-/// Adds α ∂c/∂pₐ of a sum to G: one row a point, one column a parameter.
+/// Adds α ∂c/∂pₐ of a sum to G: one row per point, one column per parameter.
 inline void add_sum_slopes(const CorrelationFunction& f, const ParameterPlaces& places, const AgainstRun& at,
                            Eigen::MatrixXd& G) {
   const auto add = [&](Index a, const Chunk& slope) {

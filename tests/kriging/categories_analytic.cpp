@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/categories.hpp>
+#include <drawpoint/tests/kriging/correlations.hpp>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
@@ -13,24 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr Correlation families[] = {Correlation::gaussian, Correlation::power_exponential,
-                                    Correlation::matern32, Correlation::matern52};
-
-// The equations of correlation.hpp, one pair of points and one input at a time.
-double one_correlation(Correlation family, double theta, double p, double distance) {
-  const double h = std::sqrt(2 * theta) * distance;
-  switch (family) {
-    case Correlation::gaussian:
-      return std::exp(-theta * distance * distance);
-    case Correlation::power_exponential:
-      return std::exp(-theta * std::pow(distance, p));
-    case Correlation::matern32:
-      return (1 + std::sqrt(3.0) * h) * std::exp(-std::sqrt(3.0) * h);
-    default:
-      return (1 + std::sqrt(5.0) * h + 5.0 / 3.0 * h * h) * std::exp(-std::sqrt(5.0) * h);
-  }
-}
 
 // X: two numbers on [-1, 1] and the index of one of four levels; p: ln θ, exponents, ln λ.
 struct Reference {
@@ -43,7 +26,7 @@ struct Reference {
     for (int k = 0; k < 3; ++k) {
       const double distance = k == 2 ? (a[k] == b[k] ? 0.0 : 2.0) : std::abs(a[k] - b[k]);
       const double exponent = family == Correlation::power_exponential ? p[3 + k] : 2.0;
-      product *= one_correlation(family, std::exp(p[k]), exponent, distance);
+      product *= reference::one_correlation(family, std::exp(p[k]), exponent, distance);
     }
     return product;
   }
@@ -94,7 +77,7 @@ VectorXd somewhere(Correlation family) {
 
 // λ = 0.05 keeps R's condition below n/λ = 280, so both agree to some 1e-13 of LL, which is about 20.
 TEST(Categories, LikelihoodIsThatOfADenseReference) {
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const Reference r = some_runs(family);
     const VectorXd p = somewhere(family);
     EXPECT_NEAR(likelihood_of(r).value(p), r.log_likelihood(p), 1e-10) << to_string(family);
@@ -105,7 +88,7 @@ TEST(Categories, LikelihoodIsThatOfADenseReference) {
 // first and 1e-13/h² = 1e-5 of a second derivative; Hessians are therefore differences of the gradient.
 TEST(Categories, DerivativesAreDifferencesOfTheReference) {
   constexpr double h = 1e-4;
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const Reference r = some_runs(family);
     const VectorXd p = somewhere(family);
     Likelihood likelihood = likelihood_of(r);
@@ -125,7 +108,7 @@ TEST(Categories, DerivativesAreDifferencesOfTheReference) {
 // ½ tr(R⁻¹Rₐ R⁻¹R_b) − tr(R⁻¹Rₐ) tr(R⁻¹R_b)/(2n), with Rₐ by central differences, good to 1e-8.
 TEST(Categories, InformationIsThatOfADenseReference) {
   constexpr double h = 1e-4;
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const Reference r = some_runs(family);
     const VectorXd p = somewhere(family);
     std::vector<MatrixXd> slopes;
@@ -147,7 +130,7 @@ TEST(Categories, InformationIsThatOfADenseReference) {
 // Mean, variance and covariance at fixed parameters by their equations, with R inverted. θ of a fit are of
 // inputs on [-1, 1], so the box is that.
 TEST(Categories, PredictionsAreThoseOfADenseReference) {
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const Reference r = some_runs(family);
     FitOptions options = categories::box_options();
     options.correlation = family;
@@ -202,7 +185,7 @@ TEST(Categories, TwoLevelsAreTheEndsOfANumber) {
 // Names of levels mean nothing: not one bit changes when they are dealt anew.
 TEST(Categories, NamesOfLevelsMeanNothing) {
   const auto [X, y] = categories::runs(categories::scrambled, 32, 5);
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     FitOptions options = categories::unit_options(3);
     options.levels = {0, 0, 4};
     options.correlation = family;

@@ -11,24 +11,20 @@
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/kriging/sample_paths.hpp>
 #include <drawpoint/tests/kriging/categories.hpp>
+#include <drawpoint/tests/kriging/correlations.hpp>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-constexpr Correlation all_families[] = {Correlation::gaussian, Correlation::power_exponential,
-                                        Correlation::matern32, Correlation::matern52};
-
-}  // namespace
+namespace {}  // namespace
 
 // A category is in no polynomial, and its direction has no slope; those of numbers are difference quotients:
 // with h = 1e-5 of variables on [0, 1], good to some 1e-9 of round-off over h, 1e-4 of truncation squared.
 TEST(ModelsOfCategories, HaveNoSlope) {
   const auto [X, y] = categories::runs(categories::scrambled, 32, 5);
-  for (const Correlation family : all_families)
+  for (const Correlation family : reference::families)
     for (const Trend trend : {Trend::constant, Trend::quadratic}) {
       FitOptions options = categories::unit_options(3);
       options.levels = {0, 0, 4};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/kriging/correlation.hpp>
+#include <drawpoint/tests/kriging/correlations.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
 using namespace drawpoint::kriging;
@@ -12,35 +13,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Correlation families[] = {Correlation::gaussian, Correlation::power_exponential,
-                                    Correlation::matern32, Correlation::matern52};
-
 CorrelationFunction function(Correlation family) {
   CorrelationFunction f{family, Eigen::Vector3d(0.3, 2.0, 11.0), {}};
   if (family == Correlation::power_exponential) f.exponent = Eigen::Vector3d(1.0, 1.4, 2.0);
   return f;
 }
 
-// The definitions, term by term.
-double one(const CorrelationFunction& f, Eigen::Index k, double theta, double exponent, double distance) {
-  const double h = std::sqrt(2 * theta) * distance;
-  switch (f.family) {
-    case Correlation::gaussian:
-      return std::exp(-theta * distance * distance);
-    case Correlation::power_exponential:
-      return std::exp(-theta * std::pow(distance, exponent));
-    case Correlation::matern32:
-      return (1 + std::sqrt(3.0) * h) * std::exp(-std::sqrt(3.0) * h);
-    case Correlation::matern52:
-      return (1 + std::sqrt(5.0) * h + 5.0 / 3.0 * h * h) * std::exp(-std::sqrt(5.0) * h);
-  }
-  return k;
-}
-
 double product(const CorrelationFunction& f, const VectorXd& a, const VectorXd& b) {
   double c = 1;
   for (Eigen::Index k = 0; k < a.size(); ++k)
-    c *= one(f, k, f.theta[k], f.exponent.size() ? f.exponent[k] : 2.0, std::abs(a[k] - b[k]));
+    c *= reference::one_correlation(f.family, f.theta[k], f.exponent.size() ? f.exponent[k] : 2.0,
+                                    std::abs(a[k] - b[k]));
   return c;
 }
 
@@ -55,7 +38,7 @@ double derivative(const F& f, double x, double h) {
 // 301 rows: more than one chunk, and a rest that fills no vector.
 TEST(Correlation, IsTheProductOfItsDefinition) {
   const MatrixXd X = 2.0 * reference::design(301, 3, 4).array() - 1.0;
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const CorrelationFunction f = function(family);
     MatrixXd C;
     fill_correlation(X, f, C);
@@ -74,7 +57,7 @@ TEST(Correlation, IsTheProductOfItsDefinition) {
 
 // Far away exp stays at 3e-308 and Matérn's polynomials, held at h = 800, below (800²)³ = 3e17.
 TEST(Correlation, IsOneAtNoDistanceAndVanishesFarAway) {
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const CorrelationFunction f = function(family);
     const MatrixXd c = cross_correlation(MatrixXd::Zero(1, 3), MatrixXd::Zero(1, 3), f);
     EXPECT_EQ(c(0, 0), 1.0) << to_string(family);
@@ -89,12 +72,12 @@ TEST(Correlation, IsOneAtNoDistanceAndVanishesFarAway) {
 // u² with u below 5 here (or a ratio of such), so f⁽⁵⁾ stays below 5⁵ of the slope: 1e-6 of it, and 1e-6 near
 // zero.
 TEST(Correlation, SlopesAreDifferenceQuotients) {
-  for (const Correlation family : families) {
+  for (const Correlation family : reference::families) {
     const CorrelationFunction f = function(family);
     for (Eigen::Index k = 0; k < 3; ++k) {
       for (const double distance : {0.05, 0.4, 1.1}) {
         const auto logarithm = [&](double log_theta, double exponent, double at) {
-          return std::log(one(f, k, std::exp(log_theta), exponent, at));
+          return std::log(reference::one_correlation(f.family, std::exp(log_theta), exponent, at));
         };
         const double t = std::log(f.theta[k]), p = f.exponent.size() ? f.exponent[k] : 2.0;
         detail::Chunk h(1);

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/tests/kriging/derivatives.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 
 using namespace drawpoint::kriging;
@@ -29,20 +30,6 @@ VectorXd somewhere() {
   return p;
 }
 
-// Richardson's extrapolation of central differences with the steps h and h/2.
-template <class F>
-auto derivative(const F& f, const VectorXd& p, Eigen::Index k, double h) {
-  using Value = std::decay_t<decltype(f(p))>;
-  const auto central = [&](double width) -> Value {
-    VectorXd up = p, down = p;
-    up[k] += width;
-    down[k] -= width;
-    return (f(up) - f(down)) / (2.0 * width);
-  };
-  const Value coarse = central(h), fine = central(0.5 * h);
-  return Value((4.0 * fine - coarse) / 3.0);
-}
-
 // With h = 0.02 the truncation error h⁴ f⁽⁵⁾/480 is about 3e-10·f⁽⁵⁾. One derivative by a logarithm
 // multiplies the terms of LL by at most about 4 here, so f⁽⁵⁾ is below 4⁴ f' and the error below 1e-7 f'.
 // Round-off: LL is good to the condition times the precision, 1e4·1e-16 of 1e2, and 1e-10/h is smaller still.
@@ -55,7 +42,8 @@ TEST(Likelihood, GradientIsTheDifferenceQuotient) {
   const VectorXd p = somewhere(), g = likelihood.gradient(p);
   ASSERT_GT(g.cwiseAbs().minCoeff(), 1e-3) << "a derivative that vanishes tests nothing: " << g.transpose();
   for (Eigen::Index k = 0; k < p.size(); ++k) {
-    const double expected = derivative([&](const VectorXd& q) { return likelihood.value(q); }, p, k, step);
+    const double expected =
+        reference::derivative([&](const VectorXd& q) { return likelihood.value(q); }, p, k, step);
     EXPECT_NEAR(g[k], expected, tolerance * g.norm()) << "parameter " << k;
   }
 }
@@ -67,7 +55,7 @@ TEST(Likelihood, HessianIsTheDifferenceQuotientOfTheGradient) {
   EXPECT_EQ(H, H.transpose());
   for (Eigen::Index k = 0; k < p.size(); ++k) {
     const VectorXd expected =
-        derivative([&](const VectorXd& q) { return likelihood.gradient(q); }, p, k, step);
+        reference::derivative([&](const VectorXd& q) { return likelihood.gradient(q); }, p, k, step);
     EXPECT_LT((H.col(k) - expected).norm(), tolerance * H.norm()) << "parameter " << k;
   }
 }
@@ -100,10 +88,11 @@ TEST(Likelihood, DerivativesOfAllKindsAreDifferenceQuotients) {
         const VectorXd g = likelihood.gradient(p);
         const MatrixXd H = likelihood.hessian(p);
         for (Eigen::Index k = 0; k < p.size(); ++k) {
-          const double slope = derivative([&](const VectorXd& q) { return likelihood.value(q); }, p, k, step);
+          const double slope =
+              reference::derivative([&](const VectorXd& q) { return likelihood.value(q); }, p, k, step);
           EXPECT_NEAR(g[k], slope, tolerance * g.norm()) << to_string(family) << " parameter " << k;
           const VectorXd column =
-              derivative([&](const VectorXd& q) { return likelihood.gradient(q); }, p, k, step);
+              reference::derivative([&](const VectorXd& q) { return likelihood.gradient(q); }, p, k, step);
           EXPECT_LT((H.col(k) - column).norm(), tolerance * H.norm())
               << to_string(family) << " parameter " << k;
         }
@@ -129,7 +118,8 @@ TEST(Likelihood, FisherInformationOfKnownNoiseFollowsItsDefinition) {
   const MatrixXd F = likelihood.fisher(p), K = matrix(p).inverse();
   for (Eigen::Index a = 0; a < 5; ++a)
     for (Eigen::Index b = 0; b < 5; ++b) {
-      const MatrixXd A = K * derivative(matrix, p, a, step), B = K * derivative(matrix, p, b, step);
+      const MatrixXd A = K * reference::derivative(matrix, p, a, step),
+                     B = K * reference::derivative(matrix, p, b, step);
       EXPECT_NEAR(F(a, b), 0.5 * (A * B).trace(), tolerance * F.norm());
     }
 }
@@ -149,7 +139,8 @@ TEST(Likelihood, FisherInformationFollowsItsDefinition) {
   const MatrixXd F = likelihood.fisher(p), K = matrix(p).inverse();
   for (Eigen::Index a = 0; a < 5; ++a) {
     for (Eigen::Index b = 0; b < 5; ++b) {
-      const MatrixXd A = K * derivative(matrix, p, a, step), B = K * derivative(matrix, p, b, step);
+      const MatrixXd A = K * reference::derivative(matrix, p, a, step),
+                     B = K * reference::derivative(matrix, p, b, step);
       const double expected = 0.5 * (A * B).trace() - A.trace() * B.trace() / 200.0;
       EXPECT_NEAR(F(a, b), expected, tolerance * F.norm());
     }

@@ -14,26 +14,11 @@
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/categories.hpp>
+#include <drawpoint/tests/kriging/correlations.hpp>
 
 namespace drawpoint::kriging::structures {
 
-inline constexpr Correlation families[] = {Correlation::gaussian, Correlation::power_exponential,
-                                           Correlation::matern32, Correlation::matern52};
 inline constexpr Structure others[] = {Structure::isotropic, Structure::additive};
-
-inline double one_correlation(Correlation family, double theta, double exponent, double distance) {
-  const double h = std::sqrt(2 * theta) * distance;
-  switch (family) {
-    case Correlation::gaussian:
-      return std::exp(-theta * distance * distance);
-    case Correlation::power_exponential:
-      return std::exp(-theta * std::pow(distance, exponent));
-    case Correlation::matern32:
-      return (1 + std::sqrt(3.0) * h) * std::exp(-std::sqrt(3.0) * h);
-    default:
-      return (1 + std::sqrt(5.0) * h + 5.0 / 3.0 * h * h) * std::exp(-std::sqrt(5.0) * h);
-  }
-}
 
 struct Reference {
   Structure structure;
@@ -49,8 +34,8 @@ struct Reference {
     for (int k = 0; k < 3; ++k) {
       const int place = structure == Structure::isotropic && k < 2 ? 0 : k - (3 - thetas());
       const double distance = k == 2 ? (a[k] == b[k] ? 0.0 : 2.0) : std::abs(a[k] - b[k]);
-      const double c =
-          one_correlation(family, std::exp(p[place]), exponents() ? p[thetas() + place] : 2.0, distance);
+      const double c = reference::one_correlation(family, std::exp(p[place]),
+                                                  exponents() ? p[thetas() + place] : 2.0, distance);
       product *= c;
       if (structure != Structure::additive) continue;
       const double weight = std::exp(p[3 + (exponents() ? 3 : 0) + k]);

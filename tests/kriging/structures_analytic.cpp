@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/kriging/fit_fidelities.hpp>
+#include <drawpoint/tests/kriging/derivatives.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <drawpoint/tests/kriging/structures.hpp>
 #include <string>
@@ -20,7 +21,7 @@ namespace {
 std::vector<Reference> all_kinds(Eigen::Index n = 16) {
   std::vector<Reference> all;
   for (const Structure structure : structures::others)
-    for (const Correlation family : structures::families)
+    for (const Correlation family : reference::families)
       all.push_back(structures::some_runs(structure, family, n));
   return all;
 }
@@ -40,19 +41,6 @@ Likelihood likelihood_of(const Reference& r, bool prior = false, double known_no
   problem.nugget_power = 0.5;
   problem.known_noise = known_noise;
   return Likelihood(problem);
-}
-
-// Richardson's extrapolation of central differences.
-template <class F>
-auto derivative(const F& f, const VectorXd& p, Eigen::Index k, double h) {
-  using Value = std::decay_t<decltype(f(p))>;
-  const auto central = [&](double width) -> Value {
-    VectorXd up = p, down = p;
-    up[k] += width;
-    down[k] -= width;
-    return (f(up) - f(down)) / (2.0 * width);
-  };
-  return Value((4.0 * central(0.5 * h) - central(h)) / 3.0);
 }
 
 Model without_spread(const Model& model) {
@@ -90,8 +78,8 @@ TEST(Structures, DerivativesAreDifferenceQuotients) {
         for (Eigen::Index k = 0; k < p.size(); ++k) {
           const auto value = [&](const VectorXd& q) { return likelihood.value(q); };
           const auto gradient = [&](const VectorXd& q) { return likelihood.gradient(q); };
-          EXPECT_NEAR(g[k], derivative(value, p, k, 0.02), 1e-6 * g.norm()) << name(r) << " " << k;
-          EXPECT_LT((H.col(k) - derivative(gradient, p, k, 0.02)).norm(), 1e-6 * H.norm())
+          EXPECT_NEAR(g[k], reference::derivative(value, p, k, 0.02), 1e-6 * g.norm()) << name(r) << " " << k;
+          EXPECT_LT((H.col(k) - reference::derivative(gradient, p, k, 0.02)).norm(), 1e-6 * H.norm())
               << name(r) << " " << k;
         }
       }
@@ -104,7 +92,7 @@ TEST(Structures, InformationIsThatOfADenseReference) {
     const MatrixXd K = r.matrix(p).inverse(), F = likelihood_of(r).fisher(p);
     std::vector<MatrixXd> slopes;
     for (Eigen::Index k = 0; k < p.size(); ++k)
-      slopes.push_back(K * derivative([&](const VectorXd& q) { return r.matrix(q); }, p, k, 0.02));
+      slopes.push_back(K * reference::derivative([&](const VectorXd& q) { return r.matrix(q); }, p, k, 0.02));
     for (std::size_t a = 0; a < slopes.size(); ++a)
       for (std::size_t b = 0; b < slopes.size(); ++b)
         EXPECT_NEAR(F(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)),
@@ -165,7 +153,7 @@ TEST(Structures, ParameterUncertaintyIsOfFirstOrder) {
     for (Eigen::Index k = 0; k < p.size(); ++k) {
       const bool exponent = r.exponents() && k >= r.thetas() && k < 2 * r.thetas();
       const double step = exponent ? std::min(0.02, 0.05 * (2.0 - p[k])) : 0.02;
-      if (step > 0 && S.row(k).norm() > 0) G.col(k) = derivative(mean, p, k, step);
+      if (step > 0 && S.row(k).norm() > 0) G.col(k) = reference::derivative(mean, p, k, step);
     }
     const VectorXd expected = (G * S).rowwise().squaredNorm();
     const VectorXd added = model.predict(Z).variance - without_spread(model).predict(Z).variance;
@@ -189,8 +177,9 @@ TEST(Structures, GradientsAreDifferenceQuotients) {
       for (Eigen::Index k = 0; k < 2; ++k) {
         const auto mean = [&](const VectorXd& at) { return model.predict(at.transpose()).mean[0]; };
         const auto variance = [&](const VectorXd& at) { return model.predict(at.transpose()).variance[0]; };
-        EXPECT_NEAR(g.mean[k], derivative(mean, x, k, 1e-3), 1e-6 * (g.mean.norm() + 1)) << name(r);
-        EXPECT_NEAR(g.variance[k], derivative(variance, x, k, 1e-3),
+        EXPECT_NEAR(g.mean[k], reference::derivative(mean, x, k, 1e-3), 1e-6 * (g.mean.norm() + 1))
+            << name(r);
+        EXPECT_NEAR(g.variance[k], reference::derivative(variance, x, k, 1e-3),
                     1e-6 * (g.variance.norm() + model.process_variance()))
             << name(r);
       }
@@ -201,7 +190,7 @@ TEST(Structures, GradientsAreDifferenceQuotients) {
 // The same arithmetic on the same numbers.
 TEST(Structures, IsotropicIsTheProductOfEqualThetas) {
   const Reference r = structures::some_runs(Structure::isotropic, Correlation::gaussian);
-  for (const Correlation family : structures::families) {
+  for (const Correlation family : reference::families) {
     FitOptions product = categories::box_options();
     product.correlation = family;
     product.theta_lower = product.theta_upper = 0.8;
@@ -219,7 +208,7 @@ TEST(Structures, IsotropicIsTheProductOfEqualThetas) {
 // Of one number that varies there is nothing to share: the same fit, bit for bit, prior and all.
 TEST(Structures, OneNumberIsIsotropic) {
   const Reference r = structures::some_runs(Structure::isotropic, Correlation::gaussian);
-  for (const Correlation family : structures::families) {
+  for (const Correlation family : reference::families) {
     FitOptions product;
     product.correlation = family;
     FitOptions isotropic = product;
