@@ -108,6 +108,25 @@ inline Criterion disagreement(std::vector<Criterion> models) {
   };
 }
 
+/// How many of the turns `first`, ..., `first` + count - 1 each of these weights gets, finite numbers above 0:
+/// of the first t turns its share of t to within one.
+inline std::vector<int> turns_by_weight(const std::vector<double>& weights, int first, int count) {
+  double total = 0;
+  for (const double weight : weights) total += weight;
+  std::vector<double> credit(weights.size(), 0.0);
+  std::vector<int> turns(weights.size(), 0);
+  for (int t = 0; t < first + count; ++t) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      credit[k] += weights[k] / total;
+      if (credit[k] > credit[next]) next = k;
+    }
+    credit[next] -= 1.0;
+    turns[next] += t >= first;
+  }
+  return turns;
+}
+
 /// A sampler and how much of the sampling it gets.
 struct Share {
   double weight;  ///< > 0; only the ratios matter
@@ -158,36 +177,23 @@ inline Sampler weighted_sum(std::vector<Share> parts) {
 
 /// Samplers that take turns, each for its share of the points: 0.7 LOLA-Voronoi and 0.3 error is
 /// Mix{{{0.7, LolaVoronoi()}, {0.3, error}}}. The turns depend on the number of sites so far alone, and of
-/// any t points in a row each sampler gets its share of t to within one.
+/// the first t points each sampler gets its share of t to within one.
 class Mix {
  public:
   /// Throws std::invalid_argument without parts and for a weight that is not above 0.
   explicit Mix(std::vector<Share> parts) : parts_(std::move(parts)) {
     detail::check_shares("doe::Mix", parts_);
-    for (const Share& part : parts_) total_ += part.weight;
+    for (const Share& part : parts_) weights_.push_back(part.weight);
   }
 
   /// How many of the points `first`, ..., `first + count` - 1 each part has to choose.
-  std::vector<int> turns(int first, int count) const {
-    std::vector<double> credit(parts_.size(), 0.0);
-    std::vector<int> chosen(parts_.size(), 0);
-    for (int t = 0; t < first + count; ++t) {
-      std::size_t next = 0;
-      for (std::size_t k = 0; k < parts_.size(); ++k) {
-        credit[k] += parts_[k].weight / total_;
-        if (credit[k] > credit[next]) next = k;
-      }
-      credit[next] -= 1.0;
-      chosen[next] += t >= first;
-    }
-    return chosen;
-  }
+  std::vector<int> turns(int first, int count) const { return turns_by_weight(weights_, first, count); }
 
   const std::vector<Share>& parts() const { return parts_; }
 
  private:
   std::vector<Share> parts_;
-  double total_ = 0;
+  std::vector<double> weights_;
 };
 
 }  // namespace drawpoint::doe

@@ -62,11 +62,7 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +
            std::to_string(wanted) +
            "; give one per run when the model was fitted with noise variances, else none");
-  if (!std::all_of(runs.noise_variance.begin(), runs.noise_variance.end(),
-                   [](double v) { return v >= 0 && v <= largest; }))
-    reject(
-        "noise_variance holds a number below 0, NaN or above 1e150; allowed are numbers from 0 on; give "
-        "variances");
+  check_run_noise(runs.noise_variance, wanted, "kriging::append: ");
 }
 
 /// R₂₂ without what the old runs explain, factored; `raised` is what had to be added to its diagonal.

@@ -78,6 +78,7 @@
 ///   acquisition_gradient.hpp       the knowledge gradient: noisy runs that lower the best prediction most
 ///   acquisition_hypervolume.hpp    expected hypervolume improvement
 ///   acquisition_joint.hpp          batches that are worth most together
+///   run_gain.hpp                   what one more run teaches, and which runs to make again
 ///
 /// Apart from these, and not included here because they need nlohmann-json: save.hpp and save_fidelities.hpp,
 /// models as JSON files.

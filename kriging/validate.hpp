@@ -36,17 +36,6 @@ inline void check_validation(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
     reject("y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
 }
 
-inline void check_run_noise(const Eigen::VectorXd& noise_variance, Index n, const std::string& place) {
-  const auto reject = [&](const std::string& what) { throw std::invalid_argument(place + what); };
-  if (noise_variance.size() != n)
-    reject("noise_variance has " + std::to_string(noise_variance.size()) + " entries but X has " +
-           std::to_string(n) + " rows; give one variance per run");
-  for (Index i = 0; i < n; ++i)
-    if (!(noise_variance[i] >= 0) || noise_variance[i] > largest)
-      reject("noise_variance[" + std::to_string(i) + "] is " + doe::detail::number_text(noise_variance[i]) +
-             "; allowed are 0 to 1e150; give variances, the squares of standard deviations");
-}
-
 /// What is predicted of the runs where their noise is this, on another scale than that of y. `latent`:
 /// variance of the latent function on the scale.
 inline void set_run_noise(Validation& v, const Eigen::VectorXd& latent,

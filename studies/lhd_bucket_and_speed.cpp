@@ -114,6 +114,7 @@ int main(int argc, char** argv) {
        .about = "Bucket, speeds and strategy of an LHD together, in a drift.",
        .defaults = {.runs = 60, .validation = 12},
        .options = options(),
+       .options_complaint = studies::loading_options_complaint,
        .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,

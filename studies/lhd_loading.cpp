@@ -47,7 +47,7 @@ const doe::Problem problem{
          .goal = doe::Goal::minimize,
          .lower = 0,
          .description = "torque in the bucket's hinge above the yield torque, over that and summed over the "
-                        "time of a run"},
+                        "time of a run of --cycles cycles"},
         {.name = "rock_spill",
          .unit = "1",
          .goal = doe::Goal::minimize,
@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
        .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
        .defaults = {.runs = 40, .validation = 12},
        .options = studies::loading_options(),
+       .options_complaint = studies::loading_options_complaint,
        .libraries = engine::loading::libraries(),
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },

@@ -235,6 +235,7 @@ json cycles_panel(const LoadingLog& log) {
 }  // namespace
 
 void settle_pile(engine::loading::Scenario scenario) {
+  engine::loading::check(scenario);
   scenario.world.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
   int told = -1;
   const auto pile = engine::loading::prepared_pile(scenario, [&](double share) {

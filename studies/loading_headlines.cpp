@@ -30,11 +30,20 @@ std::string percent(double share) {
 /// What the runs tell of one response.
 struct Scatter {
   double squares = 0;  ///< sum of the squared deviations from each run's own mean
+  double of_means = 0,
+         of_sums =
+             0;  ///< variance of a run's mean, and of its sum, over that of a cycle; summed over the runs
   long freedoms = 0, runs = 0;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max(), most_cycles = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
-  void add(const std::vector<double>& by_cycle, double response) {
+  /// `counted`: cycles whose sum the run gives; those that it lacks count with the mean of the others.
+  void add(const std::vector<double>& by_cycle, double counted, double response) {
     const double n = static_cast<double>(by_cycle.size());
+    fewest = std::min(fewest, by_cycle.size());
+    most_cycles = std::max(most_cycles, by_cycle.size());
+    of_means += 1 / n;
+    of_sums += counted * counted / n;
     double mean = 0;
     for (const double value : by_cycle) mean += value / n;
     for (const double value : by_cycle) squares += (value - mean) * (value - mean);
@@ -43,8 +52,11 @@ struct Scatter {
     least = std::min(least, response);
     most = std::max(most, response);
   }
-  /// Of a run, in the mean: a run may have lost some.
-  double cycles() const { return static_cast<double>(freedoms + runs) / static_cast<double>(runs); }
+  /// A run may have lost cycles, or ended early.
+  std::string cycles() const {
+    const std::string few = std::to_string(fewest), many = std::to_string(most_cycles);
+    return few == many ? few : few + " to " + many;
+  }
 };
 
 enum class Over { mean, sum };
@@ -92,13 +104,13 @@ Headline noise_of(const std::string& response, const std::string& unit, const Sc
   const std::string name = "noise_of_" + response;
   if (s.freedoms == 0)
     return {name, unit, std::nan(""), "runs of one cycle tell no noise; take --cycles 2 or more"};
-  const double n = s.cycles(), of_cycle = std::sqrt(s.squares / static_cast<double>(s.freedoms)),
-               value = over == Over::mean ? of_cycle / std::sqrt(n) : of_cycle * std::sqrt(n);
+  const double of_cycle = s.squares / static_cast<double>(s.freedoms),
+               of_run = (over == Over::mean ? s.of_means : s.of_sums) / static_cast<double>(s.runs),
+               value = std::sqrt(of_cycle * of_run);
   const std::string share =
       s.most > s.least ? ", " + percent(value / (s.most - s.least)) + " of the range of the runs" : "";
   return {name, unit, value,
-          "standard error of a run, from the scatter of its " + std::to_string(std::lround(n)) + " cycles" +
-              share};
+          "standard error of a run, from the scatter of its " + s.cycles() + " cycles" + share};
 }
 
 /// Of a run: what is summed over the runs, and what that is shared among.
@@ -187,9 +199,10 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     fill += of_run / static_cast<double>(logs.size());
     most_fill = std::max(most_fill, of_run);
     stalls += stall_share(log) / static_cast<double>(logs.size());
-    production.add(production_by_cycle(log, producing), engine::loading::production(log, producing));
-    damage.add(joint_damage_by_cycle(log, damaging), joint_damage(log, damaging));
-    spill.add(rock_spill_by_cycle(log), rock_spill(log));
+    const double counted = counted_cycles(log);
+    production.add(production_by_cycle(log, producing), counted, engine::loading::production(log, producing));
+    damage.add(joint_damage_by_cycle(log, damaging), counted, joint_damage(log, damaging));
+    spill.add(rock_spill_by_cycle(log), counted, rock_spill(log));
     breakdowns.add(log);
     for (RunMean& measure : others) measure.add(log);
   }

@@ -59,6 +59,14 @@ std::vector<StudyOption> loading_options() {
        "plan",
        {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
       {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
+      {.name = "precision",
+       .help = "per cent: a run ends after five cycles or more once the standard error of its mean "
+               "production, haul left out, is at most this; --cycles is then the most, 6 or more, and joint "
+               "damage is that of so many. Spill is that of fewer cycles where rock stays. 0: all cycles",
+       .value = "0",
+       .least = 0,
+       .most = 100,
+       .before = "0"},
       {.name = "yield-torque",
        .help = "kN m in the bucket's hinge, above which a joint is damaged: 145 in Lindmark (2016); "
                "benchmarks/yield_torque says what a crash gives for this machine",
@@ -76,6 +84,14 @@ std::vector<StudyOption> loading_options() {
        .of_responses = true}};
 }
 
+std::string loading_options_complaint(const OptionValues& options) {
+  const std::string &precision = options.at("precision"), &cycles = options.at("cycles");
+  if (precision == "0" || std::stoi(cycles) > engine::loading::least_cycles_to_end) return "";
+  return "--precision " + precision + " with --cycles " + cycles +
+         ": a run may end after five cycles, so that allowed are 6 or more; give --cycles 30, or no "
+         "--precision";
+}
+
 Scenario loading_scenario(const RunContext& run) {
   Scenario scenario = engine::loading::scene_named(chosen(run, "scene"));
   scenario = engine::loading::with_pile_of(scenario, scenario.pile.mass,
@@ -85,6 +101,7 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.executor.moves = engine::loading::operator_named(chosen(run, "operator"));
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
   scenario.cycles = std::stoi(chosen(run, "cycles"));
+  scenario.precision = std::stod(chosen(run, "precision")) / 100;
   scenario.pile_file = run.shared / "pile.h5";
   return scenario;
 }

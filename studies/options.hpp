@@ -20,6 +20,9 @@ struct StudyOption {
   /// Decides what Study::responses makes of a log, and nothing in the simulation: `rerun-responses` may
   /// change it.
   bool of_responses = false;
+  /// What runs were made with before the option came to the study: folders of before go on, and count as made
+  /// with this. Empty: they are another study's.
+  std::string before = {};
 };
 
 /// A value per option.

@@ -9,6 +9,7 @@
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <exception>
+#include <iterator>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -38,7 +39,7 @@ class LoadingRun {
     bool goes_on = true;
     for (int cycle = 1; goes_on && cycle <= scenario_.cycles; ++cycle) {
       goes_on = attempt(cycle);
-      if (!goes_on || cycle == scenario_.cycles) break;
+      if (!goes_on || cycle == scenario_.cycles || ends_after(cycle)) break;
       keep(cycle);
       goes_on = replenish(cycle);
     }
@@ -48,6 +49,7 @@ class LoadingRun {
   }
 
  private:
+  bool ends_after(int cycle);
   bool attempt(int cycle);
   void keep(int cycle);
   void sum_up();
@@ -82,7 +84,7 @@ class LoadingRun {
   double cleared_ = 0;
   double escaped_ = 0;  // mass [kg]
   long steps_ = 0, repeated_ = 0;
-  int lost_ = 0;  // cycles
+  int lost_ = 0, left_out_ = 0;  // cycles
   bool caller_failed_ = false;
   std::size_t most_points_ = 0;
   double largest_overlap_ = 0, largest_loop_error_ = 0;  // over the cycles [m]
@@ -91,6 +93,7 @@ class LoadingRun {
 
 void LoadingRun::sum_up() {
   log_.numbers["lost_cycles"] = lost_;
+  log_.numbers["left_out_cycles"] = left_out_;
   log_.numbers["cleared_mass"] = cleared_;
   log_.numbers["escaped_mass"] = escaped_;
   log_.numbers["emitted_mass"] = site_.emitted_mass();
@@ -101,6 +104,14 @@ void LoadingRun::sum_up() {
   log_.numbers["most_contact_points"] = static_cast<double>(most_points_);
   log_.numbers["most_iterations_per_substep"] = engine::most_iterations(scenario_.world.solver, most_points_);
   scene_.complete();
+}
+
+// Whether the mean production is known as well as wanted.
+bool LoadingRun::ends_after(int cycle) {
+  if (scenario_.precision == 0 || std::ssize(log_.cycles) < least_cycles_to_end) return false;
+  if (cycles_per_lost_one * lost_ > cycle || production_error(log_) > scenario_.precision) return false;
+  left_out_ = scenario_.cycles - cycle;
+  return true;
 }
 
 // A run that is killed leaves the cycles that it had done.

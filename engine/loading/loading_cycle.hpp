@@ -9,7 +9,8 @@
 #include <functional>
 
 /// Simulates loading cycles: plan from the pile as it lies, drive in, lift, curl, back out, weigh, refill,
-/// wait for rest, again.
+/// wait for rest, again; as often as the scenario says, or until the mean production is known as well as it
+/// wants (`precision`, `left_out_cycles`).
 ///
 /// Every cycle starts with the machine in its reference pose, straight in front of the planned place:
 /// hauling, dumping and driving are left out. After the cycle the machine stands for a second, what the

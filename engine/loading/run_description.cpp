@@ -11,6 +11,7 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"gamma", s.strategy.gamma},
                  {"kappa", s.strategy.kappa},
                  {"cycles", s.cycles},
+                 {"precision", s.precision},
                  {"standoff", s.standoff},
                  {"drift_length", s.drift.length},
                  {"drift_width", s.drift.width},

@@ -83,6 +83,10 @@ void check(const Scenario& s) {
   require_setting(s.drift.width >= s.machine.bucket.width + 2 * s.columns.side_clearance, "drift width [m]",
                   s.drift.width, "the bucket's width and its clearance on both sides, or more");
   require_setting(s.cycles >= 1 && s.cycles <= 1000, "cycles", s.cycles, "1 to 1000");
+  require_setting(s.precision >= 0 && s.precision <= 1, "precision", s.precision,
+                  "0 (all cycles) to 1, a share of the mean production");
+  require_setting(s.precision == 0 || s.cycles > least_cycles_to_end, "cycles with a precision", s.cycles,
+                  "6 or more: a run may end after five");
   require_setting(s.standoff >= 0.5 && s.standoff <= 20, "standoff [m]", s.standoff, "0.5 to 20 m");
   require_setting(s.pile.mass >= 10e3, "pile mass [kg]", s.pile.mass, "10 000 kg (a bucket load) and more");
   require_setting(s.pile.density >= 1000 && s.pile.density <= 10000, "rock density [kg/m3]", s.pile.density,

@@ -34,6 +34,11 @@ struct Scenario {
   Strategy strategy;
   std::uint64_t seed = 1;  ///< of the rocks that come down the raise where others were loaded or cleared away
   int cycles = 1;
+  /// The run ends before `cycles` are done, after least_cycles_to_end or more, once the standard error of its
+  /// mean production (at the pile, without haul; production_error) is at most this share of the mean; 0: it
+  /// does not. A run ends when its cycles happen to agree, so that it understates its error, by a fifth or so,
+  /// and its spill is that of fewer cycles: rock that stays counts again after each.
+  double precision = 0;
   double standoff = 2.0;  ///< tip to toe at the start [m]
   Drift drift;
   PileOptions pile;
@@ -51,6 +56,9 @@ struct Scenario {
       pile_file;  ///< settled pile to start from; made and saved there when missing; empty: poured anew
   std::filesystem::path log_file;  ///< run log to write (HDF5); empty: none
 };
+
+/// Cycles that a run does before it may end by its precision: fewer agree by chance too often.
+inline constexpr int least_cycles_to_end = 5;
 
 /// Speeds are the `lindmark2016` preset, 2-3 times what such a machine's hydraulics deliver, as the 12 s
 /// cycles of Lindmark (2016) demand; take with_speeds(scenario, "machine") for engineering conclusions.

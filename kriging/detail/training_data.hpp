@@ -141,6 +141,20 @@ inline void check_exponent(const FitOptions& options, Eigen::Index d) {
              "; an isotropic correlation has one for all numbers; give them alike, or take product");
 }
 
+/// One variance for each of the n rows of what `rows` names. Throws std::invalid_argument that begins with
+/// `place`.
+inline void check_run_noise(const Eigen::VectorXd& noise_variance, Index n, const std::string& place,
+                            const std::string& rows = "X") {
+  const auto refuse = [&](const std::string& what) { throw std::invalid_argument(place + what); };
+  if (noise_variance.size() != n)
+    refuse("noise_variance has " + std::to_string(noise_variance.size()) + " entries but " + rows + " has " +
+           std::to_string(n) + " rows; give one variance per run");
+  for (Index i = 0; i < n; ++i)
+    if (!(noise_variance[i] >= 0) || noise_variance[i] > largest)
+      refuse("noise_variance[" + std::to_string(i) + "] is " + text(noise_variance[i]) +
+             "; allowed are 0 to 1e150; give variances, the squares of standard deviations");
+}
+
 inline void check_noise(const FitOptions& options, Eigen::Index n) {
   const Eigen::VectorXd& v = options.noise_variance;
   if (options.noise == Noise::nugget) {
@@ -148,15 +162,7 @@ inline void check_noise(const FitOptions& options, Eigen::Index n) {
       reject("noise_variance is given but noise is nugget; set noise to known or proportional");
     return;
   }
-  if (v.size() != n)
-    reject("noise_variance has " + std::to_string(v.size()) + " entries but X has " + std::to_string(n) +
-           " rows; give one variance a run");
-  for (Eigen::Index i = 0; i < n; ++i) {
-    check_number(v[i], "noise_variance[" + std::to_string(i) + "]");
-    if (v[i] < 0)
-      reject("noise_variance[" + std::to_string(i) + "] is " + text(v[i]) +
-             "; allowed are numbers from 0 on; give variances, the squares of standard deviations");
-  }
+  check_run_noise(v, n, "kriging::fit: ");
   if (!(largest_entry(v) > 0))
     reject("noise_variance is 0 for all runs; allowed is one above 0; use Noise::nugget");
 }

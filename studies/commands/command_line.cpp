@@ -144,7 +144,8 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
   command
       .add_option("--criteria", settings.criteria,
                   "who chooses them: NAME=WEIGHT,... of lola_voronoi, voronoi, distance, error, variance, "
-                  "improvement (default lola_voronoi=0.7,error=0.3)")
+                  "improvement, repeat: runs made again where noise limits the models (default "
+                  "lola_voronoi=0.7,error=0.3)")
       ->check(criteria_complaint)
       ->group(group);
   command

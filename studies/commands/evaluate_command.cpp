@@ -143,6 +143,7 @@ std::optional<bool> compare_with_stored(const Run& run, const doe::Outcome& outc
 /// What a run by hand or the preparation is told.
 RunContext context_of(const Study& study, const PointSettings& settings, const fs::path& log,
                       const fs::path& shared) {
+  check_options(study, settings.options);
   return {.log = log, .shared = shared, .options = with_defaults(study.options, settings.options)};
 }
 

@@ -3,10 +3,12 @@
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
+#include <drawpoint/studies/commands/other_folder.h>
 #include <drawpoint/studies/models/suspects.h>
 #include <drawpoint/studies/models/unevenness.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/store/option_values.h>
 
 #include <cstdio>
 #include <stdexcept>
@@ -14,14 +16,34 @@
 namespace drawpoint::studies {
 namespace {
 
-Tables stored_tables(const Study& study, const Settings& settings) {
-  return tables_of(open_store(study, Folder{settings.out}).runs(), study.problem);
+/// The validation runs of --with, which must have been made with the same options.
+doe::Evaluations validation_runs_of_other_folder(const Study& study, const Settings& settings,
+                                                 const Identity& own) {
+  const Store store = store_of_other_folder("validate", study, settings);
+  const Identity& other = store.identity();
+  const std::string name = settings.with.string();
+  const std::string differs = difference(other.options, own.options, false);
+  if (!differs.empty())
+    throw UsageError("validate: the runs of " + name + " are not those of " + settings.out.string() + ": " +
+                     differs + "; name a folder that was made with the same options with --with");
+  if (own.simulator != other.simulator)
+    std::fprintf(
+        stderr,
+        "the runs of %s are by \"%s\", those of %s by \"%s\": what these differ in counts as an error "
+        "of the models\n",
+        name.c_str(), other.simulator.c_str(), settings.out.c_str(), own.simulator.c_str());
+  doe::Evaluations runs = tables_of(store.runs(), study.problem).validation;
+  if (runs_with_values(runs).empty())
+    throw std::runtime_error("validate: there is no validation run in " + name +
+                             "; name another folder with --with, or add some there with run --validation 10");
+  std::fprintf(stderr, "by the validation runs of %s\n", name.c_str());
+  return runs;
 }
 
 }  // namespace
 
 int fit_command(const Study& study, const Settings& settings) {
-  const Tables tables = stored_tables(study, settings);
+  const Tables tables = tables_of(open_store(study, Folder{settings.out}).runs(), study.problem);
   const Models fitted = models_or_reason(tables);
   const Failures failures(tables);
   if (settings.json)
@@ -37,7 +59,10 @@ int fit_command(const Study& study, const Settings& settings) {
 }
 
 int validate_command(const Study& study, const Settings& settings) {
-  const Tables tables = stored_tables(study, settings);
+  const Store store = open_store(study, Folder{settings.out});
+  Tables tables = tables_of(store.runs(), study.problem);
+  if (!settings.with.empty())
+    tables.validation = validation_runs_of_other_folder(study, settings, store.identity());
   const Models fitted = models_or_reason(tables);
   if (fitted.validations.empty())
     throw std::runtime_error(

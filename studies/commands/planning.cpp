@@ -11,9 +11,16 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <string>
 
 namespace drawpoint::studies {
 namespace {
+
+std::string repeats_text(const Batch& batch) {
+  if (batch.repeats == 0) return "";
+  return ", " + std::to_string(batch.repeats) +
+         (batch.repeats == 1 ? " of them a run made again" : " of them runs made again");
+}
 
 Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
   const EndsAtOnce now;
@@ -40,8 +47,8 @@ bool add_batch(Store& store, double seconds_left, int messages) {
   const char* what = batch.message.c_str();
   switch (batch.status) {
     case BatchStatus::planned:
-      dprintf(messages, "adaptive points %d to %d of %d: %s\n", made + 1,
-              count_points(batch.runs, Kind::adaptive), wanted, what);
+      dprintf(messages, "adaptive points %d to %d of %d%s: %s\n", made + 1,
+              count_points(batch.runs, Kind::adaptive), wanted, repeats_text(batch).c_str(), what);
       store.add(batch.runs);
       return true;
     case BatchStatus::target_met:

@@ -42,6 +42,15 @@ void add_compare_options(CLI::App& command, const Study& study, Settings& settin
       study.name + " compare --out results/one --with results/other");
 }
 
+void add_validate_options(CLI::App& command, const Study& study, Settings& settings) {
+  command
+      .add_option("--with", settings.with,
+                  "folder of the same study and options whose validation runs are taken in place of those of "
+                  "--out, so that several studies are judged by the same runs; neither is changed")
+      ->check(folder_complaint);
+  command.footer("Example: " + study.name + " validate --out results/adaptive --with results/one_shot");
+}
+
 void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& settings) {
   command.add_option("--run", settings.run, "number of the run")->required()->check(CLI::Range(1, most_run));
   command.add_option("--file", settings.file, "page to write (default: replay_0007.html in the folder)");
@@ -130,8 +139,10 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
   commands.add_with_json(
       "fit", "say how each response is fitted, and how well runs are predicted without themselves",
       fit_command);
-  commands.add_with_json("validate", "hold the models against the validation runs, one by one",
-                         validate_command);
+  add_validate_options(
+      commands.add_with_json("validate", "hold the models against the validation runs, one by one",
+                             validate_command),
+      study, settings);
   add_front_options(
       commands.add_with_json("front", "show the predicted front, and how far to trust it", front_command),
       study, settings.front);

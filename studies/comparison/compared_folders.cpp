@@ -4,7 +4,6 @@
 #include <drawpoint/studies/comparison/compared_folders.h>
 #include <drawpoint/studies/models/front.h>
 #include <drawpoint/studies/models/models.h>
-#include <drawpoint/studies/store/option_values.h>
 
 #include <set>
 #include <stdexcept>
@@ -37,8 +36,7 @@ ComparedSide side_of(const Study& study, const ComparedFolder& compared, const s
   }
   const Identity& identity = compared.store.identity();
   const std::vector<const Run*> logged = runs_with_log(runs, compared.folder, side.warnings);
-  side.headlines = headlines_of(study, logged, with_later_ones(study.options, identity.options),
-                                compared.folder, side.warnings);
+  side.headlines = headlines_of(study, logged, identity.options, compared.folder, side.warnings);
   add_front(side, runs, identity);
   return side;
 }

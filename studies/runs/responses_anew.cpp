@@ -55,7 +55,7 @@ void require_same_simulation(const Study& study, const Identity& from, const Opt
   if (other.empty() && from.simulator != study.simulator)
     other = "its runs were made by \"" + from.simulator + "\"";
   std::vector<StudyOption> options;
-  OptionValues stored = from.options, asked = given;
+  OptionValues stored = with_later_ones(study.options, from.options), asked = given;
   for (const StudyOption& option : study.options) {
     if (!option.of_responses) {
       options.push_back(option);
@@ -71,7 +71,7 @@ void require_same_simulation(const Study& study, const Identity& from, const Opt
 }
 
 OptionValues options_anew(const Study& study, const Identity& from, const OptionValues& given) {
-  OptionValues options = from.options;
+  OptionValues options = with_later_ones(study.options, from.options);
   for (const StudyOption& option : study.options)
     if (option.of_responses) options.erase(option.name);
   options.insert(given.begin(), given.end());

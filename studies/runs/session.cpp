@@ -96,6 +96,7 @@ Store open_store(const Study& study, const Folder& folder, Access access) {
   const OptionValues options = with_later_ones(study.options, stored.options);
   const std::string other = difference(options, with_defaults(study.options, options), false);
   if (!other.empty()) refuse_folder(folder, other);
+  store.complete_options(options);
   return store;
 }
 
@@ -125,7 +126,14 @@ void require_same_simulator(const Study& study, const Store& store, const Folder
                       : "its runs were made by \"" + stored + "\", now it is \"" + study.simulator + "\"");
 }
 
+void check_options(const Study& study, const OptionValues& given) {
+  if (!study.options_complaint) return;
+  const std::string wrong = study.options_complaint(with_defaults(study.options, given));
+  if (!wrong.empty()) throw UsageError(wrong);
+}
+
 void check_new_study(const Study& study, const Settings& settings) {
+  check_options(study, settings.options);
   std::vector<Run> imported;
   add_imported(settings, study.problem, {}, imported);
   check_runs(settings.runs.value_or(study.defaults.runs), imported);

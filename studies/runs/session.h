@@ -31,6 +31,9 @@ void require_same_simulator(const Study& study, const Store& store, const Folder
 /// Throws UsageError for options that do not go together in a new folder: asked before anything is written.
 void check_new_study(const Study& study, const Settings& settings);
 
+/// Throws UsageError for values that cannot go together. `given` may leave out defaults.
+void check_options(const Study& study, const OptionValues& given);
+
 /// The store of this study, new if there is none, with all runs that the options ask for planned. Options
 /// that are not given are those of the store. Throws like open_store, and UsageError if seed, replicates or
 /// numbers of points do not fit what is stored.

@@ -4,12 +4,71 @@
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/criteria.h>
+#include <drawpoint/studies/sampling/repeats.h>
 #include <drawpoint/doe/propose.hpp>
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace drawpoint::studies {
+namespace {
+
+/// What the runs so far say.
+struct Known {
+  const Tables& tables;
+  const Models& fitted;
+  Failures failures;
+};
+
+struct BatchPoints {
+  Eigen::MatrixXd X;
+  int repeats = 0;           ///< the last so many rows
+  std::string nothing = {};  ///< why there are no rows
+};
+
+/// Where runs have not been made; fewer rows than `count` where places run out.
+Eigen::MatrixXd new_points(const Known& known, const std::vector<CriterionShare>& shares, doe::Seed seed,
+                           Eigen::Index count) {
+  const doe::Evaluations& training = known.tables.training;
+  if (shares.empty() || count == 0)
+    return Eigen::MatrixXd(0, static_cast<Eigen::Index>(training.problem.variables.size()));
+  return doe::propose(
+      training, mix_of(shares, known.fitted.models, known.failures, seed),
+      {.seed = seed, .batch = static_cast<int>(count), .allowed = [&known](const Eigen::VectorXd& x) {
+         return !known.failures.avoided(x.transpose()).front();
+       }});
+}
+
+/// Each criterion in its turn; where no new place is left, repeats for all, if they were named.
+BatchPoints chosen_points(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs,
+                          const Known& known) {
+  const doe::Seed seed = seed_of_choice(identity, runs.size());
+  const int made = count_points(runs, Kind::adaptive),
+            count = std::min(sampling.points - made, sampling.batch);
+  const CriteriaTurns turns = turns_of(criteria_from(sampling.criteria), made, count);
+  const auto repeated = [&](Eigen::Index repeats) {
+    return points_to_repeat(
+        known.tables.training, known.fitted.models, known.failures,
+        {.seed = seed, .count = static_cast<int>(repeats), .replicates = identity.replicates});
+  };
+  Eigen::MatrixXd again = repeated(turns.repeats);
+  BatchPoints chosen{new_points(known, turns.new_ones, seed, count - again.rows())};
+  const bool ran_out = chosen.X.rows() + again.rows() < count && !turns.new_ones.empty();
+  if (ran_out && turns.may_repeat) again = repeated(count - chosen.X.rows());
+  chosen.repeats = static_cast<int>(again.rows());
+  chosen.X.conservativeResize(chosen.X.rows() + again.rows(), Eigen::NoChange);
+  chosen.X.bottomRows(again.rows()) = again;
+  if (chosen.X.rows() == 0)
+    chosen.nothing = turns.new_ones.empty()
+                         ? "no run is worth making again beside what new points would teach; name another "
+                           "criterion beside repeat"
+                         : "no place is left where a run would be new and likely to succeed";
+  return chosen;
+}
+
+}  // namespace
 
 Batch next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs) {
   const int missing = sampling.points - count_points(runs, Kind::adaptive);
@@ -26,22 +85,16 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
               .message = std::to_string(tables.training.rows.size()) + " runs for the models so far" +
                          (nrmse.empty() ? "" : "; " + nrmse)};
   if (target_met(sampling, fitted.validations)) return batch;
-  const doe::Seed seed = seed_of_choice(identity, runs.size());
-  const Failures failures(tables);
-  const Eigen::MatrixXd X =
-      doe::propose(tables.training, mix_of(criteria_from(sampling.criteria), fitted.models, failures, seed),
-                   {.seed = seed,
-                    .batch = std::min(missing, sampling.batch),
-                    .allowed = [&failures](const Eigen::VectorXd& x) {
-                      return !failures.avoided(x.transpose()).front();
-                    }});
-  if (X.rows() == 0) {
+  const BatchPoints chosen = chosen_points(identity, sampling, runs, {tables, fitted, Failures(tables)});
+  if (chosen.X.rows() == 0) {
     batch.status = BatchStatus::exhausted;
-    batch.message = "no place is left where a run would be new and likely to succeed";
+    batch.message = chosen.nothing;
     return batch;
   }
+  batch.repeats = chosen.repeats;
   batch.status = BatchStatus::planned;
-  batch.runs = runs_at(identity, runs, Kind::adaptive, with_predictions(fitted.models, identity.problem, X));
+  batch.runs =
+      runs_at(identity, runs, Kind::adaptive, with_predictions(fitted.models, identity.problem, chosen.X));
   return batch;
 }
 

@@ -21,13 +21,14 @@ enum class BatchStatus {
   planned,
   complete,    ///< all points that are wanted are there
   target_met,  ///< the models are good enough already
-  exhausted,   ///< no place is left: whole variables with few values, or all around failed
+  exhausted,   ///< no place is left: whole variables with few values, all around failed, or none to repeat
   no_models    ///< the runs do not allow models to go by
 };
 
 struct Batch {
   BatchStatus status = BatchStatus::complete;
   std::vector<Run> runs = {};  ///< none but where planned
+  int repeats = 0;             ///< the last so many of them are at points of earlier runs
   std::string message = {};    ///< what the models are worth, or why there are none; empty when complete
 };
 

@@ -16,8 +16,9 @@
 namespace drawpoint::studies {
 namespace {
 
-constexpr std::array<const char*, 6> criterion_names = {"lola_voronoi", "voronoi",  "distance",
-                                                        "error",        "variance", "improvement"};
+constexpr const char* repeat = "repeat";
+constexpr std::array<const char*, 7> criterion_names = {"lola_voronoi", "voronoi",     "distance", "error",
+                                                        "variance",     "improvement", repeat};
 
 [[noreturn]] void refuse_criterion(const std::string& part) {
   std::string names;
@@ -115,6 +116,18 @@ std::vector<CriterionShare> criteria_from(const std::string& text) {
   for (std::string part; std::getline(parts, part, ',');) shares.push_back(share_from(part));
   if (shares.empty() || text.back() == ',') refuse_criterion(text);
   return shares;
+}
+
+CriteriaTurns turns_of(const std::vector<CriterionShare>& shares, int made, int count) {
+  CriteriaTurns turns;
+  std::vector<double> weights = {0.0, 0.0};  // of repeats, of new points
+  for (const CriterionShare& share : shares) {
+    weights[share.name == repeat ? 0 : 1] += share.weight;
+    if (share.name != repeat) turns.new_ones.push_back(share);
+  }
+  turns.may_repeat = weights.front() > 0.0;
+  turns.repeats = doe::turns_by_weight(weights, made, count).front();
+  return turns;
 }
 
 void check_criteria(const std::string& text, const doe::Problem& problem) {

@@ -70,8 +70,10 @@ OptionValues with_defaults(const std::vector<StudyOption>& options, const Option
 }
 
 OptionValues with_later_ones(const std::vector<StudyOption>& options, OptionValues stored) {
-  for (const auto& option : options)
+  for (const auto& option : options) {
     if (option.of_responses) stored.emplace(option.name, option.value);
+    if (!option.before.empty()) stored.emplace(option.name, option.before);
+  }
   return stored;
 }
 
@@ -94,6 +96,9 @@ void check(const std::vector<StudyOption>& options) {
           "no name of an option that all studies have");
     const std::string wrong = complaint(option, option.value);
     if (!wrong.empty()) throw std::invalid_argument("studies::Study: default of an option: " + wrong);
+    if (option.before.empty()) continue;
+    const std::string never = complaint(option, option.before);
+    if (!never.empty()) throw std::invalid_argument("studies::Study: value before an option came: " + never);
   }
 }
 

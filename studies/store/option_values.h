@@ -19,7 +19,8 @@ std::string complaint(const StudyOption& option, const std::string& value);
 /// A value per option: the one given, or the default. What is given for no option is left out.
 OptionValues with_defaults(const std::vector<StudyOption>& options, const OptionValues& given);
 
-/// With the defaults of options of responses that came to the study after these values were stored.
+/// With the values of options that came to the study after these were stored: StudyOption::before, for options
+/// of responses the default.
 OptionValues with_later_ones(const std::vector<StudyOption>& options, OptionValues stored);
 
 /// The first difference in words ("option materials: calibrated there, lindmark2016 here"), or "". An option

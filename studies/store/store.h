@@ -102,6 +102,10 @@ class Store {
 
   const Identity& identity() const { return identity_; }
   const Sampling& sampling() const { return sampling_; }
+  /// Options that came to the study after the file was made, for identity(); the file stays as it is.
+  void complete_options(const OptionValues& options) {
+    identity_.options.insert(options.begin(), options.end());
+  }
   std::vector<Run> runs() const;  ///< in order of id
 
   void set_sampling(const Sampling& sampling);

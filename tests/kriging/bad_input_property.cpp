@@ -136,15 +136,15 @@ TEST(BadInput, NoiseVariances) {
     });
   };
   EXPECT_EQ(with(VectorXd::Ones(5)),
-            "kriging::fit: noise_variance has 5 entries but X has 6 rows; give one variance a run");
-  EXPECT_EQ(
-      with(-VectorXd::Ones(6)),
-      "kriging::fit: noise_variance[0] is -1; allowed are numbers from 0 on; give variances, the squares of "
-      "standard deviations");
+            "kriging::fit: noise_variance has 5 entries but X has 6 rows; give one variance per run");
+  EXPECT_EQ(with(-VectorXd::Ones(6)),
+            "kriging::fit: noise_variance[0] is -1; allowed are 0 to 1e150; give variances, the squares of "
+            "standard deviations");
   EXPECT_EQ(with(VectorXd::Zero(6)),
             "kriging::fit: noise_variance is 0 for all runs; allowed is one above 0; use Noise::nugget");
   EXPECT_EQ(with(VectorXd::Constant(6, not_a_number)),
-            "kriging::fit: noise_variance[0] is nan; allowed are finite numbers; leave failed runs out");
+            "kriging::fit: noise_variance[0] is nan; allowed are 0 to 1e150; give variances, the squares of "
+            "standard deviations");
 }
 
 TEST(BadInput, TrendsAndThreads) {

@@ -114,6 +114,39 @@ TEST_F(Adaptive, ImprovementIsSoughtBeyondTheStep) {
 
 TEST_F(Adaptive, VarianceChooses) { EXPECT_EQ(batch({.points = 3, .criteria = "variance"}).size(), 3u); }
 
+// Smooth and without noise: a run again teaches nothing, and the turns go to new points.
+TEST_F(Adaptive, RunsWithoutNoiseAreNotRepeated) {
+  auto runs = runs_;
+  for (auto& run : runs) run.y = Eigen::Vector2d(std::sin(2 * run.x[0]) + run.x[1], run.x[0] * run.x[1]);
+  const Batch batch = next_batch(identity_, {.points = 8, .criteria = "variance,repeat"}, runs);
+  EXPECT_EQ(batch.repeats, 0);
+  EXPECT_EQ(batch.runs.size(), 8u);
+  EXPECT_GT(least_gap(batch.runs, runs), 0.0);
+  const Batch none = next_batch(identity_, {.points = 8, .criteria = "repeat"}, runs);
+  EXPECT_EQ(none.status, BatchStatus::exhausted);
+  EXPECT_NE(none.message.find("another criterion"), std::string::npos) << none.message;
+}
+
+// Noise of some half of a plane's range: what 25 runs do not say of a plane a run again says nearly as well as
+// a new one, so repeats get their half of the batch.
+TEST_F(Adaptive, NoisyRunsAreRepeatedForTheirShare) {
+  auto runs = runs_;
+  doe::RandomStream random(7);
+  for (auto& run : runs)
+    for (Eigen::Index j = 0; j < 2; ++j) run.y[j] = run.x.sum() + 2.5 * random.normal();
+  const Batch batch = next_batch(identity_, {.points = 8, .criteria = "variance,repeat"}, runs);
+  ASSERT_EQ(batch.runs.size(), 8u);
+  ASSERT_EQ(batch.repeats, 4);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const auto made =
+        std::find_if(runs.begin(), runs.end(), [&](const auto& run) { return run.x == batch.runs[k].x; });
+    EXPECT_EQ(made != runs.end(), k >= 4) << k;
+    if (made == runs.end()) continue;
+    EXPECT_EQ(made->status, Status::done) << "a run that failed is not repeated";
+    EXPECT_NE(made->seed, batch.runs[k].seed);
+  }
+}
+
 // Where lip > 1 every run fails: models are least certain there, and no run teaches them more.
 TEST_F(Adaptive, NoRunIsSpentBesideFailures) {
   auto runs = runs_;
@@ -148,12 +181,47 @@ TEST(AdaptiveEnd, WholeVariablesRunOutOfPlaces) {
   EXPECT_NE(end.message.find("no place is left"), std::string::npos);
 }
 
+// Nine places, each with a noisy run: what is left are repeats, also in a turn of a new point.
+TEST(AdaptiveEnd, RepeatsGoOnWhereNoPlaceIsNew) {
+  Identity identity = test::identity();
+  identity.problem.variables = {doe::integer_variable("teeth", "1", 1, 3),
+                                doe::integer_variable("bolts", "1", 1, 3)};
+  std::vector<studies::Run> runs;
+  doe::RandomStream random(4);
+  for (int k = 0; k < 9; ++k) {
+    const Eigen::RowVector2d x(1 + k % 3, 1 + k / 3);
+    studies::Run run = runs_at(identity, runs, Kind::training, {.X = x}).front();
+    run.status = Status::done;
+    run.y = Eigen::Vector2d(x.sum() + random.normal(), x[0] + random.normal());
+    runs.push_back(run);
+  }
+  for (const int batch : {1, 8}) {
+    const Batch more =
+        next_batch(identity, {.points = 8, .batch = batch, .criteria = "error=0.7,repeat=0.3"}, runs);
+    EXPECT_EQ(more.status, BatchStatus::planned);
+    EXPECT_EQ(more.repeats, batch);
+  }
+  EXPECT_EQ(next_batch(identity, {.points = 8, .criteria = "error"}, runs).status, BatchStatus::exhausted);
+}
+
 TEST(Criteria, ImprovementNeedsAnObjective) {
   doe::Problem problem = test::two_by_two();
   check_criteria("improvement", problem);
   problem.responses[0].goal = doe::Goal::record;
   check_criteria("lola_voronoi,error", problem);
   EXPECT_THROW(check_criteria("error,improvement", problem), UsageError);
+}
+
+// Of nine points, repeats with a third of the weight get three, whatever the batches.
+TEST(Criteria, TakeTurns) {
+  const auto shares = criteria_from("lola_voronoi=0.7,error=0.3,repeat=0.5");
+  int repeats = 0;
+  for (int made = 0; made < 9; made += 3) repeats += turns_of(shares, made, 3).repeats;
+  EXPECT_EQ(repeats, 3);
+  EXPECT_EQ(turns_of(shares, 0, 9).repeats, 3);
+  EXPECT_EQ(turns_of(shares, 0, 9).new_ones.size(), 2u);
+  EXPECT_EQ(turns_of(criteria_from("error"), 5, 9).repeats, 0);
+  EXPECT_EQ(turns_of(criteria_from("repeat"), 5, 9).repeats, 9);
 }
 
 TEST(Criteria, AreNamesWithWeights) {

@@ -6,6 +6,7 @@
 
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 
 #include <cmath>
 #include <map>
@@ -104,14 +105,27 @@ TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
   }
 }
 
-// A run of three cycles and one of a single cycle, which lost two: four cycles in two runs, 2 of a run in the mean.
-// Rates 200, 400 and 600 kg/s scatter by √((200² + 200²) / 2) = 200 about their mean, the single one by nothing.
+// A run of three cycles and one of a single cycle, which lost two. Rates 200, 400 and 600 kg/s scatter by
+// √((200² + 200²) / 2) = 200 about their mean, the single one by nothing; the variances of the two means are a
+// third of 200² and all of it.
 TEST_F(LoadingHeadlines, RunsThatLostCyclesTellTheNoiseOfTheirOwn) {
   const auto of = told({log_of({cycle(0, 2e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal),
                                 cycle(40, 6e3, 0, StageEnd::goal)}),
                         log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
-  EXPECT_NEAR(of.at("noise_of_production").value, 200 / std::sqrt(2.0), 1e-9);
-  EXPECT_NE(of.at("noise_of_production").note.find("its 2 cycles"), std::string::npos);
+  EXPECT_NEAR(of.at("noise_of_production").value, 200 * std::sqrt((1.0 / 3 + 1) / 2), 1e-9);
+  EXPECT_NE(of.at("noise_of_production").note.find("its 1 to 3 cycles"), std::string::npos);
+}
+
+// Damage is that of eight cycles, of which two were run: 8 times the mean of two that scatter by s, so 8 s/√2.
+TEST_F(LoadingHeadlines, DamageOfCyclesThatWereLeftOutIsNoBetterKnown) {
+  LoadingLog log = log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal)});
+  for (int k = 1; k <= 100; ++k) log.signals.append_row(std::vector<double>{0.1 * k, 1, 0, 290e3, 0});
+  for (int k = 1; k <= 100; ++k) log.signals.append_row(std::vector<double>{20 + 0.1 * k, 2, 0, 580e3, 0});
+  log.numbers["left_out_cycles"] = 6;
+  const std::vector<double> damage = joint_damage_by_cycle(log);
+  ASSERT_GT(std::abs(damage[0] - damage[1]), 5);
+  const double s = std::abs(damage[0] - damage[1]) / std::sqrt(2.0);
+  EXPECT_NEAR(told({log}).at("noise_of_joint_damage").value, 8 * s / std::sqrt(2.0), 1e-12);
 }
 
 // Only where it happened: one run of two with three such steps, 50 kg and two lost cycles.

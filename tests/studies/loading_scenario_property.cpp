@@ -32,6 +32,22 @@ TEST(LoadingScenario, DefaultsAreTheSmallSceneTwice) {
   EXPECT_EQ(s.pile_file, "shared/pile.h5");
 }
 
+TEST(LoadingScenario, APrecisionInPerCentEndsRuns) {
+  EXPECT_EQ(with({}).precision, 0) << "by default all cycles are run";
+  EXPECT_DOUBLE_EQ(with({{"cycles", "30"}, {"precision", "5"}}).precision, 0.05);
+  EXPECT_THROW(loading::check(with({{"cycles", "5"}, {"precision", "5"}})), std::invalid_argument)
+      << "of five cycles none is left out";
+  const auto complaint = [](const OptionValues& given) {
+    return loading_options_complaint(with_defaults(loading_options(), given));
+  };
+  EXPECT_EQ(complaint({}), "");
+  EXPECT_EQ(complaint({{"cycles", "6"}, {"precision", "5"}}), "");
+  EXPECT_EQ(
+      complaint({{"precision", "5"}}),
+      "--precision 5 with --cycles 2: a run may end after five cycles, so that allowed are 6 or more; give "
+      "--cycles 30, or no --precision");
+}
+
 TEST(LoadingScenario, TheSceneSetsItsOwnSolverButNotTheCycles) {
   const loading::Scenario s = with({{"scene", "lindmark2016"}}),
                           large = loading::lh621_at_lindmark2016_scale();

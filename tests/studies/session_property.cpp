@@ -120,6 +120,34 @@ TEST_F(SessionTest, OptionsOfTheStudyBelongToTheFolder) {
   EXPECT_NE(refused(sample(), {}).find("option cycles: 2 there, none here"), std::string::npos);
 }
 
+// The new option counts as it was before; the file, and what its runs are told, do not depend on the default.
+TEST_F(SessionTest, AFolderOutlivesANewOption) {
+  Study study = with_options_of_its_own();
+  plan_study(study, folder_, {});
+  study.options.push_back({.name = "walls", .value = "rough", .choices = {"rough", "smooth"}});
+  EXPECT_NE(refused(study, {}).find("option walls: none there, rough here"), std::string::npos);
+  study.options.back().before = "smooth";
+  EXPECT_EQ(open_store(study, folder_).identity().options.at("walls"), "smooth");
+  EXPECT_EQ(plan_study(study, folder_, {.options = {{"walls", "smooth"}}}).runs().size(), 8u);
+  EXPECT_NE(refused(study, {.options = {{"walls", "rough"}}}).find("option walls: smooth there, rough here"),
+            std::string::npos);
+  EXPECT_FALSE(Store::open(folder_.store()).identity().options.contains("walls"));
+  study.options.back().before = "soft";
+  EXPECT_NE(complaint([&] { check(study.options); }).find("before an option came"), std::string::npos);
+}
+
+TEST_F(SessionTest, OptionsThatCannotGoTogetherAreRefusedBeforeAFolderIsMade) {
+  Study study = with_options_of_its_own();
+  study.options_complaint = [](const OptionValues& options) -> std::string {
+    return options.at("rock") == "waste" && options.at("cycles") == "2" ? "--rock waste takes 3 cycles" : "";
+  };
+  EXPECT_EQ(complaint([&] {
+              check_new_study(study, {.options = {{"rock", "waste"}}});
+            }),
+            "--rock waste takes 3 cycles");
+  EXPECT_NO_THROW(check_new_study(study, {.options = {{"rock", "waste"}, {"cycles", "3"}}}));
+}
+
 TEST(StudyOptions, ValuesAreCheckedInWords) {
   const auto options = with_options_of_its_own().options;
   EXPECT_EQ(complaint(options[0], "waste"), "");

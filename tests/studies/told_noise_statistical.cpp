@@ -4,6 +4,7 @@
 
 #include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/models/suspects.h>
+#include <drawpoint/studies/sampling/repeats.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>
@@ -116,4 +117,15 @@ TEST(ToldNoise, OfOneRunSpoilsNoModel) {
             "Run 3 tells load_error as 1e+99 t; allowed is 1e75 at most. What the runs tell of the noise of "
             "load is "
             "left out; make the run again with evaluate --run 3.");
+}
+
+// Noise rises fiftyfold to the right, and the curve is known there by few runs for its noise: all repeats are
+// in the right half, though the runs are spread evenly.
+TEST(ToldNoise, RunsAreRepeatedWhereTheyAreNoisy) {
+  const doe::Evaluations table = runs(40, 3);
+  const Models fitted = fit_models({table, {problem(), {}}});
+  ASSERT_NE(fitted.noise[0], NoiseOfRuns::estimated);
+  const Eigen::MatrixXd again = points_to_repeat(table, fitted.models, {}, {.count = 6});
+  ASSERT_EQ(again.rows(), 6);
+  EXPECT_GT(again.col(0).minCoeff(), 0.5);
 }

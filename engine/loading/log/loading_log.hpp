@@ -63,8 +63,10 @@ struct SceneRecord {
 };
 
 struct LoadingLog {
-  bool completed = false;  ///< all cycles were run; some may have broken down (`lost_cycles`)
-  std::string message;     ///< why not, or empty
+  /// All cycles were run, but for those that broke down (`lost_cycles`) or were not needed
+  /// (`left_out_cycles`).
+  bool completed = false;
+  std::string message;  ///< why not, or empty
   /// The scenario's parameters, and of the run: mass at first, present at the end, emitted, cleared away for
   /// the machine and of rock that left the drift [kg], cycles that broke down, steps that had to be done
   /// again in parts, the most contact points of a step and the iterations per substep that `iteration_budget`

@@ -16,7 +16,8 @@ const Meanings& of_the_scene() {
       {"gamma",
        {"1", "strategy: lateral place, 0 nearest to the back wall, 1 where the pile protrudes most"}},
       {"kappa", {"1", "strategy: tilt in the lift as a share of the pile's slope"}},
-      {"cycles", {"1", "wanted"}},
+      {"cycles", {"1", "wanted, or with a precision at most"}},
+      {"precision", {"1", "share of the mean production at which its standard error ends the run; 0: never"}},
       {"standoff", {"m", "tip to the pile's toe at the start"}},
       {"drift_length", {"m", "length of the drift"}},
       {"drift_width", {"m", "width of the drift"}},
@@ -82,6 +83,7 @@ const Meanings& of_the_solver() {
 const Meanings& of_the_run() {
   static const Meanings meanings{
       {"lost_cycles", {"1", "cycles that broke down"}},
+      {"left_out_cycles", {"1", "cycles not run, because the mean production was known as well as wanted"}},
       {"cleared_mass", {"kg", "rock cleared away for the machine"}},
       {"escaped_mass", {"kg", "rock that left the drift"}},
       {"emitted_mass", {"kg", "rock that came down the raise"}},

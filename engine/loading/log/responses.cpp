@@ -4,6 +4,7 @@
 #include <cmath>
 #include <drawpoint/engine/loading/log/cycle_samples.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -36,6 +37,11 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+double number_or_0(const LoadingLog& log, const char* name) {
+  const auto found = log.numbers.find(name);
+  return found == log.numbers.end() ? 0.0 : found->second;
+}
+
 double magnitude(const Vector3d& torque, TorqueComponent component) {
   return component == TorqueComponent::all ? torque.norm() : std::hypot(torque.x(), torque.z());
 }
@@ -64,6 +70,15 @@ double production(const LoadingLog& log, const ProductionOptions& options) {
   return mass / time;
 }
 
+double production_error(const LoadingLog& log, const ProductionOptions& options) {
+  const std::vector<double> rates = production_by_cycle(log, options);
+  const double k = static_cast<double>(rates.size()), all = mean(rates);
+  if (rates.size() < 2 || !(all > 0)) return std::numeric_limits<double>::infinity();
+  double squares = 0;
+  for (const double rate : rates) squares += (rate - all) * (rate - all);
+  return std::sqrt(squares / (k - 1) / k) / all;
+}
+
 std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOptions& options) {
   require_cycles(log, "joint_damage");
   require_positive("DamageOptions: tau_y [N m]", options.tau_y);
@@ -83,10 +98,13 @@ std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOpt
 double joint_damage(const LoadingLog& log, const DamageOptions& options) {
   const std::vector<double> damage = joint_damage_by_cycle(log, options);
   if (options.sum == DamageSum::per_cycle) return mean(damage);
-  const auto lost = log.numbers.find("lost_cycles");
-  const double done = static_cast<double>(damage.size()),
-               all = done + (lost == log.numbers.end() ? 0 : lost->second);
-  return std::accumulate(damage.begin(), damage.end(), 0.0) * (all / done);
+  const double done = static_cast<double>(damage.size());
+  return std::accumulate(damage.begin(), damage.end(), 0.0) * (counted_cycles(log) / done);
+}
+
+double counted_cycles(const LoadingLog& log) {
+  return static_cast<double>(log.cycles.size()) + number_or_0(log, "lost_cycles") +
+         number_or_0(log, "left_out_cycles");
 }
 
 std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options) {

@@ -13,8 +13,9 @@
 ///
 /// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the torque in bucket hinge G,
 /// or of its two components across the pin (those twist the bucket; the third is the tilt's own load). Summed
-/// over the cycles of the run; one that broke down counts with the mean of the others. A sample stands for
-/// the time since the one before it in the same cycle, a cycle's first sample for the time to the next.
+/// over the cycles of the run; one that broke down, or was left out because the mean was known
+/// (Scenario::precision), counts with the mean of the others. A sample stands for the time since the one
+/// before it in the same cycle, a cycle's first sample for the time to the next.
 /// Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each component, started anew with each cycle: a rigid
 /// impact's peak grows as 1/Δt, and unfiltered it would make the response a function of the time step.
 ///
@@ -59,7 +60,13 @@ bool reached_goal(const CycleRecord& cycle, Stage stage);
 double stall_share(const LoadingLog& log);
 
 double production(const LoadingLog& log, const ProductionOptions& options = {});
+/// Standard error of the mean production over that mean, by the scatter of the run's cycles alone [1]: of k
+/// cycles it is known to 1/√(2(k − 1)) of itself. +∞ for one cycle and for a run that loaded nothing.
+double production_error(const LoadingLog& log, const ProductionOptions& options = {});
 double joint_damage(const LoadingLog& log, const DamageOptions& options = {});
 double rock_spill(const LoadingLog& log, const SpillOptions& options = {});
+
+/// Cycles that the run's sums are of: done, lost or left out [1].
+double counted_cycles(const LoadingLog& log);
 
 }  // namespace drawpoint::engine::loading

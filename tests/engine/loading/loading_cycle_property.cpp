@@ -198,10 +198,12 @@ SimulationHooks breaking_when(const std::function<bool(const World&)>& due) {
 
 // A cycle that breaks down, also in parts, with its load in the bucket, is lost and named; the run goes on
 // with the next, whose signals and record have its number. The load is taken away, and its share of the
-// damage is that of the others.
-TEST(LoadingCycle, OutlivesACycleThatBreaksDown) {
+// damage is that of the others. No run scatters so much that five cycles say nothing of its mean, so with a
+// precision of 100 % it ends after these, the fewest, and two of the eight that were wanted are left out.
+TEST(LoadingCycle, OutlivesACycleThatBreaksDownAndEndsOnceTheMeanIsKnown) {
   Scenario scenario = small_case();
-  scenario.cycles = 5;
+  scenario.cycles = 8;
+  scenario.precision = 1;
   const CycleRecord& usual = cycle_log().cycles[0];
   const double late = 0.5 * (usual.stages.back().t_start + usual.t_end);  // the machine backs out
   const LoadingLog log =
@@ -210,9 +212,12 @@ TEST(LoadingCycle, OutlivesACycleThatBreaksDown) {
   EXPECT_EQ(log.numbers.at("lost_cycles"), 1);
   EXPECT_NE(log.texts.at("lost_cycle_1").find("not finite"), std::string::npos);
   EXPECT_GT(log.numbers.at("cleared_mass"), 0.5 * usual.loaded_mass);
-  ASSERT_EQ(log.cycles.size(), 4u);
+  ASSERT_EQ(log.cycles.size(), 5u);
+  EXPECT_EQ(log.numbers.at("left_out_cycles"), 2);
+  EXPECT_LE(production_error(log), 1);
+  EXPECT_EQ(cycle_log().numbers.at("left_out_cycles"), 0);
   const std::vector<double> time = log.signals.column("time"), number = log.signals.column("cycle");
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < 5; ++k) {
     const CycleRecord& cycle = log.cycles[k];
     EXPECT_EQ(cycle.number, static_cast<int>(k) + 2);
     EXPECT_GT(cycle.loaded_mass, 0);
@@ -229,7 +234,7 @@ TEST(LoadingCycle, OutlivesACycleThatBreaksDown) {
   const DamageOptions soft{.tau_y = 10e3};
   for (const double of_cycle : joint_damage_by_cycle(log, soft)) damage += of_cycle;
   ASSERT_GT(damage, 0);
-  EXPECT_DOUBLE_EQ(joint_damage(log, soft), damage * 5 / 4);
+  EXPECT_DOUBLE_EQ(joint_damage(log, soft), damage * 8 / 5);
 }
 
 // Of a single cycle none may be lost.

@@ -142,6 +142,23 @@ TEST(JointDamage, OnlyCyclesCount) {
   log.numbers["lost_cycles"] = 1;  // of three: the lost one counts with the mean of the others
   EXPECT_NEAR(joint_damage(log, options), 0.75, 1e-13);
   EXPECT_NEAR(joint_damage(log, unfiltered()), 3 * 0.75, 1e-13);
+  log.numbers["left_out_cycles"] = 4;  // and so do those that were not needed
+  EXPECT_NEAR(joint_damage(log, options), 0.75, 1e-13);
+  EXPECT_NEAR(joint_damage(log, unfiltered()), 7 * 0.75, 1e-13);
+}
+
+// Rates 400, 500, 600 and 700 kg/s: deviations of 50 and 150 about 550, so s² = 50 000/3 and the error of the
+// mean √(50 000/3/4)/550.
+TEST(Production, KnowsItsErrorByTheScatterOfTheCycles) {
+  LoadingLog log;
+  for (const double rate : {400, 500, 600, 700}) log.cycles.push_back(cycle(0, 10, 10 * rate, 0));
+  EXPECT_NEAR(production_error(log), std::sqrt(50e3 / 12) / 550, 1e-15);
+  EXPECT_NEAR(production_error(log, {.haul = 10}), std::sqrt(50e3 / 12) / 550, 1e-15)
+      << "of cycles that take the same time, a haul halves rate and scatter";
+  log.cycles.resize(1);
+  EXPECT_EQ(production_error(log), std::numeric_limits<double>::infinity());
+  log.cycles = {cycle(0, 10, 0, 0), cycle(20, 30, 0, 0)};
+  EXPECT_EQ(production_error(log), std::numeric_limits<double>::infinity()) << "empty buckets";
 }
 
 TEST(Responses, SayWhatIsMissing) {

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/report/run_quantile.h>
+#include <drawpoint/studies/sampling/repeats.h>
+#include <drawpoint/doe/uniform.hpp>
+#include <drawpoint/kriging/run_gain.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace drawpoint::studies {
+namespace {
+
+// A mean over so many places is known to some 6 % of its scatter over the box, the same places for all points.
+constexpr int places_of_mean = 256;
+constexpr double least_noise = 1e-3;  // standard deviation over the range of a response: less limits nothing
+
+bool holds_row(const Eigen::MatrixXd& X, Eigen::Index count, const Eigen::RowVectorXd& x) {
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (X.row(i) == x) return true;
+  return false;
+}
+
+/// Distinct, and where runs do not fail.
+Eigen::MatrixXd repeatable_points(const doe::Evaluations& runs, const Failures& failures) {
+  const Eigen::MatrixXd X = runs.X();
+  const std::vector<bool> avoided = failures.avoided(X);
+  Eigen::MatrixXd points(X.rows(), X.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    if (avoided[static_cast<std::size_t>(i)] || holds_row(points, count, X.row(i))) continue;
+    points.row(count++) = X.row(i);
+  }
+  return points.topRows(count);
+}
+
+/// Of one run of response j at each of the points, on the scale of its model.
+Eigen::VectorXd noise_of_runs(const std::vector<kriging::TransformedModel>& models,
+                              const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& points) {
+  const kriging::Model& model = models[j].model();
+  if (!knows_noise(models[j])) return Eigen::VectorXd::Constant(points.rows(), model.noise_variance());
+  Eigen::VectorXd noise = expected_noise(models, problem, j, points);
+  const Eigen::VectorXd z = model.mean(points);
+  for (Eigen::Index i = 0; i < noise.size(); ++i)
+    noise[i] = kriging::noise_on_scale(models[j].transform(), z[i], noise[i]);
+  return noise;
+}
+
+/// Whether it is the standard error that runs tell of another response.
+bool is_standard_error(const doe::Problem& problem, const std::string& name) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [&](const doe::Response& other) { return other.standard_error == name; });
+}
+
+double range_on_scale(const kriging::TransformedModel& model) {
+  const Eigen::VectorXd& z = model.model().state().observed;
+  return z.size() == 0 ? 0.0 : z.maxCoeff() - z.minCoeff();
+}
+
+}  // namespace
+
+Eigen::MatrixXd points_to_repeat(const doe::Evaluations& runs,
+                                 const std::vector<kriging::TransformedModel>& models,
+                                 const Failures& failures, const RepeatSettings& settings) {
+  const doe::Problem& problem = runs.problem;
+  const Eigen::MatrixXd made = repeatable_points(runs, failures);
+  if (settings.count <= 0 || made.rows() == 0) return Eigen::MatrixXd(0, made.cols());
+  const Eigen::MatrixXd places = doe::uniform_random(problem, places_of_mean, {.seed = settings.seed});
+  Eigen::MatrixXd points(made.rows() + places.rows(), made.cols());
+  points << made, places;
+  std::vector<kriging::ResponseGain> responses;
+  for (std::size_t j = 0; j < models.size(); ++j) {
+    const double range = range_on_scale(models[j]);
+    if (!(range > 0) || is_standard_error(problem, problem.responses[j].name)) continue;
+    const Eigen::VectorXd noise = noise_of_runs(models, problem, j, points) / settings.replicates;
+    if (noise.maxCoeff() < least_noise * least_noise * range * range) continue;
+    responses.push_back({kriging::RunGain(models[j].model(), points, places, noise), range});
+  }
+  if (responses.empty()) return Eigen::MatrixXd(0, made.cols());
+  return made(kriging::runs_to_repeat(std::move(responses), {.made = made.rows(), .count = settings.count}),
+              Eigen::all);
+}
+
+}  // namespace drawpoint::studies
