@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/loading_figures.h>
+#include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
@@ -19,7 +20,6 @@ using engine::loading::LoadingLog;
 using engine::loading::values_per_pose;
 using nlohmann::json;
 
-constexpr double yield_torque = engine::loading::DamageOptions{}.tau_y;  // [N m]
 constexpr double picture_interval = 0.5;  // of the replay [s]; keeps the page light
 
 // Three decimals: millimetres, and the text of a number stays short.
@@ -159,7 +159,7 @@ json line(const LoadingLog& log, Rows rows, const char* signal, const char* labe
 }
 
 // The yield torque in either direction.
-std::vector<json> yield_lines(const LoadingLog& log, Rows rows) {
+std::vector<json> yield_lines(const LoadingLog& log, Rows rows, double yield_torque) {
   if (rows.first == rows.last) return {};
   const std::size_t time = log.signals.index("time");
   const double end = log.signals.at(rows.last - 1, time) - log.signals.at(rows.first, time);
@@ -171,14 +171,14 @@ std::vector<json> yield_lines(const LoadingLog& log, Rows rows) {
   return lines;
 }
 
-json forces_panel(const LoadingLog& log, const CycleRecord& cycle) {
+json forces_panel(const LoadingLog& log, const CycleRecord& cycle, double yield_torque) {
   const Rows rows = rows_of(log, cycle.number);
   const bool cylinders = log.texts.at("arm_drive") == "cylinders";
   json series = {line(log, rows, "lift_force", "lift", 1e-3), line(log, rows, "tilt_force", "tilt", 1e-3),
                  line(log, rows, "wheel_torque", "wheels, sum [kN m]", 1e-3),
                  line(log, rows, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
                  line(log, rows, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)};
-  for (const json& yield : yield_lines(log, rows)) series.push_back(yield);
+  for (const json& yield : yield_lines(log, rows, yield_torque)) series.push_back(yield);
   return {
       {"type", "lines"},
       {"title", "Drive forces and the torque in hinge G"},
@@ -253,11 +253,12 @@ void settle_pile(engine::loading::Scenario scenario) {
                pile.poured_s, shape.surface.crest, shape.surface.mean * 180 / M_PI);
 }
 
-json loading_figures(const std::filesystem::path& log_file) {
+json loading_figures(const std::filesystem::path& log_file, const OptionValues& options) {
   const LoadingLog log = engine::loading::read_log(log_file);
   if (log.cycles.empty()) return json::array();
   const CycleRecord& cycle = log.cycles.front();
-  json panels = {path_panel(log, cycle), scene_panel(log, cycle), forces_panel(log, cycle)};
+  json panels = {path_panel(log, cycle), scene_panel(log, cycle),
+                 forces_panel(log, cycle, damage_options(options).tau_y)};
   json bucket = bucket_panel(log, cycle);
   if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
   panels.push_back(cycles_panel(log));

@@ -8,6 +8,7 @@
 /// log alone.
 
 #include <drawpoint/engine/loading/scenario.hpp>
+#include <drawpoint/studies/options.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,8 @@ namespace drawpoint::studies {
 /// study: logs/prepare.txt) how far it is and how the pile lies. About a minute.
 void settle_pile(engine::loading::Scenario scenario);
 
-/// Panels for the report from a run log. Throws std::runtime_error if the log cannot be read.
-nlohmann::json loading_figures(const std::filesystem::path& log);
+/// Panels for the report from a run log; the yield torque that they show is that of the options. Throws
+/// std::runtime_error if the log cannot be read.
+nlohmann::json loading_figures(const std::filesystem::path& log, const OptionValues& options = {});
 
 }  // namespace drawpoint::studies

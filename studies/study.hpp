@@ -99,27 +99,24 @@ class StudyFunction {
   Erased f_;
 };
 
-/// Either of f(logs), f(logs, options) that gives headlines, behind one type.
-class HeadlineFunction {
+/// Either of f(logs), f(logs, options) that gives a Result, behind one type.
+template <class Result, class Logs>
+class LogFunction {
  public:
-  using Logs = std::vector<std::filesystem::path>;
-  using Erased = std::function<std::vector<Headline>(const Logs&, const OptionValues&)>;
+  using Erased = std::function<Result(const Logs&, const OptionValues&)>;
 
-  HeadlineFunction() = default;
+  LogFunction() = default;
 
   template <class F>
-  requires(!std::same_as<std::remove_cvref_t<F>, HeadlineFunction>) HeadlineFunction(F f)
-      : f_(erase(std::move(f))) {}
+  requires(!std::same_as<std::remove_cvref_t<F>, LogFunction>) LogFunction(F f) : f_(erase(std::move(f))) {}
 
-  std::vector<Headline> operator()(const Logs& logs, const OptionValues& options) const {
-    return f_(logs, options);
-  }
+  Result operator()(const Logs& logs, const OptionValues& options) const { return f_(logs, options); }
   explicit operator bool() const { return static_cast<bool>(f_); }
 
  private:
   template <class F>
   static Erased erase(F f) {
-    if constexpr (std::is_invocable_r_v<std::vector<Headline>, const F&, const Logs&, const OptionValues&>)
+    if constexpr (std::is_invocable_r_v<Result, const F&, const Logs&, const OptionValues&>)
       return f;
     else
       return [f = std::move(f)](const Logs& logs, const OptionValues&) { return f(logs); };
@@ -127,6 +124,9 @@ class HeadlineFunction {
 
   Erased f_;
 };
+
+using HeadlineFunction = LogFunction<std::vector<Headline>, std::vector<std::filesystem::path>>;
+using FigureFunction = LogFunction<nlohmann::json, std::filesystem::path>;
 
 /// All that makes a study. Name: letters, digits, '_' and '-'; it names the default output folder
 /// `results/<name>`.
@@ -152,7 +152,7 @@ struct Study {
   /// writes is kept or nothing.
   std::function<void(const RunContext& context)> prepare = {};
   /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
-  std::function<nlohmann::json(const std::filesystem::path& log)> illustrate = {};
+  FigureFunction illustrate = {};
   /// The responses as a function of a run's log and the study's options alone, equal to what the black box
   /// gave: with it, `rerun-responses` takes them anew from the logs that there are, after a response or an
   /// option of responses has changed. May return a doe::Failure, or throw.

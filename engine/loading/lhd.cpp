@@ -235,8 +235,8 @@ void Builder::add_chassis_surfaces() {
         {wheel, engine::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
 }
 
-// Plates of the shell, 8 cm thick, outside the profile; the floor's front edge is a wedge. Two side walls
-// close it.
+// Plates of the shell, 8 cm thick, outside the profile but for the floor, whose front edge is a wedge. Two side
+// walls, inside the width, close it.
 void Builder::add_bucket_surfaces() {
   const double half = lhd_.bucket_width / 2, thickness = 0.08;
   const auto& profile = lhd_.bucket_profile;

@@ -80,7 +80,9 @@ Lhd sandvik_lh621(const LhdOptions& options = {});
 /// The bucket's profile with a 2:1 heap on the plane between the cutting edge and the top lip.
 std::vector<Eigen::Vector2d> heaped_profile(const Lhd& lhd);
 
-/// What lies between the side walls, inside the profile and inside the heaped profile [m³].
+/// Area of the profile, and of the heaped one, times the width over the outsides of the walls [m³], as a
+/// bucket's volume is stated here. Walls of 8 cm and the floor's wedge stand inside: rock has 5.72 of the own
+/// bucket's 6.25 m³ struck and 7.25 of its 7.87 m³ heaped, so that a fill by these volumes is low by a twelfth.
 double struck_volume(const Lhd& lhd);
 double heaped_volume(const Lhd& lhd);
 

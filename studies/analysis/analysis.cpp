@@ -34,7 +34,7 @@ std::vector<const Run*> runs_to_show(std::vector<const Run*> runs, const doe::Pr
 
 /// By the best run that can be shown; a few that cannot become warnings.
 void illustrate(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
-                const Folder& folder) {
+                const OptionValues& options, const Folder& folder) {
   const int most_attempts = 5;
   input.illustrations = nlohmann::json::array();
   if (!study.illustrate) return;
@@ -42,7 +42,7 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<const 
   for (const Run* run : runs_to_show(runs, study.problem)) {
     if (attempts++ == most_attempts) return;
     try {
-      input.illustrations = study.illustrate(folder.log(run->id));
+      input.illustrations = study.illustrate(folder.log(run->id), options);
       input.facts.emplace_back("Run shown", std::to_string(run->id));
       return;
     } catch (const std::exception& e) {
@@ -100,7 +100,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   }
   tell_of_models(summary, input);
   add_warnings(input, runs);
-  illustrate(input, study, logged, folder);
+  illustrate(input, study, logged, store.identity().options, folder);
   summary.findings = hold_findings(input, study, logged, folder);
   write_report(folder.report(), input);
   summary.report = std::filesystem::absolute(folder.report()).lexically_normal();

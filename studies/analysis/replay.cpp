@@ -34,9 +34,10 @@ void require_log(const Folder& folder, const Run& run) {
   }
 }
 
-nlohmann::json illustrated(const Study& study, const Folder& folder, const Run& run) {
+nlohmann::json illustrated(const Study& study, const Identity& identity, const Folder& folder,
+                           const Run& run) {
   try {
-    return study.illustrate(folder.log(run.id));
+    return study.illustrate(folder.log(run.id), identity.options);
   } catch (const std::exception& e) {
     throw std::runtime_error("replay: run " + std::to_string(run.id) + " could not be shown: " + e.what());
   }
@@ -64,7 +65,7 @@ ReplayInput input_of_run(const Study& study, const Identity& identity, const Fol
           .problem = study.problem,
           .run = rows.front(),
           .kind = name_of(run.kind),
-          .panels = illustrated(study, folder, run),
+          .panels = illustrated(study, identity, folder, run),
           .facts = facts_of_run(identity, folder, run)};
 }
 
@@ -80,19 +81,20 @@ std::string replay_page(const Study& study, const Identity& identity, const Fold
   return replay_page(input_of_run(study, identity, folder, run, command));
 }
 
-nlohmann::json scene_of_run(const Study& study, const Folder& folder, const Run& run) {
+nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
+                            const Run& run) {
   require_log(folder, run);
   std::vector<std::string> cautions;
-  for (auto& panel : detail::checked_panels(illustrated(study, folder, run), cautions))
+  for (auto& panel : detail::checked_panels(illustrated(study, identity, folder, run), cautions))
     if (panel.at("type") == "scene") return std::move(panel);
   return {};
 }
 
-nlohmann::json flat_figures(const Study& study, const Folder& folder, const Run& run,
-                            std::vector<std::string>& cautions) {
+nlohmann::json flat_figures(const Study& study, const Identity& identity, const Folder& folder,
+                            const Run& run, std::vector<std::string>& cautions) {
   require_log(folder, run);
   nlohmann::json flat = nlohmann::json::array();
-  for (auto& panel : illustrated(study, folder, run))
+  for (auto& panel : illustrated(study, identity, folder, run))
     if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene")
       flat.push_back(std::move(panel));
   return detail::checked_panels(flat, cautions);

@@ -26,11 +26,12 @@ std::string replay_page(const Study& study, const Identity& identity, const Fold
 
 /// The scene of the page, as the page has it: panels.h; null where the study draws none of this run. Throws as
 /// `replay` does.
-nlohmann::json scene_of_run(const Study& study, const Folder& folder, const Run& run);
+nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
+                            const Run& run);
 
 /// The figures of the page but for scenes to play; a sentence for each that cannot be drawn goes to
 /// `cautions`. Throws as `replay` does.
-nlohmann::json flat_figures(const Study& study, const Folder& folder, const Run& run,
-                            std::vector<std::string>& cautions);
+nlohmann::json flat_figures(const Study& study, const Identity& identity, const Folder& folder,
+                            const Run& run, std::vector<std::string>& cautions);
 
 }  // namespace drawpoint::studies

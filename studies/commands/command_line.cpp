@@ -238,6 +238,11 @@ void add_point_options(CLI::App& command, PointSettings& settings) {
       ->check(CLI::Range(3, 1'000'000));
 }
 
+/// Before what the study is about, at the end of a command's help.
+void show_example(CLI::App& command, const CLI::App& app, const Study& study, const std::string& words) {
+  command.footer("Example: " + app.get_name() + words + "\n\n" + problem_text(study.problem));
+}
+
 struct Parsed {
   Settings settings;
   PointSettings point;
@@ -253,6 +258,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_sampling_options(*run, parsed.settings, study.defaults);
   add_hours_option(*run, parsed.settings);
   add_study_options(*run, study, parsed.settings.options, true);
+  show_example(*run, app, study, " run --runs 24 --adaptive 40 --out results/adaptive");
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
   auto* confirm = app.add_subcommand(
       "confirm",
@@ -260,6 +266,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_folder_options(*confirm, parsed.settings);
   add_execution_options(*confirm, parsed.settings);
   add_confirm_options(*confirm, parsed.settings.confirm, study.problem);
+  show_example(*confirm, app, study, " confirm --points 6 --rounds 2");
   confirm->callback([&] { parsed.action = [&] { return confirm_command(study, parsed.settings); }; });
 }
 
@@ -286,8 +293,9 @@ void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   add_run_options(*ask, settings, study.defaults);
   add_sampling_options(*ask, settings, study.defaults);
   add_study_options(*ask, study, settings.options, true);
-  ask->footer("Example: " + app.get_name() + " ask --file runs.csv; then add the responses as columns, and " +
-              app.get_name() + " tell --file runs.csv\n\n" + problem_text(study.problem));
+  show_example(*ask, app, study,
+               " ask --file runs.csv; then add the responses as columns, and " + app.get_name() +
+                   " tell --file runs.csv");
   ask->callback([&] { parsed.action = [&] { return ask_command(study, settings); }; });
   auto* tell = app.add_subcommand("tell", "take what came out of runs made elsewhere");
   add_folder_options(*tell, settings);
@@ -295,6 +303,7 @@ void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
                    "table with the columns run and every response; status (done or failed), reason and "
                    "seconds if you like")
       ->required();
+  show_example(*tell, app, study, " tell --file runs.csv");
   tell->callback([&] { parsed.action = [&] { return tell_command(study, settings); }; });
 }
 
@@ -308,6 +317,8 @@ void define_rerun_responses(CLI::App& app, Parsed& parsed, const Study& study) {
       ->check(folder_complaint);
   add_folder_options(*rerun, parsed.settings);
   add_study_options(*rerun, study, parsed.settings.options, true);
+  show_example(*rerun, app, study,
+               " rerun-responses --from results/" + study.name + " --out results/" + study.name + "_anew");
   rerun->callback([&] { parsed.action = [&] { return rerun_responses_command(study, parsed.settings); }; });
 }
 
@@ -335,6 +346,7 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   evaluate->add_flag("--json", parsed.point.json, "print one JSON object");
   add_point_options(*evaluate, parsed.point);
   add_study_options(*evaluate, study, parsed.point.options, false);
+  show_example(*evaluate, app, study, " evaluate --run 7");
   evaluate->callback([&] { parsed.action = [&] { return evaluate_command(study, parsed.point); }; });
   auto* prepare = app.add_subcommand("prepare", "fill the folder common to all runs")->group("");
   add_point_options(*prepare, parsed.point);

@@ -130,15 +130,19 @@ void add_folder_options(CLI::App& command, Settings& settings) {
 void define_reading_commands(CLI::App& app, const Study& study, Settings& settings,
                              std::function<int()>& action) {
   const Reader commands(app, study, settings, action);
-  commands.add_with_json("status", "say how many runs are planned, done and failed, and why", status_command);
+  const std::string example = "Example: " + study.name + " ";
+  commands.add_with_json("status", "say how many runs are planned, done and failed, and why", status_command)
+      .footer(example + "status --json");
   CLI::App& live = commands.add(
       "live", "serve a page that follows the study while it runs, on this machine alone, until Ctrl-C",
       live_command);
   add_folder_option(live, settings);
   add_live_options(live, study, settings.live);
-  commands.add_with_json(
-      "fit", "say how each response is fitted, and how well runs are predicted without themselves",
-      fit_command);
+  commands
+      .add_with_json("fit",
+                     "say how each response is fitted, and how well runs are predicted without themselves",
+                     fit_command)
+      .footer(example + "fit --out results/" + study.name);
   add_validate_options(
       commands.add_with_json("validate", "hold the models against the validation runs, one by one",
                              validate_command),
@@ -151,7 +155,8 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
                                              "choice, changes on average and on the front",
                                              compare_command),
                       study, settings);
-  commands.add_with_json("report", "make the report again from the stored runs", report_command);
+  commands.add_with_json("report", "make the report again from the stored runs", report_command)
+      .footer(example + "report --out results/" + study.name);
   CLI::App& replay = commands.add(
       "replay", "write one run as a page with its figures, or its scene as pictures and as a film",
       replay_command);

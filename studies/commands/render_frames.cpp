@@ -43,8 +43,9 @@ FrameSize checked_size(const FrameSettings& settings) {
   return size;
 }
 
-nlohmann::json existing_scene(const Study& study, const Folder& folder, const Run& run) {
-  nlohmann::json scene = scene_of_run(study, folder, run);
+nlohmann::json existing_scene(const Study& study, const Identity& identity, const Folder& folder,
+                              const Run& run) {
+  nlohmann::json scene = scene_of_run(study, identity, folder, run);
   if (scene.is_null())
     throw std::runtime_error(
         "replay: the study draws no scene of the log of run " + std::to_string(run.id) +
@@ -89,12 +90,13 @@ std::string message_after_signal(const FrameSettings& settings) {
 
 }  // namespace
 
-int render_frames(const Study& study, const Folder& folder, const Run& run, const FrameSettings& wanted) {
+int render_frames(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
+                  const FrameSettings& wanted) {
   const FrameSettings settings = with_files(folder, wanted);
   Rendering rendering{.scene = {}, .times = {}, .size = checked_size(settings), .camera = settings.camera};
   const fs::path ffmpeg = settings.video.empty() ? "" : found_ffmpeg();
   const Browser browser{.program = found_browser()};
-  rendering.scene = existing_scene(study, folder, run);
+  rendering.scene = existing_scene(study, identity, folder, run);
   rendering.times = times_of(rendering.scene, settings);
   if (!settings.video.empty()) check_film_can_be_written(settings.video);
   if (!settings.folder.empty()) prepare_frame_folder(settings.folder);

@@ -21,7 +21,7 @@ int replay_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   const Run run = stored_run(store, folder, wanted.run);
-  if (frames) return render_frames(study, folder, run, wanted.frames);
+  if (frames) return render_frames(study, store.identity(), folder, run, wanted.frames);
   const std::filesystem::path file =
       wanted.file.empty() ? folder.replay(run.id) : output_file(folder, wanted.file);
   replay(study, store, folder, run, file, settings.command);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/live/best.h>
-#include <drawpoint/studies/models/limits.h>
+#include <drawpoint/studies/report/limits.h>
 
 #include <cmath>
 
@@ -29,7 +29,7 @@ std::vector<Reached> reached(const Contents& contents) {
     const std::size_t i = contents.ended[k];
     const Run& run = contents.runs[i];
     if (run.status != Status::done) continue;
-    const bool allowed = keeps_all_limits(run, contents.identity.problem);
+    const bool allowed = keeps_all_limits(run.y, contents.identity.problem);
     for (std::size_t j = 0; j < responses.size(); ++j) {
       const double y = value_of(contents, i, j);
       ++all[j].done;

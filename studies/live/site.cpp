@@ -51,7 +51,8 @@ Answer Site::figures(std::int64_t run) {
     const Run& shown = run_in(followed_.study, view, run);
     std::vector<std::string> cautions;
     const std::lock_guard lock(logs_);
-    nlohmann::json figures = flat_figures(followed_.study, followed_.folder, shown, cautions);
+    nlohmann::json figures =
+        flat_figures(followed_.study, view.contents->identity, followed_.folder, shown, cautions);
     return as_json(
         nlohmann::json{{"run", run}, {"illustrations", std::move(figures)}, {"cautions", cautions}});
   } catch (const std::exception& e) {

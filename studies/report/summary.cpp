@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/limits.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
@@ -101,11 +102,14 @@ std::string best_simulated(const ReportInput& input, std::size_t response) {
   };
   for (const auto* table : {&input.training, &input.validation})
     for (const doe::Evaluation& e : table->rows)
-      if (!e.outcome.failed() && (!best || (up ? value(e) > value(*best) : value(e) < value(*best))))
+      if (!e.outcome.failed() && keeps_all_limits(e.outcome.values(), input.problem) &&
+          (!best || (up ? value(e) > value(*best) : value(e) < value(*best))))
         best = &e;
-  if (!best) return "";
-  return "; the best run simulated so far reached " +
-         number_with_unit(value(*best), input.problem.responses[response].unit) + " (run " +
+  const bool limited = std::any_of(input.problem.responses.begin(), input.problem.responses.end(),
+                                   [](const doe::Response& r) { return doe::is_constraint(r.goal); });
+  if (!best) return limited ? "; no run simulated so far keeps all limits" : "";
+  return std::string("; the best run simulated so far") + (limited ? " that keeps all limits" : "") +
+         " reached " + number_with_unit(value(*best), input.problem.responses[response].unit) + " (run " +
          std::to_string(best->run) + ")";
 }
 

@@ -58,6 +58,18 @@ TEST(LoadingFigures, DrawEverySampleOfTorqueAndItsYieldLine) {
   EXPECT_EQ(series[5]["x"], nlohmann::json({0.0, 10.0}));
 }
 
+// What damages a joint is the study's to say, and the line stands where damage begins.
+TEST(LoadingFigures, DrawTheYieldTorqueOfTheStudy) {
+  const test::TestFolder place;
+  write_log(place / "run.h5", log_with_a_peak());
+  const auto figures = loading_figures(place / "run.h5", {{"yield-torque", "450"}});
+  const auto forces =
+      std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f["type"] == "lines"; });
+  ASSERT_NE(forces, figures.end());
+  EXPECT_EQ((*forces)["series"][5]["y"], nlohmann::json({450.0, 450.0}));
+  EXPECT_NE((*forces)["caption"].get<std::string>().find("450 kN m"), std::string::npos);
+}
+
 TEST(LoadingFigures, TheSceneTellsTheStageAndTheRockInTheBucket) {
   const test::TestFolder place;
   LoadingLog log = log_with_a_peak();

@@ -224,3 +224,34 @@ TEST(ReportPanels, ASceneThatDoesNotHangTogetherIsRefused) {
   ASSERT_EQ(cautions.size(), 1u);
   EXPECT_EQ(cautions[0], "Figure 1 of the simulation was left out: a body names a shape that is not there.");
 }
+// y1 is half of y0 where x1 does not matter, so the limit takes the best of y0: praised is the best that keeps
+// it, and where none does, none.
+TEST(Summary, PraisesNoRunThatBreaksALimit) {
+  ReportInput in = input(2, 2, 12, 4);
+  const Eigen::MatrixXd Y = [&] {
+    Eigen::MatrixXd all(12, 2);
+    all << in.training.y("y0"), in.training.y("y1");
+    return all;
+  }();
+  const auto sentence = [&](double limit) {
+    for (doe::Problem* problem : {&in.problem, &in.training.problem, &in.validation.problem}) {
+      problem->responses[1].goal = doe::Goal::at_most;
+      problem->responses[1].limit = limit;
+    }
+    in.validation.rows.clear();
+    in.front.Y = Y.leftCols(1);
+    return detail::summary(in, {Eigen::VectorXd::Ones(2), Eigen::VectorXd::Ones(2)})["sentences"][0]
+        .get<std::string>();
+  };
+  const double median = Y.col(1).mean();
+  Eigen::Index best = -1, first = 0;
+  for (Eigen::Index i = 0; i < 12; ++i)
+    if (Y(i, 1) <= median && (best < 0 || Y(i, 0) > Y(best, 0))) best = i;
+  Y.col(0).maxCoeff(&first);
+  ASSERT_NE(best, first);
+  const std::string run =
+      "(run " + std::to_string(in.training.rows[static_cast<std::size_t>(best)].run) + ")";
+  EXPECT_NE(sentence(median).find("that keeps all limits reached"), std::string::npos) << sentence(median);
+  EXPECT_NE(sentence(median).find(run), std::string::npos) << sentence(median);
+  EXPECT_NE(sentence(-100.0).find("no run simulated so far keeps all limits"), std::string::npos);
+}

@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Whether a run keeps the limits of its study's responses.
+/// Whether responses keep their limits.
 
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/pareto/detail/roles.hpp>
+
+#include <Eigen/Core>
+#include <cstddef>
 
 namespace drawpoint::studies {
 
@@ -12,10 +15,10 @@ inline bool breaks_limit(const doe::Response& response, double y) {
   return doe::is_constraint(response.goal) && pareto::detail::violation(response, y) > 0.0;
 }
 
-/// Requires a run that is done.
-inline bool keeps_all_limits(const Run& run, const doe::Problem& problem) {
+/// y: one entry per response.
+inline bool keeps_all_limits(const Eigen::VectorXd& y, const doe::Problem& problem) {
   for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    if (breaks_limit(problem.responses[j], run.y[static_cast<Eigen::Index>(j)])) return false;
+    if (breaks_limit(problem.responses[j], y[static_cast<Eigen::Index>(j)])) return false;
   }
   return true;
 }
