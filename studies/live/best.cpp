@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/live/best.h>
 #include <drawpoint/studies/report/limits.h>
+#include <drawpoint/pareto/filter.hpp>
 
 #include <cmath>
 
@@ -29,7 +30,7 @@ std::vector<Reached> reached(const Contents& contents) {
     const std::size_t i = contents.ended[k];
     const Run& run = contents.runs[i];
     if (run.status != Status::done) continue;
-    const bool allowed = keeps_all_limits(run.y, contents.identity.problem);
+    const bool allowed = pareto::meets_limits(contents.identity.problem, run.y);
     for (std::size_t j = 0; j < responses.size(); ++j) {
       const double y = value_of(contents, i, j);
       ++all[j].done;

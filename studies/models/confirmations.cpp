@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/confirmations.h>
-#include <drawpoint/studies/report/limits.h>
 #include <drawpoint/pareto/dominance.hpp>
+#include <drawpoint/pareto/filter.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +24,7 @@ bool is_dominated(const Run& run, const std::vector<Run>& runs, const doe::Probl
                   std::int64_t before) {
   const Eigen::VectorXd own = minimised_objectives(run, problem);
   return std::any_of(runs.begin(), runs.end(), [&](const Run& other) {
-    return other.id < before && other.status == Status::done && keeps_all_limits(other.y, problem) &&
+    return other.id < before && other.status == Status::done && pareto::meets_limits(problem, other.y) &&
            pareto::dominates(minimised_objectives(other, problem), own);
   });
 }
@@ -45,7 +45,7 @@ CheckedRun checked_run(const Run& run, const doe::Problem& problem) {
     ++checked.values;
     checked.held += within;
   }
-  checked.breaks_limit = done && !keeps_all_limits(run.y, problem);
+  checked.breaks_limit = done && !pareto::meets_limits(problem, run.y);
   return checked;
 }
 

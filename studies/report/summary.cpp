@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <drawpoint/studies/report/limits.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
+#include <drawpoint/pareto/filter.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ std::string best_simulated(const ReportInput& input, std::size_t response) {
   };
   for (const auto* table : {&input.training, &input.validation})
     for (const doe::Evaluation& e : table->rows)
-      if (!e.outcome.failed() && keeps_all_limits(e.outcome.values(), input.problem) &&
+      if (!e.outcome.failed() && pareto::meets_limits(input.problem, e.outcome.values()) &&
           (!best || (up ? value(e) > value(*best) : value(e) < value(*best))))
         best = &e;
   const bool limited = std::any_of(input.problem.responses.begin(), input.problem.responses.end(),

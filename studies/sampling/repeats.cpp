@@ -3,11 +3,13 @@
 #include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/sampling/repeats.h>
 #include <drawpoint/doe/uniform.hpp>
+#include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/kriging/run_gain.hpp>
 
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -16,23 +18,14 @@ namespace {
 constexpr int places_of_mean = 256;
 constexpr double least_noise = 1e-3;  // standard deviation over the range of a response: less limits nothing
 
-bool holds_row(const Eigen::MatrixXd& X, Eigen::Index count, const Eigen::RowVectorXd& x) {
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (X.row(i) == x) return true;
-  return false;
-}
-
 /// Distinct, and where runs do not fail.
 Eigen::MatrixXd repeatable_points(const doe::Evaluations& runs, const Failures& failures) {
   const Eigen::MatrixXd X = runs.X();
   const std::vector<bool> avoided = failures.avoided(X);
-  Eigen::MatrixXd points(X.rows(), X.cols());
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < X.rows(); ++i) {
-    if (avoided[static_cast<std::size_t>(i)] || holds_row(points, count, X.row(i))) continue;
-    points.row(count++) = X.row(i);
-  }
-  return points.topRows(count);
+  std::vector<Eigen::Index> rows;
+  for (const auto& group : kriging::detail::groups_of_rows(X))
+    if (!avoided[static_cast<std::size_t>(group.front())]) rows.push_back(group.front());
+  return X(rows, Eigen::all);
 }
 
 /// Of one run of response j at each of the points, on the scale of its model.
@@ -64,8 +57,9 @@ Eigen::MatrixXd points_to_repeat(const doe::Evaluations& runs,
                                  const std::vector<kriging::TransformedModel>& models,
                                  const Failures& failures, const RepeatSettings& settings) {
   const doe::Problem& problem = runs.problem;
+  if (settings.count <= 0) return Eigen::MatrixXd(0, static_cast<Eigen::Index>(problem.variables.size()));
   const Eigen::MatrixXd made = repeatable_points(runs, failures);
-  if (settings.count <= 0 || made.rows() == 0) return Eigen::MatrixXd(0, made.cols());
+  if (made.rows() == 0) return made;
   const Eigen::MatrixXd places = doe::uniform_random(problem, places_of_mean, {.seed = settings.seed});
   Eigen::MatrixXd points(made.rows() + places.rows(), made.cols());
   points << made, places;
