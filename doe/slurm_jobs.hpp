@@ -133,7 +133,8 @@ class SlurmJobs {
   const std::set<std::string>& arrays() const { return folder_.arrays(); }
 
   /// Where the tasks stand, as Slurm last said: "3 at work, 40 waiting (Resources)", with the most frequent
-  /// reason for waiting in Slurm's words; empty before the first answer, and while none waits.
+  /// reason for waiting in Slurm's words, if it has looked for one; empty before the first answer, and while none
+  /// waits.
   std::string standing() const {
     int waiting = 0, at_work = 0;
     std::map<std::string, int> reasons;
@@ -143,13 +144,14 @@ class SlurmJobs {
       at_work += found->second.state == "RUNNING";
       if (found->second.state != "PENDING") continue;
       ++waiting;
-      ++reasons[found->second.reason];
+      if (found->second.reason != "None") ++reasons[found->second.reason];
     }
     if (waiting == 0) return "";
+    const std::string text = std::to_string(at_work) + " at work, " + std::to_string(waiting) + " waiting";
+    if (reasons.empty()) return text;
     const auto often = std::max_element(reasons.begin(), reasons.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    return std::to_string(at_work) + " at work, " + std::to_string(waiting) + " waiting (" + often->first +
-           ")";
+    return text + " (" + often->first + ")";
   }
 
  private:
