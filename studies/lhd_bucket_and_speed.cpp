@@ -88,8 +88,9 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
 
 std::vector<studies::StudyOption> options() {
   std::vector<studies::StudyOption> options = studies::loading_options();
-  std::erase_if(options,
-                [](const auto& option) { return option.name == "speeds" || option.name == "yield-torque"; });
+  std::erase_if(options, [](const auto& option) {
+    return option.name == "speeds" || option.name == "yield-torque" || option.name == "damage";
+  });
   for (auto& option : options)
     if (option.name == "operator") option.value = "skilled";
   return options;
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
        .defaults = {.runs = 60, .validation = 12},
        .options = options(),
        .options_complaint = studies::loading_options_complaint,
+       .simulator = engine::loading::simulator,
        .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,

@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
        .defaults = {.runs = 40, .validation = 12},
        .options = studies::loading_options(),
        .options_complaint = studies::loading_options_complaint,
+       .simulator = engine::loading::simulator,
        .libraries = engine::loading::libraries(),
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },

@@ -3,8 +3,10 @@
 
 #include <drawpoint/studies/loading_scenario.h>
 
+#include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace drawpoint::studies {
 namespace {
@@ -24,6 +26,14 @@ bool solved_loosely(const std::string& solver) {
     throw std::invalid_argument("studies::loading_scenario: option \"solver\" is \"" + solver +
                                 "\"; choose scene or lindmark2016");
   return solver == "lindmark2016";
+}
+
+/// One of two ways that the program has, of which folders of before the option have the first.
+StudyOption choice(const std::string& name, const std::string& help,
+                   const std::array<std::string_view, 2>& names) {
+  const std::string usual(names.front());
+  return {
+      .name = name, .help = help, .value = usual, .choices = {names.begin(), names.end()}, .before = usual};
 }
 
 }  // namespace
@@ -58,6 +68,28 @@ std::vector<StudyOption> loading_options() {
        "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
        "plan",
        {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
+      {.name = "pile-mass",
+       .help = "t of rock in the drift, 10 or more; with --scene lindmark2016 800 choke the raise. 0: the "
+               "scene's",
+       .value = "0",
+       .least = 0,
+       .most = 10'000,
+       .before = "0"},
+      choice(
+          "curl",
+          "the bucket turns about its hinge; or its edge stays and the hinge sinks, as in Lindmark (2016), "
+          "which a low edge forbids",
+          engine::loading::curl_names),
+      choice("lift",
+             "aims behind the pile's surface, from wherever the drive-in ended; or goes by what was planned "
+             "from there, as in Lindmark (2016)",
+             engine::loading::lift_names),
+      choice("progress",
+             "of a stage: along its goal; or as Lindmark (2016) prints it, with which stages end by their "
+             "time limit",
+             engine::loading::progress_names),
+      choice("arm", "what moves it: its cylinders, or motors in its hinges as in Lindmark (2016)",
+             engine::loading::arm_drive_names),
       {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
       {.name = "precision",
        .help = "per cent: a run ends after five cycles or more once the standard error of its mean "
@@ -74,6 +106,13 @@ std::vector<StudyOption> loading_options() {
        .least = 1,
        .most = 1'000'000,
        .of_responses = true},
+      {.name = "damage",
+       .help =
+           "by the whole torque in the bucket's hinge, as in Lindmark (2016), or by what twists the bucket",
+       .value = "all",
+       .choices = {engine::loading::torque_component_names.begin(),
+                   engine::loading::torque_component_names.end()},
+       .of_responses = true},
       {.name = "haul",
        .help =
            "s per cycle for haul, dump and way back, which production counts; 0 as in Lindmark (2016), where "
@@ -86,20 +125,36 @@ std::vector<StudyOption> loading_options() {
 
 std::string loading_options_complaint(const OptionValues& options) {
   const std::string &precision = options.at("precision"), &cycles = options.at("cycles");
-  if (precision == "0" || std::stoi(cycles) > engine::loading::least_cycles_to_end) return "";
-  return "--precision " + precision + " with --cycles " + cycles +
-         ": a run may end after five cycles, so that allowed are 6 or more; give --cycles 30, or no "
-         "--precision";
+  if (precision != "0" && std::stoi(cycles) <= engine::loading::least_cycles_to_end)
+    return "--precision " + precision + " with --cycles " + cycles +
+           ": a run may end after five cycles, so that allowed are 6 or more; give --cycles 30, or no "
+           "--precision";
+  const int mass = std::stoi(options.at("pile-mass"));
+  if (mass > 0 && mass < 10)
+    return "--pile-mass " + std::to_string(mass) +
+           ": allowed are 10 t (a bucket load) to 10 000 t, or 0 for the scene's";
+  const auto speeds = options.find("speeds");  // bucket and speed together have no such option: machine
+  if (options.at("arm") == "hinges" && (speeds == options.end() || speeds->second == "machine"))
+    return "--arm hinges with the speeds of the machine: its pump drives cylinders, and motors in the hinges "
+           "know "
+           "none; give --arm cylinders" +
+           std::string(speeds == options.end() ? "" : ", or --speeds lindmark2016");
+  return "";
 }
 
 Scenario loading_scenario(const RunContext& run) {
   Scenario scenario = engine::loading::scene_named(chosen(run, "scene"));
-  scenario = engine::loading::with_pile_of(scenario, scenario.pile.mass,
+  const double mass = 1e3 * std::stod(chosen(run, "pile-mass"));
+  scenario = engine::loading::with_pile_of(scenario, mass > 0 ? mass : scenario.pile.mass,
                                            engine::granular::sizes_named(chosen(run, "sizes")));
   if (solved_loosely(chosen(run, "solver"))) scenario.world = engine::loading::lindmark2016_solver();
   scenario = engine::loading::with_speeds(scenario, chosen(run, "speeds"));
   scenario.executor.moves = engine::loading::operator_named(chosen(run, "operator"));
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
+  scenario.curl = engine::loading::curl_named(chosen(run, "curl"));
+  scenario.lift = engine::loading::lift_named(chosen(run, "lift"));
+  scenario.executor.progress = engine::loading::progress_named(chosen(run, "progress"));
+  scenario.machine.arm_drive = engine::loading::arm_drive_named(chosen(run, "arm"));
   scenario.cycles = std::stoi(chosen(run, "cycles"));
   scenario.precision = std::stod(chosen(run, "precision")) / 100;
   scenario.pile_file = run.shared / "pile.h5";
@@ -117,6 +172,8 @@ engine::loading::DamageOptions damage_options(const OptionValues& options) {
   engine::loading::DamageOptions damage;
   if (const auto torque = options.find("yield-torque"); torque != options.end())
     damage.tau_y = 1e3 * std::stod(torque->second);
+  if (const auto component = options.find("damage"); component != options.end())
+    damage.component = engine::loading::torque_component_named(component->second);
   return damage;
 }
 

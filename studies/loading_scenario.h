@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the options of the loading study choose: materials, solver, scene, sizes of the rocks, speeds,
-/// operator, number of cycles and when to stop before it, and the scenario that they make. The scene has a
-/// number of cycles of its own (thirty at the scale of Lindmark, 2016), which the study's option overrides:
-/// two, unless told.
+/// What the options of the loading study choose: materials, solver, scene, mass and sizes of the rocks,
+/// speeds, operator, laws of the operation, number of cycles and when to stop before it, and the scenario that
+/// they make. The scene has a number of cycles of its own (thirty at the scale of Lindmark, 2016), which the
+/// study's option overrides: two, unless told.
 
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
@@ -17,7 +17,8 @@ namespace drawpoint::studies {
 
 std::vector<StudyOption> loading_options();
 
-/// Study::options_complaint: of a precision with so few cycles that none can be left out.
+/// Study::options_complaint: of a precision with so few cycles that none can be left out, of a pile below a
+/// bucket load, and of motors in the hinges where the machine's pump sets the speeds.
 std::string loading_options_complaint(const OptionValues& options);
 
 /// The scenario of all runs of a study, but for strategy, seed and log. Throws std::invalid_argument if an

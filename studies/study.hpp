@@ -142,8 +142,8 @@ struct Study {
   /// Words that stand before the command on the command line, such as the file that the study was read from.
   /// The processes of its runs are started with these, whatever was typed.
   std::vector<std::string> leading_words = {};
-  /// What makes the runs where that is not this program alone, such as another program and its checksum: a
-  /// folder never mixes runs of two.
+  /// What makes the runs, such as another program and its checksum, or a model by a name that changes with what
+  /// it simulates: a folder never mixes runs of two. Empty: this program, whatever its version.
   std::string simulator = {};
   /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for
   /// --version.

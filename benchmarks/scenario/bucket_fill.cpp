@@ -37,7 +37,7 @@ constexpr const char* about =
     "                                                        and solved as loosely as there";
 
 struct Settings {
-  std::string piles, logs, materials = "calibrated", curl = "hinge", lift = "surface", setting;
+  std::string piles, logs, materials = "calibrated", setting;
   OperationFlags operation;
   PileFlags pile;
   std::vector<double> alphas = {0.3, 1.0, 1.6};
@@ -68,8 +68,6 @@ Scenario scenario_of(const Settings& s) {
   scenario.materials = with_resistance(scenario.materials, s.rolling, s.spinning);
   if (s.steel_friction) scenario.materials.rock_steel.friction = *s.steel_friction;
   if (s.rock_friction) scenario.materials.rock_rock.friction = *s.rock_friction;
-  if (s.curl == "tip") scenario.curl = CurlMode::tip_fixed;
-  if (s.lift == "slope") scenario.lift = LiftGoal::along_slope;
   s.operation.apply(scenario);
   return scenario;
 }
@@ -216,8 +214,8 @@ nlohmann::json described(const Settings& s) {
               {"sizes", s.pile.sizes},
               {"cycles", s.cycles},
               {"speeds", s.operation.speeds},
-              {"curl", s.curl},
-              {"lift", s.lift},
+              {"curl", s.operation.curl},
+              {"lift", s.operation.lift},
               {"operator", in_words(s.operation)},
               {"solved", in_words(benchmarks::described(scenario.world)) + (s.cold ? ", cold" : "")}});
   return out;
@@ -312,16 +310,6 @@ int main(int argc, char** argv) {
   app.add_option("--steel-friction", s.steel_friction, "friction of rock on steel [1]")->check(coefficient);
   add_pile_flags(app, s.pile);
   add_operation_flags(app, s.operation);
-  app.add_option("--curl", s.curl,
-                 "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")
-      ->check(CLI::IsMember({"hinge", "tip"}))
-      ->capture_default_str();
-  app.add_option(
-         "--lift", s.lift,
-         "the lift aims behind the pile's surface, or along its slope from where the drive-in ended, as in "
-         "Lindmark (2016)")
-      ->check(CLI::IsMember({"surface", "slope"}))
-      ->capture_default_str();
   app.add_option(
          "--setting", s.setting,
          "how cycles are solved: STEPxSUBSTEPSxITERATIONS with the step in ms, +BUDGET for iteration budget "

@@ -12,12 +12,21 @@ void OperationFlags::apply(engine::loading::Scenario& scenario) const {
   scenario = engine::loading::with_speeds(scenario, speeds);
   scenario.executor.moves = engine::loading::operator_named(operated);
   if (curl_hold) scenario.executor.moves.curl_hold = *curl_hold;
+  scenario.curl = engine::loading::curl_named(curl);
+  scenario.lift = engine::loading::lift_named(lift);
+  scenario.executor.progress = engine::loading::progress_named(progress);
+  scenario.machine.arm_drive = engine::loading::arm_drive_named(arm);
 }
 
 std::string in_words(const OperationFlags& flags) {
   std::ostringstream words;
   words << flags.operated;
   if (flags.curl_hold) words << ", curl held by " << *flags.curl_hold;
+  const OperationFlags usual;
+  if (flags.curl != usual.curl) words << ", --curl " << flags.curl;
+  if (flags.lift != usual.lift) words << ", --lift " << flags.lift;
+  if (flags.progress != usual.progress) words << ", --progress " << flags.progress;
+  if (flags.arm != usual.arm) words << ", --arm " << flags.arm;
   return words.str();
 }
 
@@ -37,6 +46,28 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
   app.add_option("--curl-hold", flags.curl_hold,
                  "share of the wheels' torque that holds the loader while the bucket curls; 0: they roll")
       ->check(between(0, 1, "", "leave it out for the operator's"));
+  app.add_option("--curl", flags.curl,
+                 "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")
+      ->check(one_of(engine::loading::curl_names))
+      ->capture_default_str();
+  app.add_option(
+         "--lift", flags.lift,
+         "the lift aims behind the pile's surface, or along its slope from where the drive-in ended, as in "
+         "Lindmark (2016)")
+      ->check(one_of(engine::loading::lift_names))
+      ->capture_default_str();
+  app.add_option(
+         "--progress", flags.progress,
+         "of a stage: along its goal; or as Lindmark (2016) prints it, with which stages end by their "
+         "time limit")
+      ->check(one_of(engine::loading::progress_names))
+      ->capture_default_str();
+  app.add_option(
+         "--arm", flags.arm,
+         "what moves it: cylinders; or motors in its hinges as in Lindmark (2016), without the hydraulics "
+         "of --speeds machine")
+      ->check(one_of(engine::loading::arm_drive_names))
+      ->capture_default_str();
 }
 
 engine::loading::Scenario PileFlags::scenario() const {

@@ -13,16 +13,18 @@ namespace drawpoint::benchmarks {
 
 /// How the loader is driven, by the names of engine/loading/strategy.
 struct OperationFlags {
-  std::string speeds = "lindmark2016", operated = "plan";
+  std::string speeds = "lindmark2016", operated = "plan", curl = "hinge", lift = "surface",
+              progress = "projected", arm = "cylinders";
   std::optional<double> curl_hold;
 
   void apply(engine::loading::Scenario& scenario) const;
 };
 
-/// The operator, and a hold in the curl that was given: "plan, curl held by 0".
+/// The operator, a hold in the curl that was given and the laws that are not the default: "plan, curl held by 0,
+/// --arm hinges".
 std::string in_words(const OperationFlags& flags);
 
-/// --speeds, --operator and --curl-hold.
+/// --speeds, --operator, --curl-hold, and the laws of the operation: --curl, --lift, --progress and --arm.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
 /// The drift and what lies in it; what is not given is the scene's.

@@ -16,6 +16,11 @@ constexpr double own_mass = 4800;  // [kg]
 /// Drawn larger about the foot of the back. Of size 1 it is the point itself, to the bit.
 Vector2d drawn(const Vector2d& point, double size) { return point + (size - 1) * (point - foot_of_back); }
 
+/// Of the floor, which lies inside the profile.
+double floor_section(const std::vector<Vector2d>& profile) {
+  return (profile.front() - profile.back()).norm() * (plate_thickness + plate_thickness / 4) / 2;
+}
+
 double plate_area(const BucketOptions& bucket) {
   const std::vector<Vector2d> profile = bucket_profile(bucket);
   double girth = 0;
@@ -32,12 +37,16 @@ void require_bucket(bool fine, const std::string& name, double value, const std:
 
 }  // namespace
 
+// The section goes with the square of the size, what the floor takes of it with the size: a quadratic equation.
 BucketOptions bucket_of(double width, double heaped_volume) {
-  return {width, std::sqrt(heaped_volume / (width * area(heaped(bucket_profile({})))))};
+  const std::vector<Vector2d> own = bucket_profile({});
+  const double square = area(heaped(own)), floor = floor_section(own);
+  const double wanted = heaped_volume / clear_width({width});
+  return {width, (floor + std::sqrt(floor * floor + 4 * square * wanted)) / (2 * square)};
 }
 
 std::vector<Vector2d> bucket_profile(const BucketOptions& bucket) {
-  std::vector<Vector2d> profile = {{3.85, 0},    {2.85, 1.75}, {2.30, 1.58},
+  std::vector<Vector2d> profile = {{3.85, 0},    {2.95, 1.85}, {2.30, 1.68},
                                    {2.14, 1.15}, {2.16, 0.35}, {2.40, 0}};
   for (Vector2d& point : profile) point = drawn(point, bucket.size);
   return profile;
@@ -57,6 +66,18 @@ double area(const std::vector<Vector2d>& profile) {
   for (std::size_t i = 0, j = profile.size() - 1; i < profile.size(); j = i++)
     twice += profile[j].x() * profile[i].y() - profile[i].x() * profile[j].y();
   return twice / 2;
+}
+
+double clear_width(const BucketOptions& bucket) { return bucket.width - 2 * plate_thickness; }
+
+double struck_volume(const BucketOptions& bucket) {
+  const std::vector<Vector2d> profile = bucket_profile(bucket);
+  return clear_width(bucket) * (area(profile) - floor_section(profile));
+}
+
+double heaped_volume(const BucketOptions& bucket) {
+  const std::vector<Vector2d> profile = bucket_profile(bucket);
+  return clear_width(bucket) * (area(heaped(profile)) - floor_section(profile));
 }
 
 double bucket_mass(const BucketOptions& bucket) { return own_mass * (plate_area(bucket) / plate_area({})); }

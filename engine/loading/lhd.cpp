@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <drawpoint/engine/loading/lhd.hpp>
+#include <stdexcept>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -59,7 +60,7 @@ class Builder {
     lhd_.bucket_width = options.bucket.width;
     lhd_.payload = 21e3;
     lhd_.pin_spacing = 1.2;
-    lhd_.bucket_volume = heaped_volume(lhd_);
+    lhd_.bucket_volume = heaped_volume(options.bucket);
   }
 
   Lhd build() {
@@ -235,10 +236,10 @@ void Builder::add_chassis_surfaces() {
         {wheel, engine::Cylinder{lhd_.tyre_radius, tyre_half_width}, SurfaceKind::tyre, true, "#2a2a2c"});
 }
 
-// Plates of the shell, 8 cm thick, outside the profile but for the floor, whose front edge is a wedge. Two side
+// Plates of the shell, outside the profile but for the floor, whose front edge is a wedge. Two side
 // walls, inside the width, close it.
 void Builder::add_bucket_surfaces() {
-  const double half = lhd_.bucket_width / 2, thickness = 0.08;
+  const double half = lhd_.bucket_width / 2, thickness = plate_thickness;
   const auto& profile = lhd_.bucket_profile;
   const std::size_t n = profile.size();
   for (std::size_t k = 1; k < n; ++k) {
@@ -295,12 +296,16 @@ bool inside_polygon(const std::vector<Vector2d>& polygon, const Vector2d& p) {
 
 }  // namespace
 
+ArmDrive arm_drive_named(const std::string& name) {
+  if (name == "cylinders") return ArmDrive::cylinders;
+  if (name == "hinges") return ArmDrive::hinges;
+  throw std::invalid_argument("loading::arm_drive_named: there is no drive of the arm \"" + name +
+                              "\"; choose cylinders or hinges");
+}
+
 Lhd sandvik_lh621(const LhdOptions& options) { return Builder(options).build(); }
 
 std::vector<Vector2d> heaped_profile(const Lhd& lhd) { return heaped(lhd.bucket_profile); }
-
-double struck_volume(const Lhd& lhd) { return area(lhd.bucket_profile) * lhd.bucket_width; }
-double heaped_volume(const Lhd& lhd) { return area(heaped_profile(lhd)) * lhd.bucket_width; }
 
 bool in_heaped_bucket(const Lhd& lhd, const Vector3d& p_M) {
   return std::abs(p_M.y()) <= lhd.bucket_width / 2 && inside_polygon(heaped_profile(lhd), {p_M.x(), p_M.z()});

@@ -10,6 +10,7 @@
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The load-haul-dump machine of Lindmark (2016), Sandvik LH621 class, as a machine specification with
@@ -34,6 +35,10 @@ enum class ArmDrive {
   cylinders,  ///< velocity motors on the three cylinders, limited by their hydraulics; the machine's (default)
   hinges      ///< velocity motors on the boom and bucket hinges, as Lindmark (2016) has it
 };
+
+/// By name. Throws std::invalid_argument with the names.
+ArmDrive arm_drive_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> arm_drive_names = {"cylinders", "hinges"};
 
 struct LhdOptions {
   ArmDrive arm_drive = ArmDrive::cylinders;
@@ -67,11 +72,11 @@ struct Lhd {
   double tyre_radius;       ///< free radius [m]
   double loaded_radius;     ///< axle height under the machine's own weight [m]
   double bucket_width;      ///< [m]
-  double bucket_volume;     ///< heaped_volume() [m³]
+  double bucket_volume;     ///< heaped_volume() of its bucket, in which plans count [m³]
   double pin_spacing;       ///< between the two pins that hold the bucket, an estimate [m]
   double payload;           ///< rated [kg]
   std::vector<Eigen::Vector2d>
-      bucket_profile;  ///< inside (x, z), reference pose, from K round to K's neighbour [m]
+      bucket_profile;  ///< loading::bucket_profile() of its bucket (x, z), from K round to K's neighbour [m]
   std::vector<LhdSurface> surfaces;
 };
 
@@ -80,13 +85,8 @@ Lhd sandvik_lh621(const LhdOptions& options = {});
 /// The bucket's profile with a 2:1 heap on the plane between the cutting edge and the top lip.
 std::vector<Eigen::Vector2d> heaped_profile(const Lhd& lhd);
 
-/// Area of the profile, and of the heaped one, times the width over the outsides of the walls [m³], as a
-/// bucket's volume is stated here. Walls of 8 cm and the floor's wedge stand inside: rock has 5.72 of the own
-/// bucket's 6.25 m³ struck and 7.25 of its 7.87 m³ heaped, so that a fill by these volumes is low by a twelfth.
-double struck_volume(const Lhd& lhd);
-double heaped_volume(const Lhd& lhd);
-
-/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket.
+/// Whether a point, given in the reference pose's coordinates of the bucket, lies within the heaped bucket, over
+/// its walls too: a rock that rests on one goes along.
 bool in_heaped_bucket(const Lhd& lhd, const Eigen::Vector3d& p_M);
 
 }  // namespace drawpoint::engine::loading

@@ -104,6 +104,12 @@ double LhdDriver::wheel_power() const {
   return sum;
 }
 
+double LhdDriver::wheel_speed() const {
+  double sum = 0;
+  for (int wheel : lhd_.wheels) sum += machine_.speed(wheel) * rolling_radius(wheel);
+  return sum / static_cast<double>(lhd_.wheels.size());
+}
+
 double LhdDriver::lift_speed() const {
   return machine_.speed(lhd_.spec.motors[lhd_.lift_motor].bodies.front());
 }

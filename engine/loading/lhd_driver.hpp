@@ -52,6 +52,7 @@ class LhdDriver {
   double tilt_force() const;    ///< [N] or [N m]
   double wheel_torque() const;  ///< sum over the wheels [N m]
   double wheel_power() const;   ///< what their motors give, turning or spinning [W]
+  double wheel_speed() const;   ///< of the tyres' rims, mean over the wheels, forward positive [m/s]
   double lift_speed() const;    ///< of the first lift motor's joint [m/s] or [rad/s]
   double tilt_speed() const;
 

@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The libraries that the loading case is made with, each with its version, such as "Simbody 3.7.0".
+/// What makes the runs of the loading case: the simulator by a name that changes with what it simulates, and the
+/// libraries that it is made with, each with its version, such as "Simbody 3.7.0".
 
 #include <string>
 #include <vector>
 
 namespace drawpoint::engine::loading {
+
+/// Another one when machine, rock, contacts or responses have changed so that a scenario gives other numbers: a
+/// study does not put the runs of both into one model. 2: the bucket has its stated volume clear of its plates,
+/// and spill that was cleared away counts on.
+inline constexpr const char* simulator = "drawpoint loading, model 2";
 
 std::vector<std::string> libraries();
 

@@ -59,6 +59,7 @@ class LoadingRun {
   std::string time() const { return "t = " + std::to_string(site_.world().time()) + " s"; }
   void call(const std::function<void()>& hook);
   Plan plan(CycleRecord& record) const;
+  void place_machine(const Plan& plan);
   bool stand();
   bool execute(CycleRecord& record);
   bool weigh(CycleRecord& record);
@@ -79,22 +80,22 @@ class LoadingRun {
   SimulationHooks hooks_;
   Site site_;
   LoadingLog log_;
-  SignalRecorder signals_;  // into log_
-  SceneRecorder scene_;     // into log_
-  double cleared_ = 0;
-  double escaped_ = 0;  // mass [kg]
+  SignalRecorder signals_;            // into log_
+  SceneRecorder scene_;               // into log_
+  double cleared_ = 0, escaped_ = 0;  // mass [kg]
+  Spill spill_;
   long steps_ = 0, repeated_ = 0;
   int lost_ = 0, left_out_ = 0;  // cycles
   bool caller_failed_ = false;
   std::size_t most_points_ = 0;
   double largest_overlap_ = 0, largest_loop_error_ = 0;  // over the cycles [m]
-  std::vector<bool> in_front_before_;                    // by rock, before the machine first came
 };
 
 void LoadingRun::sum_up() {
   log_.numbers["lost_cycles"] = lost_;
   log_.numbers["left_out_cycles"] = left_out_;
   log_.numbers["cleared_mass"] = cleared_;
+  log_.numbers["cleared_spill"] = spill_.cleared;
   log_.numbers["escaped_mass"] = escaped_;
   log_.numbers["emitted_mass"] = site_.emitted_mass();
   log_.numbers["present_mass"] = site_.present_mass();
@@ -219,6 +220,13 @@ bool LoadingRun::wait_for_rest() {
   return true;
 }
 
+void LoadingRun::place_machine(const Plan& plan) {
+  const std::vector<bool> in_front = rocks_in_front(site_, columns(true));
+  const std::vector<int> rocks = site_.place_machine(plan.corners[0].x, plan.y);
+  spill_.clear(site_, in_front, rocks);
+  cleared_ += site_.mass_of(rocks);
+}
+
 bool LoadingRun::stand() {
   for (double t = 0; t < LhdDriver::stand_time; t += site_.world().options().step) {
     site_.driver().lower_to_floor();
@@ -256,7 +264,7 @@ bool LoadingRun::execute(CycleRecord& record) {
 // As it lies before the machine comes.
 void LoadingRun::look_at_pile() {
   const ColumnModel model = columns(true);
-  in_front_before_ = rocks_in_front(site_, model);
+  spill_.in_front_before = rocks_in_front(site_, model);
   if (model.rows.empty()) return;
   const SurfaceAngles surface = surface_angles(model);
   log_.numbers["pile_angle_deg"] = surface.mean * 180 / M_PI;
@@ -268,7 +276,7 @@ bool LoadingRun::weigh(CycleRecord& record) {
   for (double t = 0; t < weighing_time; t += site_.world().options().step)
     if (!step()) return false;
   scene_.frame(site_, record.number, "end of cycle");
-  cleared_ += book_load(site_, columns(false), in_front_before_, record);
+  cleared_ += book_load(site_, columns(false), spill_, record);
   return true;
 }
 
@@ -291,9 +299,11 @@ bool LoadingRun::give_up(const CycleRecord& record, const std::string& message) 
   if (caller_failed_ || !record.plan.feasible || cycles_per_lost_one * lost_ > scenario_.cycles)
     return fail(message);
   try {
-    const Site::Load load = site_.load(rocks_in_front(site_, columns(false)));
+    const std::vector<bool> in_front = rocks_in_front(site_, columns(false));
+    const Site::Load load = site_.load(in_front);
+    spill_.clear(site_, in_front, load.elsewhere);
     cleared_ += site_.remove(load.in_bucket) + site_.remove(load.elsewhere);
-    cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
+    place_machine(record.plan);
     return true;
   } catch (const std::exception& error) {
     return fail(message + "; the machine could not be put back: " + error.what());
@@ -315,7 +325,7 @@ bool LoadingRun::run_cycle(CycleRecord& record) {
   record.plan = plan(record);
   if (!record.plan.feasible)
     return fail("cycle " + std::to_string(record.number) + ": " + record.plan.message);
-  cleared_ += site_.place_machine(record.plan.corners[0].x, record.plan.y);
+  place_machine(record.plan);
   if (!stand()) return false;
   record.t_start = site_.world().time();
   if (!execute(record)) return false;

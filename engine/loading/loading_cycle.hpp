@@ -17,7 +17,8 @@
 /// bucket carries is weighed and taken away, spilled rocks stay where they lie, and rocks come down the raise
 /// until the drift holds its first mass again or the raise is blocked; what is missing then comes while the
 /// machine digs. Rocks that lie on the rest of the machine, or where it must stand, are taken away and logged
-/// (`cleared_mass`).
+/// (`cleared_mass`); those of them that the run has spilled count as spill in all later cycles
+/// (`cleared_spill`), as if an operator had pushed them to the wall.
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left
 /// the drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost

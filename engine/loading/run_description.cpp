@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/loading/run_description.h>
+#include <drawpoint/engine/loading/libraries.hpp>
 
 namespace drawpoint::engine::loading {
 
@@ -21,8 +22,8 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"density", s.pile.density},
                  {"payload", lhd.payload},
                  {"bucket_width", lhd.bucket_width},
-                 {"bucket_struck_volume", struck_volume(lhd)},
-                 {"bucket_heaped_volume", heaped_volume(lhd)},
+                 {"bucket_struck_volume", struck_volume(lhd.options.bucket)},
+                 {"bucket_heaped_volume", heaped_volume(lhd.options.bucket)},
                  {"pin_spacing", lhd.pin_spacing},
                  {"tyre_radius", lhd.tyre_radius},
                  {"rock_friction", s.materials.rock_rock.friction},
@@ -64,6 +65,7 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
                {"seed", std::to_string(s.seed)},
                {"lift", s.lift == LiftGoal::behind_surface ? "behind surface" : "along slope"},
+               {"simulator", simulator},
                {"version", DRAWPOINT_VERSION}};
 }
 

@@ -80,15 +80,17 @@ Site::Load Site::load(const std::vector<bool>& free_of_pile) const {
 }
 
 double Site::remove(const std::vector<int>& rocks) {
+  for (int rock : rocks) world_.remove_rock(rock);
+  return mass_of(rocks);
+}
+
+double Site::mass_of(const std::vector<int>& rocks) const {
   double mass = 0;
-  for (int rock : rocks) {
-    mass += world_.rocks()[static_cast<std::size_t>(rock)].body.mass;
-    world_.remove_rock(rock);
-  }
+  for (int rock : rocks) mass += world_.rocks()[static_cast<std::size_t>(rock)].body.mass;
   return mass;
 }
 
-double Site::place_machine(double tip_x, double y, double back) {
+std::vector<int> Site::place_machine(double tip_x, double y, double back) {
   const double half_width = std::max(least_half_width, 0.5 * lhd_.bucket_width + room);
   const auto in_lane = [&](const engine::Rock& rock) {
     return rock.present &&
@@ -101,14 +103,14 @@ double Site::place_machine(double tip_x, double y, double back) {
     const double left = rock.pose.translation().x() - polyhedron(rock).radius() - room;
     if (in_lane(rock) && left < x && left >= nearest) x = left;  // farther rocks are taken away below
   }
-  double cleared = 0;
+  std::vector<int> cleared;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
     const engine::Rock& rock = world_.rocks()[k];
     const double centre = rock.pose.translation().x(), reach = polyhedron(rock).radius() + room;
     if (!in_lane(rock) || centre - reach >= x || centre + reach <= x - machine_length) continue;
-    cleared += rock.body.mass;
-    world_.remove_rock(static_cast<int>(k));
+    cleared.push_back(static_cast<int>(k));
   }
+  remove(cleared);
   driver_.place(x - lhd_.K.x(), y);
   return cleared;
 }

@@ -38,12 +38,13 @@ class Site {
   };
   Load load(const std::vector<bool>& free_of_pile) const;
 
-  double remove(const std::vector<int>& rocks);  ///< returns their mass [kg]
+  double remove(const std::vector<int>& rocks);         ///< returns their mass [kg]
+  double mass_of(const std::vector<int>& rocks) const;  ///< present or not [kg]
 
   /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket
   /// clear of rocks lying in its way (at most `back` [m]). Rocks that would still lie inside the machine are
-  /// taken away; returns their mass [kg].
-  double place_machine(double tip_x, double y, double back = 4.0);
+  /// taken away; returns them.
+  std::vector<int> place_machine(double tip_x, double y, double back = 4.0);
 
   /// Lets rocks come down the raise when it is time, toward the mass at the start; whether any came. Call
   /// once per step while mass is missing.

@@ -120,10 +120,13 @@ void require_simulator(const Study& study) {
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
   const std::string& stored = store.identity().simulator;
   if (stored != study.simulator)
-    refuse_folder(folder,
-                  stored.empty()
-                      ? "its runs were made elsewhere, now they would be by \"" + study.simulator + "\""
-                      : "its runs were made by \"" + stored + "\", now it is \"" + study.simulator + "\"");
+    refuse_folder(
+        folder,
+        stored.empty()
+            ? "its runs name no simulator, because they were made elsewhere or by a version of before it had "
+              "a name; now they would be made by \"" +
+                  study.simulator + "\""
+            : "its runs were made by \"" + stored + "\", now it is \"" + study.simulator + "\"");
 }
 
 void check_options(const Study& study, const OptionValues& given) {

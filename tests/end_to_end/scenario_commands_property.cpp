@@ -10,7 +10,7 @@ using namespace drawpoint::test;
 namespace {
 
 const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY, fill = BUCKET_FILL,
-                  sweep = STRATEGY_SWEEP;
+                  sweep = STRATEGY_SWEEP, ledger = RUN_LEDGER;
 const std::string tiny = pile + " --rocks 40 --settle 60 --steps 20 --dig 20 --json";
 
 using ScenarioCommands = StudyTest;
@@ -139,6 +139,30 @@ TEST_F(ScenarioCommands, FillCountsWhatTheBucketLoads) {
   expect_number(row, "cycle_s", 1, 60);
   expect_number(run.json().at("pile"), "angle_deg", 0, 60);
   EXPECT_EQ(this->run(line).json().at("rows"), run.json().at("rows"));
+}
+
+// Two cycles with the laws of the source: every kilogram is somewhere, but for the round-off of some thousand sums of
+// numbers up to 1e5, and what the motors give is gained or dissipated.
+TEST_F(ScenarioCommands, LedgerAccountsForRockAndWork) {
+  const std::string logs = (dir() / "logs").string();
+  const Ended made = run(fill + " --piles " + (dir() / "piles").string() + " --logs " + logs +
+                         " --mass 12 --seeds 1 --alphas 0.5 --cycles 2 --arm hinges --progress faithful");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto log = std::filesystem::directory_iterator(logs)->path();
+  const Ended run = this->run(ledger + " " + log.string() + " --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json j = run.json();
+  EXPECT_EQ(j.at("cycles").size(), 2);
+  expect_number(j.at("rock"), "missing_kg", -1e-6, 1e-6);
+  const nlohmann::json& energy = j.at("energy");
+  const double gained = energy.at("machine_kJ").get<double>() + energy.at("rock_kJ").get<double>();
+  expect_number(energy, "work_kJ", 1, 1e5);
+  EXPECT_NEAR(energy.at("dissipated_kJ"), energy.at("work_kJ").get<double>() - gained, 1e-6);
+  expect_number(j.at("errors"), "loop_gap_mm", 0, 0.1);
+  EXPECT_TRUE(contains(this->run(ledger + " " + log.string()).out, "missing"));
+  const Ended none = this->run(ledger + " " + (dir() / "none.h5").string());
+  EXPECT_EQ(none.code, 1);
+  EXPECT_TRUE(contains(none.err, "none.h5")) << none.err;
 }
 
 TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {

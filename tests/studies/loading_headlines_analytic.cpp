@@ -98,8 +98,8 @@ TEST_F(LoadingHeadlines, OneCycleTellsNoNoise) {
 TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
   const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
   EXPECT_DOUBLE_EQ(of.at("cycle_time").value, 10);
-  for (const char* name : {"struck_fill", "energy_per_tonne", "tracking_error", "wheel_slip",
-                           "peak_pin_force", "pin_load_range"}) {
+  for (const char* name : {"struck_fill", "energy_per_tonne", "tracking_error", "drive_lag", "wheel_slip",
+                           "peak_bucket_force", "peak_pin_force", "pin_load_range"}) {
     EXPECT_TRUE(std::isnan(of.at(name).value)) << name;
     EXPECT_NE(of.at(name).note.find("lack"), std::string::npos) << name;
   }

@@ -91,6 +91,50 @@ TEST(LoadingScenario, FinerRockIsSolvedAsFarAsTheScenes) {
             0);
 }
 
+TEST(LoadingScenario, TheLawsOfTheSourceAreChosenOneByOne) {
+  const loading::Scenario own = with({}), source = with({{"curl", "tip"},
+                                                         {"lift", "slope"},
+                                                         {"progress", "faithful"},
+                                                         {"arm", "hinges"}});
+  EXPECT_EQ(own.curl, loading::CurlMode::hinge_G);
+  EXPECT_EQ(own.lift, loading::LiftGoal::behind_surface);
+  EXPECT_EQ(own.executor.progress.mode, loading::ProgressMode::projected);
+  EXPECT_EQ(own.machine.arm_drive, loading::ArmDrive::cylinders);
+  EXPECT_EQ(source.curl, loading::CurlMode::tip_fixed);
+  EXPECT_EQ(source.lift, loading::LiftGoal::along_slope);
+  EXPECT_EQ(source.executor.progress.mode, loading::ProgressMode::faithful);
+  EXPECT_EQ(source.executor.progress.velocity_floor, 0);
+  EXPECT_EQ(source.machine.arm_drive, loading::ArmDrive::hinges);
+}
+
+TEST(LoadingScenario, AHigherPileIsSolvedAsFarAsTheScenes) {
+  const loading::Scenario s = with({{"scene", "lindmark2016"}, {"pile-mass", "800"}}),
+                          scene = with({{"scene", "lindmark2016"}});
+  EXPECT_EQ(s.pile.mass, 800e3);
+  EXPECT_NEAR(static_cast<double>(s.world.solver.iteration_budget),
+              static_cast<double>(scene.world.solver.iteration_budget) * 800 / 290, 0.5);
+}
+
+TEST(LoadingScenario, DamageIsThatOfTheWholeTorqueOrOfItsTwist) {
+  EXPECT_EQ(damage_options({}).component, loading::TorqueComponent::all);
+  EXPECT_EQ(damage_options({{"damage", "all"}}).component, loading::TorqueComponent::all);
+  EXPECT_EQ(damage_options({{"damage", "twisting"}}).component, loading::TorqueComponent::twisting);
+}
+
+TEST(LoadingScenario, WhatCannotGoTogetherIsRefused) {
+  const auto complaint = [](const OptionValues& given) {
+    return loading_options_complaint(with_defaults(loading_options(), given));
+  };
+  EXPECT_EQ(complaint({{"pile-mass", "10"}}), "");
+  EXPECT_EQ(complaint({{"pile-mass", "9"}}),
+            "--pile-mass 9: allowed are 10 t (a bucket load) to 10 000 t, or 0 for the scene's");
+  EXPECT_EQ(complaint({{"arm", "hinges"}}), "");
+  EXPECT_EQ(
+      complaint({{"arm", "hinges"}, {"speeds", "machine"}}),
+      "--arm hinges with the speeds of the machine: its pump drives cylinders, and motors in the hinges "
+      "know none; give --arm cylinders, or --speeds lindmark2016");
+}
+
 TEST(LoadingScenario, EveryValueThatIsOfferedMakesAScenario) {
   EXPECT_NO_THROW(check(loading_options()));
   for (const StudyOption& option : loading_options())

@@ -24,7 +24,8 @@ struct CycleRecord {
   double t_start = 0, t_end = 0;  ///< start of stage 1, end of stage 4 [s]
   double loaded_mass = 0;         ///< that the bucket carries once it stands, in its heap or on it [kg]
   double front_mass = 0;          ///< in front of the pile at the end of the cycle [kg]
-  double spilled_mass = 0;        ///< of that, rocks that did not lie there before the run [kg]
+  /// Of that, rocks that did not lie there before the run, and such as were cleared out of its way since [kg].
+  double spilled_mass = 0;
   std::vector<double> loaded_rock_masses;  ///< [kg]
   Plan plan;
   std::vector<StageResult> stages;

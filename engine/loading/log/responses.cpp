@@ -48,6 +48,13 @@ double magnitude(const Vector3d& torque, TorqueComponent component) {
 
 }  // namespace
 
+TorqueComponent torque_component_named(const std::string& name) {
+  if (name == "all") return TorqueComponent::all;
+  if (name == "twisting") return TorqueComponent::twisting;
+  throw std::invalid_argument("loading::torque_component_named: there is no part of the torque \"" + name +
+                              "\"; choose all or twisting");
+}
+
 std::vector<double> production_by_cycle(const LoadingLog& log, const ProductionOptions& options) {
   require_cycles(log, "production");
   if (!(options.haul >= 0))

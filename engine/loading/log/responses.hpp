@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <string>
+#include <string_view>
 
 /// The three responses of the loading study and what tells how far to trust them, pure functions of a run
 /// log. All throw std::invalid_argument when the log lacks what they need.
@@ -21,7 +24,7 @@
 ///
 /// rock_spill: c₃ = mean over cycles of m_spill / m_max [1], m_spill the rocks in front of the pile after the
 /// cycle that this run left there: what lay there before the machine first came does not count. Rocks that
-/// stay count again after each cycle; those that are cleared away for the machine no longer do. Source:
+/// stay count again after each cycle, and so do those that are cleared out of the machine's way. Source:
 /// Lindmark 2016, equations 54-56; aggregation and filter are ours, Lindmark (2016) is silent.
 namespace drawpoint::engine::loading {
 
@@ -33,6 +36,10 @@ struct ProductionOptions {
 };
 
 enum class TorqueComponent { all, twisting };
+/// By name. Throws std::invalid_argument with the names.
+TorqueComponent torque_component_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> torque_component_names = {"all", "twisting"};
+
 enum class DamageSum { whole_run, per_cycle };
 
 struct DamageOptions {

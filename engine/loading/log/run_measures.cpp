@@ -105,6 +105,33 @@ double damage_along(const Eigen::Vector2d& direction, const std::vector<Eigen::V
   return miner_sum(rainflow(history), exponent);
 }
 
+// Of the magnitude of a vector that is logged by its components, low-passed [kN].
+std::vector<double> peaks_by_cycle(const LoadingLog& log, const std::string& name, double lowpass_hz) {
+  require_measured_cycles(log);
+  require_filter(("peak of " + name).c_str(), lowpass_hz);
+  const CycleSamples samples(log);
+  LowPassedVector force(log, name, lowpass_hz);
+  std::vector<double> peaks(log.cycles.size());
+  for (std::size_t row = 0; row < samples.rows(); ++row) {
+    const double magnitude = force.next(samples).norm() / 1000;
+    if (const auto cycle = samples.cycle(row)) peaks[*cycle] = std::max(peaks[*cycle], magnitude);
+  }
+  return peaks;
+}
+
+// Of what a row gives, and 1 where it counts, over the time in which the drive is set forward.
+std::vector<double> means_while_driving(const LoadingLog& log,
+                                        const std::function<Pair(std::size_t row)>& of_row) {
+  const record::Table& s = log.signals;
+  const std::size_t set = s.index("drive_set");
+  std::vector<double> means;
+  for (const auto& [sum, time] : integrals(log, [&](std::size_t row, std::size_t) -> Pair {
+         return s.at(row, set) > least_drive ? of_row(row) : Pair{0, 0};
+       }))
+    means.push_back(time > 0 ? sum / time : 0);
+  return means;
+}
+
 void require_plans(const LoadingLog& log) {
   for (const CycleRecord& cycle : log.cycles)
     if (cycle.planned_x.size() < 3 || cycle.planned_z.size() != cycle.planned_x.size())
@@ -170,29 +197,29 @@ std::vector<double> tracking_error_by_cycle(const LoadingLog& log) {
   return errors;
 }
 
-std::vector<double> wheel_slip_by_cycle(const LoadingLog& log) {
+std::vector<double> drive_lag_by_cycle(const LoadingLog& log) {
   const record::Table& s = log.signals;
   const std::size_t set = s.index("drive_set"), speed = s.index("drive_speed");
-  const auto of_row = [&](std::size_t row, std::size_t) -> Pair {
-    if (!(s.at(row, set) > least_drive)) return {0, 0};
+  return means_while_driving(log, [&](std::size_t row) -> Pair {
     return {1 - s.at(row, speed) / s.at(row, set), 1};
-  };
-  std::vector<double> slips;
-  for (const auto& [slip, time] : integrals(log, of_row)) slips.push_back(time > 0 ? slip / time : 0);
-  return slips;
+  });
+}
+
+std::vector<double> wheel_slip_by_cycle(const LoadingLog& log) {
+  const record::Table& s = log.signals;
+  const std::size_t rims = s.index("wheel_speed"), speed = s.index("drive_speed");
+  return means_while_driving(log, [&](std::size_t row) -> Pair {
+    if (!(s.at(row, rims) > least_drive)) return {0, 0};
+    return {1 - s.at(row, speed) / s.at(row, rims), 1};
+  });
+}
+
+std::vector<double> peak_bucket_force_by_cycle(const LoadingLog& log, double lowpass_hz) {
+  return peaks_by_cycle(log, "bucket_force", lowpass_hz);
 }
 
 std::vector<double> peak_pin_force_by_cycle(const LoadingLog& log, double lowpass_hz) {
-  require_measured_cycles(log);
-  require_filter("peak_pin_force", lowpass_hz);
-  const CycleSamples samples(log);
-  LowPassedVector force(log, "hinge_G_force", lowpass_hz);
-  std::vector<double> peaks(log.cycles.size());
-  for (std::size_t row = 0; row < samples.rows(); ++row) {
-    const double magnitude = force.next(samples).norm() / 1000;
-    if (const auto cycle = samples.cycle(row)) peaks[*cycle] = std::max(peaks[*cycle], magnitude);
-  }
-  return peaks;
+  return peaks_by_cycle(log, "hinge_G_force", lowpass_hz);
 }
 
 double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options) {
@@ -217,6 +244,10 @@ double solid_fill(const LoadingLog& log) { return mean_over_cycles(solid_fill_by
 double struck_fill(const LoadingLog& log) { return solid_fill(log) / (1 - loose_ore_porosity); }
 double tracking_error(const LoadingLog& log) { return mean_over_cycles(tracking_error_by_cycle(log)); }
 double wheel_slip(const LoadingLog& log) { return mean_over_cycles(wheel_slip_by_cycle(log)); }
+double drive_lag(const LoadingLog& log) { return mean_over_cycles(drive_lag_by_cycle(log)); }
+double peak_bucket_force(const LoadingLog& log, double lowpass_hz) {
+  return mean_over_cycles(peak_bucket_force_by_cycle(log, lowpass_hz));
+}
 double peak_pin_force(const LoadingLog& log, double lowpass_hz) {
   return mean_over_cycles(peak_pin_force_by_cycle(log, lowpass_hz));
 }

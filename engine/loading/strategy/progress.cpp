@@ -4,6 +4,7 @@
 #include <cmath>
 #include <drawpoint/engine/loading/strategy/progress.hpp>
 #include <numbers>
+#include <stdexcept>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -18,6 +19,13 @@ ProgressOptions faithful_progress() {
           .angle_length = 1.0,
           .velocity_floor = 0,
           .tolerance = 0};
+}
+
+ProgressOptions progress_named(const std::string& name) {
+  if (name == "projected") return {};
+  if (name == "faithful") return faithful_progress();
+  throw std::invalid_argument("loading::progress_named: there is no progress \"" + name +
+                              "\"; choose projected or faithful");
 }
 
 double progress(const StageGoal& goal, const TipPose& start, const TipPose& now,

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <drawpoint/engine/loading/strategy/trajectory.hpp>
+#include <string>
+#include <string_view>
 
 /// How far a stage has come, and how fast to go on.
 ///
@@ -35,6 +38,9 @@ struct ProgressOptions {
 
 /// As Lindmark (2016) prints it: stages 2 to 4 then end by their time limit.
 ProgressOptions faithful_progress();
+/// "projected": the default; "faithful": faithful_progress(). Throws std::invalid_argument with the names.
+ProgressOptions progress_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> progress_names = {"projected", "faithful"};
 
 /// s [1]; 1 for a goal of no displacement.
 double progress(const StageGoal& goal, const TipPose& start, const TipPose& now,

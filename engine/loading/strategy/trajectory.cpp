@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/strategy/trajectory.hpp>
+#include <stdexcept>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -28,6 +29,19 @@ StageGoal toward(const TipPose& place, const TipPose& now) {
 }
 
 }  // namespace
+
+CurlMode curl_named(const std::string& name) {
+  if (name == "hinge") return CurlMode::hinge_G;
+  if (name == "tip") return CurlMode::tip_fixed;
+  throw std::invalid_argument("loading::curl_named: there is no curl \"" + name + "\"; choose hinge or tip");
+}
+
+LiftGoal lift_named(const std::string& name) {
+  if (name == "surface") return LiftGoal::behind_surface;
+  if (name == "slope") return LiftGoal::along_slope;
+  throw std::invalid_argument("loading::lift_named: there is no goal of the lift \"" + name +
+                              "\"; choose surface or slope");
+}
 
 std::array<TipPose, 5> corner_points(const Plan& plan, double standoff, const ArmGeometry& arm) {
   const TipPose A{.x = plan.toe - standoff};

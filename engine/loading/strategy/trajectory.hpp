@@ -22,12 +22,19 @@ enum class CurlMode {
   tip_fixed  ///< as Lindmark (2016) has it: the tip stays and G sinks, which a low tip forbids
 };
 
+/// By name. Throws std::invalid_argument with the names, as the others below.
+CurlMode curl_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> curl_names = {"hinge", "tip"};
+
 /// Where stage 2 aims.
 enum class LiftGoal {
   behind_surface,  ///< at C, as deep behind the pile's surface as planned, from wherever stage 1 ended
                    ///< (default)
   along_slope      ///< by (h / tan θ, h) from where stage 1 ended, as Lindmark (2016) has it
 };
+
+LiftGoal lift_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> lift_names = {"surface", "slope"};
 
 struct Plan {
   bool feasible = false;  ///< false: see message; the numbers are then not to be used

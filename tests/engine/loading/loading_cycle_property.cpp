@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/loading/load_booking.h>
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/energy_balance.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
+#include <drawpoint/engine/loading/pile_shape.hpp>
 #include <drawpoint/engine/loading/pile_store.hpp>
 #include <drawpoint/engine/record/file.hpp>
 
@@ -71,7 +73,7 @@ TEST(LoadingCycle, EveryNumberOfTheLogSaysWhatItIs) {
 
 // Bounds that any loading cycle keeps: solid rock fills no more than the heaped bucket; to bring a tonne to
 // the end of the cycle takes less than to lift it by 100 m; the tip stays within a bucket's length of its
-// plan.
+// plan; the bucket is pushed by more than it carries.
 TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
   const LoadingLog& log = cycle_log();
   ASSERT_TRUE(log.completed) << log.message;
@@ -81,7 +83,9 @@ TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
   EXPECT_LT(energy_per_tonne(log), 9.81 * 100);
   EXPECT_GT(tracking_error(log), 0);
   EXPECT_LT(tracking_error(log), 1.9);
-  EXPECT_LT(wheel_slip(log), 1);
+  EXPECT_LT(drive_lag(log), 1);
+  EXPECT_LT(wheel_slip(log), drive_lag(log));
+  EXPECT_GT(peak_bucket_force(log), 9.81e-3 * log.cycles[0].loaded_mass);
   EXPECT_GT(peak_pin_force(log), 9.81e-3 * log.cycles[0].loaded_mass);  // it carries the load [kN]
 }
 
@@ -390,6 +394,33 @@ TEST(LoadingCycle, SpillIsWhatTheRunLeft) {
   EXPECT_GE(cycle.spilled_mass, 0);
   EXPECT_DOUBLE_EQ(rock_spill(log), cycle.spilled_mass / 10e3);
   EXPECT_EQ(log.texts.at("pile_provenance"), pile.provenance);
+}
+
+// A rock that the run left in the machine's way is cleared and stays spill; one that lay there before is none.
+TEST(LoadingCycle, SpillThatIsClearedCountsOn) {
+  const Scenario scenario = small_case();
+  SettledPile pile = prepared_pile(scenario);
+  granular::PlacedRock stray{{0, 0.4}, Eigen::Isometry3d::Identity()};
+  stray.pose.translation() = Eigen::Vector3d(3, 0, 0.2);
+  pile.rocks.push_back(stray);
+  Site site(scenario, pile);
+  const auto model = [&] { return columns_of(site.rocks(true), scenario, site.lhd()); };
+  const std::vector<bool> in_front = rocks_in_front(site, model());
+  ASSERT_TRUE(in_front.back());
+  const std::vector<int> cleared = site.place_machine(5, 0, 0);
+  ASSERT_EQ(cleared, std::vector<int>{static_cast<int>(pile.rocks.size()) - 1});
+  const double mass = site.mass_of(cleared);
+
+  Spill none{.in_front_before = in_front}, all;
+  none.clear(site, in_front, cleared);
+  all.clear(site, in_front, cleared);
+  EXPECT_EQ(none.cleared, 0);
+  EXPECT_EQ(all.cleared, mass);
+  CycleRecord with, without;
+  book_load(site, model(), none, without);
+  book_load(site, model(), all, with);
+  EXPECT_DOUBLE_EQ(with.spilled_mass, without.spilled_mass + mass);
+  EXPECT_EQ(with.front_mass, without.front_mass) << "it is not there any more";
 }
 
 TEST(LoadingCycle, ScenesHaveNames) {

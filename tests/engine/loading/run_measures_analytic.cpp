@@ -39,6 +39,10 @@ constexpr const char* names[] = {"time",
                                  "hinge_G_torque_y",
                                  "hinge_G_torque_z",
                                  "wheel_power",
+                                 "wheel_speed",
+                                 "bucket_force_x",
+                                 "bucket_force_y",
+                                 "bucket_force_z",
                                  "machine_energy",
                                  "rock_energy"};
 using Row = std::map<std::string, double>;
@@ -113,13 +117,38 @@ TEST(RunMeasures, TrackingErrorIsTheDistanceFromThePath) {
 
 // Half the set speed for half of the time, all of it for the rest; a set speed that is next to nothing, or
 // backward, is left out.
-TEST(RunMeasures, SlipIsTheSpeedThatIsMissing) {
+TEST(RunMeasures, LagIsTheSetSpeedThatIsMissing) {
   const LoadingLog log = log_with([](double t, int cycle) {
     if (cycle == 2) return Row{{"drive_set", t < 0.5 ? 0.04 : -1.0}};
     return Row{{"drive_set", 2}, {"drive_speed", t < 0.5 + h / 2 ? 1.0 : 2.0}};
   });
-  EXPECT_NEAR(wheel_slip_by_cycle(log)[0], 0.25, round_off);
+  EXPECT_NEAR(drive_lag_by_cycle(log)[0], 0.25, round_off);
+  EXPECT_EQ(drive_lag_by_cycle(log)[1], 0);
+}
+
+// Rims that run at 2 m/s on a machine at 1.5 slip by a quarter; wheels that are held up by the rock, at 0.5 m/s as the
+// machine, or stand, do not, however much the set speed is missed.
+TEST(RunMeasures, SlipIsTheRimsSpeedThatIsMissing) {
+  const LoadingLog log = log_with([](double t, int cycle) {
+    const bool first = t < 0.5 + h / 2;
+    if (cycle == 2)
+      return Row{{"drive_set", 2}, {"wheel_speed", first ? 0.0 : 0.5}, {"drive_speed", first ? 0.0 : 0.5}};
+    return Row{{"drive_set", 2}, {"wheel_speed", 2}, {"drive_speed", first ? 1.5 : 2.0}};
+  });
+  EXPECT_NEAR(wheel_slip_by_cycle(log)[0], 0.125, round_off);
   EXPECT_EQ(wheel_slip_by_cycle(log)[1], 0);
+  EXPECT_NEAR(wheel_slip(log), 0.0625, round_off);
+  EXPECT_NEAR(drive_lag(log), (0.125 + 0.875) / 2, round_off);
+}
+
+// The largest of 13 = √(3² + 4² + 12²) kN and of 5 kN before it.
+TEST(RunMeasures, BucketForceIsItsMagnitude) {
+  const LoadingLog log = log_with([](double t, int) {
+    if (t < 0.5) return Row{{"bucket_force_y", -5e3}};
+    return Row{{"bucket_force_x", -3e3}, {"bucket_force_y", 4e3}, {"bucket_force_z", -12e3}};
+  });
+  EXPECT_NEAR(peak_bucket_force_by_cycle(log, 0)[0], 13, 13 * round_off);
+  EXPECT_NEAR(peak_bucket_force(log, 0), 13, 13 * round_off);
 }
 
 // Of a step from 0 to (30, 0, 40) kN after the first sample: 50 (1 − qⁿ) after n = 99 samples, q = exp(−2π f h).
@@ -143,7 +172,9 @@ TEST(RunMeasures, SayWhatIsMissing) {
   support::expect_told<std::invalid_argument>([&] { tracking_error(log); }, {"planned path"});
   support::expect_told<std::invalid_argument>([&] { peak_pin_force(log, -1); }, {"lowpass_hz [Hz] is -1"});
   log.signals.columns[5].name = "something";
-  support::expect_told<std::invalid_argument>([&] { wheel_slip(log); }, {"no column \"drive_set\""});
+  support::expect_told<std::invalid_argument>([&] { drive_lag(log); }, {"no column \"drive_set\""});
+  log.signals.columns[19].name = "other";
+  support::expect_told<std::invalid_argument>([&] { wheel_slip(log); }, {"no column \"wheel_speed\""});
   support::expect_told<std::invalid_argument>([] { cycle_time(LoadingLog()); }, {"the log has no cycle"});
 }
 

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
+#include <drawpoint/engine/loading/log/energy_balance.hpp>
+#include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <numeric>
+
+#include "command.hpp"
+
+/// What a run's log must account for: every kilogram of rock, every joule of the motors, and how far constraints and
+/// contacts were off. See --help.
+using namespace drawpoint;
+using namespace drawpoint::benchmarks;
+using namespace drawpoint::engine::loading;
+
+namespace {
+
+constexpr const char* about =
+    "Reads the log of a loading run and prints what it has to account for, per cycle and in all:\n"
+    "  rock    at first, emitted, loaded, cleared away, escaped, present at the end, and what is missing in "
+    "that sum;\n"
+    "          a cycle that was lost gives its load to what was cleared away\n"
+    "  energy  of the motors of lift, tilt and wheels; gained by machine and rock; the rest is dissipated\n"
+    "  errors  deepest overlap of a rock, widest gap of a loop of the linkage, steps that had to be done "
+    "again\n\n"
+    "  run_ledger results/lhd_loading/logs/run_0001.h5\n"
+    "  bucket_fill --piles /tmp/piles --cycles 30 --alphas 1 --seeds 1 --logs /tmp/logs; run_ledger "
+    "/tmp/logs/*.h5";
+
+double number(const LoadingLog& log, const char* name) {
+  const auto found = log.numbers.find(name);
+  if (found == log.numbers.end())
+    throw std::runtime_error(std::string("the log has no number \"") + name +
+                             "\"; give one of this version or one before it that has");
+  return found->second;
+}
+
+nlohmann::json rock_of(const LoadingLog& log) {
+  const double loaded =
+      std::accumulate(log.cycles.begin(), log.cycles.end(), 0.0,
+                      [](double sum, const CycleRecord& cycle) { return sum + cycle.loaded_mass; });
+  const double first = number(log, "pile_mass"), emitted = number(log, "emitted_mass"),
+               cleared = number(log, "cleared_mass"), escaped = number(log, "escaped_mass"),
+               present = number(log, "present_mass");
+  return {{"first_kg", first},
+          {"emitted_kg", emitted},
+          {"loaded_kg", loaded},
+          {"cleared_kg", cleared},
+          {"escaped_kg", escaped},
+          {"present_kg", present},
+          {"missing_kg", first + emitted - loaded - cleared - escaped - present}};
+}
+
+nlohmann::json energy_of(const EnergyBalance& balance) {
+  return {{"work_kJ", balance.work},
+          {"machine_kJ", balance.machine},
+          {"rock_kJ", balance.rock},
+          {"dissipated_kJ", balance.dissipated}};
+}
+
+nlohmann::json cycles_of(const LoadingLog& log) {
+  nlohmann::json cycles = nlohmann::json::array();
+  const std::vector<EnergyBalance> balances = energy_balance_by_cycle(log);
+  for (std::size_t k = 0; k < log.cycles.size(); ++k) {
+    const CycleRecord& cycle = log.cycles[k];
+    nlohmann::json row = energy_of(balances[k]);
+    row.update({{"cycle", cycle.number},
+                {"seconds", cycle.t_end - cycle.t_start},
+                {"loaded_kg", cycle.loaded_mass},
+                {"spilled_kg", cycle.spilled_mass}});
+    cycles.push_back(row);
+  }
+  return cycles;
+}
+
+nlohmann::json ledger(const LoadingLog& log) {
+  EnergyBalance sum;
+  for (const EnergyBalance& balance : energy_balance_by_cycle(log)) {
+    sum.work += balance.work;
+    sum.machine += balance.machine;
+    sum.rock += balance.rock;
+    sum.dissipated += balance.dissipated;
+  }
+  return {{"completed", log.completed},
+          {"message", log.message},
+          {"cycles", cycles_of(log)},
+          {"rock", rock_of(log)},
+          {"energy", energy_of(sum)},
+          {"errors",
+           {{"overlap_mm", 1e3 * number(log, "largest_overlap")},
+            {"loop_gap_mm", 1e3 * number(log, "largest_loop_error")},
+            {"repeated_steps", number(log, "repeated_steps")},
+            {"lost_cycles", number(log, "lost_cycles")}}}};
+}
+
+double of(const nlohmann::json& j, const char* key) { return j.at(key).get<double>(); }
+
+void print(const nlohmann::json& j) {
+  std::printf("cycle  time s  loaded kg  spilled kg  work kJ  machine kJ  rock kJ  dissipated kJ\n");
+  for (const auto& c : j.at("cycles"))
+    std::printf("%5d  %6.1f  %9.0f  %10.0f  %7.0f  %10.0f  %7.0f  %13.0f\n", c.at("cycle").get<int>(),
+                of(c, "seconds"), of(c, "loaded_kg"), of(c, "spilled_kg"), of(c, "work_kJ"),
+                of(c, "machine_kJ"), of(c, "rock_kJ"), of(c, "dissipated_kJ"));
+  const auto &rock = j.at("rock"), &energy = j.at("energy"), &errors = j.at("errors");
+  std::printf(
+      "rock: %.0f kg at first + %.0f emitted - %.0f loaded - %.0f cleared - %.0f escaped = %.0f present, "
+      "missing %.2g "
+      "kg\n",
+      of(rock, "first_kg"), of(rock, "emitted_kg"), of(rock, "loaded_kg"), of(rock, "cleared_kg"),
+      of(rock, "escaped_kg"), of(rock, "present_kg"), of(rock, "missing_kg"));
+  std::printf("energy: %.0f kJ of the motors = %.0f to the machine + %.0f to the rock + %.0f dissipated\n",
+              of(energy, "work_kJ"), of(energy, "machine_kJ"), of(energy, "rock_kJ"),
+              of(energy, "dissipated_kJ"));
+  std::printf("errors: overlap %.1f mm, gap of a loop %.2g mm, %.0f steps done again, %.0f cycles lost\n",
+              of(errors, "overlap_mm"), of(errors, "loop_gap_mm"), of(errors, "repeated_steps"),
+              of(errors, "lost_cycles"));
+  if (!j.at("completed").get<bool>())
+    std::printf("the run did not complete: %s\n", j.at("message").get<std::string>().c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string path;
+  bool json = false;
+  CLI::App app(about, "run_ledger");
+  app.add_option("LOG_FILE", path, "of a loading run (HDF5)")->required();
+  add_json_flag(app, json);
+  return run_command(app, argc, argv, [&] { return show(ledger(read_log(path)), json, print); });
+}
