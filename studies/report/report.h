@@ -11,6 +11,7 @@
 /// objective, no successful run. studies::Study lists the kinds of figures ("panels") of a simulation.
 
 #include <drawpoint/studies/report/checked_runs.h>
+#include <drawpoint/studies/report/front_uncertainty.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
@@ -43,6 +44,7 @@ struct ReportInput {
   pareto::Front front;                           ///< found on the models; no rows when there is none
   std::string no_front = {};                     ///< why there is none; empty where there is one
   Eigen::VectorXd success = {};        ///< of a run at each point of the front; empty: no run failed
+  FrontUncertainty uncertainty = {};   ///< of the front
   CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated
   std::string confirming = "confirm";  ///< the command that has them simulated
   pareto::Polishing polishing;         ///< of the front

@@ -189,6 +189,16 @@ bool is_poor(const ReportInput& input, std::size_t response) {
 
 /// "alpha for production, beta for spill", of the responses whose surrogates are good enough to say so.
 std::string drivers(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
+/// How much of the front would stay if the surrogates knew the means.
+std::string certainty_sentence(const ReportInput& input) {
+  const Eigen::VectorXd& known = input.uncertainty.non_dominated;
+  if (known.size() == 0) return "";
+  return "As sure as the surrogates are of the means of many runs, " +
+         std::to_string((known.array() >= 0.5).count()) + " of these " +
+         counted(static_cast<std::size_t>(known.size()), "point") +
+         " are non-dominated with a chance of one half or more.";
+}
+
   std::string text;
   for (std::size_t j = 0; j < influence.size(); ++j) {
     Eigen::Index k = 0;
@@ -227,6 +237,8 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
   if (input.problem.variables.size() > 1 && !driving.empty()) all.push_back(driving);
   return all;
 }
+    if (const std::string sure = certainty_sentence(input); chosen.size() > 1 && !sure.empty())
+      all.push_back(sure);
 
 /// Of the typical error, what single runs scatter by: more cycles or replicates help against that, more runs
 /// against the rest. Nothing where it does not count.

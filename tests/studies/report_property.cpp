@@ -189,6 +189,24 @@ TEST_F(Report, SaysHowLikelyARunSucceeds) {
   support::expect_told([&] { written(in); }, {"5 probabilities of success for 8 points of the front"});
 }
 
+TEST_F(Report, SaysHowSureTheFrontIs) {
+  ReportInput in = input(2, 2, 8, 0);
+  EXPECT_TRUE(written(in).at("front").at("non_dominated").empty());
+  in.uncertainty.non_dominated = Eigen::VectorXd::LinSpaced(8, 0.25, 1.0);
+  const double never = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d at(1, 2), best(3, 4), middle(5, 6), worst(7, never);
+  in.uncertainty.bands = {{0, 1, at, best, middle, worst}};
+  const auto front = written(in).at("front");
+  EXPECT_EQ(front.at("non_dominated").at(0), 0.25);
+  EXPECT_TRUE(mentions(written(in).at("summary").at("sentences"), "5 of these 8 points are non-dominated"));
+  EXPECT_EQ(front.at("bands").at(0).at("second"), 1);
+  EXPECT_EQ(front.at("bands").at(0).at("optimistic"), nlohmann::json({3.0, 4.0}));
+  EXPECT_EQ(front.at("bands").at(0).at("pessimistic").at(0), 7.0);
+  EXPECT_TRUE(front.at("bands").at(0).at("pessimistic").at(1).is_null());
+  in.uncertainty.non_dominated.resize(5);
+  support::expect_told([&] { written(in); }, {"5 probabilities of being non-dominated for 8 points"});
+}
+
 TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
   ReportInput in = input(2, 2, 8, 0);
   const auto said = [&](const std::string& part) {
