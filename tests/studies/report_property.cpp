@@ -256,6 +256,29 @@ TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
   EXPECT_TRUE(said("promised what simulation did not keep"));
 }
 
+// Of y0 = 1, 2, ... 8 the limit at 3.5 lets three through, and the best of y1 among these counts.
+TEST_F(Report, MarksRunsThatBreakALimit) {
+  ReportInput in = input(2, 2, 8, 0);
+  for (const auto& row : written(in).at("training").at("rows")) EXPECT_TRUE(row.at("breaks").empty());
+  in.problem.responses[0].goal = doe::Goal::at_most;
+  in.problem.responses[0].limit = 3.5;
+  in.training.problem = in.problem;
+  for (int i = 0; i < 8; ++i)
+    in.training.rows[static_cast<std::size_t>(i)].outcome =
+        doe::Outcome(Eigen::VectorXd(Eigen::Vector2d(1.0 + i, 8.0 - i)));
+  in.training.rows[1].outcome = doe::Failure{"stuck"};
+  in.front.Y = in.front.Y.col(1).eval();
+  const auto data = written(in);
+  const auto& rows = data.at("training").at("rows");
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(rows.at(i).at("breaks"), i < 3 ? nlohmann::json::array() : nlohmann::json({0})) << i;
+  EXPECT_TRUE(mentions(data.at("summary").at("sentences"),
+                       "the best run simulated so far that keeps all limits reached 6.00 s (run 2)"));
+  EXPECT_TRUE(mentions(data.at("summary").at("sentences"),
+                       "The lowest y1 within the limits that the surrogates predict"));
+  EXPECT_EQ(data.at("summary").at("cards").at(0).at("label"), "Lowest y1 predicted within the limits");
+}
+
 TEST_F(Report, SaysThatAllRunsFailed) {
   const auto data = written(failed_input());
   EXPECT_TRUE(data.at("models").empty());

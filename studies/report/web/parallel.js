@@ -8,7 +8,7 @@ import {download} from './delimited.js';
 import {pretty} from './format.js';
 import {oncePerFrame, whenResting} from './frames.js';
 import {axesSvg, brush, placed} from './parallel_axes.js';
-import {asSvg, dimmedLines, drawnAs, lineCount, many, paint, selectedLines} from './parallel_lines.js';
+import {asSvg, colourOf, dimmedLines, drawnAs, isDashed, lineCount, many, paint, selectedLines} from './parallel_lines.js';
 import {fileName} from './plot.js';
 import {rangeForm} from './range_form.js';
 import {colour, onPaper, onTheme} from './theme.js';
@@ -38,8 +38,8 @@ function clearButton(selection) {
 function legend(designs) {
   const counts = new Map();
   for (const name of ['runs', 'front'].flatMap((set) => drawnAs(designs, set))) counts.set(name, (counts.get(name) ?? 0) + 1);
-  const swatches = [...counts].map(([kind, count]) => ({kind, swatch: el('i', {class: 'swatch'}), count}));
-  const tint = () => swatches.forEach(({kind, swatch}) => { swatch.style.background = colour[kind] ?? colour.training; });
+  const swatches = [...counts].map(([kind, count]) => ({kind, swatch: el('i', {class: isDashed(kind) ? 'swatch dashed' : 'swatch'}), count}));
+  const tint = () => swatches.forEach(({kind, swatch}) => { swatch.style.color = colourOf(kind); });
   onTheme(tint);
   tint();
   return el('div', {class: 'legend'}, swatches.map(({kind, swatch, count}) => el('span', {}, swatch, `${pretty(kind)} ${count}`)));

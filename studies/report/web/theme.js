@@ -20,6 +20,12 @@ export const colour = {...light};
 export const series = [...lightSeries];
 export const scale = 'Viridis';
 
+/// What '#rrggbb' over paper looks like with an opacity, as an opaque colour.
+export const faded = (hex, opacity) => `rgb(${[1, 3, 5].map((i) => Math.round(opacity * parseInt(hex.slice(i, i + 2), 16) + (1 - opacity) * parseInt(colour.paper.slice(i, i + 2), 16))).join(',')})`;
+
+/// '#rrggbb' with an opacity.
+export const translucent = (hex, opacity) => `rgba(${[1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(',')},${opacity})`;
+
 const listeners = [];
 const system = matchMedia('(prefers-color-scheme: dark)');
 let decided = null, printing = false;
