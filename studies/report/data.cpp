@@ -178,6 +178,19 @@ Eigen::MatrixXd ends_of_intervals(const ReportInput& input, double probability) 
   return all;
 }
 
+/// What is infinite becomes null.
+json to_json(const std::vector<PairBand>& bands) {
+  json all = json::array();
+  for (const PairBand& band : bands)
+    all.push_back({{"first", band.first},
+                   {"second", band.second},
+                   {"at", to_json(band.at)},
+                   {"optimistic", to_json(band.optimistic)},
+                   {"median", to_json(band.median)},
+                   {"pessimistic", to_json(band.pessimistic)}});
+  return all;
+}
+
 json front_json(const ReportInput& input) {
   const pareto::Front& front = input.front;
   return {{"objectives", objectives(input.problem)},
@@ -186,6 +199,8 @@ json front_json(const ReportInput& input) {
           {"X", to_json(front.X)},
           {"Y", to_json(front.Y)},
           {"success", to_json(input.success)},
+          {"non_dominated", to_json(input.uncertainty.non_dominated)},
+          {"bands", to_json(input.uncertainty.bands)},
           {"balanced", balanced_point(input.problem, front)},
           {"evaluations", front.evaluations}};
 }
@@ -202,19 +217,6 @@ json main_pair(std::size_t variables, const std::vector<Eigen::VectorXd>& influe
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return weight(a) > weight(b); });
-/// What is infinite becomes null.
-json to_json(const std::vector<PairBand>& bands) {
-  json all = json::array();
-  for (const PairBand& band : bands)
-    all.push_back({{"first", band.first},
-                   {"second", band.second},
-                   {"at", to_json(band.at)},
-                   {"optimistic", to_json(band.optimistic)},
-                   {"median", to_json(band.median)},
-                   {"pessimistic", to_json(band.pessimistic)}});
-  return all;
-}
-
   const std::size_t a = order.front(), b = order[std::min<std::size_t>(1, variables - 1)];
   return {std::min(a, b), std::max(a, b)};
 }
@@ -223,8 +225,6 @@ json to_json(const std::vector<PairBand>& bands) {
   throw std::invalid_argument("studies::write_report: " + what);
 }
 
-          {"non_dominated", to_json(input.uncertainty.non_dominated)},
-          {"bands", to_json(input.uncertainty.bands)},
 void check_tables(const ReportInput& input) {
   for (const auto* table : {&input.training, &input.validation})
     for (const doe::Evaluation& e : table->rows) {
@@ -259,6 +259,10 @@ void check_results(const ReportInput& input) {
   if (input.success.size() != 0 && input.success.size() != f.X.rows())
     reject(std::to_string(input.success.size()) + " probabilities of success for " +
            std::to_string(f.X.rows()) + " points of the front; give one each or none");
+  const Eigen::Index known = input.uncertainty.non_dominated.size();
+  if (known != 0 && known != f.X.rows())
+    reject(std::to_string(known) + " probabilities of being non-dominated for " + std::to_string(f.X.rows()) +
+           " points of the front; give one each or none");
   const Eigen::Index residuals = input.polishing.residual.size();
   if (residuals != 0 && residuals != f.X.rows())
     reject(std::to_string(residuals) + " residuals for " + std::to_string(f.X.rows()) +
@@ -283,10 +287,6 @@ json report_data(const ReportInput& input) {
   ReportInput known = input;
   known.training.problem = known.validation.problem = input.problem;
   json models = json::array(), validations = json::array(), shares = json::array();
-  const Eigen::Index known = input.uncertainty.non_dominated.size();
-  if (known != 0 && known != f.X.rows())
-    reject(std::to_string(known) + " probabilities of being non-dominated for " + std::to_string(f.X.rows()) +
-           " points of the front; give one each or none");
   const std::vector<Eigen::VectorXd> effects = influence(input.models, input.problem);
   for (std::size_t j = 0; j < input.models.size(); ++j) {
     const kriging::TransformedModel& model = input.models[j];
@@ -301,6 +301,7 @@ json report_data(const ReportInput& input) {
     shares.push_back(to_json(effects[j]));
   }
   json panels = checked_panels(input.illustrations, known.warnings);
+  json contrasts = checked_panels(input.contrasts, known.warnings);
   return {{"study", input.study},
           {"about", input.about},
           {"command", input.command},
@@ -318,6 +319,7 @@ json report_data(const ReportInput& input) {
           {"main_pair", main_pair(input.problem.variables.size(), effects)},
           {"findings", to_json(input.findings)},
           {"illustrations", std::move(panels)},
+          {"contrasts", std::move(contrasts)},
           {"facts", input.facts},
           {"summary", summary(known, effects)}};
 }

@@ -377,6 +377,18 @@ TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
   EXPECT_TRUE(mentions(cautions, "Figure 4 of the simulation was left out: \"type\" is missing"));
 }
 
+TEST_F(Report, SetsRunsAgainstEachOther) {
+  ReportInput in = input(2, 1, 8, 0);
+  EXPECT_TRUE(written(in).at("contrasts").empty());
+  in.contrasts = {
+      {{"type", "table"}, {"title", "well"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}},
+      {{"type", "sketch"}, {"title", "badly"}, {"caption", "c"}}};
+  const auto data = written(in);
+  ASSERT_EQ(data.at("contrasts").size(), 1u);
+  EXPECT_EQ(data.at("contrasts").at(0).at("title"), "well");
+  EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "Figure 2 of the simulation was left out"));
+}
+
 TEST_F(Report, IsWrittenWholeOrNotAtAll) {
   write_report(file(), input(1, 1, 5, 0));
   const std::string before = text_of(file());
