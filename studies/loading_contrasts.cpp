@@ -5,6 +5,7 @@
 #include <drawpoint/studies/loading_panels.h>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <stdexcept>
@@ -66,13 +67,29 @@ std::string cycle_of(const ChosenCycle& chosen, const CycleRecord& cycle) {
   return text;
 }
 
+/// Without the floor far before the plan: two figures share a row.
+nlohmann::json near_the_plan(nlohmann::json panel) {
+  const auto planned = panel["planned"]["x"].get<std::vector<double>>();
+  const auto x = panel["contour"]["x"].get<std::vector<double>>(),
+             z = panel["contour"]["z"].get<std::vector<double>>();
+  const double first = *std::min_element(planned.begin(), planned.end()) - 1.0;
+  std::vector<double> near_x, near_z;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < first) continue;
+    near_x.push_back(x[i]);
+    near_z.push_back(z[i]);
+  }
+  panel["contour"] = {{"x", near_x}, {"z", near_z}};
+  return panel;
+}
+
 nlohmann::json tracking_panel(const ChosenCycle& chosen, const Extremes& all, bool well) {
   const LoadingLog log = engine::loading::read_log(chosen.log);
   const CycleRecord& cycle = log.cycles.at(chosen.index);
   const std::string who = cycle_of(chosen, cycle) + ", the " + (well ? "best" : "worst") + " tracked of " +
-                          std::to_string(all.cycles) + " cycles: the edge strayed " + fixed(chosen.value, 2) +
-                          " m from the planned path (root mean square, drive in to curl). It is seen";
-  return path_panel(log, cycle, who, well ? "A well tracked cycle" : "A badly tracked cycle");
+                          std::to_string(all.cycles) + " cycles, its edge " + fixed(chosen.value, 2) +
+                          " m off the planned path (root mean square, drive in to curl)";
+  return near_the_plan(path_panel(log, cycle, who, well ? "A well tracked cycle" : "A badly tracked cycle"));
 }
 
 nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, bool high) {

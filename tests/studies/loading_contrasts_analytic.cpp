@@ -39,6 +39,8 @@ LoadingLog log_of(const std::vector<Cycle>& cycles) {
     cycle.loaded_mass = cycles[c].loaded;
     cycle.planned_x = {0, 1, 2};
     cycle.planned_z = {0, 0, 0};
+    cycle.contour_x = {-5, -1.5, -1, 0, 3};
+    cycle.contour_z = {0, 0, 0, 0, 2};
     for (int i = 0; i < 100; ++i)
       log.signals.append_row(std::vector<double>{cycle.t_start + 0.1 * i, 1.0 + static_cast<double>(c), 1.0,
                                                  0.01 * i, cycles[c].off});
@@ -59,12 +61,12 @@ TEST(LoadingContrasts, AreTheExtremeCyclesOfAllRuns) {
   const auto panels = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"});
   ASSERT_EQ(panels.size(), 4u);
   EXPECT_EQ(panels[0]["type"], "path");
-  EXPECT_TRUE(
-      begins(caption(panels[0]), "Run 7, cycle 2, the best tracked of 4 cycles: the edge strayed 0.10 m"))
+  EXPECT_TRUE(begins(caption(panels[0]), "Run 7, cycle 2, the best tracked of 4 cycles, its edge 0.10 m off"))
       << caption(panels[0]);
   EXPECT_TRUE(
-      begins(caption(panels[1]), "Run 12, cycle 2, the worst tracked of 4 cycles: the edge strayed 0.90 m"))
+      begins(caption(panels[1]), "Run 12, cycle 2, the worst tracked of 4 cycles, its edge 0.90 m off"))
       << caption(panels[1]);
+  EXPECT_EQ(panels[0]["contour"]["x"], nlohmann::json({-1.0, 0.0, 3.0})) << "from a metre before the plan";
   EXPECT_EQ(panels[2]["type"], "scene");
   EXPECT_TRUE(begins(caption(panels[2]),
                      "Run 12, cycle 1, the highest production of 4 cycles: 6.2 t in 10.0 s, 620 kg/s"))

@@ -12,6 +12,9 @@ const broken = 'triangle-down-open';
 /// Plotly's symbols for runs: one for all where none breaks a limit.
 export const symbols = (runs, sound = 'circle') => (anyBreaks(runs) ? runs.map((run) => (breaksLimit(run) ? broken : sound)) : sound);
 
+/// Plotly's sizes: an open shape needs more to be seen.
+export const sizes = (runs, sound) => (anyBreaks(runs) ? runs.map((run) => (breaksLimit(run) ? sound + 3 : sound)) : sound);
+
 /// For the caption of a figure; empty where no run breaks a limit.
 export const legendOfLimits = (runs) => (anyBreaks(runs) ? ' An open triangle (▽) is a run that breaks a limit.' : '');
 

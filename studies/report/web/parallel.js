@@ -8,6 +8,7 @@ import {download} from './delimited.js';
 import {pretty} from './format.js';
 import {oncePerFrame, whenResting} from './frames.js';
 import {axesSvg, brush, placed} from './parallel_axes.js';
+import {anyBreaks} from './limits.js';
 import {asSvg, colourOf, dimmedLines, drawnAs, isDashed, lineCount, many, paint, selectedLines} from './parallel_lines.js';
 import {fileName} from './plot.js';
 import {rangeForm} from './range_form.js';
@@ -26,7 +27,7 @@ export function parallelCoordinates(data, shared) {
   const clear = clearButton(shared.selection);
   return section('designs', 'All designs', 'Each line is one design: its variables, then its responses. What is selected here or in a trade-off is selected in every plot and table; the rest is dimmed.',
     figure(el('div', {}, el('div', {class: 'controls'}, which, el('button', {type: 'button', onclick: save}, 'Save as SVG'), clear), legend(designs), node, rangeForm(designs.axes, shared.selection)),
-      `Draw along an axis to select a range; drag the range or its ends to change it, click it to take it away. Several ranges select what lies in all of them. A failed run has no responses, so its line ends early.${front ? ' Responses of the front are predicted.' : ''} Arrows say which way a response is wanted.`));
+      `Draw along an axis to select a range; drag the range or its ends to change it, click it to take it away. Several ranges select what lies in all of them. A failed run has no responses, so its line ends early.${front ? ' Responses of the front are predicted.' : ''} Arrows say which way a response is wanted.${anyBreaks(designs.runs) ? ' A dashed line is a run that breaks a limit.' : ''}`));
 }
 
 function clearButton(selection) {

@@ -8,7 +8,7 @@ import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
 import {choice, el, figure, select} from './dom.js';
 import {axisLabel, labelled, percent, plain, ticks} from './format.js';
 import {bandTraces} from './front_band.js';
-import {brokenText, legendOfLimits, symbols} from './limits.js';
+import {brokenText, legendOfLimits, sizes, symbols} from './limits.js';
 import {axis, draw, plotBox, redraw} from './plot.js';
 import {colour, scale} from './theme.js';
 
@@ -41,7 +41,7 @@ const brokenLine = (problem, run) => (brokenText(problem, run) ? '<br>' + plain(
 function points({problem, confirmations, front}, {runs}) {
   const confirmed = new Set(confirmations.rows.map((r) => r.run));
   const done = runs.map((_, i) => i).filter((i) => runs[i].y && runs[i].kind !== 'validation' && !confirmed.has(runs[i].run));
-  return {done, runTexts: done.map((i) => `<b>${runs[i].kind} run ${runs[i].run}</b><br>${inputsText(problem, runs[i].x)}${brokenLine(problem, runs[i])}`),
+  return {done, made: done.map((i) => runs[i]), runTexts: done.map((i) => `<b>${runs[i].kind} run ${runs[i].run}</b><br>${inputsText(problem, runs[i].x)}${brokenLine(problem, runs[i])}`),
     frontTexts: front.X.map((x, i) => `<b>point ${i + 1}</b><br>${inputsText(problem, x)}${front.non_dominated.length ? `<br>non-dominated: ${percent(front.non_dominated[i])}` : ''}`)};
 }
 
@@ -66,7 +66,7 @@ function projection([a, b], view) {
     const trace = (more) => ({mode: 'markers', unselected: {marker: {opacity: 1}}, ...more});
     return {traces: [
       ...bands(),
-      trace({name: 'simulated', ...runs, marker: {size: 5, color: colour.simulated, symbol: symbols(cloud.done.map((i) => designs.runs[i])), opacity: opacities(selection, links[first], runs.x.length, saved)}, text: cloud.runTexts, hovertemplate: '%{text}' + hover}),
+      trace({name: 'simulated', ...runs, marker: {size: sizes(cloud.made, 5), color: colour.simulated, symbol: symbols(cloud.made), opacity: opacities(selection, links[first], runs.x.length, saved)}, text: cloud.runTexts, hovertemplate: '%{text}' + hover}),
       trace({name: 'front', ...front, marker, text: cloud.frontTexts, hovertemplate: '%{text}' + hover}),
       ...confirmed.traces(hover, saved),
       ...data.front.balanced >= 0 ? [trace({x: [front.x[data.front.balanced]], y: [front.y[data.front.balanced]], hoverinfo: 'skip', marker: {symbol: 'diamond-open', size: 16, color: colour.ink, line: {width: 2.5}}})] : []],
