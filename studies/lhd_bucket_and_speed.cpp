@@ -6,6 +6,7 @@
 /// With the machine's own engine of 382 kW and with its hydraulics, whose pump goes with the speed of the
 /// arm. The strategy's place across the drift (gamma, weak everywhere) stays in the middle.
 
+#include <drawpoint/studies/loading_contrasts.h>
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
@@ -120,6 +121,7 @@ int main(int argc, char** argv) {
        .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,
+       .contrast = studies::loading_contrasts,
        .responses =
            [](const std::filesystem::path& log, const studies::OptionValues& options) {
              return responses_of(engine::loading::read_log(log), options);

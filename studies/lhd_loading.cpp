@@ -3,6 +3,7 @@
 /// The case of Lindmark (2016): how should an LHD load from a muckpile in a drift, and what does each choice
 /// cost?
 
+#include <drawpoint/studies/loading_contrasts.h>
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_findings.h>
 #include <drawpoint/studies/loading_headlines.h>
@@ -84,6 +85,7 @@ int main(int argc, char** argv) {
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,
+       .contrast = studies::loading_contrasts,
        .responses =
            [](const std::filesystem::path& log, const studies::OptionValues& options) {
              return responses_of(engine::loading::read_log(log), options);

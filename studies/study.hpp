@@ -127,6 +127,7 @@ class LogFunction {
 
 using HeadlineFunction = LogFunction<std::vector<Headline>, std::vector<std::filesystem::path>>;
 using FigureFunction = LogFunction<nlohmann::json, std::filesystem::path>;
+using ContrastFunction = LogFunction<nlohmann::json, std::vector<std::filesystem::path>>;
 
 /// All that makes a study. Name: letters, digits, '_' and '-'; it names the default output folder
 /// `results/<name>`.
@@ -153,6 +154,9 @@ struct Study {
   std::function<void(const RunContext& context)> prepare = {};
   /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
   FigureFunction illustrate = {};
+  /// Figures for the report that set runs against each other, from the logs of all runs that succeeded, which
+  /// are named by their run, run_0012.h5: a JSON array of panels, shown two in a row.
+  ContrastFunction contrast = {};
   /// The responses as a function of a run's log and the study's options alone, equal to what the black box
   /// gave: with it, `rerun-responses` takes them anew from the logs that there are, after a response or an
   /// option of responses has changed. May return a doe::Failure, or throw.

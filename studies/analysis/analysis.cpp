@@ -51,6 +51,19 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<const 
   }
 }
 
+/// What cannot be told becomes a warning.
+void contrast(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
+              const OptionValues& options, const Folder& folder) {
+  if (!study.contrast || runs.empty()) return;
+  std::vector<std::filesystem::path> logs;
+  for (const Run* run : runs) logs.push_back(folder.log(run->id));
+  try {
+    input.contrasts = study.contrast(logs, options);
+  } catch (const std::exception& e) {
+    input.warnings.push_back(std::string("Runs could not be set against each other: ") + e.what());
+  }
+}
+
 Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
@@ -101,6 +114,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   tell_of_models(summary, input);
   add_warnings(input, runs);
   illustrate(input, study, logged, store.identity().options, folder);
+  contrast(input, study, logged, store.identity().options, folder);
   summary.findings = hold_findings(input, study, logged, folder);
   write_report(folder.report(), input);
   summary.report = std::filesystem::absolute(folder.report()).lexically_normal();

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/export.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/models/front_uncertainty.h>
 #include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/models/tables.h>
 #include <drawpoint/doe/detail/csv.hpp>
@@ -135,11 +136,14 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, 
   append_responses(table, problem, "_upper", upper_end);
   append_responses(table, problem, ending_of_errors(problem),
                    "standard error of what the models expect, noise left out");
+  table.columns.push_back({"non_dominated", "1", ColumnType::number,
+                           "probability that the mean keeps every limit and no other point is better"});
   table.columns.push_back({"success", "1", ColumnType::number, "probability that a run succeeds"});
   if (missing) *missing = predicted.missing;
   if (front.X.rows() == 0) return table;
   const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
   const Eigen::MatrixXd errors = standard_errors(fitted.models, front.X);
+  const Eigen::VectorXd on_front = uncertainty_of(front, fitted.models, problem, identity.seed).non_dominated;
   const Eigen::VectorXd success = predicted.failures.probability_of_success(front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;
@@ -148,6 +152,7 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, 
     append_numbers(row, points.lower.row(i));
     append_numbers(row, points.upper.row(i));
     append_numbers(row, errors.row(i));
+    row.push_back(on_front.size() > 0 ? json(on_front[i]) : json());
     row.push_back(number_or_null(success[i]));
     table.rows.push_back(std::move(row));
   }

@@ -96,6 +96,7 @@ Cells front_heads(const ReportInput& input) {
   for (const auto& response : problem.responses) {
     if (is_told(response)) heads.push_back(detail::labelled(response.name, response.unit));
   }
+  if (input.uncertainty.non_dominated.size() > 0) heads.push_back("non-dominated");
   if (input.success.size() > 0) heads.push_back("a run succeeds");
   heads.push_back("what it is");
   return heads;
@@ -114,6 +115,8 @@ Cells predicted_cells(const FrontView& view, int row, const std::vector<int>& sh
                     detail::number(view.points.lower(row, column)) + " to " +
                     detail::number(view.points.upper(row, column)) + ")");
   }
+  const Eigen::VectorXd& non_dominated = view.input.uncertainty.non_dominated;
+  if (non_dominated.size() > 0) cells.push_back(detail::percent(non_dominated[row]));
   if (view.input.success.size() > 0) cells.push_back(detail::percent(view.input.success[row]));
   cells.push_back(marks_text(view, row, shown));
   return cells;
@@ -139,6 +142,7 @@ Cells simulated_cells(const FrontView& view, const CheckedRun& run) {
                            : detail::number(run.outcome.values()[static_cast<Eigen::Index>(j)]) +
                                  (run.within[j] ? "" : " outside"));
   }
+  if (view.input.uncertainty.non_dominated.size() > 0) cells.emplace_back();
   if (view.input.success.size() > 0) cells.emplace_back();
   cells.push_back(simulation_note(run));
   return cells;
@@ -152,6 +156,13 @@ std::string places_text(const FrontView& view, const std::vector<int>& shown) {
   return any ? "Under a point: its simulation, within 2 % of each range; outside: of what was predicted "
                "before it.\n"
              : "No point shown has been simulated: the models know more now, and their front has moved.\n";
+}
+
+std::string non_dominated_text(const ReportInput& input) {
+  if (input.uncertainty.non_dominated.size() == 0) return "";
+  return "Non-dominated: how likely the mean of many runs there keeps every limit and no other point of the "
+         "front is "
+         "better, as sure as the models are.\n";
 }
 
 std::string confirmation_text(const ReportInput& input) {
@@ -176,6 +187,12 @@ nlohmann::ordered_json predicted_json(const FrontView& view, int row) {
   return predicted;
 }
 
+/// Null where it is unknown.
+nlohmann::ordered_json non_dominated_json(const ReportInput& input, int row) {
+  const Eigen::VectorXd& known = input.uncertainty.non_dominated;
+  return known.size() > 0 ? nlohmann::ordered_json(known[row]) : nlohmann::ordered_json();
+}
+
 bool holds(const std::vector<int>& rows, int row) {
   return std::find(rows.begin(), rows.end(), row) != rows.end();
 }
@@ -194,6 +211,7 @@ nlohmann::ordered_json point_json(const FrontView& view, int row, const std::vec
   return {{"point", row + 1},
           {"x", std::move(x)},
           {"predicted", predicted_json(view, row)},
+          {"non_dominated", non_dominated_json(view.input, row)},
           {"success", view.input.success.size() > 0 ? view.input.success[row] : 1.0},
           {"best", std::move(best)},
           {"balanced", view.decision.balanced == row},
@@ -218,6 +236,7 @@ std::string front_points_text(const ReportInput& input, int most, bool every_poi
                      (every_point ? ".\n\n" : " (--limit, --all).\n\n");
   text += text_table(table);
   text += "\nIn brackets: the interval that should hold 95 of 100 runs there, noise included.\n";
+  text += non_dominated_text(input);
   text += places_text(view, shown);
   text += confirmation_text(input);
   for (const std::string& sentence : detail::cautions(input)) text += "Caution: " + sentence + "\n";

@@ -16,9 +16,9 @@ namespace drawpoint::studies {
 /// is, goes to that one.
 std::string front_points_text(const ReportInput& input, int most, bool every_point);
 
-/// Every point: {"points": [{"point", "x": {}, "predicted": {response: {"mean", "lower", "upper"}}, "best":
-/// [objectives], "balanced", "knee", "chosen": whether the text shows it, "simulated": [runs]}], "confirmed":
-/// as in the summary, "cautions": []}.
+/// Every point: {"points": [{"point", "x": {}, "predicted": {response: {"mean", "lower", "upper"}},
+/// "non_dominated": probability or null, "success", "best": [objectives], "balanced", "knee", "chosen":
+/// whether the text shows it, "simulated": [runs]}], "confirmed": as in the summary, "cautions": []}.
 nlohmann::ordered_json front_points_json(const ReportInput& input, int most);
 
 }  // namespace drawpoint::studies

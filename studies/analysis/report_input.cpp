@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/models/confirmations.h>
 #include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/models/front_uncertainty.h>
 #include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/models/suspects.h>
 #include <drawpoint/studies/models/tables.h>
@@ -65,6 +66,7 @@ void add_models(ReportInput& input, doe::Seed seed) {
     input.facts.emplace_back("Model of " + input.problem.responses[j].name, fitted.ways[j]);
   PredictedFront predicted = predicted_front(input.models, tables, seed);
   input.front = std::move(predicted.found.front);
+  input.uncertainty = uncertainty_of(input.front, input.models, input.problem, seed);
   if (!predicted.failures.none()) tell_of_failures(input, predicted.failures);
   input.polishing = std::move(predicted.found.polishing);
   if (predicted.found.status == pareto::PolishedFrontStatus::not_polished)

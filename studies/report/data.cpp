@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/report/limits.h>
 #include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/surface.h>
+#include <drawpoint/studies/report/surface_error.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/doe/problem_json.hpp>
 
@@ -30,6 +32,15 @@ json to_json(const Eigen::MatrixXd& rows) {
   return all;
 }
 
+/// Places of the responses whose limits a run breaks.
+json broken_limits(const doe::Problem& problem, const doe::Outcome& outcome) {
+  json broken = json::array();
+  for (std::size_t j = 0; !outcome.failed() && j < problem.responses.size(); ++j)
+    if (breaks_limit(problem.responses[j], outcome.values()[static_cast<Eigen::Index>(j)]))
+      broken.push_back(j);
+  return broken;
+}
+
 json to_json(const doe::Evaluations& table, const ReportInput& input) {
   json rows = json::array();
   for (const doe::Evaluation& e : table.rows) {
@@ -39,6 +50,7 @@ json to_json(const doe::Evaluations& table, const ReportInput& input) {
                     {"kind", kind == input.kinds.end() ? "" : kind->second},
                     {"x", to_json(e.x)},
                     {"y", std::move(y)},
+                    {"breaks", broken_limits(input.problem, e.outcome)},
                     {"reason", e.outcome.reason()},
                     {"seconds", e.seconds}});
   }
@@ -68,10 +80,22 @@ json to_json(const Surface& s) {
           {"noise_weights", to_json(s.noise_weights)}};
 }
 
+json to_json(const SurfaceError& e) {
+  return {{"noise", to_json(e.noise)},
+          {"process_variance", e.process_variance},
+          {"B", to_json(e.B)},
+          {"T", to_json(e.T)},
+          {"theta_spread", to_json(e.theta_spread)},
+          {"exponent_spread", to_json(e.exponent_spread)},
+          {"alpha_effects", to_json(e.alpha_effects)},
+          {"beta_effects", to_json(e.beta_effects)}};
+}
+
 json to_json(const kriging::TransformedModel& fitted, const std::optional<Surface>& s) {
   const kriging::Model& model = fitted.model();
   json formula;
   if (s) formula = to_json(*s);
+  if (const auto error = surface_error(fitted); s && error) formula["error"] = to_json(*error);
   return {{"scale", to_string(fitted.transform().scale)},
           {"theta", to_json(model.theta())},
           {"nugget", model.nugget()},
@@ -154,6 +178,19 @@ Eigen::MatrixXd ends_of_intervals(const ReportInput& input, double probability) 
   return all;
 }
 
+/// What is infinite becomes null.
+json to_json(const std::vector<PairBand>& bands) {
+  json all = json::array();
+  for (const PairBand& band : bands)
+    all.push_back({{"first", band.first},
+                   {"second", band.second},
+                   {"at", to_json(band.at)},
+                   {"optimistic", to_json(band.optimistic)},
+                   {"median", to_json(band.median)},
+                   {"pessimistic", to_json(band.pessimistic)}});
+  return all;
+}
+
 json front_json(const ReportInput& input) {
   const pareto::Front& front = input.front;
   return {{"objectives", objectives(input.problem)},
@@ -162,6 +199,8 @@ json front_json(const ReportInput& input) {
           {"X", to_json(front.X)},
           {"Y", to_json(front.Y)},
           {"success", to_json(input.success)},
+          {"non_dominated", to_json(input.uncertainty.non_dominated)},
+          {"bands", to_json(input.uncertainty.bands)},
           {"balanced", balanced_point(input.problem, front)},
           {"evaluations", front.evaluations}};
 }
@@ -220,6 +259,10 @@ void check_results(const ReportInput& input) {
   if (input.success.size() != 0 && input.success.size() != f.X.rows())
     reject(std::to_string(input.success.size()) + " probabilities of success for " +
            std::to_string(f.X.rows()) + " points of the front; give one each or none");
+  const Eigen::Index known = input.uncertainty.non_dominated.size();
+  if (known != 0 && known != f.X.rows())
+    reject(std::to_string(known) + " probabilities of being non-dominated for " + std::to_string(f.X.rows()) +
+           " points of the front; give one each or none");
   const Eigen::Index residuals = input.polishing.residual.size();
   if (residuals != 0 && residuals != f.X.rows())
     reject(std::to_string(residuals) + " residuals for " + std::to_string(f.X.rows()) +
@@ -258,6 +301,7 @@ json report_data(const ReportInput& input) {
     shares.push_back(to_json(effects[j]));
   }
   json panels = checked_panels(input.illustrations, known.warnings);
+  json contrasts = checked_panels(input.contrasts, known.warnings);
   return {{"study", input.study},
           {"about", input.about},
           {"command", input.command},
@@ -275,6 +319,7 @@ json report_data(const ReportInput& input) {
           {"main_pair", main_pair(input.problem.variables.size(), effects)},
           {"findings", to_json(input.findings)},
           {"illustrations", std::move(panels)},
+          {"contrasts", std::move(contrasts)},
           {"facts", input.facts},
           {"summary", summary(known, effects)}};
 }

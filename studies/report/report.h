@@ -3,14 +3,15 @@
 #pragma once
 /// The report of a study: one HTML file with its data, plots (plotly.js) and scene viewer (three.js) inside.
 /// It loads nothing from anywhere and opens from disk. The page is assembled from report/web when the library
-/// is built.
+/// is built. studies::Study lists the kinds of figures ("panels") of a simulation.
 ///
-/// Contents: a summary in words with cautions, findings held against the runs, figures of one simulation,
-/// trade-offs, what simulation said of them, response surfaces (the surrogates are evaluated in the browser),
-/// validation, the runs. Each part copes with what is missing: no validation runs, one response, no
-/// objective, no successful run. studies::Study lists the kinds of figures ("panels") of a simulation.
+/// Contents: what was asked, a summary in words with cautions, findings held against the runs, figures of one
+/// simulation, runs set against each other, trade-offs, what simulation said of them, response surfaces (the
+/// surrogates are evaluated in the browser), validation, the runs. Each part copes with what is missing: no
+/// validation runs, one response, no objective, no successful run.
 
 #include <drawpoint/studies/report/checked_runs.h>
+#include <drawpoint/studies/report/front_uncertainty.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
@@ -43,12 +44,14 @@ struct ReportInput {
   pareto::Front front;                           ///< found on the models; no rows when there is none
   std::string no_front = {};                     ///< why there is none; empty where there is one
   Eigen::VectorXd success = {};        ///< of a run at each point of the front; empty: no run failed
+  FrontUncertainty uncertainty = {};   ///< of the front
   CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated
   std::string confirming = "confirm";  ///< the command that has them simulated
   pareto::Polishing polishing;         ///< of the front
   std::string not_polished;            ///< why it was not; empty when it was
   nlohmann::json illustrations =
-      nlohmann::json::array();  ///< panels; a faulty one is left out with a caution
+      nlohmann::json::array();                         ///< panels; a faulty one is left out with a caution
+  nlohmann::json contrasts = nlohmann::json::array();  ///< panels that set runs against each other
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value: machine, wall time, versions
   std::vector<std::string> warnings;                       ///< shown first among the cautions
 };

@@ -33,6 +33,11 @@ Eigen::Index best_row(const ReportInput& input, Eigen::Index column) {
   return row;
 }
 
+bool has_limits(const doe::Problem& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const doe::Response& r) { return doe::is_constraint(r.goal); });
+}
+
 std::string superlative(const doe::Response& r) { return maximized(r) ? "highest" : "lowest"; }
 
 std::string capital(std::string text) {
@@ -79,7 +84,8 @@ json cards(const ReportInput& input) {
   for (std::size_t k = 0; k < chosen.size() && k < 3 && input.front.Y.rows() > 0; ++k) {
     const doe::Response& r = input.problem.responses[chosen[k]];
     const auto row = best_row(input, static_cast<Eigen::Index>(k));
-    all.push_back({{"label", capital(superlative(r)) + " " + pretty(r.name) + " predicted"},
+    all.push_back({{"label", capital(superlative(r)) + " " + pretty(r.name) + " predicted" +
+                                 (has_limits(input.problem) ? " within the limits" : "")},
                    {"value", number(input.front.Y(row, static_cast<Eigen::Index>(k)))},
                    {"unit", r.unit == "1" ? "" : r.unit},
                    {"note", "at " + point_text(input.problem, input.front.X.row(row).transpose())}});
@@ -105,8 +111,7 @@ std::string best_simulated(const ReportInput& input, std::size_t response) {
       if (!e.outcome.failed() && pareto::meets_limits(input.problem, e.outcome.values()) &&
           (!best || (up ? value(e) > value(*best) : value(e) < value(*best))))
         best = &e;
-  const bool limited = std::any_of(input.problem.responses.begin(), input.problem.responses.end(),
-                                   [](const doe::Response& r) { return doe::is_constraint(r.goal); });
+  const bool limited = has_limits(input.problem);
   if (!best) return limited ? "; no run simulated so far keeps all limits" : "";
   return std::string("; the best run simulated so far") + (limited ? " that keeps all limits" : "") +
          " reached " + number_with_unit(value(*best), input.problem.responses[response].unit) + " (run " +
@@ -118,7 +123,8 @@ std::string best_sentence(const ReportInput& input, std::size_t k, std::size_t r
   const auto column = static_cast<Eigen::Index>(k);
   const auto row = best_row(input, column);
   const std::string others = values_text(input, row, column);
-  return "The " + superlative(r) + " " + pretty(r.name) + " that the surrogates predict is " +
+  return "The " + superlative(r) + " " + pretty(r.name) +
+         (has_limits(input.problem) ? " within the limits" : "") + " that the surrogates predict is " +
          number_with_unit(input.front.Y(row, column), r.unit) + ", at " +
          point_text(input.problem, input.front.X.row(row).transpose()) +
          (others.empty() ? "" : ", where they expect " + others) + best_simulated(input, response) + ".";
@@ -183,6 +189,16 @@ std::string confirmation_sentence(const ReportInput& input) {
   return "Of the fronts predicted so far, simulation has checked " + text(checked) + ".";
 }
 
+/// How much of the front would stay if the surrogates knew the means.
+std::string certainty_sentence(const ReportInput& input) {
+  const Eigen::VectorXd& known = input.uncertainty.non_dominated;
+  if (known.size() == 0) return "";
+  return "As sure as the surrogates are of the means of many runs, " +
+         std::to_string((known.array() >= 0.5).count()) + " of these " +
+         counted(static_cast<std::size_t>(known.size()), "point") +
+         " are non-dominated with a chance of one half or more.";
+}
+
 bool is_poor(const ReportInput& input, std::size_t response) {
   return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
 }
@@ -221,6 +237,8 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
     all.push_back(best_sentence(input, 0, chosen[0]));
     if (chosen.size() > 1) all.push_back(range_sentence(input));
     if (chosen.size() > 1) all.push_back(balanced_sentence(input));
+    if (const std::string sure = certainty_sentence(input); chosen.size() > 1 && !sure.empty())
+      all.push_back(sure);
     all.push_back(confirmation_sentence(input));
   }
   const std::string driving = driver_sentence(input, influence);

@@ -102,6 +102,16 @@ TEST_F(FrontReport, SaysWhenNoPointShownWasSimulated) {
   EXPECT_TRUE(says("failed: stuck"));
 }
 
+TEST_F(FrontReport, SaysHowLikelyAPointIsOnTheFront) {
+  EXPECT_FALSE(says("non-dominated"));
+  EXPECT_TRUE(front_points_json(input_, 6)["points"][1]["non_dominated"].is_null());
+  input_.uncertainty.non_dominated = Eigen::VectorXd::LinSpaced(5, 0.2, 1.0);
+  EXPECT_TRUE(says("non-dominated  what it is"));
+  EXPECT_NE(line_of("2").find("40 %"), std::string::npos) << line_of("2");
+  EXPECT_TRUE(says("Non-dominated: how likely the mean"));
+  EXPECT_EQ(front_points_json(input_, 6)["points"][4]["non_dominated"], 1.0);
+}
+
 TEST_F(FrontReport, RepeatsTheReportsCautions) {
   input_.warnings = {"mind this"};
   EXPECT_TRUE(says("Caution: mind this\n"));

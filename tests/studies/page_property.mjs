@@ -4,9 +4,15 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import {bandOutline} from '../../studies/report/web/band_outline.js';
 import {csv, tsv} from '../../studies/report/web/delimited.js';
 import {number, setting} from '../../studies/report/web/format.js';
 import {predictor} from '../../studies/report/web/kriging.js';
+import {meanInterval, scaledDeviation} from '../../studies/report/web/kriging_error.js';
+import {brokenText, symbols} from '../../studies/report/web/limits.js';
+import {nestedVariables, outerLevels} from '../../studies/report/web/nested_levels.js';
+import {came, question} from '../../studies/report/web/question_words.js';
+import {distanceToCut, nearCut} from '../../studies/report/web/sampled.js';
 import {words} from '../../studies/report/web/inscription.js';
 import {selecting} from '../../studies/report/web/selection.js';
 
@@ -86,4 +92,84 @@ test('what is shown stays short', () => {
 test('a frame tells its time, with two decimals, and the label of its picture', () => {
   assert.equal(words(3.4, 'curl, 3.2 t in the bucket'), '3.40 s, curl, 3.2 t in the bucket');
   assert.equal(words(0, undefined), '0.00 s');
+});
+
+// Of four places the last is reached in no draw, and the third in too few for the pessimistic end.
+test('the band of a front closes, and ends where no draw reaches', () => {
+  const {x, y, median} = bandOutline({at: [1, 2, 3, 4], optimistic: [5, 6, 7, null], median: [6, 7, null, null], pessimistic: [7, 8, null, null]}, 20);
+  assert.deepEqual(x, [1, 2, 3, 3, 2, 1]);
+  assert.deepEqual(y, [5, 6, 7, 20, 8, 7]);
+  assert.deepEqual(median, {x: [1, 2, 3], y: [6, 7, null]});
+});
+
+/// Ordinary Kriging of two runs at -1 and 1 with r(0) = exp(-theta) and c = exp(-4 theta) between them, and a nugget g.
+/// At 0: rᵀR⁻¹r = 2 r²/(1 + g + c) and 1ᵀR⁻¹1 = 2/(1 + g + c), so that
+///   variance = s² (1 - 2 r²/(1 + g + c) + (1 - 2 r/(1 + g + c))² (1 + g + c)/2).
+/// B = R⁻¹1/√(1ᵀR⁻¹1) and T = √(1ᵀR⁻¹1).
+function twoRuns(theta, g) {
+  const c = Math.exp(-4 * theta), sum = 1 + g + c, T = Math.sqrt(2 / sum);
+  return {centre: [0], factor: [1], correlation: 'gaussian', theta: [theta], exponent: [], X: [[-1], [1]], weights: [-0.5, 0.5], terms: [[-1, -1]], coefficients: [3],
+    constant: 0, scale: 'linear', error: {noise: [g, g], process_variance: 4, B: [[1 / sum / T], [1 / sum / T]], T: [[T]], theta_spread: [], exponent_spread: [], alpha_effects: [], beta_effects: []}};
+}
+
+test('the band of a surface is that of two runs by hand', () => {
+  for (const [theta, g] of [[0.3, 0.1], [2, 1e-6]]) {
+    const r = Math.exp(-theta), sum = 1 + g + Math.exp(-4 * theta);
+    const wanted = Math.sqrt(4 * (1 - (2 * r * r) / sum + ((1 - (2 * r) / sum) ** 2 * sum) / 2));
+    const found = scaledDeviation(twoRuns(theta, g))([0]);
+    assert.ok(Math.abs(found - wanted) < 1e-12, `${found} ${wanted}`);
+    const [low, high] = meanInterval(twoRuns(theta, g))([0]);
+    assert.ok(Math.abs(low - (3 - 1.959963984540054 * wanted)) < 1e-12 && Math.abs(high + low - 6) < 1e-12);
+  }
+  assert.equal(meanInterval({...twoRuns(1, 1), error: undefined}), null);
+});
+
+// Unsure of the trend alone, with all else known: the parameters' part adds its square.
+test('what the parameters leave unknown adds to the band', () => {
+  const surface = twoRuns(0.3, 0.1), plain = scaledDeviation(surface)([0]);
+  Object.assign(surface.error, {theta_spread: [[0.7]], alpha_effects: [[0], [0]], beta_effects: [[1.5]]});
+  // At 0 the two runs' slopes in theta cancel: weights -0.5 and 0.5.
+  assert.ok(Math.abs(scaledDeviation(surface)([0]) - Math.hypot(plain, 1.5)) < 1e-12);
+  const h = [1.5, 0.5], slope = -0.3 * (-0.5 * h[0] ** 2 * Math.exp(-0.3 * h[0] ** 2) + 0.5 * h[1] ** 2 * Math.exp(-0.3 * h[1] ** 2));
+  const without = scaledDeviation(twoRuns(0.3, 0.1))([0.5]);
+  assert.ok(Math.abs(scaledDeviation(surface)([0.5]) - Math.hypot(without, 1.5 + 0.7 * slope)) < 1e-12);
+});
+
+const box = {variables: [{name: 'a', lower: 0, upper: 2}, {name: 'b', lower: 0, upper: 10}, {name: 'tool', kind: 'categorical', lower: 0, upper: 2, levels: ['x', 'y', 'z']}]};
+
+test('the farther a run lies from a cut, the fainter it is', () => {
+  assert.equal(distanceToCut(box, [0.3, 5, 1], [1.7, 5, 1], [0]), 0);
+  assert.equal(distanceToCut(box, [0, 8, 1], [0, 5, 2], [0]), Math.sqrt((0.3 ** 2 + 1) / 2));
+  const rows = [{x: [0, 8, 1], y: [1]}, {x: [2, 5, 1], y: [2]}, {x: [1, 6, 1], y: null}, {x: [1, 0, 1], y: [3]}];
+  const near = nearCut(box, rows, [1, 5, 1], [0], 2);
+  assert.deepEqual(near.rows, [rows[1], rows[0]]);
+  assert.equal(near.opacity[0], 1);
+  assert.ok(Math.abs(near.opacity[1] - (1 - 0.3 / Math.sqrt(2) / 0.5)) < 1e-12);
+});
+
+test('a run that breaks a limit has a shape and words of its own', () => {
+  const responses = [{name: 'rock_spill', unit: '1', goal: 'at_most', limit: 0.25}, {name: 'load', unit: 't', goal: 'at_least', limit: 9}];
+  const sound = {breaks: []}, broken = {breaks: [0, 1]};
+  assert.equal(symbols([sound, sound], 'square'), 'square');
+  assert.deepEqual(symbols([sound, broken], 'square'), ['square', 'triangle-down-open']);
+  assert.equal(brokenText({responses}, broken), 'breaks rock spill at most 0.250, load at least 9.00 t');
+  assert.equal(brokenText({responses}, sound), '');
+});
+
+test('nested contours take the strongest variables, and few values of what has few', () => {
+  const problem = {variables: Array(5).fill({})};
+  assert.deepEqual(nestedVariables({main_pair: [1, 3], influence: [[0.1, 0.9, 0.3, 0.8, 0.2], null], problem}), [1, 3, 2, 4]);
+  assert.deepEqual(nestedVariables({main_pair: [0, 1], influence: [], problem: {variables: [{}, {}]}}), [0, 1]);
+  assert.deepEqual(outerLevels({lower: 0, upper: 3}), [0, 1, 2, 3]);
+  assert.deepEqual(outerLevels({lower: 0, upper: 2, kind: 'categorical'}), [0, 1, 2]);
+  assert.deepEqual(outerLevels({lower: 10, upper: 19, kind: 'integer'}), [10, 13, 16, 19]);
+});
+
+test('a study says what it asks, and what came', () => {
+  const response = (name, goal, limit) => ({name, goal, limit, unit: 't'}), variables = [{}, {}];
+  assert.equal(question({variables, responses: [response('load', 'maximize'), response('wear', 'minimize'), response('spill', 'minimize'), response('time', 'at_most', 20)]}),
+    'The study varies 2 variables and asks for load as large as possible and wear and spill as small as possible, with time of at most 20.0 t.');
+  assert.equal(question({variables: [{name: 'x_y'}], responses: [response('load', 'record')]}), 'The study varies x y and records load.');
+  assert.deepEqual(came([{y: [3, 1]}, {y: null}, {y: [5, 2]}], 0), [3, 5]);
+  assert.equal(came([{y: null}], 0), null);
 });

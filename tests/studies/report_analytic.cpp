@@ -6,9 +6,12 @@
 #include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/surface.h>
+#include <drawpoint/studies/report/surface_error.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/tests/studies/report_cases.hpp>
+
+#include <Eigen/Cholesky>
 
 using namespace drawpoint;
 using namespace drawpoint::studies;
@@ -51,6 +54,69 @@ double formula_of_page(const detail::Surface& s, const Eigen::VectorXd& x) {
   return sum;
 }
 
+double product_of_page(const detail::Surface& s, const Eigen::VectorXd& a, const Eigen::VectorXd& run) {
+  double c = 1.0;
+  for (Eigen::Index k = 0; k < a.size(); ++k)
+    c *= correlation_of_page(s.correlation, k, distance_of_page(s, k, a[k], run[k]));
+  return c;
+}
+
+/// ∂ln c/∂ln θ of report/web/kriging_error.js.
+double slope_of_page(const kriging::CorrelationFunction& f, Eigen::Index k, double h) {
+  const double theta = f.theta[k];
+  if (f.family == kriging::Correlation::gaussian) return -theta * h * h;
+  if (f.family == kriging::Correlation::power_exponential) return -theta * std::pow(h, f.exponent[k]);
+  const bool once = f.family == kriging::Correlation::matern32;
+  const double u = std::sqrt((once ? 6.0 : 10.0) * theta) * h;
+  return once ? -u * u / (2 * (1 + u)) : -u * u * (1 + u) / (6 * (1 + u + u * u / 3));
+}
+
+/// What report/web/kriging_error.js computes: of z.
+double variance_of_page(const detail::Surface& s, const detail::SurfaceError& e, const Eigen::VectorXd& x) {
+  const Eigen::Index n = s.X.rows(), d = x.size();
+  const Eigen::VectorXd at = (x - s.centre).cwiseProduct(s.factor);
+  Eigen::MatrixXd R(n, n);
+  Eigen::VectorXd r(n), f(static_cast<Eigen::Index>(s.terms.size()));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    r[i] = product_of_page(s, at, s.X.row(i));
+    for (Eigen::Index j = 0; j < n; ++j)
+      R(i, j) = i == j ? 1.0 + e.noise[i] : product_of_page(s, s.X.row(i), s.X.row(j));
+  }
+  for (Eigen::Index t = 0; t < f.size(); ++t) f[t] = s.terms[static_cast<std::size_t>(t)].at(at);
+  const Eigen::VectorXd explained = R.llt().matrixL().solve(r);
+  const Eigen::VectorXd missing =
+      Eigen::VectorXd(e.T.transpose().triangularView<Eigen::Lower>().solve(f)) - e.B.transpose() * r;
+  Eigen::VectorXd W = Eigen::VectorXd::Zero(e.theta_spread.cols());
+  for (Eigen::Index i = 0; W.size() > 0 && i < n; ++i) {
+    for (Eigen::Index k = 0; k < d; ++k) {
+      const double h = distance_of_page(s, k, at[k], s.X(i, k));
+      const double slope = s.weights[i] * r[i] * slope_of_page(s.correlation, k, h);
+      W += slope * e.theta_spread.row(k).transpose();
+      if (e.exponent_spread.rows() > 0 && h > 0)
+        W += slope * std::log(h) * e.exponent_spread.row(k).transpose();
+    }
+    W += r[i] * e.alpha_effects.row(i).transpose();
+  }
+  if (W.size() > 0) W += e.beta_effects.transpose() * f;
+  return e.process_variance * std::max(1.0 - explained.squaredNorm() + missing.squaredNorm(), 0.0) +
+         W.squaredNorm();
+}
+
+/// R has n eigenvalues of which the least is the nugget or more; the two ways to solve with it differ by n
+/// rounding errors over that.
+void expect_same_error(const ReportInput& in, const kriging::TransformedModel& model) {
+  const auto found = detail::surface(model);
+  const auto error = detail::surface_error(model);
+  ASSERT_TRUE(found && error);
+  const Eigen::MatrixXd points = doe::uniform_random(in.problem, 30, {.seed = 98});
+  const Eigen::VectorXd wanted = model.model().predict(points).variance;
+  const double n = static_cast<double>(found->X.rows()), least = error->noise.minCoeff();
+  const double budget = 10 * n * n * 2.2e-16 / least;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    EXPECT_NEAR(variance_of_page(*found, *error, points.row(i).transpose()), wanted[i],
+                budget * error->process_variance + 1e-9 * wanted[i]);
+}
+
 void expect_same_mean(const ReportInput& in, const kriging::TransformedModel& model) {
   const auto found = detail::surface(model);
   ASSERT_TRUE(found);
@@ -62,6 +128,7 @@ void expect_same_mean(const ReportInput& in, const kriging::TransformedModel& mo
   const double size = std::abs(s.constant) + s.weights.cwiseAbs().sum() + s.coefficients.cwiseAbs().sum();
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     EXPECT_NEAR(formula_of_page(s, points.row(i).transpose()), wanted[i], 1e-13 * size);
+  expect_same_error(in, model);
 }
 
 }  // namespace

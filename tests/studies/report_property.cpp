@@ -189,6 +189,24 @@ TEST_F(Report, SaysHowLikelyARunSucceeds) {
   support::expect_told([&] { written(in); }, {"5 probabilities of success for 8 points of the front"});
 }
 
+TEST_F(Report, SaysHowSureTheFrontIs) {
+  ReportInput in = input(2, 2, 8, 0);
+  EXPECT_TRUE(written(in).at("front").at("non_dominated").empty());
+  in.uncertainty.non_dominated = Eigen::VectorXd::LinSpaced(8, 0.25, 1.0);
+  const double never = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d at(1, 2), best(3, 4), middle(5, 6), worst(7, never);
+  in.uncertainty.bands = {{0, 1, at, best, middle, worst}};
+  const auto front = written(in).at("front");
+  EXPECT_EQ(front.at("non_dominated").at(0), 0.25);
+  EXPECT_TRUE(mentions(written(in).at("summary").at("sentences"), "5 of these 8 points are non-dominated"));
+  EXPECT_EQ(front.at("bands").at(0).at("second"), 1);
+  EXPECT_EQ(front.at("bands").at(0).at("optimistic"), nlohmann::json({3.0, 4.0}));
+  EXPECT_EQ(front.at("bands").at(0).at("pessimistic").at(0), 7.0);
+  EXPECT_TRUE(front.at("bands").at(0).at("pessimistic").at(1).is_null());
+  in.uncertainty.non_dominated.resize(5);
+  support::expect_told([&] { written(in); }, {"5 probabilities of being non-dominated for 8 points"});
+}
+
 TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
   ReportInput in = input(2, 2, 8, 0);
   const auto said = [&](const std::string& part) {
@@ -236,6 +254,29 @@ TEST_F(Report, SaysWhatSimulationSaidOfTheFront) {
   EXPECT_FALSE(said("promised what simulation did not keep"));
   in.confirmations.runs[0].held = 15;
   EXPECT_TRUE(said("promised what simulation did not keep"));
+}
+
+// Of y0 = 1, 2, ... 8 the limit at 3.5 lets three through, and the best of y1 among these counts.
+TEST_F(Report, MarksRunsThatBreakALimit) {
+  ReportInput in = input(2, 2, 8, 0);
+  for (const auto& row : written(in).at("training").at("rows")) EXPECT_TRUE(row.at("breaks").empty());
+  in.problem.responses[0].goal = doe::Goal::at_most;
+  in.problem.responses[0].limit = 3.5;
+  in.training.problem = in.problem;
+  for (int i = 0; i < 8; ++i)
+    in.training.rows[static_cast<std::size_t>(i)].outcome =
+        doe::Outcome(Eigen::VectorXd(Eigen::Vector2d(1.0 + i, 8.0 - i)));
+  in.training.rows[1].outcome = doe::Failure{"stuck"};
+  in.front.Y = in.front.Y.col(1).eval();
+  const auto data = written(in);
+  const auto& rows = data.at("training").at("rows");
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(rows.at(i).at("breaks"), i < 3 ? nlohmann::json::array() : nlohmann::json({0})) << i;
+  EXPECT_TRUE(mentions(data.at("summary").at("sentences"),
+                       "the best run simulated so far that keeps all limits reached 6.00 s (run 2)"));
+  EXPECT_TRUE(mentions(data.at("summary").at("sentences"),
+                       "The lowest y1 within the limits that the surrogates predict"));
+  EXPECT_EQ(data.at("summary").at("cards").at(0).at("label"), "Lowest y1 predicted within the limits");
 }
 
 TEST_F(Report, SaysThatAllRunsFailed) {
@@ -334,6 +375,18 @@ TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
       cautions, "Figure 1 of the simulation was left out: the type \"sketch\" is none of path, scene"));
   EXPECT_TRUE(mentions(cautions, "Figure 2 of the simulation was left out: a row has not as many cells"));
   EXPECT_TRUE(mentions(cautions, "Figure 4 of the simulation was left out: \"type\" is missing"));
+}
+
+TEST_F(Report, SetsRunsAgainstEachOther) {
+  ReportInput in = input(2, 1, 8, 0);
+  EXPECT_TRUE(written(in).at("contrasts").empty());
+  in.contrasts = {
+      {{"type", "table"}, {"title", "well"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}},
+      {{"type", "sketch"}, {"title", "badly"}, {"caption", "c"}}};
+  const auto data = written(in);
+  ASSERT_EQ(data.at("contrasts").size(), 1u);
+  EXPECT_EQ(data.at("contrasts").at(0).at("title"), "well");
+  EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "Figure 2 of the simulation was left out"));
 }
 
 TEST_F(Report, IsWrittenWholeOrNotAtAll) {

@@ -9,6 +9,7 @@
 #include <drawpoint/engine/record/file.hpp>
 #include <drawpoint/tests/studies/support.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -138,10 +139,13 @@ TEST(WholeStudy, HoldsTheFrontOfTheTable) {
   const auto lower = file.doubles("front/production_lower").values;
   const auto upper = file.doubles("front/production_upper").values;
   const auto error = file.doubles("front/production_standard_error").values;
+  const auto on_front = file.doubles("front/non_dominated").values;
   ASSERT_EQ(mean.size(), front.rows.size());
+  EXPECT_GT(*std::max_element(on_front.begin(), on_front.end()), 0);
   for (std::size_t i = 0; i < mean.size(); ++i) {
     EXPECT_EQ(mean[i], front.rows[i][3].get<double>());
     EXPECT_GE(error[i], 0);
+    EXPECT_TRUE(on_front[i] >= 0 && on_front[i] <= 1) << on_front[i];
     EXPECT_LE(error[i], upper[i] - lower[i]);
   }
 }

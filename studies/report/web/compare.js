@@ -4,6 +4,7 @@
 
 import {el} from './dom.js';
 import {labelled, number, setting} from './format.js';
+import {anyBreaks, brokenText} from './limits.js';
 import {table} from './table.js';
 
 const most = 4;
@@ -43,6 +44,7 @@ function comparison({problem}, runs, clear) {
     ...problem.variables.map((v, k) => line(labelled(v), (r) => r.x[k], {shown: (value) => setting(value, v), levels: Boolean(v.levels)})),
     ...problem.responses.map((response, j) => line(labelled(response), (r) => r.y?.[j], {missing: 'failed'})),
     line('time [s]', (r) => r.seconds)];
+  if (anyBreaks(runs)) rows.push(words('limits', (r) => brokenText(problem, r)));
   if (runs.some((r) => !r.y)) rows.push(words('failed, because', (r) => (r.y ? '' : r.reason)));
   return [el('div', {class: 'tools'}, el('h3', {}, 'Side by side'), el('button', {type: 'button', onclick: clear}, 'Clear')),
     table(columns, rows, {sortable: false}).node];

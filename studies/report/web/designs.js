@@ -5,6 +5,7 @@
 
 import {labelled, plain, pretty, settingWithUnit, withUnit} from './format.js';
 import {predictor} from './kriging.js';
+import {brokenText} from './limits.js';
 
 /// {runs, front, axes}. A run is as in the data, with its kind; a point of the front is {x, y}, y being null
 /// where nothing is known. An axis is a variable or a response: {item, title, isVariable, low, high, values:
@@ -57,6 +58,6 @@ export function sentence(data, designs, set, i) {
   const {x, y, reason} = designs[set][i];
   const outputs = data.problem.responses.map((r, j) => (y?.[j] == null ? '' : `${pretty(r.name)} ${withUnit(y[j], r)}`)).filter(Boolean);
   const said = y ? outputs.join(', ') : `failed (${reason})`;
-  const name = nameOf(designs, set, i);
-  return `${name[0].toUpperCase() + name.slice(1)}: ${said} at ${data.problem.variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(x[k], v)}`).join(', ')}.`;
+  const name = nameOf(designs, set, i), broken = brokenText(data.problem, designs[set][i]);
+  return `${name[0].toUpperCase() + name.slice(1)}: ${said} at ${data.problem.variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(x[k], v)}`).join(', ')}${broken ? `; it ${broken}` : ''}.`;
 }

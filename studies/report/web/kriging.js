@@ -6,7 +6,7 @@
 // It is z itself, or of a model on another scale what noisy runs at z have in the mean: a sum over points of noise.
 
 /// By family: the factors of one variable, from its theta, its exponent and the distance.
-const correlations = {
+export const correlations = {
   gaussian: (theta, _, h) => Math.exp(-theta * h * h),
   power_exponential: (theta, p, h) => Math.exp(-theta * h ** p),
   matern32: (theta, _, h) => { const u = Math.sqrt(6 * theta) * h; return (1 + u) * Math.exp(-u); },
@@ -22,30 +22,32 @@ const responses = {
 };
 
 export function predictor(surface) {
-  const {scale, noise, noise_weights: shares} = surface, z = scaledMean(surface), response = responses[scale];
-  if (scale === 'linear') return z;
-  return (x) => {
-    const at = z(x);
-    return noise.reduce((sum, e, k) => sum + shares[k] * response(at + e, surface), 0);
-  };
+  const z = scaledMean(surface), mean = meanResponse(surface);
+  return (x) => mean(z(x));
 }
 
-function scaledMean({centre, factor, correlation, theta, exponent, levels = [], X, weights, terms, coefficients, constant}) {
+/// What noisy runs at z have in the mean.
+export function meanResponse(surface) {
+  const {scale, noise, noise_weights: shares} = surface, response = responses[scale];
+  if (scale === 'linear') return (z) => z;
+  return (z) => noise.reduce((sum, e, k) => sum + shares[k] * response(z + e, surface), 0);
+}
+
+/// Of variable k, between a scaled place and that of a run.
+export const distanceIn = (levels, k, a, b) => (levels[k] ? (Math.round(a) === b ? 0 : 2) : Math.abs(a - b));
+
+export function scaledMean({centre, factor, correlation, theta, exponent, levels = [], X, weights, terms, coefficients, constant}) {
   const c = correlations[correlation];
   const d = centre.length;
-  const distance = (k, a, b) => (levels[k] ? (Math.round(a) === b ? 0 : 2) : Math.abs(a - b));
   return (x) => {
     const s = x.map((value, k) => (value - centre[k]) * factor[k]);
     let mean = constant;
     terms.forEach(([a, b], t) => { mean += coefficients[t] * (a < 0 ? 1 : s[a]) * (b < 0 ? 1 : s[b]); });
     for (let i = 0; i < weights.length; ++i) {
       let product = 1;
-      for (let k = 0; k < d; ++k) product *= c(theta[k], exponent[k], distance(k, s[k], X[i][k]));
+      for (let k = 0; k < d; ++k) product *= c(theta[k], exponent[k], distanceIn(levels, k, s[k], X[i][k]));
       mean += weights[i] * product;
     }
     return mean;
   };
 }
-
-export const steps = (lower, upper, count) =>
-  Array.from({length: count}, (_, i) => lower + ((upper - lower) * i) / (count - 1));

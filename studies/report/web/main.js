@@ -6,7 +6,8 @@ import {choose} from './choice.js';
 import {collect} from './designs.js';
 import {summary, header, navigation, facts} from './summary.js';
 import {findings} from './findings.js';
-import {panels} from './panels.js';
+import {contrasts, panels} from './panels.js';
+import {asked} from './question.js';
 import {oneRun} from './replay.js';
 import {tradeOffs} from './front.js';
 import {parallelCoordinates} from './parallel.js';
@@ -38,7 +39,7 @@ function attempt(build) {
   }
 }
 
-const builders = data.replay ? [oneRun, panels, facts] : [summary, findings, panels, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
+const builders = data.replay ? [oneRun, panels, facts] : [asked, summary, findings, panels, contrasts, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
 const sections = builders.map(attempt).filter(Boolean);
 page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}), data.replay ? '' : selectionBar(shared));
 document.getElementById('main').append(...sections);

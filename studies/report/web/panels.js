@@ -2,11 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures that the simulation itself supplies: a path over the pile, a scene to replay, lines, a table.
 
-import {figure, section} from './dom.js';
+import {el, figure, section} from './dom.js';
 import {flat} from './flat_panels.js';
 import {sceneViewer} from './scene.js';
 
 const builders = {scene: sceneViewer, ...flat};
+
+/// Two in a row.
+export function contrasts(data) {
+  if (!(data.contrasts ?? []).length) return null;
+  return section('contrasts', 'Runs side by side', 'Chosen by the data of all runs: each figure says which run it is, and why.',
+    el('div', {class: 'columns contrasts'}, data.contrasts.map((panel) => figure(builders[panel.type](panel), panel.caption, panel.title))));
+}
 
 export function panels(data) {
   if (!data.illustrations.length) return null;

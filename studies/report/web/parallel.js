@@ -8,7 +8,8 @@ import {download} from './delimited.js';
 import {pretty} from './format.js';
 import {oncePerFrame, whenResting} from './frames.js';
 import {axesSvg, brush, placed} from './parallel_axes.js';
-import {asSvg, dimmedLines, drawnAs, lineCount, many, paint, selectedLines} from './parallel_lines.js';
+import {anyBreaks} from './limits.js';
+import {asSvg, colourOf, dimmedLines, drawnAs, isDashed, lineCount, many, paint, selectedLines} from './parallel_lines.js';
 import {fileName} from './plot.js';
 import {rangeForm} from './range_form.js';
 import {colour, onPaper, onTheme} from './theme.js';
@@ -26,7 +27,7 @@ export function parallelCoordinates(data, shared) {
   const clear = clearButton(shared.selection);
   return section('designs', 'All designs', 'Each line is one design: its variables, then its responses. What is selected here or in a trade-off is selected in every plot and table; the rest is dimmed.',
     figure(el('div', {}, el('div', {class: 'controls'}, which, el('button', {type: 'button', onclick: save}, 'Save as SVG'), clear), legend(designs), node, rangeForm(designs.axes, shared.selection)),
-      `Draw along an axis to select a range; drag the range or its ends to change it, click it to take it away. Several ranges select what lies in all of them. A failed run has no responses, so its line ends early.${front ? ' Responses of the front are predicted.' : ''} Arrows say which way a response is wanted.`));
+      `Draw along an axis to select a range; drag the range or its ends to change it, click it to take it away. Several ranges select what lies in all of them. A failed run has no responses, so its line ends early.${front ? ' Responses of the front are predicted.' : ''} Arrows say which way a response is wanted.${anyBreaks(designs.runs) ? ' A dashed line is a run that breaks a limit.' : ''}`));
 }
 
 function clearButton(selection) {
@@ -38,8 +39,8 @@ function clearButton(selection) {
 function legend(designs) {
   const counts = new Map();
   for (const name of ['runs', 'front'].flatMap((set) => drawnAs(designs, set))) counts.set(name, (counts.get(name) ?? 0) + 1);
-  const swatches = [...counts].map(([kind, count]) => ({kind, swatch: el('i', {class: 'swatch'}), count}));
-  const tint = () => swatches.forEach(({kind, swatch}) => { swatch.style.background = colour[kind] ?? colour.training; });
+  const swatches = [...counts].map(([kind, count]) => ({kind, swatch: el('i', {class: isDashed(kind) ? 'swatch dashed' : 'swatch'}), count}));
+  const tint = () => swatches.forEach(({kind, swatch}) => { swatch.style.color = colourOf(kind); });
   onTheme(tint);
   tint();
   return el('div', {class: 'legend'}, swatches.map(({kind, swatch, count}) => el('span', {}, swatch, `${pretty(kind)} ${count}`)));

@@ -3,13 +3,19 @@
 // The lines of the parallel coordinates: one per design, across all axes. Onto a canvas, since thousands of
 // SVG paths are slow, or as SVG text to save.
 
+import {breaksLimit} from './limits.js';
 import {colour} from './theme.js';
 
 const bundle = 10;    // lines per stroke: fewer strokes are faster, but within one stroke crossings do not get darker
 export const many = 3000;  // lines from which on they are one device pixel wide, which browsers draw ten times as fast
 
-/// What the designs of a set are drawn as: the names of colours.
-export const drawnAs = ({runs, front}, set) => (set === 'front' ? front.map(() => 'front') : runs.map((r) => (r.y ? r.kind : 'failed')));
+const beyond = ', breaks a limit';
+
+/// What the designs of a set are drawn as: the names of colours, with what makes a line dashed.
+export const drawnAs = ({runs, front}, set) => (set === 'front' ? front.map(() => 'front') : runs.map((r) => (r.y ? r.kind + (breaksLimit(r) ? beyond : '') : 'failed')));
+export const colourOf = (name) => colour[name.replace(beyond, '')] ?? colour.training;
+export const isDashed = (name) => name.endsWith(beyond);
+const dashes = [6, 4];
 
 /// Bundles of lines: {colour, opacity, width, lines: [{set, i}]}. Of every design, dimmed.
 export function dimmedLines(designs, sets) {
@@ -27,7 +33,7 @@ export function selectedLines(designs, sets, {selection, chosen}, most = Infinit
       if (!inside.has(name)) inside.set(name, []);
       inside.get(name).push(i);
     });
-    return [...inside].flatMap(([name, indices]) => bundles(set, indices, {colour: colour[name] ?? colour.training, opacity: Math.max(0.2, Math.min(0.75, 60 / indices.length)), width: widthOf(count)}));
+    return [...inside].flatMap(([name, indices]) => bundles(set, indices, {colour: colourOf(name), dashed: isDashed(name), opacity: Math.max(0.2, Math.min(0.75, 60 / indices.length)), width: widthOf(count)}));
   });
   const {mark} = chosen;
   return mark && sets.includes(mark.set) ? [...lines, {colour: colour.accent, opacity: 1, width: 3, lines: [{set: mark.set, i: mark.index}]}] : lines;
@@ -60,7 +66,8 @@ export function paint(canvas, {width, height}, axes, all) {
   const pen = canvas.getContext('2d', {willReadFrequently: true});  // drawn by the processor: faster for so many short strokes
   pen.scale(ratio(), ratio());
   pen.lineJoin = 'bevel';
-  for (const {colour: stroke, opacity, width: thick, lines} of all) {
+  for (const {colour: stroke, opacity, width: thick, dashed, lines} of all) {
+    pen.setLineDash(dashed ? dashes : []);
     Object.assign(pen, {strokeStyle: stroke, globalAlpha: opacity, lineWidth: thick});
     pen.beginPath();
     lines.forEach((line) => trace(line, axes, pen));
@@ -69,10 +76,10 @@ export function paint(canvas, {width, height}, axes, all) {
 }
 
 export function asSvg(axes, all) {
-  return all.map(({colour: stroke, opacity, width, lines}) => {
+  return all.map(({colour: stroke, opacity, width, dashed, lines}) => {
     let d = '';
     const pen = {moveTo: (x, y) => { d += `M${x.toFixed(1)} ${y.toFixed(1)}`; }, lineTo: (x, y) => { d += `L${x.toFixed(1)} ${y.toFixed(1)}`; }};
     lines.forEach((line) => trace(line, axes, pen));
-    return `<path d="${d}" fill="none" stroke="${stroke}" stroke-opacity="${opacity.toFixed(3)}" stroke-width="${width}"/>`;
+    return `<path d="${d}" fill="none" stroke="${stroke}" stroke-opacity="${opacity.toFixed(3)}" stroke-width="${width}"${dashed ? ` stroke-dasharray="${dashes}"` : ''}/>`;
   }).join('');
 }

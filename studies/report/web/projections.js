@@ -6,7 +6,9 @@
 import {inputsText} from './designs.js';
 import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
 import {choice, el, figure, select} from './dom.js';
-import {axisLabel, labelled, ticks} from './format.js';
+import {axisLabel, labelled, percent, plain, ticks} from './format.js';
+import {bandTraces} from './front_band.js';
+import {brokenText, legendOfLimits, sizes, symbols} from './limits.js';
 import {axis, draw, plotBox, redraw} from './plot.js';
 import {colour, scale} from './theme.js';
 
@@ -23,7 +25,8 @@ export function projections(data, objectives, shared) {
     select('Colour by', colourings, state.by, (i) => { state.by = i; shown.forEach((box) => setTimeout(redraw, 0, box)); }),
     el('span', {class: 'control'}, 'Drag to', choice(['Select in a box', 'Select with a lasso', 'Zoom'], (i) => { state.tool = tools[i]; shown.forEach((box) => Plotly.relayout(box, {dragmode: tools[i]})); }))),
   el('div', {class: 'grid'}, shown)),
-  'The front seen from each pair of objectives. Grey dots are simulated runs, for scale; the diamond is the balanced point, nearest to the best of every objective at once; a line leads from what was predicted of a confirmed point to what its simulation gave (square). Click a point to follow it through the report; drag a box or a lasso to select what is inside in all plots and tables, and double-click to clear it.');
+  'The front seen from each pair of objectives. ' + (data.front.bands.length ? 'The shaded band is where the best trade-off of the two alone may lie, the other objectives left free: 5 to 95 of 100 draws of the surrogates reach it; dotted, half of them do. ' : '') +
+  'Grey dots are simulated runs, for scale; the diamond is the balanced point, nearest to the best of every objective at once; a line leads from what was predicted of a confirmed point to what its simulation gave (square). Click a point to follow it through the report; drag a box or a lasso to select what is inside in all plots and tables, and double-click to clear it.' + legendOfLimits(shared.designs.runs));
 }
 
 function pairs(count) {
@@ -32,12 +35,14 @@ function pairs(count) {
   return all.slice(0, mostProjections);
 }
 
+const brokenLine = (problem, run) => (brokenText(problem, run) ? '<br>' + plain(brokenText(problem, run)) : '');
+
 /// What the projections share: which runs they show, and the hover texts.
 function points({problem, confirmations, front}, {runs}) {
   const confirmed = new Set(confirmations.rows.map((r) => r.run));
   const done = runs.map((_, i) => i).filter((i) => runs[i].y && runs[i].kind !== 'validation' && !confirmed.has(runs[i].run));
-  return {done, runTexts: done.map((i) => `<b>${runs[i].kind} run ${runs[i].run}</b><br>${inputsText(problem, runs[i].x)}`),
-    frontTexts: front.X.map((x, i) => `<b>point ${i + 1}</b><br>${inputsText(problem, x)}`)};
+  return {done, made: done.map((i) => runs[i]), runTexts: done.map((i) => `<b>${runs[i].kind} run ${runs[i].run}</b><br>${inputsText(problem, runs[i].x)}${brokenLine(problem, runs[i])}`),
+    frontTexts: front.X.map((x, i) => `<b>point ${i + 1}</b><br>${inputsText(problem, x)}${front.non_dominated.length ? `<br>non-dominated: ${percent(front.non_dominated[i])}` : ''}`)};
 }
 
 function projection([a, b], view) {
@@ -46,7 +51,8 @@ function projection([a, b], view) {
   const runs = {x: values(a), y: values(b)}, front = {x: data.front.Y.map((y) => y[a]), y: data.front.Y.map((y) => y[b])};
   function values(k) { return cloud.done.map((i) => designs.runs[i].y[data.front.objectives[k]]); }
   const confirmed = confirmations(view, a, b);
-  const links = [link('runs', cloud.done), link('front'), undefined, confirmed.link];
+  const bands = () => bandTraces(data, objectives, a, b), first = bands().length;
+  const links = [...Array(first).fill(undefined), link('runs', cloud.done), link('front'), undefined, confirmed.link];
   const hover = `<br>${axisLabel(objectives[a])}: %{x:.4g}<br>${axisLabel(objectives[b])}: %{y:.4g}<extra></extra>`;
   const rings = () => [
     ...ringOf(chosen.marked('front'), (i) => [front.x[i], front.y[i]]),
@@ -54,12 +60,13 @@ function projection([a, b], view) {
   draw(box, (saved) => {
     const small = data.front.X.length > many;
     const shade = colouring(data, objectives, [a, b], state.by);
-    const marker = {size: small ? 5 : 8, line: {color: colour.paper, width: small ? 0 : 0.6}, color: shade ? shade.values : colour.training, opacity: opacities(selection, links[1], front.x.length, saved)};
+    const marker = {size: small ? 5 : 8, line: {color: colour.paper, width: small ? 0 : 0.6}, color: shade ? shade.values : colour.training, opacity: opacities(selection, links[first + 1], front.x.length, saved)};
     if (shade) Object.assign(marker, {colorscale: scale, showscale: true,
       colorbar: {title: {text: axisLabel(shade.item), side: 'right', font: {size: 12}}, thickness: 11, len: 0.95, outlinewidth: 0, tickfont: {size: 11}, ...ticks(shade.item)}});
     const trace = (more) => ({mode: 'markers', unselected: {marker: {opacity: 1}}, ...more});
     return {traces: [
-      trace({name: 'simulated', ...runs, marker: {size: 5, color: colour.simulated, opacity: opacities(selection, links[0], runs.x.length, saved)}, text: cloud.runTexts, hovertemplate: '%{text}' + hover}),
+      ...bands(),
+      trace({name: 'simulated', ...runs, marker: {size: sizes(cloud.made, 5), color: colour.simulated, symbol: symbols(cloud.made), opacity: opacities(selection, links[first], runs.x.length, saved)}, text: cloud.runTexts, hovertemplate: '%{text}' + hover}),
       trace({name: 'front', ...front, marker, text: cloud.frontTexts, hovertemplate: '%{text}' + hover}),
       ...confirmed.traces(hover, saved),
       ...data.front.balanced >= 0 ? [trace({x: [front.x[data.front.balanced]], y: [front.y[data.front.balanced]], hoverinfo: 'skip', marker: {symbol: 'diamond-open', size: 16, color: colour.ink, line: {width: 2.5}}})] : []],
@@ -109,10 +116,11 @@ function confirmations({data, designs, selection}, a, b) {
   const rows = data.confirmations.rows.filter((r) => r.y);
   const known = link('runs', rows.map((r) => designs.runs.findIndex((run) => run.run === r.run)));
   const line = (j) => rows.flatMap((r) => [r.predicted[j], r.y[j], null]);
-  const texts = rows.map((r) => `<b>run ${r.run}, simulated</b><br>${inputsText(data.problem, r.x)}`);
+  const made = rows.map((r) => designs.runs.find((run) => run.run === r.run) ?? r);
+  const texts = rows.map((r, k) => `<b>run ${r.run}, simulated</b><br>${inputsText(data.problem, r.x)}${brokenLine(data.problem, made[k])}`);
   const traces = (hover, saved) => (rows.length ? [{x: line(ja), y: line(jb), mode: 'lines', hoverinfo: 'skip', line: {color: colour.ink, width: 1}},
     {x: rows.map((r) => r.y[ja]), y: rows.map((r) => r.y[jb]), mode: 'markers', text: texts, unselected: {marker: {opacity: 1}},
-      marker: {symbol: 'square', size: 8, color: colour.ink, opacity: opacities(selection, known, rows.length, saved)}, hovertemplate: '%{text}' + hover}] : []);
+      marker: {symbol: symbols(made, 'square'), size: 8, color: colour.ink, opacity: opacities(selection, known, rows.length, saved)}, hovertemplate: '%{text}' + hover}] : []);
   return {traces, link: rows.length ? known : undefined};
 }
 

@@ -5,6 +5,7 @@
 import {comparing} from './compare.js';
 import {el, section} from './dom.js';
 import {labelled, number} from './format.js';
+import {anyBreaks, brokenText} from './limits.js';
 import {scatterMatrix} from './scatter_matrix.js';
 import {table} from './table.js';
 import {inputColumn, linkTable, tableOfRuns} from './tables.js';
@@ -28,9 +29,9 @@ function failures(data, failed, shared) {
 function runTable(data, compared, shared) {
   const {designs, chosen, selection} = shared;
   const outputs = data.problem.responses.map((r) => ({title: labelled(r), format: number, missing: 'failed'}));
-  const anyFailed = designs.runs.some((r) => !r.y);
-  const columns = [{title: 'Compare', control: compared.box}, {title: 'Run', format: String}, {title: 'Kind', text: true}, ...data.problem.variables.map(inputColumn), ...outputs,
+  const anyFailed = designs.runs.some((r) => !r.y), limited = anyBreaks(designs.runs);
+  const columns = [{title: 'Compare', control: compared.box}, {title: 'Run', format: String}, {title: 'Kind', text: true}, ...data.problem.variables.map(inputColumn), ...outputs, ...limited ? [{title: 'Limits', text: true}] : [],
     {title: 'Time [s]', format: number}, ...anyFailed ? [{title: 'Reason', text: true}] : []];
-  const rows = designs.runs.map((r) => [null, r.run, r.kind, ...r.x, ...(r.y ?? data.problem.responses.map(() => null)), r.seconds, ...anyFailed ? [r.reason] : []]);
+  const rows = designs.runs.map((r) => [null, r.run, r.kind, ...r.x, ...(r.y ?? data.problem.responses.map(() => null)), ...limited ? [brokenText(data.problem, r)] : [], r.seconds, ...anyFailed ? [r.reason] : []]);
   return linkTable('runs', table(columns, rows, {name: 'Runs', onpick: (i) => chosen.toggle('runs', i), passes: (i) => selection.has('runs', i), tall: true}), shared).node;
 }

@@ -5,7 +5,8 @@
 import {inputsText} from './designs.js';
 import {link, linkPoints, opacities} from './dimming.js';
 import {figure} from './dom.js';
-import {axisLabel, ticks} from './format.js';
+import {axisLabel, plain, ticks} from './format.js';
+import {brokenText, legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
 import {colour} from './theme.js';
 
@@ -23,7 +24,7 @@ export function scatterMatrix(data, shared) {
   const half = data.validation.rows.length && d > 1 ? 'Below the diagonal the training runs, above it the validation runs. ' : '';
   const part = d < data.problem.variables.length ? `The ${d} most influential of ${data.problem.variables.length} variables are shown. ` : '';
   const failed = shared.designs.runs.some((r) => r.y === null) ? 'Failed runs are red crosses: a cluster of them marks a region where the simulation breaks down.' : '';
-  return figure(box, `Where the design was sampled. ${half}On the diagonal, the share of runs along each variable; even bars mean even coverage; adaptive and confirmation runs count with the training runs. ${part}${failed}`);
+  return figure(box, `Where the design was sampled. ${half}On the diagonal, the share of runs along each variable; even bars mean even coverage; adaptive and confirmation runs count with the training runs. ${part}${failed}` + legendOfLimits(shared.designs.runs));
 }
 
 /// The traces carry which runs they show (known), for those who dim them.
@@ -35,7 +36,7 @@ function matrix(view) {
 }
 
 const hoverTexts = ({problem, training, validation}) => [...training.rows, ...validation.rows].map((r) =>
-  `<b>run ${r.run}${r.y ? '' : ', failed'}</b><br>${inputsText(problem, r.x)}`);
+  `<b>run ${r.run}${r.y ? '' : ', failed'}</b><br>${inputsText(problem, r.x)}${brokenText(problem, r) ? '<br>' + plain(brokenText(problem, r)) : ''}`);
 
 /// In the order of the problem, at most mostVariables of them.
 function mostInfluential(data) {
@@ -86,7 +87,7 @@ function points({data, shown, hovers, designs, selection, saved}, row, column, p
       text: indices.map((i) => hovers[i]), hovertemplate: '%{text}<extra></extra>', marker: {...marker, opacity: opacities(selection, known, indices.length, saved)}, ...panel, ...more};
   };
   const size = data[set].rows.length > 150 ? 4 : 6;
-  traces.push(trace(part(false), 0.8, {showlegend: false, legendgroup: set, name: set, marker: {size, color: colour[set]}}));
+  traces.push(trace(part(false), 0.8, {showlegend: false, legendgroup: set, name: set, marker: {size, color: colour[set], symbol: symbols(part(false).map((i) => designs.runs[i]))}}));
   const failed = part(true);
   const any = designs.runs.some((r) => r.y === null);
   if (failed.length || (legend && any)) traces.push(trace(failed, 1, {name: 'failed', legendgroup: 'failed', showlegend: legend, marker: {size: size + 3, symbol: 'x-thin', color: colour.failed, line: {color: colour.failed, width: 2}}}));

@@ -4,9 +4,7 @@
 
 import {certificate} from './front.js';
 import {el, section} from './dom.js';
-import {labelled, number, setting} from './format.js';
 import {pageHeader} from './header.js';
-import {table} from './table.js';
 
 export const header = (data) => pageHeader(data.replay ? 'Drawpoint replay of a run' : 'Drawpoint study report', data.study, data.about);
 
@@ -31,19 +29,9 @@ const card = ({label, value, unit, note}) => el('div', {class: 'card'}, el('span
 const verdict = ({response, grade, text}) => el('li', {}, el('span', {class: 'grade ' + grade}, grade), el('span', {}, el('b', {}, response), ' ' + text));
 
 export function facts(data) {
-  const {variables, responses} = data.problem;
-  const told = (items) => (items.some((item) => item.description) ? [{title: 'What it is', text: true}] : []);
-  const words = (item, items) => (told(items).length ? [item.description] : []);
-  const inputs = table([{title: 'Variable', text: true}, {title: 'Values', text: true}, ...told(variables)],
-    variables.map((v) => [labelled(v), v.levels ? v.levels.join(', ') : `${setting(v.lower, v)} to ${setting(v.upper, v)}`, ...words(v, variables)]), {sortable: false});
-  const goals = {minimize: 'as small as possible', maximize: 'as large as possible', at_most: 'at most', at_least: 'at least', record: 'recorded only'};
-  const outputs = table([{title: 'Response', text: true}, {title: 'Wanted', text: true}, ...told(responses)],
-    responses.map((r) => [labelled(r), goals[r.goal] + (r.limit == null ? '' : ' ' + number(r.limit)), ...words(r, responses)]), {sortable: false});
   const rows = [...data.facts];
   const search = data.polishing ? certificate(data.polishing) : '';
   if (search) rows.push(['Search for the front', search]);
   if (data.command) rows.unshift(['Command', el('code', {}, data.command)]);
-  return section('making', 'How it was made', null, el('div', {class: 'columns'}, inputs.node, outputs.node),
-    rows.length ? el('dl', {class: 'facts'}, rows.map(([label, value]) => [el('dt', {}, label), el('dd', {}, value)]).flat()) : null);
+  return section('making', 'How it was made', null, rows.length ? el('dl', {class: 'facts'}, rows.map(([label, value]) => [el('dt', {}, label), el('dd', {}, value)]).flat()) : null);
 }
-

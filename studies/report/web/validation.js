@@ -6,6 +6,7 @@ import {inputsText} from './designs.js';
 import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
 import {el, figure, section} from './dom.js';
 import {labelled, number, percent, plain, pretty} from './format.js';
+import {legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
 import {table} from './table.js';
 import {colour} from './theme.js';
@@ -28,7 +29,7 @@ export function validation(data, shared) {
     'ϑ, nugget and process σ are of that scale. ϑ: how fast the response changes along an input scaled to [-1, 1]; larger is livelier. Nugget: share of run-to-run noise, relative to the process variance.')));
   const known = responses.map((_, j) => j).filter((j) => data.validations[j]?.observed.length);
   if (known.length) node.append(figure(el('div', {class: 'grid'}, known.map((j) => parity(data, j, shared))),
-    'Predicted against simulated value of each validation run. A perfect surrogate puts every point on the dashed line; the bars are its own 95 % intervals, and about 19 of 20 should reach the line.'));
+    'Predicted against simulated value of each validation run. A perfect surrogate puts every point on the dashed line; the bars are its own 95 % intervals, and about 19 of 20 should reach the line.' + legendOfLimits(data.validation.rows)));
   return node;
 }
 
@@ -57,7 +58,7 @@ function parity(data, j, shared) {
   };
   draw(box, (saved) => ({traces: [
     {x: range, y: range, mode: 'lines', line: {color: colour.guide, dash: 'dash', width: 1.5}, hoverinfo: 'skip'},
-    {x: observed, y: predicted, mode: 'markers', marker: {color: colour.validation, size: 8, line: {color: colour.paper, width: 1}, opacity: opacities(selection, known, observed.length, saved)},
+    {x: observed, y: predicted, mode: 'markers', marker: {color: colour.validation, size: 8, symbol: symbols(indices.map((i) => designs.runs[i])), line: {color: colour.paper, width: 1}, opacity: opacities(selection, known, observed.length, saved)},
       error_y: {type: 'data', symmetric: false, array: upper.map((u, i) => u - predicted[i]), arrayminus: predicted.map((p, i) => p - lower[i]), color: 'rgba(217,130,43,0.45)', thickness: 1.5, width: 3},
       text: indices.map((i) => `<b>run ${designs.runs[i].run}</b><br>${inputsText(data.problem, designs.runs[i].x)}`), hovertemplate: '%{text}<br>simulated %{x:.4g}<br>predicted %{y:.4g}<extra></extra>'},
   ], layout: {showlegend: false, margin: {l: 60, r: 16, t: 36, b: 52}, shapes: rings(),

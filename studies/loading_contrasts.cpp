@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/studies/loading_contrasts.h>
+#include <drawpoint/studies/loading_panels.h>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace drawpoint::studies {
+namespace {
+
+using engine::loading::CycleRecord;
+using engine::loading::LoadingLog;
+
+struct ChosenCycle {
+  double value = 0;
+  std::filesystem::path log;
+  std::size_t index = 0;  // in LoadingLog::cycles
+};
+
+/// The cycles with the least and the greatest of a measure.
+struct Extremes {
+  ChosenCycle least, most;
+  int cycles = 0;
+
+  void add(const ChosenCycle& cycle) {
+    if (cycles == 0 || cycle.value < least.value) least = cycle;
+    if (cycles == 0 || cycle.value > most.value) most = cycle;
+    ++cycles;
+  }
+  void add(const std::vector<double>& by_cycle, const std::filesystem::path& log) {
+    for (std::size_t c = 0; c < by_cycle.size(); ++c) add({by_cycle[c], log, c});
+  }
+  bool differ() const { return cycles > 1 && least.value < most.value; }
+};
+
+std::vector<double> production_by_cycle(const LoadingLog& log) {
+  std::vector<double> rates;
+  for (const CycleRecord& c : log.cycles) rates.push_back(c.loaded_mass / (c.t_end - c.t_start));
+  return rates;
+}
+
+/// Nothing of a log without plans.
+std::vector<double> tracking_errors(const LoadingLog& log) {
+  try {
+    return engine::loading::tracking_error_by_cycle(log);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+/// "run 12" of run_0012.h5.
+std::string run_of(const std::filesystem::path& log) {
+  const std::string stem = log.stem().string();
+  const std::size_t digits = stem.find_first_of("123456789");
+  return digits == std::string::npos ? stem : "run " + stem.substr(digits);
+}
+
+std::string cycle_of(const ChosenCycle& chosen, const CycleRecord& cycle) {
+  std::string text = run_of(chosen.log) + ", cycle " + std::to_string(cycle.number);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+/// Without the floor far before the plan: two figures share a row.
+nlohmann::json near_the_plan(nlohmann::json panel) {
+  const auto planned = panel["planned"]["x"].get<std::vector<double>>();
+  const auto x = panel["contour"]["x"].get<std::vector<double>>(),
+             z = panel["contour"]["z"].get<std::vector<double>>();
+  const double first = *std::min_element(planned.begin(), planned.end()) - 1.0;
+  std::vector<double> near_x, near_z;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < first) continue;
+    near_x.push_back(x[i]);
+    near_z.push_back(z[i]);
+  }
+  panel["contour"] = {{"x", near_x}, {"z", near_z}};
+  return panel;
+}
+
+nlohmann::json tracking_panel(const ChosenCycle& chosen, const Extremes& all, bool well) {
+  const LoadingLog log = engine::loading::read_log(chosen.log);
+  const CycleRecord& cycle = log.cycles.at(chosen.index);
+  const std::string who = cycle_of(chosen, cycle) + ", the " + (well ? "best" : "worst") + " tracked of " +
+                          std::to_string(all.cycles) + " cycles, its edge " + fixed(chosen.value, 2) +
+                          " m off the planned path (root mean square, drive in to curl)";
+  return near_the_plan(path_panel(log, cycle, who, well ? "A well tracked cycle" : "A badly tracked cycle"));
+}
+
+nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, bool high) {
+  const LoadingLog log = engine::loading::read_log(chosen.log);
+  const CycleRecord& cycle = log.cycles.at(chosen.index);
+  const std::string who = cycle_of(chosen, cycle) + ", the " + (high ? "highest" : "lowest") +
+                          " production of " + std::to_string(all.cycles) +
+                          " cycles: " + fixed(1e-3 * cycle.loaded_mass, 1) + " t in " +
+                          fixed(cycle.t_end - cycle.t_start, 1) + " s, " + fixed(chosen.value, 0) + " kg/s";
+  return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production");
+}
+
+}  // namespace
+
+nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs, const OptionValues&) {
+  Extremes tracking, production;
+  for (const std::filesystem::path& file : logs) {
+    const LoadingLog log = engine::loading::read_log(file);
+    tracking.add(tracking_errors(log), file);
+    production.add(production_by_cycle(log), file);
+  }
+  nlohmann::json panels = nlohmann::json::array();
+  if (tracking.differ())
+    panels = {tracking_panel(tracking.least, tracking, true), tracking_panel(tracking.most, tracking, false)};
+  if (production.differ()) {
+    panels.push_back(production_panel(production.most, production, true));
+    panels.push_back(production_panel(production.least, production, false));
+  }
+  return panels;
+}
+
+}  // namespace drawpoint::studies

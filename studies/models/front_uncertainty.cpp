@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/models/front_uncertainty.h>
+#include <drawpoint/kriging/sample_paths.hpp>
+#include <drawpoint/pareto/attainment.hpp>
+#include <drawpoint/pareto/non_domination.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace drawpoint::studies {
+namespace {
+
+constexpr int draws_of_a_front = 1024;
+constexpr int places_of_a_band = 61;
+constexpr double confidence_of_a_band = 0.9;
+
+bool counts_on_front(const doe::Response& response) {
+  return doe::is_objective(response.goal) || doe::is_constraint(response.goal);
+}
+
+/// n x draws, unit of the response.
+Eigen::MatrixXd paths_of(const kriging::TransformedModel& model, const doe::Response& response,
+                         const Eigen::MatrixXd& X, doe::Seed seed) {
+  Eigen::MatrixXd paths = kriging::sample_paths(model.model(), X, draws_of_a_front, {.seed = seed});
+  const bool linear = model.transform().scale == kriging::Scale::linear;
+  for (double& y : paths.reshaped()) {
+    if (!linear) y = kriging::mean_response(model.transform(), y, model.noise_variance());
+    y = doe::within_range(response, y);
+  }
+  return paths;
+}
+
+/// The problem with these two objectives alone; limits stay.
+doe::Problem with_pair(doe::Problem problem, std::size_t a, std::size_t b) {
+  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
+    doe::Goal& goal = problem.responses[j].goal;
+    if (doe::is_objective(goal) && j != a && j != b) goal = doe::Goal::record;
+  }
+  return problem;
+}
+
+PairBand band_of_pair(const pareto::Front& front, const doe::Problem& problem, const pareto::Draws& draws,
+                      std::pair<std::size_t, std::size_t> columns) {
+  std::vector<std::size_t> objectives;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    if (doe::is_objective(problem.responses[j].goal)) objectives.push_back(j);
+  const auto [a, b] = columns;
+  const auto y = front.Y.col(static_cast<Eigen::Index>(a));
+  PairBand band{.first = a, .second = b};
+  band.at = Eigen::VectorXd::LinSpaced(places_of_a_band, y.minCoeff(), y.maxCoeff());
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(places_of_a_band, 2);
+  at.col(0) = band.at;
+  const pareto::FrontBand found =
+      pareto::front_band(with_pair(problem, objectives[a], objectives[b]), draws, at, confidence_of_a_band);
+  band.optimistic = found.optimistic.col(1);
+  band.median = found.median.col(1);
+  band.pessimistic = found.pessimistic.col(1);
+  return band;
+}
+
+bool variances_are_known(const std::vector<kriging::TransformedModel>& models, const Eigen::MatrixXd& X) {
+  return std::all_of(models.begin(), models.end(), [&](const kriging::TransformedModel& model) {
+    return model.model().predict(X.topRows(1)).variance.allFinite();
+  });
+}
+
+}  // namespace
+
+FrontUncertainty uncertainty_of(const pareto::Front& front,
+                                const std::vector<kriging::TransformedModel>& models,
+                                const doe::Problem& problem, doe::Seed seed) {
+  if (front.X.rows() == 0 || models.empty() || !variances_are_known(models, front.X)) return {};
+  std::vector<Eigen::MatrixXd> paths;
+  for (std::size_t j = 0; j < models.size(); ++j) {
+    const doe::Response& response = problem.responses[j];
+    if (counts_on_front(response))
+      paths.push_back(paths_of(models[j], response, front.X, doe::run_seed(seed, j, 0)));
+    else
+      paths.push_back(Eigen::MatrixXd::Zero(front.X.rows(), draws_of_a_front));
+  }
+  const pareto::Draws draws = pareto::draws_of_paths(paths);
+  FrontUncertainty result{.non_dominated = pareto::probability_non_dominated(problem, draws).probability};
+  const auto columns = static_cast<std::size_t>(front.Y.cols());
+  for (std::size_t a = 0; a < columns; ++a)
+    for (std::size_t b = a + 1; b < columns; ++b)
+      result.bands.push_back(band_of_pair(front, problem, draws, {a, b}));
+  return result;
+}
+
+}  // namespace drawpoint::studies
