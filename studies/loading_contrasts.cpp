@@ -3,6 +3,8 @@
 
 #include <drawpoint/studies/loading_contrasts.h>
 #include <drawpoint/studies/loading_panels.h>
+#include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 
 #include <algorithm>
@@ -38,12 +40,6 @@ struct Extremes {
   }
   bool differ() const { return cycles > 1 && least.value < most.value; }
 };
-
-std::vector<double> production_by_cycle(const LoadingLog& log) {
-  std::vector<double> rates;
-  for (const CycleRecord& c : log.cycles) rates.push_back(c.loaded_mass / (c.t_end - c.t_start));
-  return rates;
-}
 
 /// Nothing of a log without plans.
 std::vector<double> tracking_errors(const LoadingLog& log) {
@@ -92,31 +88,34 @@ nlohmann::json tracking_panel(const ChosenCycle& chosen, const Extremes& all, bo
   return near_the_plan(path_panel(log, cycle, who, well ? "A well tracked cycle" : "A badly tracked cycle"));
 }
 
-nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, bool high) {
+nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, double haul, bool high) {
   const LoadingLog log = engine::loading::read_log(chosen.log);
   const CycleRecord& cycle = log.cycles.at(chosen.index);
   const std::string who = cycle_of(chosen, cycle) + ", the " + (high ? "highest" : "lowest") +
                           " production of " + std::to_string(all.cycles) +
                           " cycles: " + fixed(1e-3 * cycle.loaded_mass, 1) + " t in " +
-                          fixed(cycle.t_end - cycle.t_start, 1) + " s, " + fixed(chosen.value, 0) + " kg/s";
+                          fixed(cycle.t_end - cycle.t_start, 1) + " s, " + fixed(chosen.value, 0) + " kg/s" +
+                          (haul > 0 ? " with a haul of " + fixed(haul, 0) + " s" : "");
   return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production");
 }
 
 }  // namespace
 
-nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs, const OptionValues&) {
+nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs,
+                                 const OptionValues& options) {
+  const engine::loading::ProductionOptions producing = production_options(options);
   Extremes tracking, production;
   for (const std::filesystem::path& file : logs) {
     const LoadingLog log = engine::loading::read_log(file);
     tracking.add(tracking_errors(log), file);
-    production.add(production_by_cycle(log), file);
+    production.add(production_by_cycle(log, producing), file);
   }
   nlohmann::json panels = nlohmann::json::array();
   if (tracking.differ())
     panels = {tracking_panel(tracking.least, tracking, true), tracking_panel(tracking.most, tracking, false)};
   if (production.differ()) {
-    panels.push_back(production_panel(production.most, production, true));
-    panels.push_back(production_panel(production.least, production, false));
+    panels.push_back(production_panel(production.most, production, producing.haul, true));
+    panels.push_back(production_panel(production.least, production, producing.haul, false));
   }
   return panels;
 }

@@ -4,7 +4,7 @@
 /// Cycles of a loading study set against each other, chosen by its logs: the best and the worst tracked one of
 /// all runs (root mean square distance of the cutting edge from the planned path,
 /// engine/loading/log/run_measures.hpp), each with its path; the one with the highest and the one with the
-/// lowest production (loaded mass over its time), each to play. Of equal ones the first.
+/// lowest production (with the haul of the options), each to play. Of equal ones the first.
 
 #include <drawpoint/studies/options.hpp>
 

@@ -75,6 +75,11 @@ TEST(LoadingContrasts, AreTheExtremeCyclesOfAllRuns) {
                      "Run 7, cycle 2, the lowest production of 4 cycles: 1.0 t in 10.0 s, 100 kg/s"))
       << caption(panels[3]);
   EXPECT_EQ(panels[3]["frames"].size(), 1u) << "of that cycle alone";
+  const auto hauled = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"}, {{"haul", "52"}});
+  EXPECT_TRUE(begins(caption(hauled[2]),
+                     "Run 12, cycle 1, the highest production of 4 cycles: 6.2 t in 10.0 s, 100 "
+                     "kg/s with a haul of 52 s"))
+      << caption(hauled[2]);
 }
 
 TEST(LoadingContrasts, AreNoneOfOneCycleOrOfEqualOnes) {
