@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/machine_looks.h>
 #include <drawpoint/engine/loading/scene_recorder.h>
 #include <cmath>
 #include <drawpoint/engine/granular/rock_shapes.hpp>
@@ -59,7 +60,8 @@ SceneRecorder::SceneRecorder(const Site& site, const Scenario& scenario, SceneRe
 void SceneRecorder::add_machine(const Site& site) {
   const Lhd& lhd = site.lhd();
   for (const LhdSurface& s : lhd.surfaces)
-    add_part(lhd, s.body, drawable(s.shape), s.color);
+    if (is_drawn_as_it_is(s)) add_part(lhd, s.body, drawable(s.shape), s.color);
+  for (const DrawnPart& p : machine_looks(lhd)) add_part(lhd, p.body, p.shape, p.color);
 }
 
 // The first of a body has its poses.
