@@ -4,6 +4,7 @@
 #include <drawpoint/studies/loading_contrasts.h>
 #include <drawpoint/studies/loading_panels.h>
 #include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/studies/loading_scene.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 
@@ -88,15 +89,18 @@ nlohmann::json tracking_panel(const ChosenCycle& chosen, const Extremes& all, bo
   return near_the_plan(path_panel(log, cycle, who, well ? "A well tracked cycle" : "A badly tracked cycle"));
 }
 
-nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, double haul, bool high) {
+nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, const OptionValues& options,
+                                bool high) {
   const LoadingLog log = engine::loading::read_log(chosen.log);
   const CycleRecord& cycle = log.cycles.at(chosen.index);
+  const double haul = production_options(options).haul;
   const std::string who = cycle_of(chosen, cycle) + ", the " + (high ? "highest" : "lowest") +
                           " production of " + std::to_string(all.cycles) +
                           " cycles: " + fixed(1e-3 * cycle.loaded_mass, 1) + " t in " +
                           fixed(cycle.t_end - cycle.t_start, 1) + " s, " + fixed(chosen.value, 0) + " kg/s" +
                           (haul > 0 ? " with a haul of " + fixed(haul, 0) + " s" : "");
-  return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production");
+  return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production",
+                     damage_options(options).tau_y);
 }
 
 }  // namespace
@@ -114,8 +118,8 @@ nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs,
   if (tracking.differ())
     panels = {tracking_panel(tracking.least, tracking, true), tracking_panel(tracking.most, tracking, false)};
   if (production.differ()) {
-    panels.push_back(production_panel(production.most, production, producing.haul, true));
-    panels.push_back(production_panel(production.least, production, producing.haul, false));
+    panels.push_back(production_panel(production.most, production, options, true));
+    panels.push_back(production_panel(production.least, production, options, false));
   }
   return panels;
 }

@@ -4,13 +4,13 @@
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_panels.h>
 #include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/studies/loading_scene.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 
 namespace drawpoint::studies {
@@ -130,9 +130,10 @@ json loading_figures(const std::filesystem::path& log_file, const OptionValues& 
   if (log.cycles.empty()) return json::array();
   const CycleRecord& cycle = log.cycles.front();
   const std::string who = name_of(cycle) + " of the run shown";
+  const double yield_torque = damage_options(options).tau_y;
   json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge"),
-                 scene_panel(log, cycle, who, "The machine in the drift"),
-                 forces_panel(log, cycle, damage_options(options).tau_y)};
+                 scene_panel(log, cycle, who, "The machine in the drift", yield_torque),
+                 forces_panel(log, cycle, yield_torque)};
   json bucket = bucket_panel(log, cycle);
   if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
   panels.push_back(cycles_panel(log));

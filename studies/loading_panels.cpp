@@ -11,14 +11,7 @@ namespace drawpoint::studies {
 
 using engine::loading::CycleRecord;
 using engine::loading::LoadingLog;
-using engine::loading::values_per_pose;
 using nlohmann::json;
-
-namespace {
-
-constexpr double picture_interval = 0.5;  // of the replay [s]; keeps the page light
-
-}  // namespace
 
 // Three decimals: millimetres, and the text of a number stays short.
 json rounded(double value) { return std::round(value * 1e3) / 1e3; }
@@ -88,64 +81,6 @@ json path_panel(const LoadingLog& log, const CycleRecord& cycle, const std::stri
       {"planned", {{"x", rounded(cycle.planned_x)}, {"z", rounded(cycle.planned_z)}}},
       {"actual", {{"x", rounded(samples(log, "tip_x", rows))}, {"z", rounded(samples(log, "tip_z", rows))}}},
       {"stages", stage_paths(log, rows)}};
-}
-
-namespace {
-
-json shape_of(const engine::ConvexPolyhedron& shape) {
-  json vertices = json::array();
-  for (const auto& v : shape.vertices()) vertices.push_back({rounded(v.x()), rounded(v.y()), rounded(v.z())});
-  return {{"vertices", vertices}, {"faces", shape.faces()}};
-}
-
-json poses_of(const engine::loading::SceneFrame& frame) {
-  json poses = json::array();
-  for (std::size_t b = 0; b + values_per_pose <= frame.poses.size(); b += values_per_pose) {
-    if (std::isnan(frame.poses[b])) {
-      poses.push_back(nullptr);
-      continue;
-    }
-    json pose = json::array();
-    for (std::size_t k = 0; k < values_per_pose; ++k) pose.push_back(rounded(frame.poses[b + k]));
-    poses.push_back(pose);
-  }
-  return poses;
-}
-
-// "curl, 3.2 t in the bucket"; logs of version 4 do not know the mass.
-std::string label_of(const engine::loading::SceneFrame& frame) {
-  if (std::isnan(frame.bucket_mass)) return frame.label;
-  return frame.label + ", " + fixed(1e-3 * frame.bucket_mass, 1) + " t in the bucket";
-}
-
-}  // namespace
-
-json scene_panel(const LoadingLog& log, const CycleRecord& cycle, const std::string& who,
-                 const std::string& title) {
-  json shapes = json::array(), bodies = json::array(), frames = json::array();
-  for (const auto& shape : log.scene.shapes) shapes.push_back(shape_of(shape));
-  for (const auto& body : log.scene.bodies)
-    bodies.push_back(
-        {{"shape", body.shape}, {"color", body.color}, {"opacity", body.opacity}, {"name", body.name}});
-  int poster = 0;
-  double next = -1;
-  for (const auto& frame : log.scene.frames) {
-    if (frame.cycle != cycle.number || frame.t < next) continue;
-    next = frame.t + picture_interval - 1e-6;
-    if (frame.label == "curl") poster = static_cast<int>(frames.size());
-    frames.push_back(
-        {{"t", rounded(frame.t - cycle.t_start)}, {"label", label_of(frame)}, {"poses", poses_of(frame)}});
-  }
-  const double toe = cycle.plan.toe;
-  return {{"type", "scene"},
-          {"title", title},
-          {"caption", who + ": drag to turn, wheel to zoom, play to watch it load. Walls and roof are drawn "
-                            "transparent."},
-          {"shapes", shapes},
-          {"bodies", bodies},
-          {"frames", frames},
-          {"camera", {{"eye", {toe - 3.5, -11.0, 5.5}}, {"target", {toe - 1.2, 0.0, 1.3}}}},
-          {"poster_frame", poster}};
 }
 
 }  // namespace drawpoint::studies

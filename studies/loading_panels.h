@@ -28,8 +28,5 @@ std::vector<double> samples(const engine::loading::LoadingLog& log, const char* 
 /// Planned and actual path of the cutting edge over the pile.
 nlohmann::json path_panel(const engine::loading::LoadingLog& log, const engine::loading::CycleRecord& cycle,
                           const std::string& who, const std::string& title);
-/// The cycle's frames; the poster shows the bucket as it breaks out.
-nlohmann::json scene_panel(const engine::loading::LoadingLog& log, const engine::loading::CycleRecord& cycle,
-                           const std::string& who, const std::string& title);
 
 }  // namespace drawpoint::studies

@@ -17,7 +17,11 @@
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
 ///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
 ///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one per body]}], camera: {eye, target},
-///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside
+///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside. In place of all
+///          poses each body may have track: [[frame, x,y,z,qw,qx,qy,qz] or [frame], where it hides], its poses
+///          in some frames, between which it moves evenly; or with: k, to move as body k does. follow?: the
+///          body that a camera goes with; signals?: [{name, unit, t: [], y: [], lines?: [{name, y}]}], drawn
+///          below in time with the scene
 ///   lines  series: [{name, x: [], y: []}]; x_label, y_label
 ///   table  columns: [], rows: [[]..]
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
 #include <exception>
 #include <iterator>
@@ -27,9 +28,10 @@ class LoadingRun {
   LoadingRun(const Scenario& scenario, const SettledPile& pile, const SimulationHooks& hooks)
       : scenario_(scenario),
         hooks_(hooks),
+        stream_(scenario.log_file),
         site_(scenario, pile),
         signals_(site_.lhd(), scenario.log_all_joints, log_.signals),
-        scene_(site_, scenario.drift, log_.scene) {
+        scene_(site_, scenario, log_.scene) {
     site_.world().before_solve(hooks.before_solve);
     describe(scenario_, site_, log_);
     log_.texts["pile_provenance"] = pile.provenance.empty() ? "given by the caller" : pile.provenance;
@@ -45,6 +47,7 @@ class LoadingRun {
     }
     log_.completed = goes_on;
     sum_up();
+    stream_.finish(log_);
     return std::move(log_);
   }
 
@@ -78,6 +81,7 @@ class LoadingRun {
 
   Scenario scenario_;
   SimulationHooks hooks_;
+  LogStream stream_;
   Site site_;
   LoadingLog log_;
   SignalRecorder signals_;            // into log_
@@ -121,7 +125,7 @@ void LoadingRun::keep(int cycle) {
   sum_up();
   log_.message = "not finished: written after cycle " + std::to_string(cycle) + " of " +
                  std::to_string(scenario_.cycles);
-  write_log(scenario_.log_file, log_);
+  stream_.keep(log_);
   log_.message.clear();
 }
 
@@ -351,9 +355,7 @@ LoadingLog simulate(const Scenario& scenario, const SimulationHooks& hooks) {
 
 LoadingLog simulate(const Scenario& scenario, const SettledPile& pile, const SimulationHooks& hooks) {
   check(scenario);
-  const LoadingLog log = LoadingRun(scenario, pile, hooks).run();
-  if (!scenario.log_file.empty()) write_log(scenario.log_file, log);
-  return log;
+  return LoadingRun(scenario, pile, hooks).run();
 }
 
 }  // namespace drawpoint::engine::loading

@@ -24,10 +24,10 @@
 /// the drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost
 /// (`lost_cycles`), not the run; more than 1 % of the pile's mass or one cycle in five is failure. Failure is
 /// data: a pile without a place to load, or a solution that breaks down, gives a log with completed = false
-/// and a message; the cycles done before are in it. A log file is written whole after every cycle: a run that
-/// is killed leaves the cycles that it had done, completed = false. Throws std::invalid_argument for a bad
-/// scenario and std::runtime_error if a file cannot be read or written. Deterministic. Cost: some ms per step
-/// and 1000 rocks.
+/// and a message; the cycles done before are in it. Each cycle goes to the disk when it ends, and is not
+/// written again before the run ends: a run that is killed leaves what it had done, completed = false. Throws
+/// std::invalid_argument for a bad scenario and std::runtime_error if a file cannot be read or written.
+/// Deterministic. Cost: some ms per step and 1000 rocks.
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {

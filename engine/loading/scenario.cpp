@@ -34,7 +34,6 @@ Scenario lh621_at_lindmark2016_scale() {
   s.drift.raise_radius = 3.0;
   s.drift.raise_height = 11;
   s.pile.mass = 290e3;
-  s.frame_interval = 0.5;                // thirty cycles in a log of less than 20 MB
   s.world.solver.iteration_budget *= 2;  // as many iterations for each of its points as the smaller scene has
   return s;
 }
@@ -94,6 +93,7 @@ void check(const Scenario& s) {
   require_setting(s.pile.tolerance >= 0 && s.pile.tolerance <= 1, "tolerance while pouring", s.pile.tolerance,
                   "0 to 1 of the load");
   require_setting(s.frame_interval > 0, "frame interval [s]", s.frame_interval, "above 0 s");
+  require_setting(s.frame_tolerance >= 0, "frame tolerance [m]", s.frame_tolerance, "0 m or more");
 }
 
 }  // namespace drawpoint::engine::loading

@@ -2,29 +2,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <drawpoint/engine/loading/log/scene_motion.hpp>
 #include <drawpoint/engine/loading/site.hpp>
 #include <map>
 
-/// Pictures of the scene for replay: shapes once, poses per frame. Rocks that come later are hidden in
-/// earlier frames.
+/// The scene for replay: shapes once, and poses where bodies leave the even way between them by more than the
+/// scenario's frame_tolerance. Poses are rounded, to half a millimetre and 0.00012 of the quaternion for the
+/// machine, to 4 mm and 0.004 for rocks unless the tolerance is 0. Each cycle begins with the poses of all;
+/// rocks that come later are not shown before.
 namespace drawpoint::engine::loading {
 
 class SceneRecorder {
  public:
   /// Into `scene`, which is to stay.
-  SceneRecorder(const Site& site, const Drift& drift, SceneRecord& scene);
+  SceneRecorder(const Site& site, const Scenario& scenario, SceneRecord& scene);
   void frame(const Site& site, int cycle, const std::string& label);
-  /// Gives all frames a pose for every body there is; before the scene is written.
+  /// Puts into the scene what is still to come of the frames; before it is written.
   void complete();
 
  private:
-  int shape_of(const granular::RockSpec& spec);
+  void add_machine(const Site& site);
+  void add_part(const Lhd& lhd, int part, const engine::ConvexPolyhedron& shape, const std::string& color);
+  void add_drift(const Drift& drift);
   void add_rocks(const Site& site);
+  int shape_of(const granular::RockSpec& spec);
 
   SceneRecord& scene_;
+  MotionTolerance of_rocks_, of_machine_;
+  MotionRecorder motion_;
   std::map<std::pair<int, double>, int> rock_shapes_;
-  std::size_t machine_bodies_ = 0, fixed_bodies_ = 0, rocks_ = 0;
+  std::map<int, int> carriers_;           // body of the machine: body of the scene that has its poses
+  int first_fixed_ = 0, first_rock_ = 0;  // bodies of the scene
+  std::size_t rocks_ = 0;
 };
 
 }  // namespace drawpoint::engine::loading

@@ -79,7 +79,7 @@ void add_frame_options(CLI::App& command, FrameSettings& settings) {
       ->check(size_complaint)
       ->capture_default_str();
   add_detail("--camera", settings.camera, "where one looks from, as the buttons of the page")
-      ->check(CLI::IsMember({"home", "side", "above"}))
+      ->check(CLI::IsMember({"home", "side", "above", "follow"}))
       ->capture_default_str();
 }
 

@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/report/panels.h>
+#include <drawpoint/studies/report/scene_tracks.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <stdexcept>
 
 namespace drawpoint::studies::detail {
@@ -15,7 +11,6 @@ namespace drawpoint::studies::detail {
 namespace {
 
 using nlohmann::json;
-using Pose = std::array<double, 7>;
 
 [[noreturn]] void reject_panel(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -74,97 +69,29 @@ void check_shapes(const json& panel) {
       reject_panel("a body names a shape that is not there");
 }
 
-void check_frames(const json& panel) {
-  const json& frames = list(panel, "frames");
-  if (frames.empty()) reject_panel("there are no frames");
-  for (const json& frame : frames) {
-    if (!member(frame, "t").is_number()) reject_panel("a frame's time is not a number");
-    if (list(frame, "poses").size() != panel.at("bodies").size())
-      reject_panel("a frame has not one pose for every body");
+void check_signals(const json& panel) {
+  if (!panel.contains("signals")) return;
+  for (const json& signal : list(panel, "signals")) {
+    for (const char* name : {"name", "unit"})
+      if (!member(signal, name).is_string()) reject_panel(quoted(name) + " of a signal is not a text");
+    check_curve(signal, "t", "y");
+    if (!signal.contains("lines")) continue;
+    for (const json& limit : list(signal, "lines"))
+      if (!member(limit, "name").is_string() || !member(limit, "y").is_number())
+        reject_panel("a line of a signal has no name or no number y");
   }
-  if (panel.value("poster_frame", std::size_t{0}) >= frames.size())
-    reject_panel("the poster frame is not among the frames");
-}
-
-/// Poses of all frames in a row, absent bodies as NaN.
-std::vector<Pose> read_poses(const json& frames) {
-  std::vector<Pose> poses;
-  for (const json& frame : frames)
-    for (const json& pose : frame.at("poses")) {
-      poses.emplace_back();
-      poses.back().fill(std::numeric_limits<double>::quiet_NaN());
-      if (!pose.is_null()) poses.back() = pose.get<Pose>();
-    }
-  return poses;
-}
-
-bool absent(const Pose& pose) {
-  return !std::all_of(pose.begin(), pose.end(), [](double v) { return std::isfinite(v); });
-}
-
-struct Box {
-  std::array<double, 3> origin{};
-  double scale = 1.0;  ///< [m] a unit
-};
-
-Box box_around(const std::vector<Pose>& poses) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  Box box;
-  double half_extent = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const Pose& pose : poses) {
-      if (absent(pose)) continue;
-      low[k] = std::min(low[k], pose[k]);
-      high[k] = std::max(high[k], pose[k]);
-    }
-    if (low[k] > high[k]) return box;
-    box.origin[k] = 0.5 * (low[k] + high[k]);
-    half_extent = std::max(half_extent, 0.5 * (high[k] - low[k]));
-  }
-  if (half_extent > 0.0) box.scale = half_extent / 32767.0;
-  return box;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63u];
-  }
-  return text;
-}
-
-void append(std::string& bytes, double value) {
-  const auto n = static_cast<std::uint16_t>(
-      static_cast<std::int16_t>(std::lround(std::clamp(value, -32768.0, 32767.0))));
-  bytes += static_cast<char>(n & 255u);
-  bytes += static_cast<char>(n >> 8);
-}
-
-json packed(const std::vector<Pose>& poses) {
-  const Box box = box_around(poses);
-  std::string bytes;
-  for (const Pose& pose : poses) {
-    const bool gone = absent(pose);
-    for (std::size_t k = 0; k < 7; ++k) {
-      const double value = k < 3 ? (pose[k] - box.origin[k]) / box.scale : 32767.0 * pose[k];
-      append(bytes, !gone ? std::max(value, -32767.0) : k == 0 ? -32768.0 : 0.0);
-    }
-  }
-  return {{"data", base64(bytes)}, {"origin", box.origin}, {"scale", box.scale}};
 }
 
 json checked_scene(const json& panel) {
   check_shapes(panel);
-  check_frames(panel);
+  check_signals(panel);
+  list(panel, "frames");
+  if (panel.contains("follow") && panel.at("follow").get<std::size_t>() >= panel.at("bodies").size())
+    reject_panel("the body to follow is not there");
   json scene = panel;
-  scene["poses"] = packed(read_poses(panel.at("frames")));
+  scene["poses"] = packed_tracks(panel);
   for (json& frame : scene["frames"]) frame.erase("poses");
+  for (json& body : scene["bodies"]) body.erase("track");
   return scene;
 }
 

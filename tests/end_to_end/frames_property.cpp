@@ -106,6 +106,18 @@ TEST_F(Frames, OneMomentFromTheSideAndFromAbove) {
   EXPECT_NE(pictures[0]["pixels"], pictures[1]["pixels"]);
 }
 
+// The floor passes by, the box stays where it is in the picture.
+TEST_F(Frames, TheCameraFollowsTheBox) {
+  ASSERT_EQ(run(replay() + frames("follow") + small + " --fps 1 --camera follow").code, 0);
+  const auto all = facts("follow");
+  ASSERT_EQ(all.size(), 3u);
+  for (const auto& picture : all) {
+    EXPECT_GT(picture["red"], 0.005);
+    EXPECT_NEAR(picture["column"].get<double>(), 160, 3);
+  }
+  EXPECT_NE(all[0]["pixels"], all[1]["pixels"]);
+}
+
 TEST_F(Frames, BecomeAFilm) {
   for (const std::string name : {"film.mp4", "film.webm"}) {
     const Ended end = run(replay() + " --video " + folder(name).string() + small + " --fps 5 --speed 2");

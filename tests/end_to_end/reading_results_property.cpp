@@ -23,7 +23,7 @@ void write_short_log(const std::filesystem::path& file) {
   log.signals.columns = {{"time", "s", "end of the step"},
                          {"hinge_G_torque_x", "N m", "about the long axis"}};
   for (int k = 0; k < 10; ++k) log.signals.append_row(std::vector<double>{0.01 * k, 1e4 * k});
-  log.scene.frames = {{0.0, 1, "drive in", {}, 0.0}, {0.05, 1, "lift", {}, 1200.0}};
+  log.scene.frames = {{0.0, 1, "drive in", 0.0}, {0.05, 1, "lift", 1200.0}};
   engine::loading::write_log(file, log);
 }
 

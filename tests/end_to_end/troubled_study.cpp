@@ -107,6 +107,7 @@ nlohmann::json scene() {
           {"shapes", {box(5, 2, 0.1), box(0.6, 0.5, 0.6)}},
           {"bodies", {{{"shape", 0}, {"color", "#a09080"}}, {{"shape", 1}, {"color", "#d01010"}}}},
           {"frames", frames},
+          {"follow", 1},
           {"camera", {{"eye", {0, -12, 3}}, {"target", {0, 0, 0.5}}}}};
 }
 

@@ -26,13 +26,13 @@ LoadingLog log_with_a_peak() {
   LoadingLog log;
   log.completed = true;
   log.texts["arm_drive"] = "cylinders";
-  for (const char* name : {"time", "cycle", "stage", "tip_x", "tip_z", "lift_force", "tilt_force",
+  for (const char* name : {"time", "cycle", "stage", "tip_x", "tip_y", "tip_z", "lift_force", "tilt_force",
                            "wheel_torque", "hinge_G_torque_x", "hinge_G_torque_z"})
     log.signals.columns.push_back({name, "1"});
   for (int i = 0; i < samples; ++i) {
     const double peak = i == 41 ? 300e3 : 10e3;
     log.signals.append_row(
-        std::vector<double>{0.1 * i, 1.0, 1.0 + i / 26, 0.01 * i, 0.0, 0.0, 0.0, 0.0, peak, -peak});
+        std::vector<double>{0.1 * i, 1.0, 1.0 + i / 26, 0.01 * i, 0.0, 0.0, 0.0, 0.0, 0.0, peak, -peak});
   }
   CycleRecord cycle;
   cycle.number = 1;
@@ -73,7 +73,7 @@ TEST(LoadingFigures, DrawTheYieldTorqueOfTheStudy) {
 TEST(LoadingFigures, TheSceneTellsTheStageAndTheRockInTheBucket) {
   const test::TestFolder place;
   LoadingLog log = log_with_a_peak();
-  log.scene.frames = {{0.0, 1, "drive in", {}, std::nan("")}, {0.5, 1, "curl", {}, 3240.0}};
+  log.scene.frames = {{0.0, 1, "drive in", std::nan("")}, {0.5, 1, "curl", 3240.0}};
   write_log(place / "run.h5", log);
   for (const auto& figure : loading_figures(place / "run.h5")) {
     if (figure["type"] != "scene") continue;
@@ -84,6 +84,59 @@ TEST(LoadingFigures, TheSceneTellsTheStageAndTheRockInTheBucket) {
     return;
   }
   FAIL() << "no scene";
+}
+
+// Frames of another cycle are left out, numbers of frames begin with the cycle's.
+TEST(LoadingFigures, TheSceneHasTheMotionOfItsCycle) {
+  const test::TestFolder place;
+  LoadingLog log = log_with_a_peak();
+  log.cycles[0].number = 2;
+  for (std::size_t row = 0; row < log.signals.rows(); ++row) log.signals.values[row * 11 + 1] = 2;
+  log.scene.shapes = {engine::box({1, 1, 1})};
+  log.scene.bodies = {{0, "#aaaaaa", 1.0, "front unit"}, {0, "#bbbbbb", 1.0, "front unit"}, {0}};
+  log.scene.bodies[1].with = 0;
+  log.scene.frames = {
+      {0.0, 1, "lift"}, {0.0, 2, "lift"}, {0.05, 2, "curl"}, {0.1, 2, "curl"}, {0.15, 2, "curl"}};
+  const float gone = std::nanf("");
+  log.scene.knots = {{0, 0, {9, 9, 9, 1, 0, 0, 0}},
+                     {0, 1, {1, 2, 3, 1, 0, 0, 0}},
+                     {0, 4, {2, 2, 3, 1, 0, 0, 0}},
+                     {2, 2, {0, 0, 0.5f, 0, 1, 0, 0}},
+                     {2, 3, {gone, gone, gone, gone, gone, gone, gone}}};
+  write_log(place / "run.h5", log);
+  const auto figures = loading_figures(place / "run.h5");
+  const auto scene =
+      std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f["type"] == "scene"; });
+  ASSERT_NE(scene, figures.end());
+  EXPECT_EQ((*scene)["frames"].size(), 4u);
+  EXPECT_EQ((*scene)["follow"], 0);
+  const auto& bodies = (*scene)["bodies"];
+  EXPECT_EQ(bodies[0]["track"], nlohmann::json::parse("[[0,1,2,3,1,0,0,0],[3,2,2,3,1,0,0,0]]"));
+  EXPECT_EQ(bodies[1]["with"], 0);
+  EXPECT_FALSE(bodies[1].contains("track"));
+  EXPECT_EQ(bodies[2]["track"], nlohmann::json::parse("[[1,0,0,0.5,0,1,0,0],[2]]"));
+  EXPECT_NE((*scene)["caption"].get<std::string>().find("20 pictures per second"), std::string::npos)
+      << (*scene)["caption"];
+}
+
+// The tip goes 0.01 m in 0.1 s; 300 kN m about two axes are 424.264.
+TEST(LoadingFigures, TheSceneHasSignalsOfAllSamples) {
+  const test::TestFolder place;
+  LoadingLog log = log_with_a_peak();
+  log.scene.frames = {{0.0, 1, "drive in", 0.0}, {0.5, 1, "curl", 3240.0}};
+  write_log(place / "run.h5", log);
+  const auto figures = loading_figures(place / "run.h5", {{"yield-torque", "450"}});
+  const auto scene =
+      std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f["type"] == "scene"; });
+  ASSERT_NE(scene, figures.end());
+  const auto& signals = (*scene)["signals"];
+  ASSERT_EQ(signals.size(), 3u);
+  EXPECT_EQ(signals[0]["y"].size(), static_cast<std::size_t>(samples));
+  EXPECT_EQ(signals[0]["y"][5], 0.1);
+  EXPECT_EQ(signals[1]["y"][41], 424.264);
+  EXPECT_EQ(signals[1]["t"][41], 4.1);
+  EXPECT_EQ(signals[1]["lines"][0]["y"], 450.0);
+  EXPECT_EQ(signals[2]["y"], nlohmann::json({0.0, 3.24}));
 }
 
 TEST(LoadingFigures, ARunWithoutACycleHasNone) {

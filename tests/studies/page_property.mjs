@@ -14,6 +14,8 @@ import {nestedVariables, outerLevels} from '../../studies/report/web/nested_leve
 import {came, question} from '../../studies/report/web/question_words.js';
 import {distanceToCut, nearCut} from '../../studies/report/web/sampled.js';
 import {words} from '../../studies/report/web/inscription.js';
+import {Poses} from '../../studies/report/web/poses.js';
+import {peaksKept, sampleAt} from '../../studies/report/web/signals.js';
 import {selecting} from '../../studies/report/web/selection.js';
 
 /// One axis that all have values on, and one that run 2 lacks.
@@ -172,4 +174,54 @@ test('a study says what it asks, and what came', () => {
   assert.equal(question({variables: [{name: 'x_y'}], responses: [response('load', 'record')]}), 'The study varies x y and records load.');
   assert.deepEqual(came([{y: [3, 1]}, {y: null}, {y: [5, 2]}], 0), [3, 5]);
   assert.equal(came([{y: null}], 0), null);
+});
+
+const packed = (Kind, values) => Buffer.from(Kind.from(values).buffer).toString('base64');
+
+/// Position and quaternion of a body at a time, or null.
+function poseAt(poses, body, t) {
+  let p, q;
+  const quaternion = {set: (...v) => { q = v; return {normalize: () => { const n = Math.hypot(...q); q = q.map((x) => x / n); }}; }};
+  return poses.read(body, poses.place(t), {set: (...v) => { p = v; }}, quaternion) ? {p, q} : null;
+}
+
+// Body 0 stands from frame 1 on, goes 10 m from frame 2 to 4 with half a turn about z, whose quaternion is given with
+// the other sign; body 1 comes in frame 3 and hides in frame 5; body 2 goes with body 0.
+test('a body goes evenly from one of its poses to the next, and hides', () => {
+  const w = 32767, h = Math.round(w * Math.SQRT1_2), scene = {
+    frames: [0, 1, 2, 3, 4, 6].map((t) => ({t})),
+    bodies: [{}, {}, {with: 0}],
+    poses: {
+      origin: [1, 0, 0], scale: 0.01, counts: [3, 2, 0], frames: packed(Uint16Array, [1, 2, 4, 3, 5]),
+      data: packed(Int16Array, [0, 0, 0, w, 0, 0, 0, 0, 0, 0, w, 0, 0, 0, 1000, 0, 0, -h, 0, 0, -h, 5, 6, 7, w, 0, 0, 0, -32768, 0, 0, 0, 0, 0, 0]),
+    }};
+  const poses = new Poses(scene);
+  assert.equal(poseAt(poses, 0, 0.5), null);
+  assert.deepEqual(poseAt(poses, 0, 1.5).p, [1, 0, 0]);
+  for (const body of [0, 2]) {
+    const {p, q} = poseAt(poses, body, 3);
+    assert.deepEqual(p, [6, 0, 0]);
+    assert.ok(Math.abs(q[2] - Math.sin(Math.PI / 8)) < 1e-4 && Math.abs(q[3] - Math.cos(Math.PI / 8)) < 1e-4, String(q));
+  }
+  assert.deepEqual(poseAt(poses, 0, 9).p, [11, 0, 0]);
+  assert.equal(poseAt(poses, 1, 2.9), null);
+  assert.deepEqual(poseAt(poses, 1, 5.9).p, [1.05, 0.06, 0.07]);
+  assert.equal(poseAt(poses, 1, 6), null);
+});
+
+test('a plot of few columns keeps the peaks of all samples', () => {
+  const t = Float64Array.from({length: 10001}, (_, i) => i / 1000), y = t.map((v) => Math.sin(v));
+  y[4321] = 50;
+  y[9876] = -70;
+  const kept = peaksKept({t, y}, [0, 10], 300);
+  assert.ok(kept.t.length <= 600, String(kept.t.length));
+  assert.equal(Math.max(...kept.y), 50);
+  assert.equal(Math.min(...kept.y), -70);
+  assert.equal(kept.t[kept.y.indexOf(50)], 4.321);
+  for (let i = 1; i < kept.t.length; ++i) assert.ok(kept.t[i] > kept.t[i - 1]);
+  assert.deepEqual(peaksKept({t: [0, 1, 2], y: [5, 6, 7]}, [0.5, 1.5], 4), {t: [1], y: [6]});
+});
+
+test('the value at a time is the last sample before it', () => {
+  assert.deepEqual([-1, 0, 0.99, 1, 2.5].map((time) => sampleAt([0, 1, 2], time)), [0, 0, 0, 1, 2]);
 });

@@ -274,9 +274,56 @@ TEST(ReportPanels, PosesArePacked) {
   ASSERT_TRUE(cautions.empty()) << cautions[0];
   const auto& poses = packed.at(0).at("poses");
   EXPECT_DOUBLE_EQ(poses.at("scale").get<double>(), 10.0 / 32767.0);
-  // FF7F 0000 0000 FF7F 0000 0000 0000 | 0080 0000 x6 | 0180 0000 0000 FF7F 0000 0000 0000 | as the first
-  EXPECT_EQ(poses.at("data"), "/38AAAAA/38AAAAAAAAAgAAAAAAAAAAAAAAAAAGAAAAAAP9/AAAAAAAA/38AAAAA/38AAAAAAAA=");
+  // FF7F 0000 0000 FF7F 0000 0000 0000 | 0180 0000 0000 FF7F 0000 0000 0000 | 0080 0000 x6 | as the first
+  EXPECT_EQ(poses.at("data"), "/38AAAAA/38AAAAAAAABgAAAAAD/fwAAAAAAAACAAAAAAAAAAAAAAAAA/38AAAAA/38AAAAAAAA=");
+  EXPECT_EQ(poses.at("counts"), nlohmann::json({2, 2}));
+  EXPECT_EQ(poses.at("frames"), "AAABAAAAAQA=");
   EXPECT_FALSE(packed.at(0).at("frames").at(0).contains("poses"));
+}
+
+nlohmann::json scene_of_tracks() {
+  const nlohmann::json shape = {{"vertices", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {"faces", {{0, 1, 2}}}};
+  return {{"type", "scene"},
+          {"title", "t"},
+          {"caption", "c"},
+          {"shapes", {shape}},
+          {"bodies",
+           {{{"shape", 0}, {"track", {{0, 0, 0, 0, 1, 0, 0, 0}, {2, 1, 0, 0, 1, 0, 0, 0}}}},
+            {{"shape", 0}, {"with", 0}},
+            {{"shape", 0}, {"track", {{1, 0, 0, 0, 1, 0, 0, 0}, {2}}}}}},
+          {"frames", {{{"t", 0.0}}, {{"t", 1.0}}, {{"t", 2.0}}}},
+          {"signals", {{{"name", "speed"}, {"unit", "m/s"}, {"t", {0, 1}}, {"y", {1, 2}}}}}};
+}
+
+TEST(ReportPanels, ABodyMayHavePosesInSomeFramesOrMoveWithAnother) {
+  std::vector<std::string> cautions;
+  const auto packed = detail::checked_panels(nlohmann::json::array({scene_of_tracks()}), cautions);
+  ASSERT_TRUE(cautions.empty()) << cautions[0];
+  EXPECT_EQ(packed.at(0).at("poses").at("counts"), nlohmann::json({2, 0, 2}));
+  EXPECT_EQ(packed.at(0).at("poses").at("frames"), "AAACAAEAAgA=");  // 0 2 1 2
+  EXPECT_EQ(packed.at(0).at("bodies").at(1), nlohmann::json({{"shape", 0}, {"with", 0}}));
+  EXPECT_FALSE(packed.at(0).at("bodies").at(0).contains("track"));
+}
+
+TEST(ReportPanels, TracksThatDoNotHangTogetherAreRefused) {
+  const auto complaint = [](const char* place, const nlohmann::json& value) {
+    nlohmann::json scene = scene_of_tracks();
+    scene[nlohmann::json::json_pointer(place)] = value;
+    std::vector<std::string> cautions;
+    EXPECT_TRUE(detail::checked_panels(nlohmann::json::array({scene}), cautions).empty()) << place;
+    return cautions.at(0);
+  };
+  const std::string begin = "Figure 1 of the simulation was left out: ";
+  EXPECT_EQ(complaint("/bodies/0/track/1/0", 3), begin + "a body's track names a frame that is not there.");
+  EXPECT_EQ(complaint("/bodies/0/track/1/0", 0), begin + "the frames of a body's track do not rise.");
+  EXPECT_EQ(complaint("/bodies/0/track/1", {2, 0}),
+            begin + "a row of a body's track has neither a frame alone nor a frame and seven numbers.");
+  EXPECT_EQ(complaint("/bodies/1/with", 1),
+            begin + "a body moves with one that is not there or has no track.");
+  EXPECT_EQ(complaint("/bodies/2", {{"shape", 0}}),
+            begin + "of some bodies there is a track, of others not.");
+  EXPECT_EQ(complaint("/signals/0/y", {1}), begin + "\"t\" and \"y\" differ in length.");
+  EXPECT_EQ(complaint("/follow", 3), begin + "the body to follow is not there.");
 }
 
 TEST(ReportPanels, ASceneThatDoesNotHangTogetherIsRefused) {

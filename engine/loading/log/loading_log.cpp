@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/loading/log/log_parts.h>
+#include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <stdexcept>
 
 namespace drawpoint::engine::loading {
 namespace {
 
 // Version 5 added the descriptions of signals, the masses of bodies and the mass in the bucket; from version
-// 6 on single numbers and texts are data, with units, where they were attributes.
-const record::FileKind kind{"drawpoint loading log", 6, 4};
+// 6 on single numbers and texts are data, with units, where they were attributes; from version 7 on bodies
+// have poses where they move, and not in every frame.
+const record::FileKind kind{"drawpoint loading log", 7, 4};
 
 }  // namespace
 
@@ -56,9 +58,10 @@ std::string read_text(const record::Reader& file, const std::string& group, cons
 
 }  // namespace
 
-void write_log(const std::filesystem::path& path, const LoadingLog& log) {
+void write_part(const std::filesystem::path& path, const LoadingLog& log, bool goes_on) {
   record::Writer file(path, kind);
   file.integer("/", "completed", log.completed);
+  file.integer("/", "goes_on", goes_on);
   file.text("/", "message", log.message);
   file.group("numbers");
   file.group("texts");
@@ -73,8 +76,11 @@ void write_log(const std::filesystem::path& path, const LoadingLog& log) {
   file.commit();
 }
 
-LoadingLog read_log(const std::filesystem::path& path) {
-  const record::Reader file(path, kind);
+void write_log(const std::filesystem::path& path, const LoadingLog& log) { write_part(path, log, false); }
+
+namespace {
+
+LoadingLog read_one(const record::Reader& file) {
   LoadingLog log;
   log.completed = file.integer("/", "completed") != 0;
   log.message = file.text("/", "message");
@@ -85,6 +91,17 @@ LoadingLog read_log(const std::filesystem::path& path) {
   const std::size_t cycles = file.children("cycles").size();
   for (std::size_t k = 0; k < cycles; ++k) log.cycles.push_back(read_cycle(file, numbered("cycles", k)));
   log.scene = read_scene(file);
+  return log;
+}
+
+}  // namespace
+
+LoadingLog read_log(const std::filesystem::path& path) {
+  const record::Reader first(path, kind);
+  LoadingLog log = read_one(first);
+  if (first.version() < 7 || first.integer("/", "goes_on") == 0) return log;
+  for (int number = 2; std::filesystem::exists(part_path(path, number)); ++number)
+    append(log, read_one(record::Reader(part_path(path, number), kind)));
   return log;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 #include <drawpoint/engine/loading/strategy/executor.hpp>
 #include <drawpoint/engine/record/table.hpp>
@@ -42,25 +43,33 @@ struct SceneBody {
   std::string name;
   double mass =
       std::numeric_limits<double>::quiet_NaN();  ///< of a rock [kg]; NaN: no rock, or of a log of version 4
+  int with = -1;  ///< body whose poses this one takes, for it is fixed to that; -1: it has its own
 };
-
-inline constexpr std::size_t values_per_pose = 7;
 
 struct SceneFrame {
   double t = 0;  ///< [s]
   int cycle = 0;
   std::string label;
-  /// x y z qw qx qy qz per body, to a millimetre and half a thousandth; NaN: not shown. In the file: body,
-  /// number, frame.
-  std::vector<float> poses;
   /// Of rocks whose centre is in the heaped bucket, resting there or not [kg]; NaN in logs of version 4.
   double bucket_mass = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// x y z qw qx qy qz of a body's centre of mass; NaN: not shown.
+using ScenePose = std::array<float, 7>;
+
+/// The pose of a body in one frame. From knot to knot of a cycle it goes evenly, after the last it stays as it
+/// is, and before the first the body is not shown. A recorded scene is that within a few millimetres
+/// (scene_motion.hpp).
+struct SceneKnot {
+  int body = 0, frame = 0;
+  ScenePose pose{};
 };
 
 struct SceneRecord {
   std::vector<engine::ConvexPolyhedron> shapes;
   std::vector<SceneBody> bodies;
   std::vector<SceneFrame> frames;
+  std::vector<SceneKnot> knots;  ///< cycle by cycle; in a cycle by body, then by frame
 };
 
 struct LoadingLog {
@@ -83,7 +92,8 @@ struct LoadingLog {
 /// std::invalid_argument if the log contradicts itself.
 void write_log(const std::filesystem::path& path, const LoadingLog& log);
 
-/// Of this version and of versions 4 and 5. Throws std::runtime_error if the file is missing, truncated,
+/// Of this version and of versions 4 to 6; of a run that was killed, all cycles that it had done: those after
+/// the first are in files beside it, FILE.part0002 and so on. Throws std::runtime_error if the file is missing, truncated,
 /// damaged or no loading log.
 LoadingLog read_log(const std::filesystem::path& path);
 

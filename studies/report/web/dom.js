@@ -32,8 +32,8 @@ export function select(label, options, chosen, onchange) {
 }
 
 /// A row of mutually exclusive buttons.
-export function choice(labels, onchoose) {
-  const buttons = labels.map((label, i) => el('button', {type: 'button', 'aria-pressed': String(i === 0), onclick: () => {
+export function choice(labels, onchoose, chosen = 0) {
+  const buttons = labels.map((label, i) => el('button', {type: 'button', 'aria-pressed': String(i === chosen), onclick: () => {
     buttons.forEach((b, k) => b.setAttribute('aria-pressed', k === i));
     onchoose(i);
   }}, label));

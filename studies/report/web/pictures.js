@@ -14,7 +14,7 @@ async function send(where, body) {
 }
 
 function viewOf({scene, camera, width, height}) {
-  const view = new View(scene, new Poses(scene.poses, scene.bodies.length, scene.frames.map((frame) => frame.t)));
+  const view = new View(scene, new Poses(scene));
   view.renderer.setPixelRatio(1);
   view.resize(width, height);
   const {drawingBufferWidth, drawingBufferHeight} = view.renderer.getContext();

@@ -1,38 +1,61 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Poses of all bodies in all frames. They come packed as little-endian 16-bit integers, seven per body: position (times
-// scale, from origin) and quaternion w x y z (of 32767); an absent body has -32768 in the first place.
+// Where the bodies of a scene are at any time. A body has poses in some frames and goes evenly between them. They come
+// packed, one body after the other: the frame of each pose (16 bits), and seven little-endian 16-bit integers, position
+// (times scale, from origin) and quaternion w x y z (of 32767); a body that hides has -32768 in the first place.
 
 const absent = -32768;
 
+function words(text, Kind, read) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  return Kind.from({length: bytes.length / 2}, (_, i) => view[read](2 * i, true));
+}
+
+/// Last place of a rising list whose value is at most v, in [from, to); from - 1 where there is none.
+function lastUpTo(list, v, from, to) {
+  let low = from - 1, high = to;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (list[middle] <= v) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 export class Poses {
-  constructor({data, origin, scale}, bodies, times) {
-    const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
-    const view = new DataView(bytes.buffer);
-    this.values = Int16Array.from({length: bytes.length / 2}, (_, i) => view.getInt16(2 * i, true));
-    Object.assign(this, {origin, scale, bodies, times});
+  constructor(scene) {
+    const {counts, frames, data, origin, scale} = scene.poses;
+    Object.assign(this, {origin, scale});
+    this.times = scene.frames.map((frame) => frame.t);
+    this.values = words(data, Int16Array, 'getInt16');
+    this.frames = words(frames, Uint16Array, 'getUint16');
+    const starts = [0];
+    for (const count of counts) starts.push(starts[starts.length - 1] + count);
+    const carrier = scene.bodies.map((body, k) => body.with ?? k);
+    this.first = Int32Array.from(carrier, (k) => starts[k]);
+    this.end = Int32Array.from(carrier, (k) => starts[k + 1]);
   }
 
-  /// Frame before t and how far t is toward the next, 0 to 1.
+  /// The last frame up to t, the first where there is none.
   place(t) {
-    let k = 0;
-    while (k + 1 < this.times.length && this.times[k + 1] <= t) ++k;
-    const next = this.times[k + 1];
-    return {k, fraction: next === undefined ? 0 : Math.min(1, Math.max(0, (t - this.times[k]) / (next - this.times[k])))};
+    return {t, k: Math.max(0, lastUpTo(this.times, t, 0, this.times.length))};
   }
 
-  /// Sets position and quaternion of a body between two frames; false where it is absent.
-  read(body, {k, fraction}, position, quaternion) {
-    const a = 7 * (k * this.bodies + body);
-    if (this.values[a] === absent) return false;
-    let b = fraction > 0 ? a + 7 * this.bodies : a;
-    if (this.values[b] === absent) b = a;
-    const mix = (i, sign = 1) => (1 - fraction) * this.values[a + i] + fraction * sign * this.values[b + i];
+  /// Sets position and quaternion of a body at a place; false where it is not shown.
+  read(body, {t, k}, position, quaternion) {
+    const {values, frames, times, origin, scale} = this;
+    const at = lastUpTo(frames, k, this.first[body], this.end[body]);
+    const a = 7 * at;
+    if (at < this.first[body] || values[a] === absent) return false;
+    const goes = at + 1 < this.end[body] && values[a + 7] !== absent;
+    const b = goes ? a + 7 : a, before = times[frames[at]];
+    const f = goes ? Math.min(1, Math.max(0, (t - before) / (times[frames[at + 1]] - before))) : 0;
     let dot = 0;
-    for (let i = 3; i < 7; ++i) dot += this.values[a + i] * this.values[b + i];
-    const sign = dot < 0 ? -1 : 1;
-    position.set(...[0, 1, 2].map((i) => this.origin[i] + this.scale * mix(i)));
-    quaternion.set(mix(4, sign), mix(5, sign), mix(6, sign), mix(3, sign)).normalize();
+    for (let i = 3; i < 7; ++i) dot += values[a + i] * values[b + i];
+    const g = dot < 0 ? -f : f, mix = (i, share) => (1 - f) * values[a + i] + share * values[b + i];
+    position.set(origin[0] + scale * mix(0, f), origin[1] + scale * mix(1, f), origin[2] + scale * mix(2, f));
+    quaternion.set(mix(4, g), mix(5, g), mix(6, g), mix(3, g)).normalize();
     return true;
   }
 }

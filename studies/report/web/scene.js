@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Scene viewer: the bodies of one run, to look around in and to replay. It draws only when something changes.
+// Scene viewer: the bodies of one run, to look around in and to replay. It draws only when something changes. Bodies of
+// one shape are one instanced mesh, so that thousands of rocks are some twenty draw calls.
 
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
-import {choice, el} from './dom.js';
-import {number} from './format.js';
+import {el} from './dom.js';
+import {player} from './player.js';
 import {Poses} from './poses.js';
 import {groups, lights} from './scene_parts.js';
 import {colour, onTheme} from './theme.js';
 
-const speeds = [1, 3, 10];
 const directions = {side: [0, -1, 0.02], above: [-0.001, 0, 1]};
 
 export function sceneViewer(panel) {
@@ -18,9 +18,12 @@ export function sceneViewer(panel) {
   const stage = el('div', {class: 'scene'});
   if (!times.length) return el('p', {class: 'caution'}, 'The scene has no frames.');
   try {
-    const view = new View(panel, new Poses(panel.poses, panel.bodies.length, times));
+    const view = new View(panel, new Poses(panel));
     view.fill(stage);
-    return el('div', {}, stage, player(panel, times, view));
+    const area = el('div', {class: 'replay', tabindex: '0'}, stage);
+    const {node, plots} = player(panel, times, view, area);
+    area.append(node, plots ?? '');
+    return area;
   } catch (error) {
     return el('p', {class: 'caution'}, 'The scene needs WebGL, which this browser does not offer: ' + error.message);
   }
@@ -34,6 +37,8 @@ export class View {
     this.renderer.shadowMap.enabled = true;
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(colour.sky);
+    this.followed = panel.follow ?? null;
+    this.following = false;
     this.parts = groups(panel);
     this.parts.forEach((part) => this.scene.add(part.mesh, ...part.edges));
     this.setTime(poses.times[panel.poster_frame ?? 0] ?? poses.times[0], false);
@@ -44,7 +49,7 @@ export class View {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.look(this.home.eye);
-    this.controls.addEventListener('change', () => this.render());
+    this.controls.addEventListener('change', () => { if (!this.shifting) this.render(); });
     onTheme(() => this.tint());
   }
 
@@ -72,16 +77,47 @@ export class View {
     this.render();
   }
 
-  /// As the study says (home), or from the side or from above at that distance.
+  /// Where the followed body is now.
+  anchor() {
+    const position = new THREE.Vector3();
+    this.poses.read(this.followed, this.place, position, new THREE.Quaternion());
+    return position;
+  }
+
+  /// The camera goes with the followed body from now on, looking at it as it looks now; or stays where it is.
+  follow(on) {
+    this.following = on && this.followed !== null;
+    if (!this.following) return;
+    this.anchored = this.anchor();
+    this.shift(this.anchored.clone().sub(this.controls.target));
+    this.render();
+  }
+
+  shift(way) {
+    this.shifting = true;  // whoever shifts draws
+    this.camera.position.add(way);
+    this.controls.target.add(way);
+    this.controls.update();
+    this.shifting = false;
+  }
+
+  keepUp() {
+    const now = this.anchor(), way = now.clone().sub(this.anchored);
+    this.anchored = now;
+    this.shift(way);
+  }
+
+  /// As the study says (home), or from the side or from above at that distance; or with the followed body (follow).
   see(camera) {
-    if (camera === 'home') return this.look(this.home.eye);
+    if (camera === 'follow') this.following = true;
     const target = new THREE.Vector3(...this.home.target);
-    const distance = target.distanceTo(new THREE.Vector3(...this.home.eye));
-    return this.look(target.add(new THREE.Vector3(...directions[camera]).normalize().multiplyScalar(distance)).toArray());
+    const distance = target.distanceTo(new THREE.Vector3(...this.home.eye)), way = directions[camera];
+    this.look(way ? target.add(new THREE.Vector3(...way).normalize().multiplyScalar(distance)).toArray() : this.home.eye);
+    if (this.following) this.follow(true);
   }
 
   setTime(t, draw = true) {
-    const place = this.poses.place(t), matrix = new THREE.Matrix4();
+    const place = this.place = this.poses.place(t), matrix = new THREE.Matrix4();
     const position = new THREE.Vector3(), turn = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
     for (const {mesh, members, edges} of this.parts) {
       members.forEach((body, i) => {
@@ -93,6 +129,7 @@ export class View {
       });
       mesh.instanceMatrix.needsUpdate = true;
     }
+    if (this.following) this.keepUp();
     if (draw) this.render();
   }
 
@@ -110,39 +147,4 @@ export class View {
   }
 
   render() { this.renderer.render(this.scene, this.camera); }
-}
-
-function player(panel, times, view) {
-  const first = times[0], last = times[times.length - 1];
-  let t = times[panel.poster_frame ?? 0] ?? first, playing = false, speed = speeds[0], before = 0;
-  const clock = el('span', {class: 'note'}), label = el('span', {class: 'label'});
-  const slider = el('input', {type: 'range', min: first, max: last, step: 'any', 'aria-label': 'time', oninput: () => { play(false); show(Number(slider.value)); }});
-  const button = el('button', {type: 'button', onclick: () => play(!playing)}, 'Play');
-  view.renderer.domElement.parentNode.append(label);
-  const show = (time, draw = true) => {
-    t = time;
-    slider.value = t;
-    clock.textContent = `${number(t)} s of ${number(last)} s`;
-    label.textContent = panel.frames[view.poses.place(t).k].label ?? '';
-    label.hidden = !label.textContent;
-    if (draw) view.setTime(t);
-  };
-  const step = (now) => {
-    if (!playing) return;
-    show(Math.min(last, t + (speed * Math.min(250, now - before)) / 1000));
-    before = now;
-    if (t >= last) play(false);
-    else requestAnimationFrame(step);
-  };
-  const play = (on) => {
-    if (on && t >= last) t = first;
-    playing = on;
-    button.textContent = on ? 'Pause' : 'Play';
-    before = performance.now();
-    if (on) requestAnimationFrame(step);
-  };
-  show(t, false);
-  const views = el('div', {class: 'choice'}, [['Reset view', 'home'], ['Side', 'side'], ['Above', 'above']]
-    .map(([text, camera]) => el('button', {type: 'button', onclick: () => view.see(camera)}, text)));
-  return el('div', {class: 'player'}, button, slider, clock, choice(speeds.map((s) => s + '×'), (i) => { speed = speeds[i]; }), views);
 }

@@ -59,7 +59,7 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
 TEST(LoadingCycle, EveryNumberOfTheLogSaysWhatItIs) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "drawpoint_cycle_log.h5";
   write_log(path, cycle_log());
-  const record::Reader file(path, {"drawpoint loading log", 6});
+  const record::Reader file(path, {"drawpoint loading log", 7});
   const std::vector<std::string> names = file.children("numbers");
   EXPECT_EQ(names.size(), cycle_log().numbers.size());
   for (const std::string& name : names) {
@@ -263,7 +263,8 @@ TEST(LoadingCycle, ACallerEndsTheRun) {
   EXPECT_NE(log.message.find("enough"), std::string::npos) << log.message;
 }
 
-// The file that is there while the second cycle is made ready is the first cycle's log, whole.
+// The file that is there while the second cycle is made ready is the first cycle's log, whole; and twenty pictures
+// per second show it.
 TEST(LoadingCycle, ARunThatIsKilledLeavesWhatItHadDone) {
   Scenario scenario = small_case();
   scenario.cycles = 2;
@@ -283,6 +284,8 @@ TEST(LoadingCycle, ARunThatIsKilledLeavesWhatItHadDone) {
   EXPECT_EQ(left.cycles[0].loaded_rock_masses, cycle_log().cycles[0].loaded_rock_masses);
   EXPECT_EQ(left.signals.values, cycle_log().signals.values);
   EXPECT_EQ(left.scene.frames.size(), cycle_log().scene.frames.size());
+  EXPECT_GE(static_cast<double>(left.scene.frames.size()),
+            20 * (left.cycles[0].t_end - left.cycles[0].t_start));
   EXPECT_EQ(left.numbers.at("present_mass"), cycle_log().numbers.at("present_mass"));
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <drawpoint/engine/loading/log/responses.hpp>
+#include <drawpoint/engine/loading/log/scene_motion.hpp>
 #include <drawpoint/engine/record/file.hpp>
 #include <drawpoint/tests/support/told.hpp>
 #include <filesystem>
@@ -80,10 +81,13 @@ LoadingLog example_log() {
   log.scene.shapes = {engine::box({1, 2, 3}), engine::prism(1, 0.5, 8)};
   log.scene.bodies = {{0, "#e0b040", 1.0, "boom"}, {1, "#303030", 0.5, "front left wheel", 42.5}};
   for (int k = 0; k < 3; ++k) {
-    SceneFrame frame{0.5 * k, 1, "lift", std::vector<float>(14, 0.25f * static_cast<float>(k)), 1000.5 * k};
-    frame.poses[13] = std::numeric_limits<float>::quiet_NaN();
-    log.scene.frames.push_back(frame);
+    log.scene.frames.push_back({0.5 * k, 1, "lift", 1000.5 * k});
+    log.scene.knots.push_back({0, k, {0.25f * static_cast<float>(k), 1, 2, 1, 0, 0, 0}});
   }
+  log.scene.bodies.push_back({0, "#ffffff", 1.0, "pin of the boom"});
+  log.scene.bodies.back().with = 0;
+  log.scene.knots.push_back({1, 0, {1, 2, 3, 0.6f, 0.8f, 0, 0}});
+  log.scene.knots.push_back({1, 2, hidden_pose});
   return log;
 }
 
@@ -171,7 +175,9 @@ TEST(LoadingLog, KeepsTheScene) {
   ASSERT_EQ(scene.shapes.size(), 2u);
   EXPECT_NEAR(scene.shapes[0].volume(), 48, 1e-12);
   EXPECT_EQ(scene.shapes[1].faces().size(), 10u);
-  ASSERT_EQ(scene.bodies.size(), 2u);
+  ASSERT_EQ(scene.bodies.size(), 3u);
+  EXPECT_EQ(scene.bodies[1].with, -1);
+  EXPECT_EQ(scene.bodies[2].with, 0);
   EXPECT_EQ(scene.bodies[1].name, "front left wheel");
   EXPECT_EQ(scene.bodies[1].color, "#303030");
   EXPECT_EQ(scene.bodies[1].opacity, 0.5);
@@ -182,7 +188,12 @@ TEST(LoadingLog, KeepsTheScene) {
     EXPECT_EQ(scene.frames[k].t, 0.5 * k);
     EXPECT_EQ(scene.frames[k].label, "lift");
     EXPECT_EQ(scene.frames[k].bucket_mass, 1000.5 * k);
-    EXPECT_TRUE(same_bits(scene.frames[k].poses, log.scene.frames[k].poses));
+  }
+  ASSERT_EQ(scene.knots.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(scene.knots[k].body, log.scene.knots[k].body);
+    EXPECT_EQ(scene.knots[k].frame, log.scene.knots[k].frame);
+    EXPECT_EQ(std::memcmp(&scene.knots[k].pose, &log.scene.knots[k].pose, sizeof(ScenePose)), 0);
   }
 }
 
@@ -191,10 +202,10 @@ TEST(LoadingLog, KeepsTheScene) {
 TEST(LoadingLog, EveryArraySaysWhatItIs) {
   const Folder folder;
   write_log(folder.path / "run.h5", example_log());
-  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 6});
+  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 7});
   const std::vector<std::string> arrays = arrays_below(file, "");
-  EXPECT_EQ(arrays.size(), 4u + 2 * (11 + 5 + 11) + 2 + 5 + 5)
-      << "signals, two cycles, shapes, bodies, frames";
+  EXPECT_EQ(arrays.size(), 4u + 2 * (11 + 5 + 11) + 2 + 6 + 4 + 3)
+      << "signals, two cycles, shapes, bodies, frames, motion";
   for (const std::string& path : arrays) {
     const std::string name = path.substr(path.rfind('/') + 1);
     if (name == "columns" || name == "units" || name == "descriptions") continue;
@@ -203,7 +214,7 @@ TEST(LoadingLog, EveryArraySaysWhatItIs) {
     EXPECT_NE(file.text(path, "unit"), "") << path;
     EXPECT_NE(file.text(path, "description"), "") << path;
   }
-  EXPECT_EQ(file.text("scene/frames/poses", "frame"),
+  EXPECT_EQ(file.text("scene/motion/pose", "frame"),
             "world: x from the machine into the drift, y to the left, z up, floor at z = 0");
   EXPECT_EQ(file.text("cycles/0001/column_heights_m", "unit"), "m");
   EXPECT_EQ(file.text("cycles/0001/loaded_mass_kg", "unit"), "kg");
@@ -265,6 +276,8 @@ TEST(LoadingLog, OfTheVersionBeforeIsRead) {
   EXPECT_TRUE(std::isnan(log.scene.bodies.front().mass));
   ASSERT_EQ(log.scene.frames.size(), 1u);
   EXPECT_TRUE(std::isnan(log.scene.frames.front().bucket_mass));
+  ASSERT_EQ(log.scene.knots.size(), 1u);
+  EXPECT_EQ(log.scene.knots.front().pose, (ScenePose{1, 2, 3, 1, 0, 0, 0}));
 }
 
 TEST(LoadingLog, AnEmptyLogIsALog) {
@@ -292,7 +305,10 @@ TEST(LoadingLog, EqualLogsAreEqualFiles) {
 TEST(LoadingLog, AContradictionIsNotWritten) {
   const Folder folder;
   LoadingLog log = example_log();
-  log.scene.frames[1].poses.pop_back();
+  log.scene.knots[1].frame = 3;
+  EXPECT_THROW(write_log(folder.path / "run.h5", log), std::invalid_argument);
+  log = example_log();
+  log.scene.bodies[2].with = 3;
   EXPECT_THROW(write_log(folder.path / "run.h5", log), std::invalid_argument);
   log = example_log();
   log.scene.bodies[0].shape = 7;
