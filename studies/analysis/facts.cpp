@@ -79,11 +79,19 @@ std::string design(const Store& store, const std::vector<Run>& runs) {
 
 }  // namespace
 
+void add_options(const Identity& identity, std::vector<std::pair<std::string, std::string>>& all) {
+  std::string options;
+  for (const auto& [name, value] : identity.options)
+    options += (options.empty() ? "--" : ", --") + name + " " + value;
+  if (!options.empty()) all.emplace_back("Options", options);
+  if (!identity.simulator.empty()) all.emplace_back("Simulator", identity.simulator);
+}
+
 std::vector<std::pair<std::string, std::string>> facts(const Store& store, const std::vector<Run>& runs) {
   const Identity& identity = store.identity();
   std::vector<std::pair<std::string, std::string>> all = {{"Design", design(store, runs)},
                                                           {"Seed", std::to_string(identity.seed)}};
-  for (const auto& [name, value] : identity.options) all.emplace_back("Option " + name, value);
+  add_options(identity, all);
   all.insert(all.end(), {{"Runs made", time_span(runs)},
                          {"Time in runs", time_in_runs(runs)},
                          {"Machine", machine()},

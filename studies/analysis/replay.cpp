@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/analysis/facts.h>
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/models/tables.h>
@@ -47,7 +48,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_run(const Identity& id
                                                               const Run& run) {
   std::vector<std::pair<std::string, std::string>> all = {{"Log", folder.log(run.id).filename().string()},
                                                           {"Seed", std::to_string(run.seed)}};
-  for (const auto& [name, value] : identity.options) all.emplace_back("Option " + name, value);
+  add_options(identity, all);
   all.emplace_back("Made", run.started + " to " + run.finished);
   all.emplace_back("Time", detail::number_with_unit(run.seconds, "s"));
   all.emplace_back("Page made by", std::string("Drawpoint ") + DRAWPOINT_VERSION);
