@@ -12,6 +12,7 @@
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/libraries.hpp>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/studies/study.hpp>
@@ -58,6 +59,7 @@ const doe::Problem problem{
 Scenario scenario_of(const studies::RunContext& run) {
   studies::RunContext with_speeds = run;
   with_speeds.options["speeds"] = "machine";
+  with_speeds.options["arm"] = "cylinders";
   return studies::loading_scenario(with_speeds);
 }
 
@@ -90,7 +92,8 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
 std::vector<studies::StudyOption> options() {
   std::vector<studies::StudyOption> options = studies::loading_options();
   std::erase_if(options, [](const auto& option) {
-    return option.name == "speeds" || option.name == "yield-torque" || option.name == "damage";
+    return option.name == "speeds" || option.name == "yield-torque" || option.name == "damage" ||
+           option.name == "arm";
   });
   for (auto& option : options)
     if (option.name == "operator") option.value = "skilled";
@@ -121,6 +124,7 @@ int main(int argc, char** argv) {
        .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,
+       .finish_log = engine::loading::join_parts,
        .contrast = studies::loading_contrasts,
        .responses =
            [](const std::filesystem::path& log, const studies::OptionValues& options) {

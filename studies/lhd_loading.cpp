@@ -10,6 +10,7 @@
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/libraries.hpp>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
+#include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/studies/study.hpp>
 
 using namespace drawpoint;
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,
+       .finish_log = engine::loading::join_parts,
        .contrast = studies::loading_contrasts,
        .responses =
            [](const std::filesystem::path& log, const studies::OptionValues& options) {

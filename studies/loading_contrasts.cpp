@@ -100,7 +100,7 @@ nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, 
                           fixed(cycle.t_end - cycle.t_start, 1) + " s, " + fixed(chosen.value, 0) + " kg/s" +
                           (haul > 0 ? " with a haul of " + fixed(haul, 0) + " s" : "");
   return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production",
-                     damage_options(options).tau_y);
+                     damage_options(options));
 }
 
 }  // namespace
@@ -111,6 +111,7 @@ nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs,
   Extremes tracking, production;
   for (const std::filesystem::path& file : logs) {
     const LoadingLog log = engine::loading::read_log(file);
+    if (log.cycles.empty()) continue;
     tracking.add(tracking_errors(log), file);
     production.add(production_by_cycle(log, producing), file);
   }

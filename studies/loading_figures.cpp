@@ -130,10 +130,10 @@ json loading_figures(const std::filesystem::path& log_file, const OptionValues& 
   if (log.cycles.empty()) return json::array();
   const CycleRecord& cycle = log.cycles.front();
   const std::string who = name_of(cycle) + " of the run shown";
-  const double yield_torque = damage_options(options).tau_y;
+  const engine::loading::DamageOptions damage = damage_options(options);
   json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge"),
-                 scene_panel(log, cycle, who, "The machine in the drift", yield_torque),
-                 forces_panel(log, cycle, yield_torque)};
+                 scene_panel(log, cycle, who, "The machine in the drift", damage),
+                 forces_panel(log, cycle, damage.tau_y)};
   json bucket = bucket_panel(log, cycle);
   if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
   panels.push_back(cycles_panel(log));

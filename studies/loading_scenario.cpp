@@ -133,12 +133,11 @@ std::string loading_options_complaint(const OptionValues& options) {
   if (mass > 0 && mass < 10)
     return "--pile-mass " + std::to_string(mass) +
            ": allowed are 10 t (a bucket load) to 10 000 t, or 0 for the scene's";
-  const auto speeds = options.find("speeds");  // bucket and speed together have no such option: machine
-  if (options.at("arm") == "hinges" && (speeds == options.end() || speeds->second == "machine"))
-    return "--arm hinges with the speeds of the machine: its pump drives cylinders, and motors in the hinges "
-           "know "
-           "none; give --arm cylinders" +
-           std::string(speeds == options.end() ? "" : ", or --speeds lindmark2016");
+  const auto arm = options.find("arm");  // of bucket and speed together: always cylinders
+  if (arm != options.end() && arm->second == "hinges" && options.at("speeds") == "machine")
+    return "--arm hinges with --speeds machine: its pump drives cylinders, and motors in the hinges have "
+           "none; "
+           "give --arm cylinders, or --speeds lindmark2016";
   return "";
 }
 

@@ -78,12 +78,12 @@ std::string rate_of(const LoadingLog& log, Rows frames) {
 std::string scene_caption(const LoadingLog& log, const CycleRecord& cycle, const std::string& who) {
   return who + ": drag to turn, wheel to zoom, play to watch it load. " +
          rate_of(log, frames_of(log, cycle.number)) +
-         "In a picture a rock is within 2.5 cm and 3 degrees of where it was, the machine within 2 mm. "
-         "Walls "
-         "and roof are drawn transparent. Below, of every sample: the highest and the lowest are kept where "
-         "a "
-         "plot is narrower than its samples. The torque is the length of its two components that twist the "
-         "bucket on its pin, as it is; damage looks at it low-passed at 20 Hz.";
+         "In a picture a rock is within 2.5 cm and 3 degrees of where it was, a part of the machine within 4 "
+         "mm "
+         "and 0.3 degrees. Walls and roof are drawn transparent. Below, of every sample: the highest and the "
+         "lowest are kept where a plot is narrower than its samples. The torque is as it is, damage looks at "
+         "it "
+         "low-passed at 20 Hz.";
 }
 
 // Of the cycle, on the clock of the scene.
@@ -103,17 +103,26 @@ std::vector<double> tip_speed(const LoadingLog& log, Rows rows, const std::vecto
   return speed;
 }
 
-json scene_signals(const LoadingLog& log, const CycleRecord& cycle, double yield_torque) {
+// Its length, with the part about the pin or without [kN m].
+std::vector<double> torque_in_G(const LoadingLog& log, Rows rows, bool about_pin) {
+  std::vector<double> torque = samples(log, "hinge_G_torque_x", rows);
+  const std::vector<double> y = samples(log, "hinge_G_torque_y", rows),
+                            z = samples(log, "hinge_G_torque_z", rows);
+  for (std::size_t i = 0; i < torque.size(); ++i)
+    torque[i] = 1e-3 * std::hypot(torque[i], about_pin ? y[i] : 0, z[i]);
+  return torque;
+}
+
+json scene_signals(const LoadingLog& log, const CycleRecord& cycle,
+                   const engine::loading::DamageOptions& damage) {
   const Rows rows = rows_of(log, cycle.number), frames = frames_of(log, cycle.number);
-  std::vector<double> t = samples(log, "time", rows), torque = samples(log, "hinge_G_torque_x", rows);
-  const std::vector<double> about_z = samples(log, "hinge_G_torque_z", rows);
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    t[i] -= cycle.t_start;
-    torque[i] = 1e-3 * std::hypot(torque[i], about_z[i]);
-  }
+  std::vector<double> t = samples(log, "time", rows);
+  for (double& time : t) time -= cycle.t_start;
+  const bool all = damage.component == engine::loading::TorqueComponent::all;
   json signals = {signal("Speed of the cutting edge", "m/s", t, tip_speed(log, rows, t)),
-                  signal("Torque that twists hinge G", "kN m", t, torque)};
-  signals[1]["lines"] = {{{"name", "yield torque"}, {"y", 1e-3 * yield_torque}}};
+                  signal(all ? "Torque in hinge G" : "Torque that twists hinge G", "kN m", t,
+                         torque_in_G(log, rows, all))};
+  signals[1]["lines"] = {{{"name", "yield torque"}, {"y", 1e-3 * damage.tau_y}}};
   std::vector<double> at, mass;
   for (std::size_t f = frames.first; f < frames.last; ++f) {
     const auto& frame = log.scene.frames[f];
@@ -136,7 +145,7 @@ std::optional<std::size_t> body_named(const LoadingLog& log, const char* name) {
 }  // namespace
 
 json scene_panel(const LoadingLog& log, const CycleRecord& cycle, const std::string& who,
-                 const std::string& title, double yield_torque) {
+                 const std::string& title, const engine::loading::DamageOptions& damage) {
   json shapes = json::array(), frames = json::array();
   for (const auto& shape : log.scene.shapes) shapes.push_back(shape_of(shape));
   const Rows rows = frames_of(log, cycle.number);
@@ -153,7 +162,7 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle, const std::str
                 {"shapes", shapes},
                 {"bodies", bodies_of(log, rows)},
                 {"frames", frames},
-                {"signals", scene_signals(log, cycle, yield_torque)},
+                {"signals", scene_signals(log, cycle, damage)},
                 {"camera", {{"eye", {toe - 3.5, -11.0, 5.5}}, {"target", {toe - 1.2, 0.0, 1.3}}}},
                 {"poster_frame", poster}};
   if (const auto machine = body_named(log, "front unit")) panel["follow"] = *machine;

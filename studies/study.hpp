@@ -158,6 +158,9 @@ struct Study {
   std::function<void(const RunContext& context)> prepare = {};
   /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
   FigureFunction illustrate = {};
+  /// Called with the log of a run that has ended, by itself or not, before it is kept: a black box that writes
+  /// more files than that one makes one of them. May throw; the log is then kept as it is.
+  std::function<void(const std::filesystem::path& log)> finish_log = {};
   /// Figures for the report that set runs against each other, from the logs of all runs that succeeded, which
   /// are named by their run, run_0012.h5: a JSON array of panels, shown two in a row.
   ContrastFunction contrast = {};

@@ -25,8 +25,8 @@ constexpr const char* about =
     "  errors  deepest overlap of a rock, widest gap of a loop of the linkage, steps that had to be done "
     "again\n\n"
     "  run_ledger results/lhd_loading/logs/run_0001.h5\n"
-    "  bucket_fill --piles /tmp/piles --cycles 30 --alphas 1 --seeds 1 --logs /tmp/logs; run_ledger "
-    "/tmp/logs/*.h5";
+    "  bucket_fill --piles /tmp/piles --cycles 30 --alphas 1 --seeds 1 --logs /tmp/logs\n"
+    "                                                             makes the log of thirty cycles";
 
 double number(const LoadingLog& log, const char* name) {
   const auto found = log.numbers.find(name);

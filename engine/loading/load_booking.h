@@ -9,8 +9,8 @@
 /// What a cycle loaded and what it left before the pile.
 ///
 /// What the bucket carries is loaded. Rock before the pile counts as spilled if it did not lie there before the
-/// run; what hangs on the rest of the machine counts so too, and is taken away with it. Spill that is taken away, so
-/// or out of the machine's way, counts on after all later cycles, as if it had been pushed to the wall.
+/// run; what hangs on the rest of the machine counts so too, and is taken away with it. Spill that is taken away,
+/// so or out of the machine's way, counts on after all later cycles, as if it had been pushed to the wall.
 namespace drawpoint::engine::loading {
 
 /// By rock: whether it lies in front of the pile. `model` is that of the rocks that count.

@@ -34,8 +34,8 @@ ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs);
 
 /// The predicted front of the present models: the variables, the responses, of each response the ends of the
 /// 95 % interval of one run and the standard error of what is predicted, noise left out, the probability of
-/// being non-dominated (front_uncertainty.h), and that a run succeeds. `missing` takes why there is no point, where there is none. Throws std::runtime_error
-/// if the runs do not allow models.
+/// being non-dominated (front_uncertainty.h), and that a run succeeds. `missing` takes why there is no point,
+/// where there is none. Throws std::runtime_error if the runs do not allow models.
 ExportTable front_table(const Identity& identity, const std::vector<Run>& runs,
                         std::string* missing = nullptr);
 

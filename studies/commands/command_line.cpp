@@ -359,6 +359,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.command = joined(argc, argv);
   parsed.settings.leading_words = study.leading_words;
+  parsed.settings.finish_log = study.finish_log;
   const std::string program = parsed.settings.program = program_of(argc, argv, study);
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, program);
   app.set_help_flag();

@@ -27,11 +27,11 @@ doe::Evaluations validation_runs_of_other_folder(const Study& study, const Setti
     throw UsageError("validate: the runs of " + name + " are not those of " + settings.out.string() + ": " +
                      differs + "; name a folder that was made with the same options with --with");
   if (own.simulator != other.simulator)
-    std::fprintf(
-        stderr,
-        "the runs of %s are by \"%s\", those of %s by \"%s\": what these differ in counts as an error "
-        "of the models\n",
-        name.c_str(), other.simulator.c_str(), settings.out.c_str(), own.simulator.c_str());
+    std::fprintf(stderr,
+                 "the runs of %s are by %s, those of %s by %s: what these differ in counts as an error "
+                 "of the models\n",
+                 name.c_str(), named(other.simulator).c_str(), settings.out.c_str(),
+                 named(own.simulator).c_str());
   doe::Evaluations runs = tables_of(store.runs(), study.problem).validation;
   if (runs_with_values(runs).empty())
     throw std::runtime_error("validate: there is no validation run in " + name +

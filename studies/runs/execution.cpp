@@ -81,10 +81,14 @@ doe::Process process_for(const Run& run, const Folder& given, const OptionValues
 /// The log gets its final name before the run counts as done, so that each run that is done has its log, and
 /// keeps the other one until then: who dies between leaves it for the next to publish. Returns its checksum;
 /// empty: there is none.
-std::string publish_log(const Folder& folder, std::int64_t id) {
+std::string publish_log(const Folder& folder, const Settings& settings, std::int64_t id) {
   std::error_code ignored;
   fs::remove(folder.log(id), ignored);  // of an attempt that did not count
   if (!fs::exists(folder.unfinished_log(id), ignored)) return "";
+  try {
+    if (settings.finish_log) settings.finish_log(folder.unfinished_log(id));
+  } catch (const std::exception&) {  // the run stands without the rest of its log
+  }
   const std::string checksum = file_checksum(folder.unfinished_log(id));
   link_or_copy(folder.unfinished_log(id), folder.log(id));
   return checksum;
@@ -104,7 +108,8 @@ void drop_unfinished_log(const Folder& folder, std::int64_t id) {
 bool disk_is_full(const Folder& folder) { return free_space(folder.path) < least_free_space; }
 
 /// True if the run failed.
-bool store_end(Store& store, const Folder& folder, Workers& workers, const doe::ProcessEnd& end) {
+bool store_end(Store& store, const Folder& folder, const Settings& settings, Workers& workers,
+               const doe::ProcessEnd& end) {
   const doe::Outcome outcome = outcome_of(end, folder.printed(end.id));
   if (outcome.failed() && disk_is_full(folder)) {
     drop_unfinished_log(folder, end.id);  // leaves the store room for the next line
@@ -112,7 +117,7 @@ bool store_end(Store& store, const Folder& folder, Workers& workers, const doe::
     workers.discard(end.id);
     stop_for_full_disk(folder);
   }
-  const std::string log = publish_log(folder, end.id);
+  const std::string log = publish_log(folder, settings, end.id);
   if (outcome.failed()) {
     store.save_failed(end.id, outcome.reason(), end.seconds, log);
   } else {
@@ -195,7 +200,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
       waiting.pop_front();
     }
     for (const auto& end : workers->wait(patience))
-      progress.finished_one(store_end(store, folder, *workers, end));
+      progress.finished_one(store_end(store, folder, settings, *workers, end));
     progress.tick(workers->standing());
   }
   workers->finish();

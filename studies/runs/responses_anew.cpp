@@ -52,9 +52,6 @@ void require_same_simulation(const Study& study, const Identity& from, const Opt
   doe::Problem simulated = study.problem;
   simulated.responses = from.problem.responses;
   if (other.empty()) other = difference(from.problem, simulated);
-  if (other.empty() && from.simulator != study.simulator)
-    other = from.simulator.empty() ? "they name no simulator; this program's is \"" + study.simulator + "\""
-                                   : "they were made by \"" + from.simulator + "\"";
   std::vector<StudyOption> options;
   OptionValues stored = with_later_ones(study.options, from.options), asked = given;
   for (const StudyOption& option : study.options) {

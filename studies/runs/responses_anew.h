@@ -12,8 +12,9 @@
 
 namespace drawpoint::studies {
 
-/// Throws UsageError where `from` is the store of another study, of other variables, of another simulator, or
-/// of options that decide what is simulated and are other ones than given.
+/// Throws UsageError where `from` is the store of another study, of other variables, or of options that decide
+/// what is simulated and are other ones than given. By whatever simulator its runs were made: the new folder is
+/// that simulator's too.
 void require_same_simulation(const Study& study, const Identity& from, const OptionValues& given);
 
 /// The options of the new folder: those that decide responses as given, else the study's; the others as

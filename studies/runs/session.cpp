@@ -117,16 +117,19 @@ void require_simulator(const Study& study) {
                      "what came out");
 }
 
+std::string named(const std::string& simulator) {
+  return simulator.empty() ? "a simulator without a name" : "\"" + simulator + "\"";
+}
+
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
   const std::string& stored = store.identity().simulator;
-  if (stored != study.simulator)
-    refuse_folder(
-        folder,
-        stored.empty()
-            ? "its runs name no simulator, because they were made elsewhere or by a version of before it had "
-              "a name; now they would be made by \"" +
-                  study.simulator + "\""
-            : "its runs were made by \"" + stored + "\", now it is \"" + study.simulator + "\"");
+  if (stored == study.simulator) return;
+  throw UsageError(
+      "studies: the runs of " + folder.path.string() + " were made by " + named(stored) +
+      ", and new ones would be by " + named(study.simulator) +
+      ": one model does not take both. report, front, replay, compare, export and rerun-responses read this "
+      "folder as ever; for new runs begin a study with another --out, or take the program as it was when the "
+      "folder was made");
 }
 
 void check_options(const Study& study, const OptionValues& given) {

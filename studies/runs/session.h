@@ -25,6 +25,8 @@ std::string confirming_command(const Study& study);
 /// Throws UsageError for a study whose runs are made elsewhere: it has no black box.
 void require_simulator(const Study& study);
 
+/// For messages: in quotes, or that it has none.
+std::string named(const std::string& simulator);
 /// Before runs are made: throws UsageError where another simulator made those in the folder.
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder);
 

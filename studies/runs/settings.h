@@ -8,6 +8,7 @@
 #include <drawpoint/studies/options.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -104,6 +105,7 @@ struct Settings {
   std::string program = {};                     ///< what was typed before the command, for advice
   std::string command = {};                     ///< the command line as typed, for the report
   std::vector<std::string> leading_words = {};  ///< of the study, for its processes
+  std::function<void(const std::filesystem::path& log)> finish_log = {};  ///< of the study
 };
 
 /// Options of `evaluate`, which runs one point in this process.

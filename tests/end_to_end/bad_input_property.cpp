@@ -101,6 +101,21 @@ TEST_F(BadInput, WrongBounds) {
   EXPECT_FALSE(std::filesystem::exists(dir()));
 }
 
+// Whether a run ends by itself or is killed, what it has written of its log is kept as one file.
+TEST_F(BadInput, RunsThatDieBetweenPartsOfTheirLog) {
+  ASSERT_EQ(run(with("parts") + "--runs 12 --validation 0 --json" + out()).code, 0);
+  EXPECT_GT(count("status = 'failed'"), 0);
+  EXPECT_GT(count("status = 'done'"), 0);
+  int logs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dir() / "logs")) {
+    if (entry.path().extension() == ".txt") continue;
+    EXPECT_EQ(entry.path().extension(), ".h5");
+    EXPECT_EQ(contents(entry.path()), "first\nsecond\n") << entry.path();
+    ++logs;
+  }
+  EXPECT_EQ(logs, 12);
+}
+
 TEST_F(BadInput, RunsThatThrow) { expect_failed_runs("throw", "the bucket is stuck"); }
 
 // Everything beyond x = 0.5 fails: fit, page and exported front say so, and no point of the front lies there.

@@ -55,6 +55,7 @@ doe::Outcome misbehave(const std::string& how, double x, double y) {
   if (how == "nan") return {x, std::nan("")};
   if (how == "count") return {x, y, 3.0};
   if (how == "exit") std::exit(7);
+  if (how == "parts") std::raise(SIGKILL);
   if (how == "hang") std::this_thread::sleep_for(std::chrono::seconds(300));
   if (how == "crash") {
     std::cerr << "about to crash\n" << std::flush;
@@ -77,6 +78,10 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
     if (x[0] > 0.9) return doe::Failure{"jammed"};
     write_measures(context.log, x[0], x[1]);
     return x[0] > 0.5 ? doe::Outcome(doe::Failure{"spilled"}) : good(x[0], x[1]);
+  }
+  if (how == "parts") {
+    std::ofstream(context.log) << "first\n";
+    std::ofstream(context.log.string() + ".more") << "second\n";
   }
   if (how == "large") write_log(context.log, 300'000);
   if (how == "huge") write_log(context.log, 2'000'000);
@@ -125,6 +130,13 @@ nlohmann::json illustrate(const std::filesystem::path& file) {
   return figures;
 }
 
+/// Of a log in two files, one.
+void join(const std::filesystem::path& log) {
+  const std::filesystem::path more = log.string() + ".more";
+  std::ofstream(log, std::ios::app) << std::ifstream(more).rdbuf();
+  std::filesystem::remove(more);
+}
+
 void prepare(const studies::RunContext& context) {
   if (trouble() == "unprepared") throw std::runtime_error("the pile does not settle");
   std::ofstream(context.shared / "pile.txt") << "settled\n";
@@ -144,6 +156,7 @@ int main(int argc, char** argv) {
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
   if (trouble() == "drawn" || trouble() == "filmed") study.illustrate = illustrate;
+  if (trouble() == "parts") study.finish_log = join;
   if (trouble() == "logged") {
     study.responses = responses_of;
     study.options.push_back({.name = "price", .value = "1", .least = 1, .most = 9, .of_responses = true});

@@ -29,8 +29,8 @@ struct Cycle {
 LoadingLog log_of(const std::vector<Cycle>& cycles) {
   LoadingLog log;
   log.completed = true;
-  for (const char* name :
-       {"time", "cycle", "stage", "tip_x", "tip_y", "tip_z", "hinge_G_torque_x", "hinge_G_torque_z"})
+  for (const char* name : {"time", "cycle", "stage", "tip_x", "tip_y", "tip_z", "hinge_G_torque_x",
+                           "hinge_G_torque_y", "hinge_G_torque_z"})
     log.signals.columns.push_back({name, "1"});
   for (std::size_t c = 0; c < cycles.size(); ++c) {
     CycleRecord cycle;
@@ -44,7 +44,7 @@ LoadingLog log_of(const std::vector<Cycle>& cycles) {
     cycle.contour_z = {0, 0, 0, 0, 2};
     for (int i = 0; i < 100; ++i)
       log.signals.append_row(std::vector<double>{cycle.t_start + 0.1 * i, 1.0 + static_cast<double>(c), 1.0,
-                                                 0.01 * i, 0.0, cycles[c].off, 0.0, 0.0});
+                                                 0.01 * i, 0.0, cycles[c].off, 0.0, 0.0, 0.0});
     log.cycles.push_back(cycle);
     log.scene.frames.push_back({cycle.t_start, cycle.number, "curl", 0.0});
   }

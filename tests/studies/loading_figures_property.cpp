@@ -27,12 +27,12 @@ LoadingLog log_with_a_peak() {
   log.completed = true;
   log.texts["arm_drive"] = "cylinders";
   for (const char* name : {"time", "cycle", "stage", "tip_x", "tip_y", "tip_z", "lift_force", "tilt_force",
-                           "wheel_torque", "hinge_G_torque_x", "hinge_G_torque_z"})
+                           "wheel_torque", "hinge_G_torque_x", "hinge_G_torque_y", "hinge_G_torque_z"})
     log.signals.columns.push_back({name, "1"});
   for (int i = 0; i < samples; ++i) {
     const double peak = i == 41 ? 300e3 : 10e3;
-    log.signals.append_row(
-        std::vector<double>{0.1 * i, 1.0, 1.0 + i / 26, 0.01 * i, 0.0, 0.0, 0.0, 0.0, 0.0, peak, -peak});
+    log.signals.append_row(std::vector<double>{0.1 * i, 1.0, 1.0 + i / 26, 0.01 * i, 0.0, 0.0, 0.0, 0.0, 0.0,
+                                               peak, 2 * peak, -peak});
   }
   CycleRecord cycle;
   cycle.number = 1;
@@ -119,7 +119,7 @@ TEST(LoadingFigures, TheSceneHasTheMotionOfItsCycle) {
       << (*scene)["caption"];
 }
 
-// The tip goes 0.01 m in 0.1 s; 300 kN m about two axes are 424.264.
+// The tip goes 0.01 m in 0.1 s; 300 kN m about two axes are 424.264, with 600 kN m about the pin 734.847.
 TEST(LoadingFigures, TheSceneHasSignalsOfAllSamples) {
   const test::TestFolder place;
   LoadingLog log = log_with_a_peak();
@@ -133,10 +133,16 @@ TEST(LoadingFigures, TheSceneHasSignalsOfAllSamples) {
   ASSERT_EQ(signals.size(), 3u);
   EXPECT_EQ(signals[0]["y"].size(), static_cast<std::size_t>(samples));
   EXPECT_EQ(signals[0]["y"][5], 0.1);
-  EXPECT_EQ(signals[1]["y"][41], 424.264);
+  EXPECT_EQ(signals[1]["name"], "Torque in hinge G");
+  EXPECT_EQ(signals[1]["y"][41], 734.847);
   EXPECT_EQ(signals[1]["t"][41], 4.1);
   EXPECT_EQ(signals[1]["lines"][0]["y"], 450.0);
   EXPECT_EQ(signals[2]["y"], nlohmann::json({0.0, 3.24}));
+  const auto twisting = loading_figures(place / "run.h5", {{"damage", "twisting"}});
+  const auto other =
+      std::find_if(twisting.begin(), twisting.end(), [](const auto& f) { return f["type"] == "scene"; });
+  EXPECT_EQ((*other)["signals"][1]["name"], "Torque that twists hinge G");
+  EXPECT_EQ((*other)["signals"][1]["y"][41], 424.264);
 }
 
 TEST(LoadingFigures, ARunWithoutACycleHasNone) {

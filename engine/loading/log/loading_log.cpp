@@ -3,6 +3,7 @@
 #include <drawpoint/engine/loading/log/log_parts.h>
 #include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace drawpoint::engine::loading {
 namespace {
@@ -94,14 +95,31 @@ LoadingLog read_one(const record::Reader& file) {
   return log;
 }
 
+// A part is of the run beside whose log it stands, and comes next.
+void require_next(const LoadingLog& log, const LoadingLog& part, const std::filesystem::path& file) {
+  const auto seed = [](const LoadingLog& of) {
+    const auto found = of.texts.find("seed");
+    return found == of.texts.end() ? std::string() : found->second;
+  };
+  const bool same = seed(log) == seed(part) && log.signals.columns.size() == part.signals.columns.size();
+  const bool later =
+      log.cycles.empty() || part.cycles.empty() || log.cycles.back().number < part.cycles.front().number;
+  if (!same || !later)
+    throw std::runtime_error("loading::read_log: " + file.string() +
+                             " does not go on with the log that it stands beside; move it away");
+}
+
 }  // namespace
 
 LoadingLog read_log(const std::filesystem::path& path) {
   const record::Reader first(path, kind);
   LoadingLog log = read_one(first);
   if (first.version() < 7 || first.integer("/", "goes_on") == 0) return log;
-  for (int number = 2; std::filesystem::exists(part_path(path, number)); ++number)
-    append(log, read_one(record::Reader(part_path(path, number), kind)));
+  for (int number = 2; std::filesystem::exists(part_path(path, number)); ++number) {
+    LoadingLog next = read_one(record::Reader(part_path(path, number), kind));
+    require_next(log, next, part_path(path, number));
+    append(log, std::move(next));
+  }
   return log;
 }
 

@@ -58,8 +58,8 @@ struct SceneFrame {
 using ScenePose = std::array<float, 7>;
 
 /// The pose of a body in one frame. From knot to knot of a cycle it goes evenly, after the last it stays as it
-/// is, and before the first the body is not shown. A recorded scene is that within a few millimetres
-/// (scene_motion.hpp).
+/// is, and before the first the body is not shown. A recorded scene is that within
+/// 2.5 cm, its machine within 4 mm (scene_motion.hpp).
 struct SceneKnot {
   int body = 0, frame = 0;
   ScenePose pose{};
@@ -93,8 +93,8 @@ struct LoadingLog {
 void write_log(const std::filesystem::path& path, const LoadingLog& log);
 
 /// Of this version and of versions 4 to 6; of a run that was killed, all cycles that it had done: those after
-/// the first are in files beside it, FILE.part0002 and so on. Throws std::runtime_error if the file is missing, truncated,
-/// damaged or no loading log.
+/// the first are in files beside it, FILE.part0002 and so on. Throws std::runtime_error if a file is missing,
+/// truncated, damaged or no loading log, or if a part is of another run.
 LoadingLog read_log(const std::filesystem::path& path);
 
 }  // namespace drawpoint::engine::loading

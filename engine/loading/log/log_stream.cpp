@@ -18,6 +18,13 @@ void add(std::vector<T>& all, std::vector<T>&& more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+// From the last one on, so that what is left is always the first so many.
+void remove_parts(const std::filesystem::path& path) {
+  int last = 1;
+  while (std::filesystem::exists(part_path(path, last + 1))) ++last;
+  for (; last > 1; --last) std::filesystem::remove(part_path(path, last));
+}
+
 }  // namespace
 
 std::filesystem::path part_path(const std::filesystem::path& path, int number) {
@@ -42,14 +49,17 @@ void append(LoadingLog& log, LoadingLog&& next) {
   log.message = std::move(next.message);
 }
 
-LogStream::LogStream(std::filesystem::path path) : path_(std::move(path)) { remove_parts(); }
+void join_parts(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(part_path(path, 2))) return;
+  try {
+    write_log(path, read_log(path));
+  } catch (const std::runtime_error&) {  // what is there stays what it is
+  }
+  remove_parts(path);
+}
 
-// From the last one on, so that what is left is always the first so many.
-void LogStream::remove_parts() const {
-  if (path_.empty()) return;
-  int last = 1;
-  while (std::filesystem::exists(part_path(path_, last + 1))) ++last;
-  for (; last > 1; --last) std::filesystem::remove(part_path(path_, last));
+LogStream::LogStream(std::filesystem::path path) : path_(std::move(path)) {
+  if (!path_.empty()) join_parts(path_);
 }
 
 void LogStream::keep(const LoadingLog& log) {
@@ -72,7 +82,7 @@ void LogStream::keep(const LoadingLog& log) {
 void LogStream::finish(const LoadingLog& log) {
   if (path_.empty()) return;
   write_part(path_, log, false);
-  remove_parts();
+  remove_parts(path_);
 }
 
 }  // namespace drawpoint::engine::loading

@@ -15,8 +15,8 @@ namespace drawpoint::engine::loading {
 
 class LogStream {
  public:
-  /// Removes what an earlier run left beside the log, not the log. An empty path: nothing is written. Throws
-  /// std::runtime_error if the disk refuses, as all here.
+  /// What an earlier run left, killed, becomes one file first (join_parts). An empty path: nothing is written.
+  /// Throws std::runtime_error if the disk refuses, as all here.
   explicit LogStream(std::filesystem::path path);
   /// Writes what the log has beyond what was kept.
   void keep(const LoadingLog& log);
@@ -24,12 +24,14 @@ class LogStream {
   void finish(const LoadingLog& log);
 
  private:
-  void remove_parts() const;
-
   std::filesystem::path path_;
   int parts_ = 0;
   std::size_t values_ = 0, cycles_ = 0, frames_ = 0, knots_ = 0;  // kept
 };
+
+/// Makes one file of what a killed run has left: the log with all that was kept, which says that nothing follows.
+/// Parts beside a log that says so already, or that cannot be read, are removed.
+void join_parts(const std::filesystem::path& path);
 
 /// Of FILE from part 2 on.
 std::filesystem::path part_path(const std::filesystem::path& path, int number);

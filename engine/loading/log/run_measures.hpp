@@ -7,8 +7,8 @@
 
 /// What a run costs and how it goes, beside its responses (responses.hpp): pure functions of the run log, one
 /// value per cycle, in order. All throw std::invalid_argument naming what the log lacks (logs of older
-/// versions lack tyre radius, bucket volumes, speed of the wheels and force on the bucket). A sample has the weight that it has in joint_damage. Cost:
-/// one pass.
+/// versions lack tyre radius, bucket volumes, speed of the wheels and force on the bucket). A sample has the
+/// weight that it has in joint_damage. Cost: one pass.
 ///
 /// energy: ∫ Σ max(P, 0) dt over lift, tilt (P = force · speed) and drive (P = torque of the wheels / tyre's
 /// free radius · speed of the body, so without what spinning wheels burn). Holding and braking recover

@@ -132,6 +132,39 @@ TEST_F(Stream, PartsOfAnotherRunAreNotRead) {
   expect_read(log_);
 }
 
+// What a killed run left, made one file.
+TEST_F(Stream, PartsAreJoined) {
+  LogStream killed(file());
+  for (int cycle = 1; cycle <= 3; ++cycle) {
+    do_cycle(cycle);
+    killed.keep(log_);
+  }
+  join_parts(file());
+  EXPECT_EQ(contents().size(), 1u);
+  expect_read(log_);
+  join_parts(file());
+  expect_read(log_);
+  join_parts(folder_ / "none.h5");
+  EXPECT_EQ(contents().size(), 1u);
+}
+
+TEST_F(Stream, APartOfAnotherRunIsRefused) {
+  LogStream stream(file());
+  for (int cycle = 1; cycle <= 2; ++cycle) {
+    do_cycle(cycle);
+    stream.keep(log_);
+  }
+  const std::string untold = " does not go on with the log that it stands beside";
+  fs::copy_file(part_path(file(), 2), part_path(file(), 3));
+  support::expect_told<std::runtime_error>([&] { read_log(file()); }, {"run.h5.part0003" + untold});
+  fs::remove(part_path(file(), 3));
+  LoadingLog other = log_;
+  other.texts["seed"] = "2";
+  other.cycles.front().number = 3;
+  write_log(part_path(file(), 3), other);
+  support::expect_told<std::runtime_error>([&] { read_log(file()); }, {"run.h5.part0003" + untold});
+}
+
 TEST_F(Stream, ADamagedPartIsRefusedByItsName) {
   LogStream stream(file());
   for (int cycle = 1; cycle <= 2; ++cycle) {
