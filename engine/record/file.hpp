@@ -15,11 +15,11 @@
 ///
 /// A file has a format name and a version, groups by "/"-paths, attributes (text, real, integer) on groups,
 /// and data: arrays of double, float or int32 with a shape, single numbers and texts, tables, and lists of
-/// text. Data of 256 values and more is gzip-compressed (level 1) in chunks. After the end that HDF5 knows
-/// stand 24 bytes: a mark, the length and the 64-bit FNV-1a checksum of all before; a reader checks them before
-/// anything else, seconds per gigabyte. Other programs (h5dump, h5py, MATLAB, Octave) ignore them and read the
-/// file as it is. A plain file is for, or of, other programs: arrays contiguous and uncompressed, nothing after
-/// the end, so that its damage is not seen.
+/// text. Data is gzip-compressed (level 1) in chunks. After the end that HDF5 knows stand 24 bytes: a mark,
+/// the length and the 64-bit FNV-1a checksum of all before; a reader checks them before anything else,
+/// seconds per gigabyte. Other programs (h5dump, h5py, MATLAB, Octave) ignore them and read the file as it
+/// is. A plain file is for, or of, other programs: arrays contiguous and uncompressed, nothing after the
+/// end, so that its damage is not seen.
 ///
 /// A Writer builds the file in memory; commit() writes it beside the target, syncs it and renames it over the
 /// target, so a full disk, a read-only folder or a killed process leave the old file. Safe to use from

@@ -57,12 +57,9 @@ std::vector<hsize_t> chunk_of(const std::vector<std::size_t>& shape) {
   return chunk;
 }
 
-// A chunk needs an index of some kilobytes, which a few numbers are not worth.
-constexpr std::size_t least_chunked = 256;
-
 Handle array_creation(const std::vector<std::size_t>& shape, std::size_t count, Form form) {
   Handle list = creation(H5P_DATASET_CREATE);
-  if (count < least_chunked || shape.empty() || form == Form::plain) return list;
+  if (count == 0 || shape.empty() || form == Form::plain) return list;
   const std::vector<hsize_t> chunk = chunk_of(shape);
   H5Pset_chunk(list.get(), static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(list.get());
