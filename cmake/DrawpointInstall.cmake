@@ -40,6 +40,8 @@ function(drawpoint_install component)
   endforeach()
 endfunction()
 
+install(TARGETS drawpoint_kriging_compiled EXPORT Drawpoint-kriging)
+install(FILES kriging/compiled.cpp DESTINATION include/drawpoint/kriging COMPONENT kriging)
 foreach(component doe kriging pareto)
   drawpoint_install(${component})
 endforeach()

@@ -90,7 +90,8 @@ int main(int argc, char** argv) {
        .contrast = studies::loading_contrasts,
        .responses =
            [](const std::filesystem::path& log, const studies::OptionValues& options) {
-             return responses_of(engine::loading::read_log(log), options);
+             return responses_of(engine::loading::read_log(log, engine::loading::LogContent::without_scene),
+                                 options);
            },
        .headlines = studies::loading_headlines,
        .findings = studies::loading_findings});

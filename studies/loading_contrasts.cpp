@@ -19,6 +19,7 @@ namespace {
 
 using engine::loading::CycleRecord;
 using engine::loading::LoadingLog;
+using engine::loading::LogContent;
 
 struct ChosenCycle {
   double value = 0;
@@ -81,7 +82,7 @@ nlohmann::json near_the_plan(nlohmann::json panel) {
 }
 
 nlohmann::json tracking_panel(const ChosenCycle& chosen, const Extremes& all, bool well) {
-  const LoadingLog log = engine::loading::read_log(chosen.log);
+  const LoadingLog log = engine::loading::read_log(chosen.log, LogContent::without_scene);
   const CycleRecord& cycle = log.cycles.at(chosen.index);
   const std::string who = cycle_of(chosen, cycle) + ", the " + (well ? "best" : "worst") + " tracked of " +
                           std::to_string(all.cycles) + " cycles, its edge " + fixed(chosen.value, 2) +
@@ -110,7 +111,7 @@ nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs,
   const engine::loading::ProductionOptions producing = production_options(options);
   Extremes tracking, production;
   for (const std::filesystem::path& file : logs) {
-    const LoadingLog log = engine::loading::read_log(file);
+    const LoadingLog log = engine::loading::read_log(file, LogContent::without_scene);
     if (log.cycles.empty()) continue;
     tracking.add(tracking_errors(log), file);
     production.add(production_by_cycle(log, producing), file);

@@ -188,7 +188,7 @@ struct Tracking {
 
   void add(const std::filesystem::path& file, double beta_of_run) {
     try {
-      const auto log = engine::loading::read_log(file);
+      const auto log = engine::loading::read_log(file, engine::loading::LogContent::without_scene);
       const double of_run = engine::loading::tracking_error(log);
       double sum = 0;
       for (const auto& cycle : log.cycles) sum += cycle.plan.depth;

@@ -20,6 +20,7 @@ namespace drawpoint::studies {
 namespace {
 
 using engine::loading::LoadingLog;
+using engine::loading::LogContent;
 
 std::string percent(double share) {
   char text[16];
@@ -198,7 +199,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   Breakdowns breakdowns;
   std::vector<RunMean> others = measures();
   for (const auto& file : logs) {
-    const LoadingLog log = engine::loading::read_log(file);
+    const LoadingLog log = engine::loading::read_log(file, LogContent::without_scene);
     if (pile.name.empty()) pile = pile_of(log);
     const double of_run = fill_factor(log);
     fill += of_run / static_cast<double>(logs.size());

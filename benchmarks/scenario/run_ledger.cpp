@@ -127,5 +127,6 @@ int main(int argc, char** argv) {
   CLI::App app(about, "run_ledger");
   app.add_option("LOG_FILE", path, "of a loading run (HDF5)")->required();
   add_json_flag(app, json);
-  return run_command(app, argc, argv, [&] { return show(ledger(read_log(path)), json, print); });
+  return run_command(app, argc, argv,
+                     [&] { return show(ledger(read_log(path, LogContent::without_scene)), json, print); });
 }

@@ -20,8 +20,8 @@
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/cokriging_level.hpp>
 #include <drawpoint/kriging/detail/cokriging_likelihood.hpp>
+#include <drawpoint/kriging/detail/fit_prepared.hpp>
 #include <drawpoint/kriging/detail/told_rho.hpp>
-#include <drawpoint/kriging/fit.hpp>
 #include <string>
 #include <utility>
 #include <vector>

@@ -99,7 +99,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   ReportInput input = input_of(study, store, runs);
   input.command = command;
   summary.confirmations = input.confirmations;
-  const std::vector<const Run*> logged = runs_with_log(runs, folder, input.warnings);
+  const std::vector<const Run*> logged = runs_with_log(study, store.identity(), runs, folder, input.warnings);
   input.headlines = summary.headlines =
       headlines_of(study, logged, store.identity().options, folder, input.warnings);
   input.facts = facts(store, runs);

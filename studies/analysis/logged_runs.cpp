@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/logged_runs.h>
+#include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/run_logs.h>
 
 #include <drawpoint/doe/detail/task_files.hpp>
@@ -10,18 +11,24 @@
 namespace drawpoint::studies {
 namespace {
 
-std::string made_again(const Folder& folder, const std::string& run, const std::string& log) {
-  return "evaluate --run " + run + " --out " + doe::detail::quoted_for_shell(folder.path.string()) +
-         " --log " + doe::detail::quoted_for_shell((folder.logs() / log).string());
+std::string how_made_again(const Study& study, const Identity& identity, const Folder& folder,
+                           const std::string& run, const std::string& log) {
+  if (study.simulator != identity.simulator)
+    return "only the program that made this folder, " + named(identity.simulator) + ", makes it again";
+  return "make it again with evaluate --run " + run + " --out " +
+         doe::detail::quoted_for_shell(folder.path.string()) + " --log " +
+         doe::detail::quoted_for_shell((folder.logs() / log).string());
 }
 
 }  // namespace
 
-std::string made_again(const Folder& folder, std::int64_t run) {
-  return made_again(folder, std::to_string(run), folder.log(run).filename().string());
+std::string how_made_again(const Study& study, const Identity& identity, const Folder& folder,
+                           std::int64_t run) {
+  return how_made_again(study, identity, folder, std::to_string(run), folder.log(run).filename().string());
 }
 
-std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder& folder,
+std::vector<const Run*> runs_with_log(const Study& study, const Identity& identity,
+                                      const std::vector<Run>& runs, const Folder& folder,
                                       std::vector<std::string>& warnings) {
   std::vector<const Run*> sound;
   std::string others;
@@ -34,8 +41,8 @@ std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder
   }
   if (!others.empty())
     warnings.push_back("Logs that are damaged, or not what their run wrote, are left out: " + others +
-                       ". The responses in the store stand; one is made again by " +
-                       made_again(folder, "N", "run_000N.h5") + ".");
+                       ". The responses in the store stand. To have a log again: " +
+                       how_made_again(study, identity, folder, "N", "run_000N.h5") + ".");
   return sound;
 }
 

@@ -13,12 +13,15 @@
 
 namespace drawpoint::studies {
 
-/// The words by which the log of a run is made again, as a shell takes them.
-std::string made_again(const Folder& folder, std::int64_t run);
+/// How the log of a run is made again: "make it again with evaluate ...", as a shell takes it, or that only the
+/// simulator of the folder does.
+std::string how_made_again(const Study& study, const Identity& identity, const Folder& folder,
+                           std::int64_t run);
 
 /// Of the runs that are done, those whose log is as they wrote it; what is wrong with others becomes a
 /// warning.
-std::vector<const Run*> runs_with_log(const std::vector<Run>& runs, const Folder& folder,
+std::vector<const Run*> runs_with_log(const Study& study, const Identity& identity,
+                                      const std::vector<Run>& runs, const Folder& folder,
                                       std::vector<std::string>& warnings);
 
 /// Study::headlines of these runs; where it throws, none and a warning.

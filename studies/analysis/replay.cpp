@@ -15,7 +15,7 @@
 namespace drawpoint::studies {
 namespace {
 
-void require_log(const Folder& folder, const Run& run) {
+void require_log(const Study& study, const Identity& identity, const Folder& folder, const Run& run) {
   const std::string name = "replay: run " + std::to_string(run.id);
   const std::string log = folder.log(run.id).string();
   if (run.status != Status::done && run.status != Status::failed)
@@ -24,12 +24,11 @@ void require_log(const Folder& folder, const Run& run) {
   if (run.log.empty()) throw std::runtime_error(name + " wrote no log." + failure + " Choose a run that did");
   switch (log_state(folder, run)) {
     case LogState::none:
-      throw std::runtime_error(name + ": its log " + log + " is gone; make it again with " +
-                               made_again(folder, run.id));
+      throw std::runtime_error(name + ": its log " + log + " is gone; " +
+                               how_made_again(study, identity, folder, run.id));
     case LogState::other:
-      throw std::runtime_error(name + ": " + log +
-                               " is damaged, or not what the run wrote; make it again with " +
-                               made_again(folder, run.id));
+      throw std::runtime_error(name + ": " + log + " is damaged, or not what the run wrote; " +
+                               how_made_again(study, identity, folder, run.id));
     case LogState::sound:
       return;
   }
@@ -57,7 +56,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_run(const Identity& id
 
 ReplayInput input_of_run(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
                          const std::string& command) {
-  require_log(folder, run);
+  require_log(study, identity, folder, run);
   const Tables tables = tables_of({run}, study.problem);
   const auto& rows = run.kind == Kind::validation ? tables.validation.rows : tables.training.rows;
   return {.study = study.name,
@@ -84,7 +83,7 @@ std::string replay_page(const Study& study, const Identity& identity, const Fold
 
 nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
                             const Run& run) {
-  require_log(folder, run);
+  require_log(study, identity, folder, run);
   std::vector<std::string> cautions;
   for (auto& panel : detail::checked_panels(illustrated(study, identity, folder, run), cautions))
     if (panel.at("type") == "scene") return std::move(panel);
@@ -93,7 +92,7 @@ nlohmann::json scene_of_run(const Study& study, const Identity& identity, const 
 
 nlohmann::json flat_figures(const Study& study, const Identity& identity, const Folder& folder,
                             const Run& run, std::vector<std::string>& cautions) {
-  require_log(folder, run);
+  require_log(study, identity, folder, run);
   nlohmann::json flat = nlohmann::json::array();
   for (auto& panel : illustrated(study, identity, folder, run))
     if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene")

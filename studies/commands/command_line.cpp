@@ -142,10 +142,12 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
       ->check(CLI::Range(1, 100'000))
       ->group(group);
   command
-      .add_option("--criteria", settings.criteria,
-                  "who chooses them: NAME=WEIGHT,... of lola_voronoi, voronoi, distance, error, variance, "
-                  "improvement, repeat: runs made again where noise limits the models (default "
-                  "lola_voronoi=0.7,error=0.3)")
+      .add_option(
+          "--criteria", settings.criteria,
+          "who chooses them: NAME=WEIGHT,... of lola_voronoi, voronoi, distance, error, "
+          "cross_validation, variance, feasibility, improvement; for one objective predicted and, "
+          "without limits, joint_improvement, knowledge_gradient; repeat: runs made again where noise "
+          "limits the models (default lola_voronoi=0.7,error=0.3)")
       ->check(criteria_complaint)
       ->group(group);
   command

@@ -35,7 +35,7 @@ ComparedSide side_of(const Study& study, const ComparedFolder& compared, const s
     side.failed += run.status == Status::failed;
   }
   const Identity& identity = compared.store.identity();
-  const std::vector<const Run*> logged = runs_with_log(runs, compared.folder, side.warnings);
+  const std::vector<const Run*> logged = runs_with_log(study, identity, runs, compared.folder, side.warnings);
   side.headlines = headlines_of(study, logged, identity.options, compared.folder, side.warnings);
   add_front(side, runs, identity);
   return side;

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/sampling/repeats.h>
+#include <drawpoint/studies/sampling/samplers.h>
 #include <drawpoint/doe/propose.hpp>
 
 #include <algorithm>
@@ -29,16 +30,32 @@ struct BatchPoints {
 };
 
 /// Where runs have not been made; fewer rows than `count` where places run out.
-Eigen::MatrixXd new_points(const Known& known, const std::vector<CriterionShare>& shares, doe::Seed seed,
+Eigen::MatrixXd new_points(const Known& known, const CriteriaTurns& turns, doe::Seed seed,
                            Eigen::Index count) {
   const doe::Evaluations& training = known.tables.training;
-  if (shares.empty() || count == 0)
-    return Eigen::MatrixXd(0, static_cast<Eigen::Index>(training.problem.variables.size()));
-  return doe::propose(
-      training, mix_of(shares, known.fitted.models, known.failures, seed),
-      {.seed = seed, .batch = static_cast<int>(count), .allowed = [&known](const Eigen::VectorXd& x) {
-         return !known.failures.avoided(x.transpose()).front();
-       }});
+  const auto d = static_cast<Eigen::Index>(training.problem.variables.size());
+  const auto options = [&](Eigen::Index batch, doe::BatchRule rule) {
+    return doe::ProposeOptions{.seed = seed,
+                               .batch = static_cast<int>(batch),
+                               .rule = rule,
+                               .allowed = [&known](const Eigen::VectorXd& x) {
+                                 return !known.failures.avoided(x.transpose()).front();
+                               }};
+  };
+  const Eigen::Index together = !turns.may_join          ? 0
+                                : turns.new_ones.empty() ? count
+                                                         : std::min<Eigen::Index>(turns.together, count);
+  Eigen::MatrixXd points(0, d);
+  if (!turns.new_ones.empty() && together < count)
+    points = doe::propose(training, mix_of(turns.new_ones, known.fitted.models, known.failures, seed),
+                          options(count - together, doe::BatchRule::cells));
+  if (together == 0) return points;
+  const Eigen::MatrixXd joint =
+      doe::propose(training, joint_improvement_beside(points, known.fitted.models, known.failures),
+                   options(together, doe::BatchRule::joint));
+  Eigen::MatrixXd all(points.rows() + joint.rows(), d);
+  all << points, joint;
+  return all;
 }
 
 /// Each criterion in its turn; where no new place is left, repeats for all, if they were named.
@@ -54,17 +71,18 @@ BatchPoints chosen_points(const Identity& identity, const Sampling& sampling, co
         {.seed = seed, .count = static_cast<int>(repeats), .replicates = identity.replicates});
   };
   Eigen::MatrixXd again = repeated(turns.repeats);
-  BatchPoints chosen{new_points(known, turns.new_ones, seed, count - again.rows())};
-  const bool ran_out = chosen.X.rows() + again.rows() < count && !turns.new_ones.empty();
+  BatchPoints chosen{new_points(known, turns, seed, count - again.rows())};
+  const bool want_new = turns.may_join || !turns.new_ones.empty();
+  const bool ran_out = chosen.X.rows() + again.rows() < count && want_new;
   if (ran_out && turns.may_repeat) again = repeated(count - chosen.X.rows());
   chosen.repeats = static_cast<int>(again.rows());
   chosen.X.conservativeResize(chosen.X.rows() + again.rows(), Eigen::NoChange);
   chosen.X.bottomRows(again.rows()) = again;
   if (chosen.X.rows() == 0)
-    chosen.nothing = turns.new_ones.empty()
-                         ? "no run is worth making again beside what new points would teach; name another "
-                           "criterion beside repeat"
-                         : "no place is left where a run would be new and likely to succeed";
+    chosen.nothing = want_new
+                         ? "no place is left where a run would be new and likely to succeed"
+                         : "no run is worth making again beside what new points would teach; name another "
+                           "criterion beside repeat";
   return chosen;
 }
 

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/models/front.h>
-#include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/sampling/criteria.h>
-#include <drawpoint/doe/lola_voronoi.hpp>
-#include <drawpoint/kriging/acquisition_hypervolume.hpp>
+#include <drawpoint/doe/criterion.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +14,11 @@ namespace drawpoint::studies {
 namespace {
 
 constexpr const char* repeat = "repeat";
-constexpr std::array<const char*, 7> criterion_names = {"lola_voronoi", "voronoi",     "distance", "error",
-                                                        "variance",     "improvement", repeat};
+constexpr const char* together = "joint_improvement";
+constexpr std::array<const char*, 12> criterion_names = {
+    "lola_voronoi", "voronoi",     "distance",    "error",  "cross_validation",
+    "variance",     "feasibility", "improvement", together, "knowledge_gradient",
+    "predicted",    repeat};
 
 [[noreturn]] void refuse_criterion(const std::string& part) {
   std::string names;
@@ -41,71 +41,22 @@ CriterionShare share_from(const std::string& part) {
   return {name, weight};
 }
 
-/// The largest of several scores, each divided by its scale; a scale of 0 leaves its score out.
-doe::Criterion largest_of(std::vector<std::pair<doe::Criterion, double>> scores) {
-  return [scores = std::move(scores)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
-    Eigen::VectorXd largest = Eigen::VectorXd::Zero(X.rows());
-    for (const auto& [score, scale] : scores) {
-      if (scale > 0.0) largest = largest.cwiseMax(score(X) / scale);
-    }
-    return largest;
-  };
-}
-
-double range_of(const Eigen::VectorXd& y) { return y.size() == 0 ? 0.0 : y.maxCoeff() - y.minCoeff(); }
-
-/// Of the ways to fit each response on the scale of its model.
-doe::Criterion disagreement_of_ways(const doe::Evaluations& runs,
-                                    const std::vector<kriging::TransformedModel>& models) {
-  std::vector<std::pair<doe::Criterion, double>> scores;
-  for (std::size_t j = 0; j < models.size(); ++j) {
-    const doe::Response& response = runs.problem.responses[j];
-    const Eigen::VectorXd y = runs.y(response.name);
-    std::vector<doe::Criterion> means;
-    for (const auto& way : ways_to_fit(runs.problem, response, models[j].transform().scale)) {
-      means.push_back([model = way.fitter(runs.X(), y)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
-        return model.mean(X);
-      });
-    }
-    scores.emplace_back(doe::disagreement(std::move(means)), range_of(y));
-  }
-  return largest_of(std::move(scores));
-}
-
-doe::Criterion deviation_of(const doe::Evaluations& runs,
-                            const std::vector<kriging::TransformedModel>& models) {
-  std::vector<std::pair<doe::Criterion, double>> scores;
-  for (std::size_t j = 0; j < models.size(); ++j) {
-    scores.emplace_back(
-        [model = models[j]](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
-          return model.predict(X).variance.cwiseMax(0.0).cwiseSqrt();
-        },
-        range_of(runs.y(runs.problem.responses[j].name)));
-  }
-  return largest_of(std::move(scores));
-}
-
-doe::Sampler sampler_named(const std::string& name, const std::vector<kriging::TransformedModel>& models,
-                           doe::Seed seed) {
-  if (name == "lola_voronoi") return doe::LolaVoronoi({.seed = seed});
-  if (name == "voronoi") return doe::voronoi_sampler({.seed = seed});
-  if (name == "distance") return doe::distance_to_runs;
-  if (name == "error")
-    return [models](const doe::Evaluations& runs) { return disagreement_of_ways(runs, models); };
-  if (name == "variance")
-    return [models](const doe::Evaluations& runs) { return deviation_of(runs, models); };
-  return [models](const doe::Evaluations& runs) {
-    return kriging::constrained_hypervolume_improvement(runs.problem, models);
-  };
-}
-
-/// Scores times the probability of success; scores of every sampler here are 0 or more.
-doe::Sampler where_runs_succeed(doe::Sampler sampler, const Failures& failures) {
-  if (failures.none()) return sampler;
-  return [sampler = std::move(sampler), failures](const doe::Evaluations& runs) {
-    return kriging::product_of_criteria(
-        {sampler(runs), [failures](const Eigen::MatrixXd& X) { return failures.probability_of_success(X); }});
-  };
+void check_criterion(const std::string& name, int objectives, bool limits) {
+  if (name == "improvement" && objectives == 0)
+    throw UsageError(
+        "--criteria: improvement needs a response that is minimized or maximized; take another criterion");
+  if (name == "feasibility" && !limits)
+    throw UsageError(
+        "--criteria: feasibility needs a response with a limit, at_most or at_least; take another criterion");
+  const bool of_one_best = name == together || name == "knowledge_gradient";
+  if ((of_one_best || name == "predicted") && objectives != 1)
+    throw UsageError(
+        "--criteria: " + name + " needs one response that is minimized or maximized, and there are " +
+        std::to_string(objectives) +
+        (objectives > 1 ? "; take improvement, which weighs several" : "; take another criterion"));
+  if (of_one_best && limits)
+    throw UsageError("--criteria: " + name +
+                     " knows no limits, and its best run may break one; take improvement, which keeps them");
 }
 
 }  // namespace
@@ -120,32 +71,28 @@ std::vector<CriterionShare> criteria_from(const std::string& text) {
 
 CriteriaTurns turns_of(const std::vector<CriterionShare>& shares, int made, int count) {
   CriteriaTurns turns;
-  std::vector<double> weights = {0.0, 0.0};  // of repeats, of new points
+  std::vector<double> weights(3, 0.0);  // of repeats, of points chosen together, of the others
   for (const CriterionShare& share : shares) {
-    weights[share.name == repeat ? 0 : 1] += share.weight;
-    if (share.name != repeat) turns.new_ones.push_back(share);
+    const std::size_t kind = share.name == repeat ? 0 : share.name == together ? 1 : 2;
+    weights[kind] += share.weight;
+    if (kind == 2) turns.new_ones.push_back(share);
   }
-  turns.may_repeat = weights.front() > 0.0;
-  turns.repeats = doe::turns_by_weight(weights, made, count).front();
+  turns.may_repeat = weights[0] > 0.0;
+  turns.may_join = weights[1] > 0.0;
+  const std::vector<int> dealt = doe::turns_by_weight(weights, made, count);
+  turns.repeats = dealt[0];
+  turns.together = dealt[1];
   return turns;
 }
 
 void check_criteria(const std::string& text, const doe::Problem& problem) {
-  if (has_objective(problem)) return;
-  for (const auto& share : criteria_from(text)) {
-    if (share.name == "improvement")
-      throw UsageError(
-          "--criteria: improvement needs a response that is minimized or maximized; take another criterion");
+  int objectives = 0;
+  bool limits = false;
+  for (const doe::Response& response : problem.responses) {
+    objectives += doe::is_objective(response.goal) ? 1 : 0;
+    limits = limits || doe::is_constraint(response.goal);
   }
-}
-
-doe::Mix mix_of(const std::vector<CriterionShare>& shares,
-                const std::vector<kriging::TransformedModel>& models, const Failures& failures,
-                doe::Seed seed) {
-  std::vector<doe::Share> parts;
-  for (const auto& share : shares)
-    parts.push_back({share.weight, where_runs_succeed(sampler_named(share.name, models, seed), failures)});
-  return doe::Mix(std::move(parts));
+  for (const auto& share : criteria_from(text)) check_criterion(share.name, objectives, limits);
 }
 
 }  // namespace drawpoint::studies

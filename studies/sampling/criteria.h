@@ -2,24 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The criteria by which a study chooses its adaptive points, by name: several take turns, each for its
-/// share.
+/// share. What each does is in samplers.h.
 
-#include <drawpoint/studies/models/failures.h>
-#include <drawpoint/doe/criterion.hpp>
-#include <drawpoint/kriging/transformed_model.hpp>
+#include <drawpoint/doe/problem.hpp>
 
 #include <string>
 #include <vector>
 
 namespace drawpoint::studies {
 
-/// lola_voronoi  where responses bend and where there are holes (doe/lola_voronoi.hpp)
-/// voronoi       holes alone
-/// distance      far from all runs
-/// error         where the ways to fit disagree most, over the responses, each divided by its range
-/// variance      where a model is least certain, likewise
-/// improvement   where the front is expected to gain most hypervolume within the limits
-/// repeat        a run made again, where the noise of runs limits the models most (repeats.h)
+/// lola_voronoi        where responses bend and where there are holes (doe/lola_voronoi.hpp)
+/// voronoi             holes alone
+/// distance            far from all runs
+/// error               where the ways to fit disagree most, over the responses, each divided by its range
+/// cross_validation    beside the run that the others predict worst, likewise
+/// variance            where a model is least certain, likewise
+/// feasibility         where the limits are likeliest kept
+/// improvement         where the front is expected to gain most hypervolume within the limits
+/// joint_improvement   of one objective without limits: points of a batch that are expected to gain most together
+/// knowledge_gradient  likewise, noisy: where a run is expected to better the best mean most
+/// predicted           of one objective: where the model expects the best within the limits
+/// repeat              a run made again, where the noise of runs limits the models most (repeats.h)
 struct CriterionShare {
   std::string name;
   double weight;  ///< above 0; only the ratios matter
@@ -30,21 +33,18 @@ std::vector<CriterionShare> criteria_from(const std::string& text);
 
 /// How the next points are dealt out.
 struct CriteriaTurns {
-  int repeats = 0;                       ///< so many by the criterion repeat
-  bool may_repeat = false;               ///< whether that was named
-  std::vector<CriterionShare> new_ones;  ///< who chooses the others
+  int repeats = 0;                       ///< so many by repeat
+  int together = 0;                      ///< so many by joint_improvement
+  bool may_repeat = false;               ///< whether repeat was named
+  bool may_join = false;                 ///< whether joint_improvement was
+  std::vector<CriterionShare> new_ones;  ///< who choose the others, in turn
 };
 
-/// Of `count` points after `made` ones: repeats get their share of all points so far to within one.
+/// Of `count` points after `made` ones: each gets its share of all points so far to within one.
 CriteriaTurns turns_of(const std::vector<CriterionShare>& shares, int made, int count);
 
-/// Throws UsageError for criteria that the problem does not allow: improvement without an objective.
+/// Throws UsageError for criteria that the problem does not allow: improvement without an objective,
+/// feasibility without a limit, those of one objective where there is another number or a limit.
 void check_criteria(const std::string& text, const doe::Problem& problem);
-
-/// Of criteria for new points, one or more. models: one per response, of the runs so far. Each score is
-/// multiplied by the probability that a run succeeds. `seed` is that of LOLA-Voronoi's test points.
-doe::Mix mix_of(const std::vector<CriterionShare>& shares,
-                const std::vector<kriging::TransformedModel>& models, const Failures& failures,
-                doe::Seed seed);
 
 }  // namespace drawpoint::studies

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/append.hpp>
+#include <drawpoint/kriging/detail/fit_prepared.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/reinterpolation.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>

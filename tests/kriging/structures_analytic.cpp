@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <drawpoint/kriging/detail/fit_prepared.hpp>
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/tests/kriging/derivatives.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>

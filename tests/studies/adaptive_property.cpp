@@ -114,6 +114,99 @@ TEST_F(Adaptive, ImprovementIsSoughtBeyondTheStep) {
 
 TEST_F(Adaptive, VarianceChooses) { EXPECT_EQ(batch({.points = 3, .criteria = "variance"}).size(), 3u); }
 
+// Candidates are chosen by cells: the first is in that of the run with the largest leave-one-out error.
+TEST_F(Adaptive, CrossValidationGoesBesideTheWorstPredictedRun) {
+  const Tables tables = tables_of(runs_, identity_.problem);
+  const Models fitted = fit_models(tables);
+  Eigen::VectorXd error = Eigen::VectorXd::Zero(tables.training.X().rows());
+  for (const auto& model : fitted.models) {
+    const kriging::Validation left_out = leave_one_out(model);
+    error = error.cwiseMax((left_out.predicted - left_out.observed).cwiseAbs() /
+                           (left_out.observed.maxCoeff() - left_out.observed.minCoeff()));
+  }
+  Eigen::Index worst = 0;
+  error.maxCoeff(&worst);
+  const auto points = batch({.points = 1, .criteria = "cross_validation"});
+  ASSERT_EQ(points.size(), 1u);
+  const auto distance = [&](const Eigen::VectorXd& x) {
+    return (x - points[0].x).cwiseQuotient(Eigen::Vector2d(1.8, 4.0)).norm();
+  };
+  const Eigen::VectorXd nearest = tables.training.X().row(worst);
+  for (Eigen::Index i = 0; i < tables.training.X().rows(); ++i)
+    EXPECT_GE(distance(tables.training.X().row(i)) + 1e-12, distance(nearest)) << i;
+}
+
+/// One response, minimised at `best`: (x − best)² in the unit box.
+class OneObjective : public testing::Test {
+ protected:
+  OneObjective() {
+    identity_.problem.responses = {{"wear", "mm", doe::Goal::minimize}};
+    runs_ = runs_to_add(identity_, {}, 20, 0);
+    for (auto& run : runs_) {
+      run.status = Status::done;
+      run.y = Eigen::VectorXd::Constant(1, off(run.x).squaredNorm());
+    }
+  }
+
+  Eigen::Vector2d off(const Eigen::VectorXd& x) const {
+    const auto& v = identity_.problem.variables;
+    return {(x[0] - v[0].lower) / (v[0].upper - v[0].lower) - 0.3,
+            (x[1] - v[1].lower) / (v[1].upper - v[1].lower) - 0.6};
+  }
+
+  std::vector<studies::Run> batch(int points, const char* criteria) const {
+    return next_batch(identity_, {.points = points, .batch = points, .criteria = criteria}, runs_).runs;
+  }
+
+  Identity identity_ = test::identity();
+  std::vector<studies::Run> runs_;
+};
+
+// A smooth bowl is known to better than 1e-3 of its range from 20 runs, so its predicted minimum lies within the
+// square root of that, 0.03; where improvement is sought is within 0.2 (by chance: an eighth).
+TEST_F(OneObjective, IsSoughtWhereTheModelExpectsTheBest) {
+  for (const auto& [criterion, reach] : {std::pair{"predicted", 0.03}, {"joint_improvement", 0.2}}) {
+    const auto points = batch(1, criterion);
+    ASSERT_EQ(points.size(), 1u) << criterion;
+    EXPECT_LT(off(points[0].x).norm(), reach) << criterion;
+  }
+}
+
+// Noise of a tenth of the bowl's range hides its minimum; which of the places within 0.35 of it is best a run there
+// says best. Three in eight are there by chance, all four of four in 0.02.
+TEST_F(OneObjective, KnowledgeOfTheBestIsSoughtAmongTheGood) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    doe::RandomStream random(seed);
+    for (auto& run : runs_)
+      run.y = Eigen::VectorXd::Constant(1, off(run.x).squaredNorm() + 0.08 * random.normal());
+    const auto points = batch(1, "knowledge_gradient");
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_LT(off(points[0].x).norm(), 0.35) << seed;
+  }
+}
+
+// Half of the batch fills holes, wherever the best is; the other half is sought together beside those.
+TEST_F(OneObjective, PointsTogetherTakeTheirShareOfABatch) {
+  const auto points = batch(8, "distance,joint_improvement");
+  ASSERT_EQ(points.size(), 8u);
+  const auto holes = batch(4, "distance");
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(points[k].x, holes[k].x) << k;
+  EXPECT_LT(off(points[4].x).norm(), 0.2);
+  for (std::size_t k = 0; k < 8; ++k)
+    for (std::size_t l = 0; l < k; ++l) EXPECT_NE(points[k].x, points[l].x);
+}
+
+// The limit is kept in a quarter of the box, where the second variable is small; none of four points is there by
+// chance in 0.3 of all cases, all four in 0.004.
+TEST_F(OneObjective, FeasibilityKeepsTheLimits) {
+  identity_.problem.responses.push_back({"force", "kN", doe::Goal::at_most, 0.25});
+  for (auto& run : runs_) run.y = Eigen::Vector2d(run.y[0], off(run.x)[1] + 0.6);
+  const auto points = batch(4, "feasibility");
+  ASSERT_EQ(points.size(), 4u);
+  for (const auto& run : points) EXPECT_LT(off(run.x)[1] + 0.6, 0.25);
+  EXPECT_LT(off(batch(1, "predicted")[0].x)[1] + 0.6, 0.26);
+}
+
 // Smooth and without noise: a run again teaches nothing, and the turns go to new points.
 TEST_F(Adaptive, RunsWithoutNoiseAreNotRepeated) {
   auto runs = runs_;
@@ -212,6 +305,24 @@ TEST(Criteria, ImprovementNeedsAnObjective) {
   EXPECT_THROW(check_criteria("error,improvement", problem), UsageError);
 }
 
+TEST(Criteria, SomeNeedALimitOrOneObjective) {
+  doe::Problem problem = test::two_by_two();
+  problem.responses[0].goal = doe::Goal::maximize;
+  problem.responses[1].goal = doe::Goal::minimize;
+  for (const char* criterion : {"feasibility", "joint_improvement", "knowledge_gradient", "predicted"})
+    EXPECT_THROW(check_criteria(criterion, problem), UsageError) << criterion;
+  EXPECT_NE(test::complaint([&] { check_criteria("predicted", problem); }).find("there are 2"),
+            std::string::npos);
+  problem.responses[1].goal = doe::Goal::at_most;
+  problem.responses[1].limit = 1.0;
+  check_criteria("feasibility,predicted", problem);
+  for (const char* criterion : {"joint_improvement", "knowledge_gradient"})
+    EXPECT_NE(test::complaint([&] { check_criteria(criterion, problem); }).find("knows no limits"),
+              std::string::npos);
+  problem.responses[1].goal = doe::Goal::record;
+  check_criteria("joint_improvement,knowledge_gradient,predicted", problem);
+}
+
 // Of nine points, repeats with a third of the weight get three, whatever the batches.
 TEST(Criteria, TakeTurns) {
   const auto shares = criteria_from("lola_voronoi=0.7,error=0.3,repeat=0.5");
@@ -221,6 +332,9 @@ TEST(Criteria, TakeTurns) {
   EXPECT_EQ(turns_of(shares, 0, 9).repeats, 3);
   EXPECT_EQ(turns_of(shares, 0, 9).new_ones.size(), 2u);
   EXPECT_EQ(turns_of(criteria_from("error"), 5, 9).repeats, 0);
+  const CriteriaTurns three = turns_of(criteria_from("error,joint_improvement,repeat"), 3, 6);
+  EXPECT_EQ(three.repeats, 2);
+  EXPECT_EQ(three.together, 2);
   EXPECT_EQ(turns_of(criteria_from("repeat"), 5, 9).repeats, 9);
 }
 

@@ -123,6 +123,10 @@ TEST_F(Replay, ALogThatDoesNotFitItsRunIsNotShown) {
             "replay: run 1: " + folder_.log(1).string() + " is damaged, or not what the run wrote" + again);
   std::filesystem::remove(folder_.log(1));
   EXPECT_EQ(refusal(), "replay: run 1: its log " + folder_.log(1).string() + " is gone" + again);
+  study_.simulator = "throw, model 2";
+  EXPECT_EQ(refusal(), "replay: run 1: its log " + folder_.log(1).string() +
+                           " is gone; only the program that made this folder, a simulator without a name, "
+                           "makes it again");
 }
 
 TEST_F(Replay, WhatTheStudyCannotDrawIsSaid) {

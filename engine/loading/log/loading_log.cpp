@@ -81,7 +81,7 @@ void write_log(const std::filesystem::path& path, const LoadingLog& log) { write
 
 namespace {
 
-LoadingLog read_one(const record::Reader& file) {
+LoadingLog read_one(const record::Reader& file, LogContent content) {
   LoadingLog log;
   log.completed = file.integer("/", "completed") != 0;
   log.message = file.text("/", "message");
@@ -91,7 +91,7 @@ LoadingLog read_one(const record::Reader& file) {
   log.signals = file.table("signals");
   const std::size_t cycles = file.children("cycles").size();
   for (std::size_t k = 0; k < cycles; ++k) log.cycles.push_back(read_cycle(file, numbered("cycles", k)));
-  log.scene = read_scene(file);
+  if (content == LogContent::all) log.scene = read_scene(file);
   return log;
 }
 
@@ -111,12 +111,12 @@ void require_next(const LoadingLog& log, const LoadingLog& part, const std::file
 
 }  // namespace
 
-LoadingLog read_log(const std::filesystem::path& path) {
+LoadingLog read_log(const std::filesystem::path& path, LogContent content) {
   const record::Reader first(path, kind);
-  LoadingLog log = read_one(first);
+  LoadingLog log = read_one(first, content);
   if (first.version() < 7 || first.integer("/", "goes_on") == 0) return log;
   for (int number = 2; std::filesystem::exists(part_path(path, number)); ++number) {
-    LoadingLog next = read_one(record::Reader(part_path(path, number), kind));
+    LoadingLog next = read_one(record::Reader(part_path(path, number), kind), content);
     require_next(log, next, part_path(path, number));
     append(log, std::move(next));
   }

@@ -92,9 +92,12 @@ struct LoadingLog {
 /// std::invalid_argument if the log contradicts itself.
 void write_log(const std::filesystem::path& path, const LoadingLog& log);
 
+/// What of a log is read: motion and shapes of a scene are most of it.
+enum class LogContent { all, without_scene };
+
 /// Of this version and of versions 4 to 6; of a run that was killed, all cycles that it had done: those after
 /// the first are in files beside it, FILE.part0002 and so on. Throws std::runtime_error if a file is missing,
 /// truncated, damaged or no loading log, or if a part is of another run.
-LoadingLog read_log(const std::filesystem::path& path);
+LoadingLog read_log(const std::filesystem::path& path, LogContent content = LogContent::all);
 
 }  // namespace drawpoint::engine::loading

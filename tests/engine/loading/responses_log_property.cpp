@@ -167,6 +167,19 @@ TEST(LoadingLog, SurvivesTheDisk) {
   EXPECT_EQ(rock_spill(back), rock_spill(log));
 }
 
+TEST(LoadingLog, IsReadWithoutItsScene) {
+  const Folder folder;
+  const LoadingLog log = example_log();
+  write_log(folder.path / "run.h5", log);
+  const LoadingLog back = read_log(folder.path / "run.h5", LogContent::without_scene);
+  EXPECT_TRUE(same_bits(back.signals.values, log.signals.values));
+  ASSERT_EQ(back.cycles.size(), 2u);
+  for (int k = 0; k < 2; ++k) expect_same(back.cycles[k], log.cycles[k]);
+  EXPECT_EQ(joint_damage(back), joint_damage(log));
+  EXPECT_TRUE(back.scene.bodies.empty() && back.scene.shapes.empty() && back.scene.frames.empty() &&
+              back.scene.knots.empty());
+}
+
 TEST(LoadingLog, KeepsTheScene) {
   const Folder folder;
   const LoadingLog log = example_log();
