@@ -57,7 +57,7 @@ nlohmann::json panels_of(int cycle, int rows) {
 }
 
 nlohmann::json three_cycles() {
-  nlohmann::json panels = {table_panel};
+  nlohmann::json panels = nlohmann::json::array({table_panel});
   for (int cycle = 1; cycle <= 3; ++cycle)
     for (const auto& panel : panels_of(cycle, 1000)) panels.push_back(panel);
   return panels;
