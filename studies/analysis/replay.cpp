@@ -107,11 +107,14 @@ std::string replay_page(const Study& study, const Identity& identity, const Fold
 }
 
 nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
-                            const Run& run) {
-  require_log(folder, run);
+                            const Replayed& shown) {
+  require_log(folder, shown.run);
   std::vector<std::string> cautions;
-  for (auto& panel : detail::checked_panels(illustrated(study, identity, folder, shown), cautions))
-    if (panel.at("type") == "scene") return std::move(panel);
+  for (const auto& panel : illustrated(study, identity, folder, shown)) {
+    if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene") continue;
+    auto checked = detail::checked_panels(nlohmann::json::array({panel}), cautions);
+    if (!checked.empty()) return std::move(checked.front());
+  }
   return {};
 }
 

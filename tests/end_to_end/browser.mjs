@@ -59,6 +59,7 @@ export async function openPage(file, {downloads = null} = {}) {
     if (method === 'Network.requestWillBeSent' && !/^(data|blob|about):/.test(params.request.url)) requests.push(params.request.url);
   });
   for (const domain of ['Page', 'Runtime', 'Log', 'Network']) await send(domain + '.enable');
+  await send('Performance.enable', {timeDomain: 'threadTicks'});
   await send('Emulation.setDeviceMetricsOverride', {width: 1280, height: 900, deviceScaleFactor: 1, mobile: false});
   if (downloads) await sendAny('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: downloads});
   const page = {...hands(send), product, errors, send, close};
@@ -67,6 +68,8 @@ export async function openPage(file, {downloads = null} = {}) {
   await page.until('document.documentElement?.dataset.ready === "true"', 4 * patience);
   page.loaded = performance.now() - begin;
   await page.evaluate("document.documentElement.style.scrollBehavior = 'auto'");  // a click aims at what stands still
+  /// Of the page's main thread so far [ms].
+  page.processor = async () => 1000 * (await send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration').value;
   /// All but the page itself.
   page.requests = () => requests.filter((url) => url !== 'file://' + encodeURI(file));
   return page;
