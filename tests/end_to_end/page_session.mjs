@@ -31,7 +31,7 @@ async function step(name, needs, does) {
 const column = (table, k) => evaluate(`[...document.querySelectorAll(${JSON.stringify(table + ' tbody tr')})].map((row) => row.children[${k}].textContent)`);
 
 const front = '#front .whole-table', bar = '.selection', axes = '#designs .parallel svg';
-const selected = async () => (await text(bar)).match(/Selected: (.*?)Clear/)?.[1];
+const selected = async () => (await text(one(bar))).match(/Selected: (.*?)Clear/)?.[1];
 
 console.log(`${page.product}, ${await evaluate('document.title')}`);
 
@@ -87,7 +87,7 @@ await step('table, downloaded', one(front), async () => {
 await step('row, marked', one(front), async () => {
   await click(`document.querySelectorAll('${front} tbody tr')[0].children[1]`);
   await until(`${one(bar)}.textContent.includes('Marked: point')`);
-  const marked = (await text(bar)).match(/Marked: (point \d+ of the front)/)[1];
+  const marked = (await text(one(bar))).match(/Marked: (point \d+ of the front)/)[1];
   await click(button(bar, 'Take mark away'));
   return marked;
 });
