@@ -38,6 +38,7 @@ const folder = mkdtempSync(join(tmpdir(), 'timing-')), file = join(folder, 'repo
 writeFileSync(file, largePage(source, wanted));
 const page = await openPage(file);
 const {processor} = page;
+await page.settled();
 
 /// What the page puts off is kept until it is asked for: on a busy machine it would come between.
 await page.evaluate(`(() => {

@@ -43,7 +43,7 @@ export function pointCloud(box, index, {has, selection}) {
     const ratio = Math.min(2, devicePixelRatio), {width, height} = layout, {xaxis, yaxis} = layout;
     Object.assign(canvas, {width: width * ratio, height: height * ratio});
     Object.assign(canvas.style, {width: width + 'px', height: height + 'px'});
-    const pen = canvas.getContext('2d');
+    const pen = canvas.getContext('2d', {willReadFrequently: true});  // drawn by the processor, as parallel_lines.js does
     pen.scale(ratio, ratio);
     pen.rect(xaxis._offset, yaxis._offset, xaxis._length, yaxis._length);
     pen.clip();
