@@ -5,6 +5,8 @@
 
 #include <drawpoint/tests/end_to_end/support.hpp>
 
+#include <vector>
+
 using namespace drawpoint;
 using namespace drawpoint::test;
 
