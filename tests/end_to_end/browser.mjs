@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// A headless Chromium with one page, driven over the DevTools protocol by a pipe: mouse and keys come from the
-// browser as a hand's would. It keeps what the console says of errors, and every request that is not the page.
+// A headless Chromium with one page, driven over the DevTools protocol by a pipe: mouse and keys come from
+// the browser as a hand's would. It keeps what the console says of errors, and every request that is not the
+// page.
 
 import {spawn} from 'node:child_process';
 import {mkdtempSync, rmSync} from 'node:fs';

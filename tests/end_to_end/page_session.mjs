@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Goes through a report or a replay as a reader does, in a headless Chromium: node page_session.mjs PAGE.html.
-// Says what it did and what came of it, a line each; fails where something did not come, the console had an
-// error, or the page asked for anything but itself. What a page does not have is named, and not tried.
+// Goes through a report or a replay as a reader does, in a headless Chromium: node page_session.mjs
+// PAGE.html. Says what it did and what came of it, a line each; fails where something did not come, the
+// console had an error, or the page asked for anything but itself. What a page does not have is named, and
+// not tried.
 
 import assert from 'node:assert/strict';
 import {mkdtempSync, readdirSync, rmSync} from 'node:fs';

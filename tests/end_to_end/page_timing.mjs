@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a report with a large front takes of a browser: node page_timing.mjs REPORT.html POINTS. Between the
 // points of the report's front lie as many as wanted, evenly mixed, in a copy that is removed afterwards. Of
-// each thing that a reader does: processor time of the page's main thread until two frames are drawn after it,
-// which other work on the machine does not lengthen, and of what the page puts off until the reader
+// each thing that a reader does: processor time of the page's main thread until two frames are drawn after
+// it, which other work on the machine does not lengthen, and of what the page puts off until the reader
 // rests. Median and most of several times.
 
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
