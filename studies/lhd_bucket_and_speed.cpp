@@ -124,6 +124,7 @@ int main(int argc, char** argv) {
        .libraries = engine::loading::libraries(),
        .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
        .illustrate = studies::loading_figures,
+       .replay = studies::loading_replay,
        .finish_log = engine::loading::join_parts,
        .contrast = studies::loading_contrasts,
        .responses =

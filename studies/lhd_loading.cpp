@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
        .prepare =
            [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
        .illustrate = studies::loading_figures,
+       .replay = studies::loading_replay,
        .finish_log = engine::loading::join_parts,
        .contrast = studies::loading_contrasts,
        .responses =

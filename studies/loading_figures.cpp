@@ -80,6 +80,7 @@ json bucket_panel(const LoadingLog& log, const CycleRecord& cycle) {
                           fixed(1e-3 * cycle.loaded_mass, 1) + " t."},
           {"x_label", "time [s]"},
           {"y_label", "mass [t]"},
+          {"in_scene", true},
           {"series", {{{"name", "rock in the bucket"}, {"x", rounded(t)}, {"y", rounded(mass)}}}}};
 }
 
@@ -102,6 +103,23 @@ json cycles_panel(const LoadingLog& log) {
        {"cycle", "time [s]", "loaded [kg]", "spilled [kg]", "planned depth [m]", "planned height [m]",
         "stages"}},
       {"rows", rows}};
+}
+
+json figures_of_cycle(const LoadingLog& log, const CycleRecord& cycle, const OptionValues& options) {
+  const std::string who = name_of(cycle) + " of the run shown";
+  const engine::loading::DamageOptions damage = damage_options(options);
+  json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge"),
+                 scene_panel(log, cycle, who, "The machine in the drift", damage),
+                 forces_panel(log, cycle, damage.tau_y)};
+  json bucket = bucket_panel(log, cycle);
+  if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
+  return panels;
+}
+
+// In the report, which shows one cycle.
+std::string others_text(const LoadingLog& log) {
+  if (log.cycles.size() < 2) return "";
+  return " The command replay shows all " + std::to_string(log.cycles.size()) + " cycles.";
 }
 
 }  // namespace
@@ -128,15 +146,22 @@ void settle_pile(engine::loading::Scenario scenario) {
 json loading_figures(const std::filesystem::path& log_file, const OptionValues& options) {
   const LoadingLog log = engine::loading::read_log(log_file);
   if (log.cycles.empty()) return json::array();
-  const CycleRecord& cycle = log.cycles.front();
-  const std::string who = name_of(cycle) + " of the run shown";
-  const engine::loading::DamageOptions damage = damage_options(options);
-  json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge"),
-                 scene_panel(log, cycle, who, "The machine in the drift", damage),
-                 forces_panel(log, cycle, damage.tau_y)};
-  json bucket = bucket_panel(log, cycle);
-  if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
+  json panels = figures_of_cycle(log, log.cycles.front(), options);
+  for (json& panel : panels)
+    if (panel["type"] == "scene") panel["caption"] = panel["caption"].get<std::string>() + others_text(log);
   panels.push_back(cycles_panel(log));
+  return panels;
+}
+
+json loading_replay(const std::filesystem::path& log_file, const OptionValues& options) {
+  const LoadingLog log = engine::loading::read_log(log_file);
+  if (log.cycles.empty()) return json::array();
+  json panels = json::array({cycles_panel(log)});
+  for (const CycleRecord& cycle : log.cycles)
+    for (json& panel : figures_of_cycle(log, cycle, options)) {
+      panel["cycle"] = cycle.number;
+      panels.push_back(std::move(panel));
+    }
   return panels;
 }
 

@@ -70,9 +70,8 @@ json path_panel(const LoadingLog& log, const CycleRecord& cycle, const std::stri
       {"type", "path"},
       {"title", title},
       {"caption", who +
-                      ", from the side. The pile's contour is the mean over the "
-                      "bucket's breadth before "
-                      "the cycle; planned depth " +
+                      ", from the side. The pile's contour is the mean over the bucket's breadth before the "
+                      "cycle; planned depth " +
                       fixed(cycle.plan.depth, 2) + " m, height " + fixed(cycle.plan.height, 2) +
                       " m, slope " + fixed(cycle.plan.slope * 180 / M_PI, 0) + " deg."},
       {"x_label", "along the drift [m]"},

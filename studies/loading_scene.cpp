@@ -74,16 +74,14 @@ std::string rate_of(const LoadingLog& log, Rows frames) {
          " pictures per second; between them bodies move evenly. ";
 }
 
-// What the log leaves out (scene_recorder.h) without a tolerance of its own; older logs have each pose to 2 mm.
-std::string scene_caption(const LoadingLog& log, const CycleRecord& cycle, const std::string& who) {
-  return who + ": drag to turn, wheel to zoom, play to watch it load. " +
-         rate_of(log, frames_of(log, cycle.number)) +
-         "In a picture a rock is within 2.5 cm and 3 degrees of where it was, a part of the machine within 4 "
-         "mm "
-         "and 0.3 degrees. Walls and roof are drawn transparent. Below, of every sample: the highest and the "
-         "lowest are kept where a plot is narrower than its samples. The torque is as it is, damage looks at "
-         "it "
-         "low-passed at 20 Hz.";
+// How to read any scene. What the log leaves out is in scene_recorder.h; older logs have each pose to 2 mm.
+std::string scene_note(const LoadingLog& log, const CycleRecord& cycle) {
+  return "Drag to turn, wheel to zoom, play to watch it load. " + rate_of(log, frames_of(log, cycle.number)) +
+         "In a picture a rock is within 2.5 cm and 3 degrees of where it was, a part of the machine "
+         "within 4 mm and 0.3 degrees. Walls and roof are drawn transparent. The plots have every sample: "
+         "the highest and the lowest are kept where a plot is narrower than its samples. The torque is as "
+         "it is, damage looks at it low-passed at 20 Hz. Rock in the bucket is the mass of all rocks whose "
+         "centre is in the heaped bucket, also while the bucket only passes round them.";
 }
 
 // Of the cycle, on the clock of the scene.
@@ -158,7 +156,8 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle, const std::str
   const double toe = cycle.plan.toe;
   json panel = {{"type", "scene"},
                 {"title", title},
-                {"caption", scene_caption(log, cycle, who)},
+                {"caption", who + "."},
+                {"note", scene_note(log, cycle)},
                 {"shapes", shapes},
                 {"bodies", bodies_of(log, rows)},
                 {"frames", frames},

@@ -24,6 +24,8 @@
 ///          below in time with the scene
 ///   lines  series: [{name, x: [], y: []}]; x_label, y_label
 ///   table  columns: [], rows: [[]..]
+/// and note?: how to read it, which a page says once where several figures have the same; in_scene?: true where
+/// a scene of the same run shows it too, beside which it is left out; cycle?: see Study::replay.
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -158,6 +160,9 @@ struct Study {
   std::function<void(const RunContext& context)> prepare = {};
   /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
   FigureFunction illustrate = {};
+  /// Figures of one run for its replay, where these are more than for the report: of every cycle. A panel with
+  /// "cycle": 3 is of that cycle, and the page shows one cycle at a time. Empty: those of `illustrate`.
+  FigureFunction replay = {};
   /// Called with the log of a run that has ended, by itself or not, before it is kept: a black box that writes
   /// more files than that one makes one of them. May throw; the log is then kept as it is.
   std::function<void(const std::filesystem::path& log)> finish_log = {};

@@ -18,12 +18,12 @@ namespace {
 
 constexpr const char* about =
     "Reads the log of a loading run and prints what it has to account for, per cycle and in all:\n"
-    "  rock    at first, emitted, loaded, cleared away, escaped, present at the end, and what is missing in "
-    "that sum;\n"
+    "  rock    at first, emitted, loaded, cleared away, escaped, present at the end, and what is\n"
+    "          missing in that sum;\n"
     "          a cycle that was lost gives its load to what was cleared away\n"
     "  energy  of the motors of lift, tilt and wheels; gained by machine and rock; the rest is dissipated\n"
-    "  errors  deepest overlap of a rock, widest gap of a loop of the linkage, steps that had to be done "
-    "again\n\n"
+    "  errors  deepest overlap of a rock, widest gap of a loop of the linkage, steps that had to be\n"
+    "          done again\n\n"
     "  run_ledger results/lhd_loading/logs/run_0001.h5\n"
     "  bucket_fill --piles /tmp/piles --cycles 30 --alphas 1 --seeds 1 --logs /tmp/logs\n"
     "                                                             makes the log of thirty cycles";
@@ -104,9 +104,8 @@ void print(const nlohmann::json& j) {
                 of(c, "machine_kJ"), of(c, "rock_kJ"), of(c, "dissipated_kJ"));
   const auto &rock = j.at("rock"), &energy = j.at("energy"), &errors = j.at("errors");
   std::printf(
-      "rock: %.0f kg at first + %.0f emitted - %.0f loaded - %.0f cleared - %.0f escaped = %.0f present, "
-      "missing %.2g "
-      "kg\n",
+      "rock: %.0f kg at first + %.0f emitted - %.0f loaded - %.0f cleared - %.0f escaped = %.0f "
+      "present, missing %.2g kg\n",
       of(rock, "first_kg"), of(rock, "emitted_kg"), of(rock, "loaded_kg"), of(rock, "cleared_kg"),
       of(rock, "escaped_kg"), of(rock, "present_kg"), of(rock, "missing_kg"));
   std::printf("energy: %.0f kJ of the motors = %.0f to the machine + %.0f to the rock + %.0f dissipated\n",

@@ -136,8 +136,10 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, 
   append_responses(table, problem, "_upper", upper_end);
   append_responses(table, problem, ending_of_errors(problem),
                    "standard error of what the models expect, noise left out");
-  table.columns.push_back({"non_dominated", "1", ColumnType::number,
-                           "probability that the mean keeps every limit and no other point is better"});
+  table.columns.push_back(
+      {"non_dominated", "1", ColumnType::number,
+       "probability that the mean keeps every limit while no other point of the front is at "
+       "least as good in all objectives and better in one"});
   table.columns.push_back({"success", "1", ColumnType::number, "probability that a run succeeds"});
   if (missing) *missing = predicted.missing;
   if (front.X.rows() == 0) return table;

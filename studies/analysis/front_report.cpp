@@ -160,9 +160,9 @@ std::string places_text(const FrontView& view, const std::vector<int>& shown) {
 
 std::string non_dominated_text(const ReportInput& input) {
   if (input.uncertainty.non_dominated.size() == 0) return "";
-  return "Non-dominated: how likely the mean of many runs there keeps every limit and no other point of the "
-         "front is "
-         "better, as sure as the models are.\n";
+  return "Non-dominated: how likely the mean of many runs there keeps every limit while no other\n"
+         "point of the front is at least as good in all objectives and better in one, as sure as the "
+         "models are.\n";
 }
 
 std::string confirmation_text(const ReportInput& input) {

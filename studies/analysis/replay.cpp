@@ -4,11 +4,13 @@
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/models/tables.h>
+#include <drawpoint/studies/report/cycles.h>
 #include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/replay.h>
 #include <drawpoint/studies/report/text.h>
 #include <drawpoint/studies/store/run_logs.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -34,13 +36,34 @@ void require_log(const Study& study, const Identity& identity, const Folder& fol
   }
 }
 
-nlohmann::json illustrated(const Study& study, const Identity& identity, const Folder& folder,
-                           const Run& run) {
+nlohmann::json drawn_by(const FigureFunction& draw, const Identity& identity, const Folder& folder,
+                        const Run& run) {
   try {
-    return study.illustrate(folder.log(run.id), identity.options);
+    return draw(folder.log(run.id), identity.options);
   } catch (const std::exception& e) {
     throw std::runtime_error("replay: run " + std::to_string(run.id) + " could not be shown: " + e.what());
   }
+}
+
+std::string cycle_complaint(const std::vector<int>& cycles, const Replayed& shown) {
+  const std::string run = "run " + std::to_string(shown.run.id);
+  if (cycles.empty()) return "--cycle: this study does not show " + run + " by cycles; leave --cycle out";
+  const bool one = cycles.size() == 1;
+  return "--cycle " + std::to_string(*shown.cycle) + ": the log of " + run + " has " +
+         (one ? "cycle " : "cycles ") + std::to_string(cycles.front()) +
+         (one ? "" : " to " + std::to_string(cycles.back()));
+}
+
+/// Of all cycles, or of the one that is wanted.
+nlohmann::json illustrated(const Study& study, const Identity& identity, const Folder& folder,
+                           const Replayed& shown) {
+  nlohmann::json panels =
+      drawn_by(study.replay ? study.replay : study.illustrate, identity, folder, shown.run);
+  if (!shown.cycle || !panels.is_array()) return panels;
+  const std::vector<int> cycles = detail::cycles_of(panels);
+  if (std::find(cycles.begin(), cycles.end(), *shown.cycle) == cycles.end())
+    throw UsageError(cycle_complaint(cycles, shown));
+  return detail::panels_of_cycle(panels, *shown.cycle);
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of_run(const Identity& identity, const Folder& folder,
@@ -54,8 +77,9 @@ std::vector<std::pair<std::string, std::string>> facts_of_run(const Identity& id
   return all;
 }
 
-ReplayInput input_of_run(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
-                         const std::string& command) {
+ReplayInput input_of_run(const Study& study, const Identity& identity, const Folder& folder,
+                         const Replayed& shown, const std::string& command) {
+  const Run& run = shown.run;
   require_log(study, identity, folder, run);
   const Tables tables = tables_of({run}, study.problem);
   const auto& rows = run.kind == Kind::validation ? tables.validation.rows : tables.training.rows;
@@ -65,28 +89,31 @@ ReplayInput input_of_run(const Study& study, const Identity& identity, const Fol
           .problem = study.problem,
           .run = rows.front(),
           .kind = name_of(run.kind),
-          .panels = illustrated(study, identity, folder, run),
+          .panels = illustrated(study, identity, folder, shown),
           .facts = facts_of_run(identity, folder, run)};
 }
 
 }  // namespace
 
-void replay(const Study& study, const Store& store, const Folder& folder, const Run& run,
+void replay(const Study& study, const Store& store, const Folder& folder, const Replayed& shown,
             const std::filesystem::path& file, const std::string& command) {
-  write_replay(file, input_of_run(study, store.identity(), folder, run, command));
+  write_replay(file, input_of_run(study, store.identity(), folder, shown, command));
 }
 
-std::string replay_page(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
-                        const std::string& command) {
-  return replay_page(input_of_run(study, identity, folder, run, command));
+std::string replay_page(const Study& study, const Identity& identity, const Folder& folder,
+                        const Replayed& shown, const std::string& command) {
+  return replay_page(input_of_run(study, identity, folder, shown, command));
 }
 
 nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
-                            const Run& run) {
-  require_log(study, identity, folder, run);
+                            const Replayed& shown) {
+  require_log(study, identity, folder, shown.run);
   std::vector<std::string> cautions;
-  for (auto& panel : detail::checked_panels(illustrated(study, identity, folder, run), cautions))
-    if (panel.at("type") == "scene") return std::move(panel);
+  for (const auto& panel : illustrated(study, identity, folder, shown)) {
+    if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene") continue;
+    auto checked = detail::checked_panels(nlohmann::json::array({panel}), cautions);
+    if (!checked.empty()) return std::move(checked.front());
+  }
   return {};
 }
 
@@ -94,7 +121,7 @@ nlohmann::json flat_figures(const Study& study, const Identity& identity, const 
                             const Run& run, std::vector<std::string>& cautions) {
   require_log(study, identity, folder, run);
   nlohmann::json flat = nlohmann::json::array();
-  for (auto& panel : illustrated(study, identity, folder, run))
+  for (auto& panel : drawn_by(study.illustrate, identity, folder, run))
     if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene")
       flat.push_back(std::move(panel));
   return detail::checked_panels(flat, cautions);

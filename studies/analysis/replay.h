@@ -9,25 +9,32 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace drawpoint::studies {
 
+/// A run, or one cycle of it.
+struct Replayed {
+  const Run& run;
+  std::optional<int> cycle = {};
+};
+
 /// Writes the page to `file`. `command` is the command line that it shows. Throws std::runtime_error where
-/// the run has no log, the log is not what the run wrote, or nothing can be drawn of it. Requires
-/// Study::illustrate.
-void replay(const Study& study, const Store& store, const Folder& folder, const Run& run,
+/// the run has no log, the log is not what the run wrote, or nothing can be drawn of it; UsageError where it
+/// has no such cycle. Requires Study::illustrate.
+void replay(const Study& study, const Store& store, const Folder& folder, const Replayed& shown,
             const std::filesystem::path& file, const std::string& command);
 
 /// The page itself. Throws as `replay` does.
-std::string replay_page(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
-                        const std::string& command);
+std::string replay_page(const Study& study, const Identity& identity, const Folder& folder,
+                        const Replayed& shown, const std::string& command);
 
-/// The scene of the page, as the page has it: panels.h; null where the study draws none of this run. Throws as
-/// `replay` does.
+/// The first scene of the page, as the page has it: panels.h; null where the study draws none of this run.
+/// Throws as `replay` does.
 nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
-                            const Run& run);
+                            const Replayed& shown);
 
 /// The figures of the page but for scenes to play; a sentence for each that cannot be drawn goes to
 /// `cautions`. Throws as `replay` does.

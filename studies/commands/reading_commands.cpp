@@ -53,11 +53,16 @@ void add_validate_options(CLI::App& command, const Study& study, Settings& setti
 
 void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& settings) {
   command.add_option("--run", settings.run, "number of the run")->required()->check(CLI::Range(1, most_run));
+  command
+      .add_option("--cycle", settings.cycle,
+                  "of a run of several cycles, one alone (default: all on the page, the first as pictures)")
+      ->check(CLI::Range(1, 1'000'000'000));
   command.add_option("--file", settings.file, "page to write (default: replay_0007.html in the folder)");
   add_frame_options(command, settings.frames);
   const std::string example = "Example: " + study.name + " replay --run 7 ";
-  command.footer(example + "--file run_7.html\n" + example + "--video run_7.mp4 --camera side --speed 2\n" +
-                 example + "--frames pictures --from 4 --to 4 --size 1920x1080");
+  command.footer(example + "--file run_7.html\n" + example +
+                 "--cycle 2 --video run_7.mp4 --camera side --speed 2\n" + example +
+                 "--frames pictures --from 4 --to 4 --size 1920x1080");
 }
 
 void add_live_options(CLI::App& command, const Study& study, LiveSettings& settings) {

@@ -44,11 +44,11 @@ FrameSize checked_size(const FrameSettings& settings) {
 }
 
 nlohmann::json existing_scene(const Study& study, const Identity& identity, const Folder& folder,
-                              const Run& run) {
-  nlohmann::json scene = scene_of_run(study, identity, folder, run);
+                              const Replayed& shown) {
+  nlohmann::json scene = scene_of_run(study, identity, folder, shown);
   if (scene.is_null())
     throw std::runtime_error(
-        "replay: the study draws no scene of the log of run " + std::to_string(run.id) +
+        "replay: the study draws no scene of the log of run " + std::to_string(shown.run.id) +
         ", and frames are of a scene; leave --frames and --video out for its other figures");
   return scene;
 }
@@ -90,13 +90,13 @@ std::string message_after_signal(const FrameSettings& settings) {
 
 }  // namespace
 
-int render_frames(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
+int render_frames(const Study& study, const Identity& identity, const Folder& folder, const Replayed& shown,
                   const FrameSettings& wanted) {
   const FrameSettings settings = with_files(folder, wanted);
   Rendering rendering{.scene = {}, .times = {}, .size = checked_size(settings), .camera = settings.camera};
   const fs::path ffmpeg = settings.video.empty() ? "" : found_ffmpeg();
   const Browser browser{.program = found_browser()};
-  rendering.scene = existing_scene(study, identity, folder, run);
+  rendering.scene = existing_scene(study, identity, folder, shown);
   rendering.times = times_of(rendering.scene, settings);
   if (!settings.video.empty()) check_film_can_be_written(settings.video);
   if (!settings.folder.empty()) prepare_frame_folder(settings.folder);

@@ -3,6 +3,7 @@
 #pragma once
 /// A run's scene as pictures and as a film.
 
+#include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/store/folder.h>
 #include <drawpoint/studies/store/store.h>
@@ -10,10 +11,10 @@
 
 namespace drawpoint::studies {
 
-/// Prints the folder and the file that it made. Returns 0, or 130 after a signal. Throws UsageError for times
+/// Of the first cycle, where none is named. Prints the folder and the file that it made. Returns 0, or 130 after a signal. Throws UsageError for times
 /// that the scene does not have and for a folder with frames, std::runtime_error for what is missing or
 /// fails.
-int render_frames(const Study& study, const Identity& identity, const Folder& folder, const Run& run,
+int render_frames(const Study& study, const Identity& identity, const Folder& folder, const Replayed& shown,
                   const FrameSettings& settings);
 
 }  // namespace drawpoint::studies

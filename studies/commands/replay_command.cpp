@@ -21,10 +21,11 @@ int replay_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);
   const Run run = stored_run(store, folder, wanted.run);
-  if (frames) return render_frames(study, store.identity(), folder, run, wanted.frames);
+  const Replayed shown{.run = run, .cycle = wanted.cycle};
+  if (frames) return render_frames(study, store.identity(), folder, shown, wanted.frames);
   const std::filesystem::path file =
-      wanted.file.empty() ? folder.replay(run.id) : output_file(folder, wanted.file);
-  replay(study, store, folder, run, file, settings.command);
+      wanted.file.empty() ? folder.replay(run.id, wanted.cycle) : output_file(folder, wanted.file);
+  replay(study, store, folder, shown, file, settings.command);
   std::printf("%s\n", std::filesystem::absolute(file).lexically_normal().c_str());
   return 0;
 }

@@ -67,7 +67,7 @@ Answer Site::replay(std::int64_t run) {
     const std::lock_guard lock(logs_);
     const std::string command = followed_.program + " replay --run " + std::to_string(run);
     return {200, html,
-            replay_page(followed_.study, view.contents->identity, followed_.folder, shown, command)};
+            replay_page(followed_.study, view.contents->identity, followed_.folder, {shown}, command)};
   } catch (const std::exception& e) {
     return {404, plain, std::string(e.what()) + "\n"};
   }

@@ -300,7 +300,7 @@ json report_data(const ReportInput& input) {
         j < input.validations.size() ? to_json(input.validations[j], input.problem.responses[j]) : json());
     shares.push_back(to_json(effects[j]));
   }
-  json panels = checked_panels(input.illustrations, known.warnings);
+  json panels = without_repeated(checked_panels(input.illustrations, known.warnings));
   json contrasts = checked_panels(input.contrasts, known.warnings);
   return {{"study", input.study},
           {"about", input.about},

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/report/panels.h>
 #include <drawpoint/studies/report/scene_tracks.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace drawpoint::studies::detail {
@@ -99,6 +100,9 @@ json checked(const json& panel) {
   const std::string type = member(panel, "type").get<std::string>();
   for (const char* name : {"title", "caption"})
     if (!member(panel, name).is_string()) reject_panel(quoted(name) + " is not a text");
+  if (panel.contains("cycle") && !(panel.at("cycle").is_number_integer() && panel.at("cycle") >= 1))
+    reject_panel("\"cycle\" is not a whole number from 1");
+  if (panel.contains("note") && !panel.at("note").is_string()) reject_panel("\"note\" is not a text");
   if (type == "scene") return checked_scene(panel);
   if (type == "path")
     check_path(panel);
@@ -112,6 +116,15 @@ json checked(const json& panel) {
 }
 
 }  // namespace
+
+json without_repeated(json panels) {
+  const auto is_scene = [](const json& panel) { return panel.at("type") == "scene"; };
+  if (std::none_of(panels.begin(), panels.end(), is_scene)) return panels;
+  json others = json::array();
+  for (json& panel : panels)
+    if (!panel.value("in_scene", false)) others.push_back(std::move(panel));
+  return others;
+}
 
 json checked_panels(const json& panels, std::vector<std::string>& cautions) {
   json good = json::array();

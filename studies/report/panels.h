@@ -12,4 +12,7 @@ namespace drawpoint::studies::detail {
 /// The panels that can be drawn; a sentence for each that cannot goes to cautions.
 nlohmann::json checked_panels(const nlohmann::json& panels, std::vector<std::string>& cautions);
 
+/// Checked panels without those "in_scene", whose curves a scene shows too, where there is a scene.
+nlohmann::json without_repeated(nlohmann::json panels);
+
 }  // namespace drawpoint::studies::detail

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/cycles.h>
 #include <drawpoint/studies/report/data.h>
 #include <drawpoint/studies/report/page.h>
 #include <drawpoint/studies/report/panels.h>
@@ -24,9 +25,20 @@ nlohmann::json run_json(const ReplayInput& input, const std::vector<std::string>
       {"reason", outcome.reason()},  {"cautions", cautions}};
 }
 
+/// What the page says of cycles that it has no room for; empty: it has them all.
+std::string left_out_text(const std::vector<int>& cycles, const ReplayInput& input) {
+  if (cycles.empty()) return "";
+  const std::string first = std::to_string(cycles.front()), last = std::to_string(cycles.back());
+  const bool one = cycles.size() == 1;
+  return (one ? "Cycle " + first + " is" : "Cycles " + first + " to " + last + " are") +
+         " left out, to keep this page below some " + std::to_string(input.most_bytes / 1'000'000) +
+         " MB: " + (one ? "it has" : "each has") + " a page of its own with the command replay --run " +
+         std::to_string(input.run.run) + " --cycle " + first + (one ? "." : " and so on.");
+}
+
 /// Panels that can be drawn, one at least.
 nlohmann::json drawn_panels(const ReplayInput& input, std::vector<std::string>& cautions) {
-  nlohmann::json panels = detail::checked_panels(input.panels, cautions);
+  nlohmann::json panels = detail::without_repeated(detail::checked_panels(input.panels, cautions));
   if (!panels.empty()) return panels;
   std::string why;
   for (const std::string& caution : cautions) why += " " + caution;
@@ -39,11 +51,13 @@ nlohmann::json drawn_panels(const ReplayInput& input, std::vector<std::string>& 
 std::string replay_page(const ReplayInput& input) {
   std::vector<std::string> cautions;
   nlohmann::json panels = drawn_panels(input, cautions);
+  const std::vector<int> left_out = detail::fit_cycles(panels, input.most_bytes);
   const nlohmann::json data = {{"study", input.study},
                                {"about", input.about},
                                {"command", input.command},
                                {"problem", detail::described(input.problem)},
                                {"replay", run_json(input, cautions)},
+                               {"left_out", left_out_text(left_out, input)},
                                {"illustrations", std::move(panels)},
                                {"facts", input.facts}};
   return detail::page(input.study + ", " + name_of_run(input), data);

@@ -22,6 +22,7 @@ struct ReplayInput {
   std::string kind;       ///< of the run
   nlohmann::json panels;  ///< those that studies::Study lists; a faulty one is left out with a caution
   std::vector<std::pair<std::string, std::string>> facts;  ///< label and value
+  std::size_t most_bytes = 20'000'000;  ///< of all cycles; the last ones are left out, and that is said
 };
 
 /// The page. Throws std::runtime_error when no panel can be drawn, saying why.

@@ -64,8 +64,10 @@ struct FrameSettings {
 /// Options of `replay`.
 struct ReplaySettings {
   std::int64_t run = 0;
-  std::filesystem::path file = {};  ///< empty: replay_0001.html in the folder
-  FrameSettings frames = {};        ///< where it names a folder or a video, in place of the page
+  std::optional<int> cycle = {};  ///< alone; empty: all on a page, the first as pictures
+  std::filesystem::path file =
+      {};  ///< empty: replay_0001.html in the folder, of one cycle replay_0001_cycle_2.html
+  FrameSettings frames = {};  ///< where it names a folder or a video, in place of the page
 };
 
 /// Options of `live`.

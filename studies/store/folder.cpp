@@ -66,7 +66,10 @@ void write_probe(const fs::path& folder) {
 
 }  // namespace
 
-fs::path Folder::replay(std::int64_t id) const { return path / (numbered("replay", id) + ".html"); }
+fs::path Folder::replay(std::int64_t id, std::optional<int> cycle) const {
+  const std::string of_cycle = cycle ? "_cycle_" + std::to_string(*cycle) : "";
+  return path / (numbered("replay", id) + of_cycle + ".html");
+}
 fs::path Folder::log(std::int64_t id) const { return logs() / (stem(id) + ".h5"); }
 fs::path Folder::unfinished_log(std::int64_t id) const { return unfinished() / (stem(id) + ".h5"); }
 fs::path Folder::printed(std::int64_t id) const { return logs() / (stem(id) + ".txt"); }

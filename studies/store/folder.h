@@ -32,7 +32,8 @@ struct Folder {
   std::filesystem::path store() const { return path / "study.db"; }
   std::filesystem::path lock() const { return path / ".lock"; }
   std::filesystem::path report() const { return path / "report.html"; }
-  std::filesystem::path replay(std::int64_t id) const;  ///< replay_0001.html
+  /// replay_0001.html, of one cycle replay_0001_cycle_2.html
+  std::filesystem::path replay(std::int64_t id, std::optional<int> cycle = {}) const;
   std::filesystem::path shared() const { return path / "shared"; }
   std::filesystem::path shared_checksums() const { return path / "shared.checksums"; }
   std::filesystem::path logs() const { return path / "logs"; }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Whether a report's page says of its front what `export --what front --format json` says: node page_numbers.mjs
-// report.html front.json. Mean and standard error are computed as the page does, from the models in it.
+// Whether a report's page says of its front what `export --what front --format json` says: node
+// page_numbers.mjs report.html front.json. Mean and standard error are computed as the page does, from the
+// models in it.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';

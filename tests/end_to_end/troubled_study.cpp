@@ -74,7 +74,7 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
     write_measures(context.log, x[0], x[1]);
     return responses_of(context.log, context.options);
   }
-  if (how == "drawn" || how == "filmed") {
+  if (how == "drawn" || how == "filmed" || how == "cycles") {
     if (x[0] > 0.9) return doe::Failure{"jammed"};
     write_measures(context.log, x[0], x[1]);
     return x[0] > 0.5 ? doe::Outcome(doe::Failure{"spilled"}) : good(x[0], x[1]);
@@ -99,13 +99,13 @@ nlohmann::json box(double x, double y, double z) {
           {"faces", {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}}};
 }
 
-/// A red box that goes 4 m along x in 2 s, on a floor.
-nlohmann::json scene() {
+/// A red box that goes 4 m along x in 2 s, on a floor, at a place of y.
+nlohmann::json scene(double y = 0) {
   nlohmann::json frames = nlohmann::json::array();
   for (int t = 0; t <= 2; ++t)
     frames.push_back({{"t", t},
                       {"label", "at " + std::to_string(t)},
-                      {"poses", {{0, 0, -0.1, 1, 0, 0, 0}, {2.0 * t - 2.0, 0, 0.6, 1, 0, 0, 0}}}});
+                      {"poses", {{0, 0, -0.1, 1, 0, 0, 0}, {2.0 * t - 2.0, y, 0.6, 1, 0, 0, 0}}}});
   return {{"type", "scene"},
           {"title", "A box"},
           {"caption", "It goes."},
@@ -127,6 +127,23 @@ nlohmann::json illustrate(const std::filesystem::path& file) {
                                                    {"columns", {"hours", "wear"}},
                                                    {"rows", {{hours, wear}}}}});
   if (trouble() == "filmed") figures.push_back(scene());
+  return figures;
+}
+
+/// A table of the run, and of each of two cycles a scene with a signal that ends after 1 s.
+nlohmann::json by_cycles(const std::filesystem::path& file) {
+  nlohmann::json figures = illustrate(file);
+  for (const int cycle : {1, 2}) {
+    figures.push_back(scene(cycle == 1 ? 0.0 : 1.2));
+    figures.back()["cycle"] = cycle;
+    figures.back()["caption"] = "Cycle " + std::to_string(cycle) + ".";
+    figures.back()["note"] = "Drag to turn.";
+    figures.back()["signals"] = {{{"name", "Load"},
+                                  {"unit", "t"},
+                                  {"t", {0.0, 0.5, 1.0}},
+                                  {"y", {0.0, 2.0, 3.0}},
+                                  {"lines", {{{"name", "payload"}, {"y", 2.5}}}}}};
+  }
   return figures;
 }
 
@@ -155,7 +172,8 @@ int main(int argc, char** argv) {
   if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
-  if (trouble() == "drawn" || trouble() == "filmed") study.illustrate = illustrate;
+  if (trouble() == "drawn" || trouble() == "filmed" || trouble() == "cycles") study.illustrate = illustrate;
+  if (trouble() == "cycles") study.replay = by_cycles;
   if (trouble() == "parts") study.finish_log = join;
   if (trouble() == "logged") {
     study.responses = responses_of;

@@ -115,8 +115,8 @@ TEST(LoadingFigures, TheSceneHasTheMotionOfItsCycle) {
   EXPECT_EQ(bodies[1]["with"], 0);
   EXPECT_FALSE(bodies[1].contains("track"));
   EXPECT_EQ(bodies[2]["track"], nlohmann::json::parse("[[1,0,0,0.5,0,1,0,0],[2]]"));
-  EXPECT_NE((*scene)["caption"].get<std::string>().find("20 pictures per second"), std::string::npos)
-      << (*scene)["caption"];
+  EXPECT_NE((*scene)["note"].get<std::string>().find("20 pictures per second"), std::string::npos)
+      << (*scene)["note"];
 }
 
 // The tip goes 0.01 m in 0.1 s; 300 kN m about two axes are 424.264, with 600 kN m about the pin 734.847.
@@ -143,6 +143,65 @@ TEST(LoadingFigures, TheSceneHasSignalsOfAllSamples) {
       std::find_if(twisting.begin(), twisting.end(), [](const auto& f) { return f["type"] == "scene"; });
   EXPECT_EQ((*other)["signals"][1]["name"], "Torque that twists hinge G");
   EXPECT_EQ((*other)["signals"][1]["y"][41], 424.264);
+}
+
+/// Of the same, the second cycle of which begins at 10 s.
+LoadingLog log_of_two_cycles() {
+  LoadingLog log = log_with_a_peak();
+  for (int i = 0; i < samples; ++i)
+    log.signals.append_row(
+        std::vector<double>{10.1 + 0.1 * i, 2.0, 1.0, 0.01 * i, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  CycleRecord second = log.cycles[0];
+  second.number = 2;
+  second.t_start = 10.0;
+  second.t_end = 20.0;
+  log.cycles.push_back(second);
+  log.scene.frames = {
+      {0.0, 1, "lift", 0.0}, {0.5, 1, "curl", 3240.0}, {10.0, 2, "lift", 0.0}, {12.0, 2, "curl", 50.0}};
+  return log;
+}
+
+// The report has the first cycle and says how to see the others; the replay has each on its own clock.
+TEST(LoadingFigures, TheReplayHasEveryCycle) {
+  const test::TestFolder place;
+  write_log(place / "run.h5", log_of_two_cycles());
+  const auto scenes_of = [](const nlohmann::json& figures) {
+    std::vector<nlohmann::json> scenes;
+    for (const auto& figure : figures)
+      if (figure["type"] == "scene") scenes.push_back(figure);
+    return scenes;
+  };
+  const auto report = scenes_of(loading_figures(place / "run.h5"));
+  ASSERT_EQ(report.size(), 1u);
+  EXPECT_EQ(report[0]["caption"], "Cycle 1 of the run shown. The command replay shows all 2 cycles.");
+  EXPECT_FALSE(report[0].contains("cycle"));
+
+  const auto replay = loading_replay(place / "run.h5");
+  EXPECT_EQ(replay[0]["type"], "table") << "all cycles come before one of them";
+  EXPECT_FALSE(replay[0].contains("cycle"));
+  const auto scenes = scenes_of(replay);
+  ASSERT_EQ(scenes.size(), 2u);
+  EXPECT_EQ(scenes[0]["caption"], "Cycle 1 of the run shown.");
+  EXPECT_EQ(scenes[1]["cycle"], 2);
+  EXPECT_EQ(scenes[1]["frames"][1]["t"], 2.0);
+  EXPECT_EQ(scenes[1]["signals"][2]["y"], nlohmann::json({0.0, 0.05}));
+  const auto of_second =
+      std::count_if(replay.begin(), replay.end(), [](const auto& f) { return f.value("cycle", 0) == 2; });
+  EXPECT_EQ(of_second, 4) << "path, scene, forces, rock in the bucket";
+}
+
+// How to read a scene is its note, which a page says once; the rock in the bucket is a curve of the scene.
+TEST(LoadingFigures, WhatScenesShareIsANote) {
+  const test::TestFolder place;
+  write_log(place / "run.h5", log_of_two_cycles());
+  std::vector<nlohmann::json> notes, in_scene;
+  for (const auto& figure : loading_replay(place / "run.h5")) {
+    if (figure.contains("note")) notes.push_back(figure["note"]);
+    if (figure.value("in_scene", false)) in_scene.push_back(figure["title"]);
+  }
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0], notes[1]);
+  EXPECT_EQ(in_scene, std::vector<nlohmann::json>(2, "Rock in the bucket"));
 }
 
 TEST(LoadingFigures, ARunWithoutACycleHasNone) {

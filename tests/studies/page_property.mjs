@@ -5,17 +5,18 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {bandOutline} from '../../studies/report/web/band_outline.js';
+import {cyclesOf, withBodies} from '../../studies/report/web/cycle_panels.js';
 import {csv, tsv} from '../../studies/report/web/delimited.js';
 import {number, setting} from '../../studies/report/web/format.js';
 import {predictor} from '../../studies/report/web/kriging.js';
 import {meanInterval, scaledDeviation} from '../../studies/report/web/kriging_error.js';
 import {brokenText, symbols} from '../../studies/report/web/limits.js';
-import {nestedVariables, outerLevels} from '../../studies/report/web/nested_levels.js';
+import {leftOutText, nestedVariables, outerLevels} from '../../studies/report/web/nested_levels.js';
 import {came, question} from '../../studies/report/web/question_words.js';
 import {distanceToCut, nearCut} from '../../studies/report/web/sampled.js';
 import {words} from '../../studies/report/web/inscription.js';
 import {Poses} from '../../studies/report/web/poses.js';
-import {peaksKept, sampleAt} from '../../studies/report/web/signals.js';
+import {peaksKept, sampleAt, valueAt} from '../../studies/report/web/signals.js';
 import {selecting} from '../../studies/report/web/selection.js';
 
 /// One axis that all have values on, and one that run 2 lacks.
@@ -62,7 +63,8 @@ test('clearing gives everything back, and each change is told once', () => {
   assert.equal(told, 2);
 });
 
-// Levels are 0 or 2 apart, whichever they are: exp(-0.1 * 2^2) = exp(-0.4). A slider between two levels shows the nearer.
+// Levels are 0 or 2 apart, whichever they are: exp(-0.1 * 2^2) = exp(-0.4). A slider between two levels shows
+// the nearer.
 test('a category in a model is no number', () => {
   const mean = predictor({
     centre: [0, 0], factor: [1, 1], correlation: 'gaussian', theta: [0.5, 0.1], exponent: [], levels: [0, 4],
@@ -104,8 +106,8 @@ test('the band of a front closes, and ends where no draw reaches', () => {
   assert.deepEqual(median, {x: [1, 2, 3], y: [6, 7, null]});
 });
 
-/// Ordinary Kriging of two runs at -1 and 1 with r(0) = exp(-theta) and c = exp(-4 theta) between them, and a nugget g.
-/// At 0: rᵀR⁻¹r = 2 r²/(1 + g + c) and 1ᵀR⁻¹1 = 2/(1 + g + c), so that
+/// Ordinary Kriging of two runs at -1 and 1 with r(0) = exp(-theta) and c = exp(-4 theta) between them, and
+/// a nugget g. At 0: rᵀR⁻¹r = 2 r²/(1 + g + c) and 1ᵀR⁻¹1 = 2/(1 + g + c), so that
 ///   variance = s² (1 - 2 r²/(1 + g + c) + (1 - 2 r/(1 + g + c))² (1 + g + c)/2).
 /// B = R⁻¹1/√(1ᵀR⁻¹1) and T = √(1ᵀR⁻¹1).
 function twoRuns(theta, g) {
@@ -167,6 +169,15 @@ test('nested contours take the strongest variables, and few values of what has f
   assert.deepEqual(outerLevels({lower: 10, upper: 19, kind: 'integer'}), [10, 13, 16, 19]);
 });
 
+test('nested contours name the levels that they leave out', () => {
+  const tool = {kind: 'categorical', lower: 0, upper: 5, levels: ['a', 'b', 'c', 'd', 'e', 'f']};
+  assert.deepEqual(outerLevels(tool), [0, 2, 3, 5]);
+  assert.equal(leftOutText(tool, 'tool'), 'Of tool, 4 of 6 levels are shown, without b and e.');
+  assert.equal(leftOutText({...tool, upper: 3, levels: ['a', 'b', 'c', 'd']}, 'tool'), '');
+  assert.equal(leftOutText({...tool, upper: 4, levels: ['a', 'b', 'c', 'd', 'e']}, 'tool'), 'Of tool, 4 of 5 levels are shown, without c.');
+  assert.equal(leftOutText({kind: 'integer', lower: 0, upper: 9}, 'count'), '');
+});
+
 test('a study says what it asks, and what came', () => {
   const response = (name, goal, limit) => ({name, goal, limit, unit: 't'}), variables = [{}, {}];
   assert.equal(question({variables, responses: [response('load', 'maximize'), response('wear', 'minimize'), response('spill', 'minimize'), response('time', 'at_most', 20)]}),
@@ -185,8 +196,8 @@ function poseAt(poses, body, t) {
   return poses.read(body, poses.place(t), {set: (...v) => { p = v; }}, quaternion) ? {p, q} : null;
 }
 
-// Body 0 stands from frame 1 on, goes 10 m from frame 2 to 4 with half a turn about z, whose quaternion is given with
-// the other sign; body 1 comes in frame 3 and hides in frame 5; body 2 goes with body 0.
+// Body 0 stands from frame 1 on, goes 10 m from frame 2 to 4 with half a turn about z, whose quaternion is
+// given with the other sign; body 1 comes in frame 3 and hides in frame 5; body 2 goes with body 0.
 test('a body goes evenly from one of its poses to the next, and hides', () => {
   const w = 32767, h = Math.round(w * Math.SQRT1_2), scene = {
     frames: [0, 1, 2, 3, 4, 6].map((t) => ({t})),
@@ -224,4 +235,20 @@ test('a plot of few columns keeps the peaks of all samples', () => {
 
 test('the value at a time is the last sample before it', () => {
   assert.deepEqual([-1, 0, 0.99, 1, 2.5].map((time) => sampleAt([0, 1, 2], time)), [0, 0, 0, 1, 2]);
+});
+
+// 0.5 s apart on the average: the last value holds half a second, and is gone then.
+test('a signal has no value before it begins and after it ends', () => {
+  const signal = {t: [1, 1.5, 2], y: [5, 6, 7]};
+  assert.deepEqual([0.9, 1, 1.9, 2, 2.5, 2.51].map((time) => valueAt(signal, time)), [null, 5, 6, 7, 7, null]);
+  assert.equal(valueAt({t: [], y: []}, 0), null);
+  assert.equal(valueAt({t: [3], y: [4]}, 3), 4);
+});
+
+test('scenes of a run share their bodies', () => {
+  const panels = [{type: 'table'}, {cycle: 1, shapes: ['s'], bodies: ['b'], frames: [1]}, {cycle: 2, bodies_of: 1, frames: [2]}, {cycle: 2}];
+  assert.deepEqual(cyclesOf(panels), [1, 2]);
+  const whole = withBodies(panels);
+  assert.deepEqual([whole[2].shapes, whole[2].bodies, whole[2].frames], [['s'], ['b'], [2]]);
+  assert.equal(whole[1], panels[1]);
 });

@@ -45,6 +45,74 @@ TEST(ReplayPage, HoldsTheRunAndItsFigures) {
   EXPECT_EQ(data.at("problem").at("responses").at(0).at("name"), "production");
 }
 
+/// Of a cycle: a scene with one body, and a table of so many rows.
+nlohmann::json panels_of(int cycle, int rows) {
+  nlohmann::json table = table_panel, scene = {{"type", "scene"}, {"title", "s"}, {"caption", "c"}};
+  for (int k = 1; k < rows; ++k) table["rows"].push_back({1});
+  scene["shapes"] = {{{"vertices", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {"faces", {{0, 1, 2}}}}};
+  scene["bodies"] = {{{"shape", 0}}};
+  scene["frames"] = {{{"t", cycle}, {"poses", {{0, 0, 0, 1, 0, 0, 0}}}}};
+  table["cycle"] = scene["cycle"] = cycle;
+  return {scene, table};
+}
+
+nlohmann::json three_cycles() {
+  nlohmann::json panels = nlohmann::json::array({table_panel});
+  for (int cycle = 1; cycle <= 3; ++cycle)
+    for (const auto& panel : panels_of(cycle, 1000)) panels.push_back(panel);
+  return panels;
+}
+
+TEST(ReplayPage, HoldsAllCyclesAndTheirBodiesOnce) {
+  const auto data = report_cases::data_in(replay_page(replay_input(three_cycles())));
+  const auto& panels = data.at("illustrations");
+  ASSERT_EQ(panels.size(), 7u);
+  EXPECT_TRUE(panels[1].contains("bodies"));
+  for (const std::size_t k : {3u, 5u}) {
+    EXPECT_EQ(panels[k].at("bodies_of"), 1);
+    EXPECT_FALSE(panels[k].contains("bodies") || panels[k].contains("shapes"));
+    EXPECT_EQ(panels[k].at("cycle"), k / 2 + 1);
+  }
+  EXPECT_EQ(data.at("left_out"), "");
+}
+
+// A table of 1000 rows of "[1]," takes 4 kB.
+TEST(ReplayPage, SaysWhichCyclesItHasNoRoomFor) {
+  ReplayInput input = replay_input(three_cycles());
+  input.most_bytes = 10'000;
+  auto data = report_cases::data_in(replay_page(input));
+  EXPECT_EQ(data.at("illustrations").size(), 5u);
+  EXPECT_EQ(data.at("left_out"),
+            "Cycle 3 is left out, to keep this page below some 0 MB: it has a page of its own with the "
+            "command replay --run 3 --cycle 3.");
+  input.most_bytes = 0;
+  data = report_cases::data_in(replay_page(input));
+  EXPECT_EQ(data.at("illustrations").size(), 3u) << "the first cycle is never left out";
+  EXPECT_NE(data.at("left_out").get<std::string>().find("Cycles 2 to 3 are left out"), std::string::npos);
+}
+
+// What a scene shows too is left out beside one, and only there.
+TEST(ReplayPage, ShowsACurveOnce) {
+  nlohmann::json curve = table_panel, panels = panels_of(1, 1);
+  curve["in_scene"] = true;
+  panels.push_back(curve);
+  const auto with = report_cases::data_in(replay_page(replay_input(panels)));
+  EXPECT_EQ(with.at("illustrations").size(), 2u);
+  const auto alone = report_cases::data_in(replay_page(replay_input(nlohmann::json::array({curve}))));
+  EXPECT_EQ(alone.at("illustrations").size(), 1u);
+}
+
+TEST(ReplayPage, ACycleIsANumberFromOne) {
+  for (const nlohmann::json& cycle : {nlohmann::json(0), nlohmann::json(1.5), nlohmann::json("1")}) {
+    nlohmann::json panel = table_panel;
+    panel["cycle"] = cycle;
+    EXPECT_NE(test::complaint([&] {
+                replay_page(replay_input(nlohmann::json::array({panel})));
+              }).find("\"cycle\" is not a whole number from 1"),
+              std::string::npos);
+  }
+}
+
 TEST(ReplayPage, AFaultyFigureIsNamedAndOneMustBeGood) {
   const test::TestFolder place;
   write_replay(place / "replay.html", replay_input(nlohmann::json::array({table_panel, 7})));
@@ -78,8 +146,20 @@ class Replay : public testing::Test {
       return nlohmann::json::array({table_panel});
     };
   }
+  /// Of two cycles, of which the report would show the first.
+  void show_by_cycles() {
+    study_.replay = [](const std::filesystem::path&) {
+      nlohmann::json panels = panels_of(1, 1);
+      for (const auto& panel : panels_of(2, 1)) panels.push_back(panel);
+      panels.push_back(table_panel);
+      return panels;
+    };
+  }
+  std::string refusal_of_cycle(int cycle) const {
+    return test::complaint([&] { replay(study_, store_, folder_, {run_, cycle}, file(), "command"); });
+  }
   std::filesystem::path file() const { return place_ / "page.html"; }
-  void make() const { replay(study_, store_, folder_, run_, file(), "command"); }
+  void make() const { replay(study_, store_, folder_, {run_}, file(), "command"); }
   std::string refusal() const {
     const std::string text = test::complaint([&] { make(); });
     EXPECT_FALSE(std::filesystem::exists(file()));
@@ -104,6 +184,25 @@ TEST_F(Replay, IsOfAnyRunWithALog) {
   const auto data = report_cases::data_in(test::contents(file()));
   EXPECT_EQ(data.at("replay").at("reason"), "stuck");
   EXPECT_TRUE(data.at("replay").at("y").is_null());
+}
+
+TEST_F(Replay, IsOfAllCyclesOrOfOne) {
+  show_by_cycles();
+  make();
+  EXPECT_EQ(report_cases::data_in(test::contents(file())).at("illustrations").size(), 5u);
+  replay(study_, store_, folder_, {run_, 2}, file(), "command");
+  const auto data = report_cases::data_in(test::contents(file()));
+  ASSERT_EQ(data.at("illustrations").size(), 3u);
+  EXPECT_EQ(data.at("illustrations")[0].at("cycle"), 2);
+  EXPECT_FALSE(data.at("illustrations")[2].contains("cycle"));
+  EXPECT_EQ(scene_of_run(study_, store_.identity(), folder_, {run_}).at("frames")[0].at("t"), 1);
+  EXPECT_EQ(scene_of_run(study_, store_.identity(), folder_, {run_, 2}).at("frames")[0].at("t"), 2);
+}
+
+TEST_F(Replay, SaysWhichCyclesThereAre) {
+  EXPECT_EQ(refusal_of_cycle(1), "--cycle: this study does not show run 1 by cycles; leave --cycle out");
+  show_by_cycles();
+  EXPECT_EQ(refusal_of_cycle(3), "--cycle 3: the log of run 1 has cycles 1 to 2");
 }
 
 TEST_F(Replay, SaysWhyThereIsNone) {

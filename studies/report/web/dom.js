@@ -19,6 +19,10 @@ export function section(id, title, lead, ...children) {
 
 let figures = 0;
 
+/// Of the figure that was made last; the next one has the number after it.
+export const figureNumber = () => figures;
+export const numberAfter = (number) => { figures = number; };
+
 export function figure(content, caption, title = null) {
   figures += 1;
   return el('figure', {}, title ? el('h3', {}, title) : null, content,

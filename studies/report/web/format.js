@@ -15,7 +15,8 @@ export const percent = (value) => (value === null || !Number.isFinite(value) ? '
 export const pretty = (name) => name.replaceAll('_', ' ');
 export const hasUnit = (unit) => unit !== '' && unit !== '1';
 export const labelled = (item) => pretty(item.name) + (hasUnit(item.unit) ? ` [${item.unit}]` : '');
-/// A variable's value: the name of a level, a whole number, or a number; of one whose range holds 0, what is nearer to it than 1e-4 of the range is 0.
+/// A variable's value: the name of a level, a whole number, or a number; of one whose range holds 0, what is
+/// nearer to it than 1e-4 of the range is 0.
 export const setting = (value, {levels, kind, lower, upper}) => {
   if (levels) return pretty(levels[Math.round(value)] ?? 'n/a');
   if (kind) return String(Math.round(value));

@@ -5,8 +5,8 @@
 import {bandOutline} from './band_outline.js';
 import {colour} from './theme.js';
 
-/// The traces of the band of objectives a and b, which lie under all others; none where the front is not known to be
-/// uncertain.
+/// The traces of the band of objectives a and b, which lie under all others; none where the front is not
+/// known to be uncertain.
 export function bandTraces({front}, objectives, a, b) {
   const band = front.bands.find(({first, second}) => first === a && second === b);
   if (!band) return [];

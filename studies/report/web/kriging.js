@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mean of a fitted model in the browser, so that the sliders need no table of prepared slices:
 //   z(x) = constant + sum_t beta_t s_a s_b + sum_i w_i prod_k c_k(|s_k - X_ik|),   s = (x - centre) factor.
-// Of a category s is the index of its level, the nearest one between them, and two different levels are 2 apart.
-// It is z itself, or of a model on another scale what noisy runs at z have in the mean: a sum over points of noise.
+// Of a category s is the index of its level, the nearest one between them, and two different levels are 2
+// apart. It is z itself, or of a model on another scale what noisy runs at z have in the mean: a sum over
+// points of noise.
 
 /// By family: the factors of one variable, from its theta, its exponent and the distance.
 export const correlations = {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// How sure a fitted model is of its mean, in the browser: the variance of report/surface_error.h, noise of single runs
-// left out.
+// How sure a fitted model is of its mean, in the browser: the variance of report/surface_error.h, noise of
+// single runs left out.
 
 import {correlations, distanceIn, meanResponse, scaledMean} from './kriging.js';
 

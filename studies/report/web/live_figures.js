@@ -18,7 +18,7 @@ export function lastFigures() {
   };
   const panel = (p) => {
     const content = flat[p.type](p);
-    return el('figure', {}, el('h3', {}, p.title), content, el('figcaption', {}, p.caption));
+    return el('figure', {}, el('h3', {}, p.title), content, el('figcaption', {}, [p.caption, p.note].filter(Boolean).join(' ')));
   };
   const update = async (run) => {
     if (run === null || run === shown || busy || Date.now() - asked < rest) return;

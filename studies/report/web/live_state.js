@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// What the live page works out without a browser: which rows it has, curves, and how it stands with the server.
+// What the live page works out without a browser: which rows it has, curves, and how it stands with the
+// server.
 
 /// Points that a plot shows, the latest.
 export const mostPoints = 3000;
@@ -22,7 +23,8 @@ export function keep(kept, {epoch, from, rows}) {
 /// Whether the server has more rows than the page.
 export const lags = (kept, {ended}) => ended !== undefined && kept.since < ended;
 
-/// Best so far over the number of runs that have ended: steps through improvements [ended, run, value], up to now.
+/// Best so far over the number of runs that have ended: steps through improvements [ended, run, value], up to
+/// now.
 export function curve(improvements, ended) {
   const x = improvements.map(([at]) => at), y = improvements.map(([, , value]) => value), runs = improvements.map(([, run]) => run);
   if (x.length && ended > x[x.length - 1]) {

@@ -6,7 +6,7 @@ import {choose} from './choice.js';
 import {collect} from './designs.js';
 import {summary, header, navigation, facts} from './summary.js';
 import {findings} from './findings.js';
-import {contrasts, panels} from './panels.js';
+import {contrasts, figures, panels} from './panels.js';
 import {asked} from './question.js';
 import {oneRun} from './replay.js';
 import {tradeOffs} from './front.js';
@@ -20,7 +20,7 @@ import {selectionBar} from './selection_bar.js';
 const data = JSON.parse(document.getElementById('report-data').textContent);
 const page = document.getElementById('report');
 /// What the sections of a report share; rows: by set of designs, what shows the row of one in its table.
-const shared = data.replay ? {} : sharing(collect(data));
+const shared = {make: figures(), ...data.replay ? {} : sharing(collect(data))};
 
 function sharing(designs) {
   return {designs, chosen: choose(data, designs), selection: selecting(designs), rows: {}};

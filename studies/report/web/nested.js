@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Nested contours: a response over four variables at once, as a grid of contour plots. Two outer variables take some
-// levels each, and every plot of the grid spans two inner ones. Computed when the figure is opened.
+// Nested contours: a response over four variables at once, as a grid of contour plots. Two outer variables
+// take some levels each, and every plot of the grid spans two inner ones. Computed when the figure is opened.
 /* global Plotly */
 
 import {el, figure, select} from './dom.js';
 import {axisLabel, labelled, plain, pretty, settingWithUnit, ticks} from './format.js';
 import {oncePerFrame} from './frames.js';
-import {nestedVariables, outerLevels} from './nested_levels.js';
+import {leftOutText, nestedVariables, outerLevels} from './nested_levels.js';
 import {axis, draw, fit, plotBox} from './plot.js';
 import {places} from './steps.js';
 import {scale} from './theme.js';
@@ -22,6 +22,7 @@ export function nested(data, fitted, chosen) {
   const box = plotBox(shown.length === 4 ? 760 : 330, 'Nested contours');
   const redraw = oncePerFrame(() => { if (ready) draw(box, () => grid(data, f, shown, chosen)); });
   const pick = fitted.length > 1 ? el('div', {class: 'controls'}, select('Response', fitted.map(({response}) => labelled(response)), 0, (i) => { f = fitted[i]; redraw(); })) : null;
+  const leftOut = held.slice(2).map((v) => leftOutText(v, pretty(v.name))).filter(Boolean).map((text) => ' ' + text).join('');
   const across = pretty(held[2].name), up = held[3] ? ` from left to right, and by that of ${pretty(held[3].name)} from bottom to top` : ' from left to right';
   const node = el('details', {class: 'block', ontoggle: () => {
     if (ready || !node.open) return;
@@ -30,7 +31,7 @@ export function nested(data, fitted, chosen) {
     fit(box);
   }}, el('summary', {}, 'Nested contours'), figure(el('div', {}, pick, box),
     `The predicted response over ${shown.length === 4 ? 'four' : 'three'} variables at once: each small plot spans ${pretty(held[0].name)} and ${pretty(held[1].name)}, and the plots differ by the value of ${across}${up}. ` +
-    `All plots share one scale of colours, that of all of them${rest.length ? `; ${rest.map((v) => pretty(v.name)).join(', ')} as the sliders say` : ''}.`));
+    `All plots share one scale of colours, that of all of them${rest.length ? `; ${rest.map((v) => pretty(v.name)).join(', ')} as the sliders say` : ''}.${leftOut}`));
   if (rest.length) chosen.onchange(redraw);
   return node;
 }

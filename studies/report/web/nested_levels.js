@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Which variables nested contours have, and where the outer ones are held.
+// Which variables nested contours have, where the outer ones are held, and what levels that leaves out.
 
 import {places, steps} from './steps.js';
 
@@ -11,6 +11,15 @@ export function nestedVariables({main_pair: main, influence, problem}) {
   const weight = (k) => Math.max(0, ...influence.filter(Boolean).map((row) => row[k]));
   const others = problem.variables.map((_, k) => k).filter((k) => !main.includes(k)).sort((p, q) => weight(q) - weight(p));
   return [...main, ...others.slice(0, 2).sort((p, q) => p - q)];
+}
+
+/// Of an outer category with more levels than plots: "Of tool, 4 of 6 levels are shown, without b and e."
+export function leftOutText(v, name) {
+  if (v.kind !== 'categorical') return '';
+  const shown = new Set(outerLevels(v)), others = v.levels.filter((_, i) => !shown.has(i + v.lower));
+  if (!others.length) return '';
+  const last = others.pop();
+  return `Of ${name}, ${shown.size} of ${v.levels.length} levels are shown, without ${others.length ? `${others.join(', ')} and ` : ''}${last}.`;
 }
 
 /// Where an outer variable is held: at each value of one that has few.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// The scene of a replay as pictures: one for each time that the data name, drawn one after the other whatever the
-// clock says, and sent to the server that gave this page.
+// The scene of a replay as pictures: one for each time that the data name, drawn one after the other whatever
+// the clock says, and sent to the server that gave this page.
 
 import {Poses} from './poses.js';
 import {View} from './scene.js';

@@ -10,7 +10,8 @@ const speeds = [0.25, 1, 3, 10], usual = 1;
 const keyStep = 0.05, longStep = 1;  // [s]
 const help = 'Space plays, the arrows go 0.05 s, with Shift 1 s, Home and End to the ends.';
 
-/// {node, plots}: the controls of a view, and the plots or null; keys are heard in `area`.
+/// {node, plots, end()}: the controls of a view, the plots or null, and what stops both; keys are heard in
+/// `area`.
 export function player(panel, times, view, area) {
   const first = times[0], last = times[times.length - 1];
   let t = times[panel.poster_frame ?? 0] ?? first, playing = false, speed = speeds[usual], before = 0;
@@ -46,7 +47,8 @@ export function player(panel, times, view, area) {
   area.addEventListener('keydown', keys({play: () => play(!playing), go: (by) => seek(t + by), to: (end) => seek(end ? last : first)}));
   show(t, false);
   const rate = choice(speeds.map((s) => s + '×'), (i) => { speed = speeds[i]; }, usual);
-  return {node: el('div', {class: 'player'}, button, slider, clock, rate, cameras(panel, view)), plots: plots?.node ?? null};
+  return {node: el('div', {class: 'player'}, button, slider, clock, rate, cameras(panel, view)), plots: plots?.node ?? null,
+    end: () => { play(false); plots?.end(); }};
 }
 
 function cameras(panel, view) {

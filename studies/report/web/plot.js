@@ -41,7 +41,8 @@ export function draw(box, build) {
 
 export const redraw = (box) => draw(box, drawn.get(box));
 
-/// For what has come into the page after it was drawn: its plots are drawn afresh in the width that they have there.
+/// For what has come into the page after it was drawn: its plots are drawn afresh in the width that they have
+/// there.
 export function fit(node) {
   for (const box of drawn.keys()) {
     if (!node.contains(box)) continue;

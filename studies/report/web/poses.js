@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Where the bodies of a scene are at any time. A body has poses in some frames and goes evenly between them. They come
-// packed, one body after the other: the frame of each pose (16 bits), and seven little-endian 16-bit integers, position
-// (times scale, from origin) and quaternion w x y z (of 32767); a body that hides has -32768 in the first place.
+// Where the bodies of a scene are at any time. A body has poses in some frames and goes evenly between them.
+// They come packed, one body after the other: the frame of each pose (16 bits), and seven little-endian
+// 16-bit integers, position (times scale, from origin) and quaternion w x y z (of 32767); a body that hides
+// has -32768 in the first place.
 
 const absent = -32768;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Each response along each variable alone, through the point of the sliders: the mean, the band that holds it, and the
-// runs near the cut.
+// Each response along each variable alone, through the point of the sliders: the mean, the band that holds
+// it, and the runs near the cut.
 
 import {figure} from './dom.js';
 import {axisLabel, place, plain, pretty, ticks} from './format.js';

@@ -3,6 +3,7 @@
 // The front seen from each pair of objectives. A box or lasso there selects the runs and points inside.
 /* global Plotly */
 
+import {onCanvas, pointCloud} from './cloud.js';
 import {inputsText} from './designs.js';
 import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
 import {choice, el, figure, select} from './dom.js';
@@ -57,10 +58,11 @@ function projection([a, b], view) {
   const rings = () => [
     ...ringOf(chosen.marked('front'), (i) => [front.x[i], front.y[i]]),
     ...ringOf(chosen.marked('runs'), (i) => [a, b].map((k) => designs.runs[i].y?.[data.front.objectives[k]]))];
+  const small = data.front.X.length > many;
   draw(box, (saved) => {
-    const small = data.front.X.length > many;
     const shade = colouring(data, objectives, [a, b], state.by);
     const marker = {size: small ? 5 : 8, line: {color: colour.paper, width: small ? 0 : 0.6}, color: shade ? shade.values : colour.training, opacity: opacities(selection, links[first + 1], front.x.length, saved)};
+    if (small && !saved) Object.assign(marker, onCanvas);
     if (shade) Object.assign(marker, {colorscale: scale, showscale: true,
       colorbar: {title: {text: axisLabel(shade.item), side: 'right', font: {size: 12}}, thickness: 11, len: 0.95, outlinewidth: 0, tickfont: {size: 11}, ...ticks(shade.item)}});
     const trace = (more) => ({mode: 'markers', unselected: {marker: {opacity: 1}}, ...more});
@@ -73,6 +75,7 @@ function projection([a, b], view) {
     layout: {showlegend: false, dragmode: state.tool, shapes: rings(), margin: {l: 60, r: 8, t: 12, b: 52}, xaxis: axis(goal(objectives[a])), yaxis: axis(goal(objectives[b]))}};
   });
   linkPoints(box, links, view);
+  if (small) pointCloud(box, first + 1, {has: (i) => selection.has('front', i), selection});
   ringMarked(box, chosen, rings);
   selectAreas(box, links, selection);
   return box;

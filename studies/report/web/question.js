@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// What was asked, before what came out: the variables with their ranges, the responses with what is wanted of them and
-// what the runs gave.
+// What was asked, before what came out: the variables with their ranges, the responses with what is wanted of
+// them and what the runs gave.
 
 import {el, section} from './dom.js';
 import {labelled, number, setting} from './format.js';

@@ -10,7 +10,8 @@ const limit = (response) => `${response.goal === 'at_most' ? 'at most' : 'at lea
 /// Of one response.
 export const wanted = (response) => ({minimize: 'as small as possible', maximize: 'as large as possible', record: 'recorded only'}[response.goal] ?? limit(response));
 
-/// "The study varies 4 variables and asks for production as large as possible, and for rock spill of at most 0.2."
+/// "The study varies 4 variables and asks for production as large as possible, and for rock spill of at most
+/// 0.2."
 export function question({variables, responses}) {
   const of = (...goals) => responses.filter((r) => goals.includes(r.goal));
   const named = (goal) => (of(goal).length ? [`${and(of(goal).map((r) => pretty(r.name)))} ${wanted({goal})}`] : []);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Scene viewer: the bodies of one run, to look around in and to replay. It draws only when something changes. Bodies of
-// one shape are one instanced mesh, so that thousands of rocks are some twenty draw calls.
+// Scene viewer: the bodies of one run, to look around in and to replay. It draws only when something changes.
+// Bodies of one shape are one instanced mesh, so that thousands of rocks are some twenty draw calls.
 
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
@@ -13,6 +13,17 @@ import {colour, onTheme} from './theme.js';
 
 const directions = {side: [0, -1, 0.02], above: [-0.001, 0, 1]};
 
+const shown = new Map();  // by their elements, what ends them
+
+/// For what is taken out of the page: its scenes stop, and their place on the graphics card is free again.
+export function endScenes(node) {
+  for (const [area, end] of shown) {
+    if (!node.contains(area)) continue;
+    shown.delete(area);
+    end();
+  }
+}
+
 export function sceneViewer(panel) {
   const times = panel.frames.map((frame) => frame.t);
   const stage = el('div', {class: 'scene'});
@@ -21,8 +32,9 @@ export function sceneViewer(panel) {
     const view = new View(panel, new Poses(panel));
     view.fill(stage);
     const area = el('div', {class: 'replay', tabindex: '0'}, stage);
-    const {node, plots} = player(panel, times, view, area);
+    const {node, plots, end} = player(panel, times, view, area);
     area.append(node, plots ?? '');
+    shown.set(area, () => { end(); view.end(); });
     return area;
   } catch (error) {
     return el('p', {class: 'caution'}, 'The scene needs WebGL, which this browser does not offer: ' + error.message);
@@ -50,12 +62,22 @@ export class View {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.look(this.home.eye);
     this.controls.addEventListener('change', () => { if (!this.shifting) this.render(); });
-    onTheme(() => this.tint());
+    this.endTheme = onTheme(() => this.tint());
   }
 
   fill(stage) {
     stage.append(this.renderer.domElement);
-    new ResizeObserver(() => this.resize(stage.clientWidth, stage.clientHeight)).observe(stage);
+    this.resizing = new ResizeObserver(() => this.resize(stage.clientWidth, stage.clientHeight));
+    this.resizing.observe(stage);
+  }
+
+  /// A browser has few graphics contexts.
+  end() {
+    this.endTheme();
+    this.resizing?.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /// Sphere around what is solid now.
@@ -107,7 +129,8 @@ export class View {
     this.shift(way);
   }
 
-  /// As the study says (home), or from the side or from above at that distance; or with the followed body (follow).
+  /// As the study says (home), or from the side or from above at that distance; or with the followed body
+  /// (follow).
   see(camera) {
     if (camera === 'follow') this.following = true;
     const target = new THREE.Vector3(...this.home.target);

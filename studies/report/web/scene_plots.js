@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Plots of signals in time with the scene: a cursor stands at the time that is shown, and a click goes to another.
+// Plots of signals in time with the scene: a cursor stands at the time that is shown, and a click goes to
+// another.
 
 import {el} from './dom.js';
-import {peaksKept, sampleAt} from './signals.js';
+import {number} from './format.js';
+import {peaksKept, valueAt} from './signals.js';
 import {colour, onTheme, series} from './theme.js';
 
 const height = 96, left = 58, right = 10, top = 18, bottom = 16;  // [px]
@@ -17,12 +19,13 @@ function tickOf(span) {
 /// With as many decimals as a step of this size can be told by.
 const decimals = (step) => Math.min(6, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 
-/// {node, show(t)}; seek(t) is called with the time of a click.
+/// {node, show(t), end()}; seek(t) is called with the time of a click.
 export function scenePlots(signals, times, seek) {
   const span = [times[0], times[times.length - 1]];
   const plots = signals.map((signal, k) => new Plot(signal, span, k, seek));
-  onTheme(() => plots.forEach((plot) => plot.draw()));
-  return {node: el('div', {class: 'scene-plots'}, plots.map((plot) => plot.node)), show: (t) => plots.forEach((plot) => plot.show(t))};
+  const endTheme = onTheme(() => plots.forEach((plot) => plot.draw()));
+  return {node: el('div', {class: 'scene-plots'}, plots.map((plot) => plot.node)), show: (t) => plots.forEach((plot) => plot.show(t)),
+    end: () => { endTheme(); plots.forEach((plot) => plot.resizing.disconnect()); }};
 }
 
 class Plot {
@@ -31,11 +34,19 @@ class Plot {
     this.background = document.createElement('canvas');
     this.canvas = el('canvas', {role: 'img', 'aria-label': `${signal.name} over time`});
     this.value = el('span', {class: 'note'});
-    this.node = el('div', {class: 'scene-plot'}, el('div', {}, el('b', {}, signal.name), this.value), this.canvas);
+    this.node = el('div', {class: 'scene-plot'}, el('div', {}, el('b', {}, signal.name), this.value, this.legend()), this.canvas);
     const go = (event) => seek(this.timeAt(event.offsetX));
     this.canvas.addEventListener('pointerdown', (event) => { this.canvas.setPointerCapture(event.pointerId); go(event); });
     this.canvas.addEventListener('pointermove', (event) => { if (event.buttons & 1) go(event); });
-    new ResizeObserver(() => { this.width = this.canvas.clientWidth; this.draw(); }).observe(this.canvas);
+    this.resizing = new ResizeObserver(() => { this.width = this.canvas.clientWidth; this.draw(); });
+    this.resizing.observe(this.canvas);
+  }
+
+  /// Beside the plot, where no curve is in its way.
+  legend() {
+    const [, high] = this.range();
+    return (this.signal.lines ?? []).map((line) => el('span', {class: 'note'}, el('i', {class: 'swatch dashed limit'}),
+      `${line.name} ${number(line.y)} ${this.signal.unit}${line.y > high ? ', above the plot' : ''}`));
   }
 
   timeAt(x) {
@@ -86,17 +97,11 @@ class Plot {
     const every = tickOf((this.span[1] - this.span[0]) / 2);
     for (let k = Math.ceil(this.span[0] / every); k * every <= this.span[1]; ++k)
       context.fillText((k * every).toFixed(decimals(every)) + ' s', this.x(k * every), height - 7);
-    for (const line of this.signal.lines ?? []) this.limit(context, line, line.y > high ? top : y(line.y), line.y > high);
-  }
-
-  limit(context, line, y, beyond) {
     context.strokeStyle = colour.failed;
     context.setLineDash([5, 4]);
-    if (!beyond) stroke(context, [[left, y], [this.width - right, y]]);
+    for (const line of this.signal.lines ?? [])
+      if (line.y <= high) stroke(context, [[left, y(line.y)], [this.width - right, y(line.y)]]);
     context.setLineDash([]);
-    context.fillStyle = colour.failed;
-    context.textAlign = 'right';
-    context.fillText(`${line.name} ${line.y}${beyond ? ', above the plot' : ''}`, this.width - right - 4, Math.max(8, y - 8));
   }
 
   curve(context, y) {
@@ -110,9 +115,8 @@ class Plot {
 
   show(t) {
     this.time = t;
-    const {t: all, y, unit} = this.signal;
-    const [low, high] = this.range();
-    this.value.textContent = all.length ? `${y[sampleAt(all, t)].toFixed(decimals((high - low) / 200))} ${unit}` : '';
+    const [low, high] = this.range(), value = valueAt(this.signal, t);
+    this.value.textContent = value === null ? '–' : `${value.toFixed(decimals((high - low) / 200))} ${this.signal.unit}`;
     if (!this.width) return;
     const ratio = window.devicePixelRatio || 1, context = this.canvas.getContext('2d');
     context.setTransform(1, 0, 0, 1, 0, 0);

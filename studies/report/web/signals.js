@@ -13,8 +13,14 @@ export function sampleAt(t, time) {
   return low;
 }
 
-/// The lowest and the highest sample of each of `count` equal parts of [from, to], in the order of their times: no
-/// peak is lost. Parts without a sample give nothing.
+/// The last sample up to time, which holds for a step beyond the end; null where there is none.
+export function valueAt({t, y}, time) {
+  const last = t.length - 1, step = last > 0 ? (t[last] - t[0]) / last : 0;
+  return last < 0 || time < t[0] || time > t[last] + step ? null : y[sampleAt(t, time)];
+}
+
+/// The lowest and the highest sample of each of `count` equal parts of [from, to], in the order of their
+/// times: no peak is lost. Parts without a sample give nothing.
 export function peaksKept({t, y}, [from, to], count) {
   const kept = [];
   let column = -1, low = 0, high = 0;

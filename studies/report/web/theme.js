@@ -26,14 +26,17 @@ export const faded = (hex, opacity) => `rgb(${[1, 3, 5].map((i) => Math.round(op
 /// '#rrggbb' with an opacity.
 export const translucent = (hex, opacity) => `rgba(${[1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(',')},${opacity})`;
 
-const listeners = [];
+const listeners = new Set();
 const system = matchMedia('(prefers-color-scheme: dark)');
 let decided = null, printing = false;
 
 export const isDark = () => !printing && (decided ?? system.matches);
 
-/// listener(now): draw again; now tells that the paper does not wait.
-export const onTheme = (listener) => listeners.push(listener);
+/// listener(now): draw again; now tells that the paper does not wait. Returns what ends that.
+export function onTheme(listener) {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
 
 function paint(inDark) {
   Object.assign(colour, inDark ? dark : light);

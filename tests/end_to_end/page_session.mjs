@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// Goes through a report or a replay as a reader does, in a headless Chromium: node page_session.mjs
+// PAGE.html. Says what it did and what came of it, a line each; fails where something did not come, the
+// console had an error, or the page asked for anything but itself. What a page does not have is named, and
+// not tried.
+
+import assert from 'node:assert/strict';
+import {mkdtempSync, readdirSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join, resolve} from 'node:path';
+import {openPage} from './browser.mjs';
+
+const downloads = mkdtempSync(join(tmpdir(), 'saved-'));
+const page = await openPage(resolve(process.argv[2]), {downloads});
+const {evaluate, until, click, drag, press, type, wheel, choose} = page;
+const one = (selector) => `document.querySelector(${JSON.stringify(selector)})`;
+const button = (within, text) => `[...document.querySelectorAll(${JSON.stringify(within + ' button')})].find((b) => b.textContent.startsWith(${JSON.stringify(text)}))`;
+const text = (element) => evaluate(`(${element}).textContent`);
+const count = (selector) => evaluate(`document.querySelectorAll(${JSON.stringify(selector)}).length`);
+
+async function step(name, needs, does) {
+  if (!(await evaluate(`Boolean(${needs})`))) { console.log(`${name}: not on this page`); return; }
+  try {
+    console.log(`${name}: ${await does()}`);
+  } catch (error) {
+    throw new Error(`${name}: ${error.message}`, {cause: error});
+  }
+}
+
+/// Numbers of the first rows of a table's column.
+const column = (table, k) => evaluate(`[...document.querySelectorAll(${JSON.stringify(table + ' tbody tr')})].map((row) => row.children[${k}].textContent)`);
+
+const front = '#front .whole-table', bar = '.selection', axes = '#designs .parallel svg';
+const selected = async () => (await text(one(bar))).match(/Selected: (.*?)Clear/)?.[1];
+
+console.log(`${page.product}, ${await evaluate('document.title')}`);
+
+await step('sections', one('nav a'), async () => {
+  const names = await evaluate('[...document.querySelectorAll("nav a")].map((a) => a.textContent)');
+  for (let k = 0; k < names.length; ++k) {
+    await click(`document.querySelectorAll('nav a')[${k}]`);
+    await until(`location.hash === document.querySelectorAll('nav a')[${k}].hash`);
+  }
+  return names.join(', ');
+});
+await step('colours', one('button.theme'), async () => {
+  const before = await evaluate('document.documentElement.dataset.theme');
+  await click(one('button.theme'));
+  await until(`document.documentElement.dataset.theme !== "${before}"`);
+  await click(one('button.theme'));
+  await until(`document.documentElement.dataset.theme === "${before}"`);
+  return 'the other ones and back';
+});
+await step('table, sorted', one(front), async () => {
+  await click(`document.querySelectorAll('${front} th button')[1]`);
+  const up = await column(front, 1);
+  assert.deepEqual(up, [...up].sort((a, b) => a - b));
+  await click(`document.querySelectorAll('${front} th button')[1]`);
+  const down = await column(front, 1);
+  assert.ok(Number(down[0]) >= Number(up[0]));
+  return `from ${up[0]}, then from ${down[0]}`;
+});
+await step('table, filtered', one(front), async () => {
+  const before = await text(button(front, 'Copy')), wanted = (await column(front, 1))[0];
+  await click(one(front + ' input[type=search]'));
+  await type(wanted);
+  await until(`${button(front, 'Copy')}.textContent !== "${before}"`);
+  const after = await text(button(front, 'Copy'));
+  await evaluate(`${one(front + ' input[type=search]')}.select()`);
+  await press('Home');
+  await evaluate(`(() => { const box = ${one(front + ' input[type=search]')}; box.value = ''; box.dispatchEvent(new Event('input')); })()`);
+  await until(`${button(front, 'Copy')}.textContent === "${before}"`);
+  return `${after} for "${wanted}", then ${before} again`;
+});
+await step('table, copied', one(front), async () => {
+  await click(button(front, 'Copy'));
+  await until(`${one(front + ' .tools .note')}.textContent === 'Copied'`, 5000);
+  return 'it says so';
+});
+await step('table, downloaded', one(front), async () => {
+  await click(button(front, 'Download'));
+  for (let k = 0; k < 100 && !readdirSync(downloads).some((name) => name.endsWith('.csv')); ++k) await new Promise((r) => setTimeout(r, 50));
+  const [name] = readdirSync(downloads).filter((file) => file.endsWith('.csv'));
+  assert.ok(name, 'no file came');
+  return name;
+});
+await step('row, marked', one(front), async () => {
+  await click(`document.querySelectorAll('${front} tbody tr')[0].children[1]`);
+  await until(`${one(bar)}.textContent.includes('Marked: point')`);
+  const marked = (await text(one(bar))).match(/Marked: (point \d+ of the front)/)[1];
+  await click(button(bar, 'Take mark away'));
+  return marked;
+});
+await step('brush of an axis', one(axes), async () => {
+  const at = (share) => [64 / 1100, share];
+  const x = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), l = document.querySelector('#designs .parallel svg line').getBoundingClientRect(); return (l.left + l.width / 2 - r.left) / r.width; })()`);
+  await drag(one(axes), [x || at(0)[0], 0.3], [x || at(0)[0], 0.6]);
+  await until(`!${one(bar)}.hidden && ${one(bar)}.textContent.includes('Selected:')`);
+  const after = await selected();
+  await click(button(bar, 'Clear selection'));
+  await until(`${one(bar)}.hidden`);
+  return after;
+});
+await step('box in a trade-off', one('#front .plot .nsewdrag'), async () => {
+  await drag(one('#front .plot .nsewdrag'), [0.1, 0.1], [0.7, 0.9]);
+  await until(`!${one(bar)}.hidden && ${one(bar)}.textContent.includes('Selected:')`);
+  const after = await selected();
+  await click(button(bar, 'Clear selection'));
+  await until(`${one(bar)}.hidden`);
+  return after;
+});
+await step('range in numbers', one('#designs form'), async () => {
+  await click(one('#designs form input'));
+  await type('0');
+  await click(button('#designs form', 'Set range'));
+  await until(`${one('#designs .chip')}`);
+  const chip = await text(one('#designs .chip'));
+  await click(one('#designs .chip'));
+  await until(`!${one('#designs .chip')}`);
+  return chip;
+});
+await step('slider', one('#surfaces .slider'), async () => {
+  const before = await text(one('#surfaces .slider output'));
+  await click(one('#surfaces .slider input'), [0.9, 0.5]);
+  await until(`${one('#surfaces .slider output')}.textContent !== "${before}"`);
+  const after = await text(one('#surfaces .slider output'));
+  await click(button('#surfaces', 'Middle of the box'));
+  await until(`${one('#surfaces .slider output')}.textContent === "${before}"`);
+  return `${before} to ${after} and back`;
+});
+await step('surfaces in 3-D', button('#surfaces', '3-D'), async () => {
+  await click(button('#surfaces', '3-D'));
+  await until(one('#surfaces .gl-container canvas'));
+  await click(button('#surfaces', 'Contours'));
+  await until(`!${one('#surfaces .gl-container canvas')}`);
+  return 'and contours again';
+});
+await step('nested contours', one('#surfaces details summary'), async () => {
+  await click(one('#surfaces details summary'));
+  await until(one('#surfaces details .main-svg'));
+  return `${await count('#surfaces details .contour')} plots`;
+});
+await step('runs side by side', one('#runs details summary'), async () => {
+  await click(one('#runs details summary'));
+  for (const k of [0, 1]) await click(`document.querySelectorAll('#runs details tbody input[type=checkbox]')[${k}]`);
+  await until(one('#runs .comparison table'));
+  const heads = await evaluate("[...document.querySelectorAll('#runs .comparison th')].map((h) => h.textContent).filter(Boolean)");
+  await click(button('#runs .comparison', 'Clear'));
+  await until(`!${one('#runs .comparison table')}`);
+  return heads.join(', ');
+});
+
+const scene = '#simulation .replay', clock = one(scene + ' .player .note');
+const seconds = async () => Number((await text(clock)).split(' ')[0]);
+/// Of the pixels that the scene shows: a camera that moves or a body that goes changes it.
+const picture = () => evaluate(`(() => { let sum = 0; for (const c of ${one(scene + ' canvas')}.toDataURL()) sum = (31 * sum + c.charCodeAt(0)) % 1e9; return sum; })()`);
+const changes = async (act) => {
+  const before = await picture();
+  await act();
+  for (let k = 0; k < 50 && (await picture()) === before; ++k) await new Promise((r) => setTimeout(r, 100));
+  assert.notEqual(await picture(), before, 'the picture is as before');
+};
+await step('keys in the scene', one(scene), async () => {
+  await click(one(scene + ' canvas'));
+  await press('Home');
+  const start = await seconds();
+  await press('ArrowRight');
+  const later = await seconds();
+  assert.ok(Math.abs(later - start - 0.05) < 0.011, `${start} to ${later}`);
+  await press('ArrowRight', true);
+  assert.ok(Math.abs((await seconds()) - later - 1) < 0.011);
+  await press('End');
+  const end = await seconds();
+  await press('Home');
+  return `${start} s, ${later} s, ${end} s`;
+});
+await step('play', one(scene), async () => {
+  const start = await seconds();
+  await click(button(scene + ' .player', 'Play'));
+  await until(`Number(${clock}.textContent.split(' ')[0]) > ${start}`);
+  await click(button(scene + ' .player', 'Pause'));
+  await until(button(scene + ' .player', 'Play'));
+  return `to ${await seconds()} s`;
+});
+await step('slider of time', one(scene), async () => {
+  await changes(() => click(one(scene + ' .player input'), [0.6, 0.5]));
+  return `to ${await seconds()} s`;
+});
+await step('cameras', one(scene), async () => {
+  for (const name of ['Side', 'Above', 'Reset view']) await changes(() => click(button(scene + ' .player', name)));
+  await changes(() => drag(one(scene + ' canvas'), [0.4, 0.5], [0.6, 0.6]));
+  await changes(() => wheel(one(scene + ' canvas'), -240));
+  if (await evaluate(`Boolean(${button(scene + ' .player', 'Follow')})`)) {
+    await click(button(scene + ' .player', 'Follow'));
+    assert.equal(await evaluate(`${button(scene + ' .player', 'Follow')}.getAttribute('aria-pressed')`), 'true');
+  }
+  return 'side, above, reset, drag, wheel, follow';
+});
+await step('click in a plot of the scene', one(scene + ' .scene-plot canvas'), async () => {
+  const before = await seconds();
+  await click(one(scene + ' .scene-plot canvas'), [0.3, 0.5]);
+  assert.notEqual(await seconds(), before);
+  return `to ${await seconds()} s; ${(await evaluate(`[...document.querySelectorAll('${scene} .scene-plot > div')].map((d) => d.textContent)`)).join('; ')}`;
+});
+await step('cycles', one('.cycles select'), async () => {
+  const names = await evaluate("[...document.querySelectorAll('.cycles option')].map((o) => o.textContent)");
+  const captions = new Set();
+  for (let k = 0; k < names.length; ++k) {
+    await choose(one('.cycles select'), String(k));
+    await until(`document.querySelectorAll('.cycle .replay canvas').length > 0`);
+    captions.add(await text(one('.cycle')));
+    await changes(() => click(one(scene + ' .player input'), [0.5, 0.5]));
+  }
+  assert.equal(captions.size, names.length, 'each cycle has figures of its own');
+  assert.equal(await evaluate(`${button('.cycles', 'Cycle after')}.disabled`), true);
+  await click(button('.cycles', 'Cycle before'));
+  assert.equal(await evaluate(`${one('.cycles select')}.value`), String(names.length - 2));
+  return names.join(', ');
+});
+
+const {errors} = page, requests = page.requests();
+await page.close();
+rmSync(downloads, {recursive: true});
+console.log(`console errors: ${errors.length}, requests: ${requests.length}`);
+for (const line of [...errors, ...requests]) console.error(line);
+process.exit(errors.length || requests.length ? 1 : 0);
