@@ -58,7 +58,7 @@ class Disturbed:
         """In the background, with a group of its own for its terminal's sake."""
         return subprocess.Popen(self.line("run", "--jobs", "4", *words), cwd=self.place, env=self.environment,
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                start_new_session=True)
+                                start_new_session=True, preexec_fn=heeding_interrupts)
 
     def run(self, *words):
         """Exit code and all that it said."""
@@ -95,6 +95,11 @@ class Disturbed:
         """Files that only runs in flight have."""
         ours = {"study.db", "report.html", "logs", ".lock", "shared"}
         return [f.name for f in self.out.iterdir() if f.name not in ours]
+
+
+def heeding_interrupts():
+    """Also where this program itself is in the background of a shell, which has them ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def children(process):
