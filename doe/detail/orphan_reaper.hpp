@@ -46,9 +46,10 @@ class OrphanReaper {
       fail("no process", fork_error);
     }
   }
+  /// Requires that no group is left: the reaper, which somebody may have stopped, is killed.
   ~OrphanReaper() {
-    shutdown(socket_, SHUT_RDWR);  // also where a process that was forked since holds a copy
     close(socket_);
+    kill(pid_, SIGKILL);
     while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }

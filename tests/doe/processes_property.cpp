@@ -120,6 +120,28 @@ TEST_F(PoolTest, EndsBesideACopyOfItsOwner) {
   waitpid(copy, nullptr, 0);
 }
 
+// Whoever stops processes of a study by name may stop the one that watches over the others.
+TEST_F(PoolTest, EndsBesideAStoppedWatch) {
+  const pid_t owner = fork();
+  if (owner == 0) {
+    {
+      ProcessPool pool(1);
+      const std::string own = std::to_string(getpid());
+      kill(std::stoi(contents("/proc/" + own + "/task/" + own + "/children")), SIGSTOP);
+    }
+    _exit(0);
+  }
+  int status = -1;
+  for (int i = 0; i < 1000 && waitpid(owner, &status, WNOHANG) == 0; ++i)
+    std::this_thread::sleep_for(milliseconds(10));
+  EXPECT_EQ(status, 0) << "the owner still waits after 10 s";
+  if (status == 0) return;
+  const std::string child =
+      contents("/proc/" + std::to_string(owner) + "/task/" + std::to_string(owner) + "/children");
+  kill(std::stoi(child), SIGKILL);
+  waitpid(owner, nullptr, 0);
+}
+
 TEST_F(PoolTest, WithoutAFileChildrenPrintWhereTheOwnerDoes) {
   testing::internal::CaptureStdout();
   Process process = shell(1, "echo here");

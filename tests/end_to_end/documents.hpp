@@ -3,7 +3,7 @@
 #pragma once
 
 /// Documents followed to the letter: a block that opens with a kind and a file name is that file, a block of
-/// the kind sh is typed.
+/// the kind sh is typed; one that names a place, such as "sh clone", is typed elsewhere (.ci/run).
 
 #include <drawpoint/tests/end_to_end/support.hpp>
 #include <filesystem>
@@ -41,8 +41,8 @@ inline std::vector<Block> blocks_of(const std::string& page) {
 inline std::vector<std::string> follow(const std::string& page, const std::filesystem::path& folder) {
   std::vector<std::string> printed;
   for (const Block& block : blocks_of(page)) {
-    if (!block.file.empty()) std::ofstream(folder / block.file) << block.text;
-    if (block.kind != "sh") continue;
+    if (block.kind != "sh" && !block.file.empty()) std::ofstream(folder / block.file) << block.text;
+    if (block.kind != "sh" || !block.file.empty()) continue;
     std::ofstream(folder / "typed.sh")
         << "cd " << folder.string() << "\nPATH=" << STUDY_PROGRAMS << ":/usr/bin:$PATH\nset -e\n"
         << block.text;

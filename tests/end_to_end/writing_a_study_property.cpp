@@ -14,7 +14,11 @@ class WritingAStudy : public StudyTest {};
 }  // namespace
 
 TEST_F(WritingAStudy, TheDocumentsCommandsWorkAsTyped) {
-  EXPECT_EQ(follow(contents(WRITING_A_STUDY), place_).size(), 3u);
+  const std::vector<std::string> printed = follow(contents(WRITING_A_STUDY), place_);
+  ASSERT_EQ(printed.size(), 5u);
+  EXPECT_TRUE(contains(printed[1], "mill: 30 training and 10 validation runs, "));
+  EXPECT_TRUE(contains(printed[4], "mill: 40 training, 8 adaptive, "));
+  EXPECT_TRUE(std::filesystem::exists(place_ / "results/imported/report.html"));
   EXPECT_TRUE(contains(contents(place_ / "results/mill/report.html"), "A ball mill"));
   EXPECT_TRUE(contains(contents(place_ / "mill.csv"), "ground_lower [t/h]"));
 }

@@ -18,6 +18,7 @@ import {words} from '../../studies/report/web/inscription.js';
 import {Poses} from '../../studies/report/web/poses.js';
 import {peaksKept, sampleAt, valueAt} from '../../studies/report/web/signals.js';
 import {selecting} from '../../studies/report/web/selection.js';
+import {shares} from '../../studies/report/web/shares.js';
 
 /// One axis that all have values on, and one that run 2 lacks.
 function designs() {
@@ -251,4 +252,14 @@ test('scenes of a run share their bodies', () => {
   const whole = withBodies(panels);
   assert.deepEqual([whole[2].shapes, whole[2].bodies, whole[2].frames], [['s'], ['b'], [2]]);
   assert.equal(whole[1], panels[1]);
+});
+
+test('bars of a design hold every run, those on the bounds too', () => {
+  assert.deepEqual(shares([-5, 25, 25, 10], {lower: -5, upper: 25}, 10), [25, 0, 0, 0, 0, 25, 0, 0, 0, 50]);
+  // 0.1 and 0.7 are no binary numbers: a corner of a design is the bound itself.
+  for (const parts of [1, 3, 10]) {
+    const bars = shares([0.1, 0.3, 0.7], {lower: 0.1, upper: 0.7}, parts);
+    assert.equal(bars.length, parts);
+    assert.ok(Math.abs(bars.reduce((sum, bar) => sum + bar, 0) - 100) < 1e-12);
+  }
 });

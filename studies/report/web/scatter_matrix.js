@@ -8,6 +8,7 @@ import {figure} from './dom.js';
 import {axisLabel, plain, ticks} from './format.js';
 import {brokenText, legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
+import {shares} from './shares.js';
 import {colour} from './theme.js';
 
 const mostVariables = 6;
@@ -60,19 +61,12 @@ function cell(view, row, column, traces, layout) {
   else points(view, row, column, panel, traces, id === (d > 1 ? 2 : 0));
 }
 
-/// Percent of the values in each of the equal parts of a variable's range; both bounds belong to a part.
-function shares(values, {lower, upper}) {
-  const counts = new Array(bars).fill(0);
-  for (const value of values) ++counts[Math.min(bars - 1, Math.floor(bars * (value - lower) / (upper - lower)))];
-  return counts.map((count) => 100 * count / values.length);
-}
-
 function histograms(data, k, panel, traces, legend) {
   const v = data.problem.variables[k];
   const middles = Array.from({length: bars}, (_, i) => v.lower + (i + 0.5) / bars * (v.upper - v.lower));
   for (const set of ['training', 'validation']) {
     if (!data[set].rows.length) continue;
-    traces.push({type: 'bar', name: set, legendgroup: set, showlegend: legend, x: middles, y: shares(data[set].rows.map((r) => r.x[k]), v), width: (v.upper - v.lower) / bars,
+    traces.push({type: 'bar', name: set, legendgroup: set, showlegend: legend, x: middles, y: shares(data[set].rows.map((r) => r.x[k]), v, bars), width: (v.upper - v.lower) / bars,
       marker: {color: colour[set], opacity: set === 'training' ? 0.75 : 0.5}, hovertemplate: set + ' %{y:.0f} %<extra></extra>', ...panel});
   }
 }
