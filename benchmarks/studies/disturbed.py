@@ -39,6 +39,18 @@ STUDY = {
 TIMES = {"seconds", "started", "finished", "checksum"}
 
 
+STARTED = []  # in groups of their own, which no Ctrl-C of ours reaches
+
+
+def end_all():
+    """What an injection that went wrong has left."""
+    while STARTED:
+        started = STARTED.pop()
+        if started.poll() is None:
+            os.killpg(started.pid, signal.SIGKILL)
+            started.wait()
+
+
 class Disturbed:
     """The study in a folder of its own, with the commands that a user would give."""
 
@@ -56,9 +68,11 @@ class Disturbed:
 
     def start(self, *words):
         """In the background, with a group of its own for its terminal's sake."""
-        return subprocess.Popen(self.line("run", "--jobs", "4", *words), cwd=self.place, env=self.environment,
-                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                start_new_session=True, preexec_fn=heeding_interrupts)
+        started = subprocess.Popen(self.line("run", "--jobs", "4", *words), cwd=self.place, env=self.environment,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                   start_new_session=True, preexec_fn=heeding_interrupts)
+        STARTED.append(started)
+        return started
 
     def run(self, *words):
         """Exit code and all that it said."""

@@ -3,7 +3,9 @@
 /// The tests' Slurm cluster for other programs: starts one of two nodes in the folder, says so on standard
 /// output, and ends it when standard input ends.
 
+#include <cstdio>
 #include <drawpoint/tests/support/slurm_cluster.hpp>
+#include <exception>
 #include <iostream>
 
 int main(int argc, char** argv) {

@@ -22,6 +22,7 @@
 #include <drawpoint/kriging/detail/cokriging_likelihood.hpp>
 #include <drawpoint/kriging/detail/fit_prepared.hpp>
 #include <drawpoint/kriging/detail/told_rho.hpp>
+#include <drawpoint/kriging/fit.hpp>
 #include <string>
 #include <utility>
 #include <vector>

@@ -51,7 +51,7 @@ std::string cycle_complaint(const std::vector<int>& cycles, const Replayed& show
   const bool one = cycles.size() == 1;
   return "--cycle " + std::to_string(*shown.cycle) + ": the log of " + run + " has " +
          (one ? "cycle " : "cycles ") + std::to_string(cycles.front()) +
-         (one ? "" : " to " + std::to_string(cycles.back()));
+         (one ? "" : " to " + std::to_string(cycles.back())) + "; choose one of them";
 }
 
 /// Of all cycles, or of the one that is wanted.

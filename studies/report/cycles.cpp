@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace drawpoint::studies::detail {
@@ -12,7 +13,13 @@ namespace {
 
 using nlohmann::json;
 
-bool is_of(const json& panel, int cycle) { return panel.value("cycle", cycle) == cycle; }
+/// Of a panel that names one; what is no panel names none, and is told of elsewhere (panels.h).
+std::optional<int> cycle_of(const json& panel) {
+  if (!panel.is_object() || !panel.contains("cycle") || !panel.at("cycle").is_number_integer()) return {};
+  return panel.at("cycle").get<int>();
+}
+
+bool is_of(const json& panel, int cycle) { return cycle_of(panel).value_or(cycle) == cycle; }
 
 /// Of the text, without what scenes of a run share.
 std::size_t bytes_of(const json& panel) {
@@ -44,9 +51,8 @@ void share_bodies(json& panels) {
 std::vector<int> cycles_of(const json& panels) {
   std::vector<int> cycles;
   for (const json& panel : panels) {
-    if (!panel.contains("cycle")) continue;
-    const int cycle = panel.at("cycle").get<int>();
-    if (std::find(cycles.begin(), cycles.end(), cycle) == cycles.end()) cycles.push_back(cycle);
+    const std::optional<int> cycle = cycle_of(panel);
+    if (cycle && std::find(cycles.begin(), cycles.end(), *cycle) == cycles.end()) cycles.push_back(*cycle);
   }
   return cycles;
 }
@@ -64,12 +70,12 @@ std::vector<int> fit_cycles(json& panels, std::size_t most_bytes) {
   std::size_t bytes = 0;
   for (const int cycle : cycles) {
     for (const json& panel : panels)
-      if (panel.contains("cycle") && is_of(panel, cycle)) bytes += bytes_of(panel);
+      if (cycle_of(panel) == cycle) bytes += bytes_of(panel);
     if (cycle != cycles.front() && bytes > most_bytes) left_out.push_back(cycle);
   }
   const auto fits = [&](const json& panel) {
-    return !panel.contains("cycle") ||
-           std::find(left_out.begin(), left_out.end(), panel.at("cycle").get<int>()) == left_out.end();
+    const std::optional<int> cycle = cycle_of(panel);
+    return !cycle || std::find(left_out.begin(), left_out.end(), *cycle) == left_out.end();
   };
   json kept = json::array();
   std::copy_if(std::make_move_iterator(panels.begin()), std::make_move_iterator(panels.end()),

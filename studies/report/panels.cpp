@@ -103,6 +103,8 @@ json checked(const json& panel) {
   if (panel.contains("cycle") && !(panel.at("cycle").is_number_integer() && panel.at("cycle") >= 1))
     reject_panel("\"cycle\" is not a whole number from 1");
   if (panel.contains("note") && !panel.at("note").is_string()) reject_panel("\"note\" is not a text");
+  if (panel.contains("in_scene") && !panel.at("in_scene").is_boolean())
+    reject_panel("\"in_scene\" is neither true nor false");
   if (type == "scene") return checked_scene(panel);
   if (type == "path")
     check_path(panel);
@@ -118,11 +120,17 @@ json checked(const json& panel) {
 }  // namespace
 
 json without_repeated(json panels) {
-  const auto is_scene = [](const json& panel) { return panel.at("type") == "scene"; };
-  if (std::none_of(panels.begin(), panels.end(), is_scene)) return panels;
+  const auto cycle_of = [](const json& panel) { return panel.value("cycle", 0); };
+  std::vector<int> shown;
+  for (const json& panel : panels)
+    if (panel.at("type") == "scene") shown.push_back(cycle_of(panel));
   json others = json::array();
-  for (json& panel : panels)
-    if (!panel.value("in_scene", false)) others.push_back(std::move(panel));
+  for (json& panel : panels) {
+    const bool of_a_cycle = cycle_of(panel) != 0;
+    const bool beside =
+        of_a_cycle ? std::find(shown.begin(), shown.end(), cycle_of(panel)) != shown.end() : !shown.empty();
+    if (!beside || !panel.value("in_scene", false)) others.push_back(std::move(panel));
+  }
   return others;
 }
 

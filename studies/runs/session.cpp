@@ -29,7 +29,20 @@ void require_same_options(const Identity& stored, const Settings& settings, cons
   if (!other.empty()) refuse_folder(folder, other);
 }
 
+/// A study whose store was lost would be made anew over what is left of it.
+void require_no_logs(const Folder& folder) {
+  if (!std::filesystem::is_directory(folder.logs())) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.logs())) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("run_"))
+      throw UsageError("studies: " + folder.path.string() + " has logs of runs, such as " + name +
+                       ", and no study.db: a new study would write over them. Bring study.db back, move the "
+                       "folder logs away, or give another --out");
+  }
+}
+
 Store new_store(const Study& study, const Folder& folder, const Settings& settings) {
+  require_no_logs(folder);
   const int runs = settings.runs.value_or(study.defaults.runs);
   return Store::create(folder.store(), {.study = study.name,
                                         .problem = study.problem,

@@ -29,31 +29,45 @@ struct BatchPoints {
   std::string nothing = {};  ///< why there are no rows
 };
 
+/// Whether x, natural units, is one of the points, to 1e-4 of the box as doe::propose keeps them apart.
+bool is_among(const Eigen::MatrixXd& points, const Eigen::VectorXd& x, const doe::Problem& problem) {
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    double squares = 0.0;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
+      const double share = (x[k] - points(i, k)) / (v.upper - v.lower);
+      squares += share * share;
+    }
+    if (squares < 1e-8) return true;
+  }
+  return false;
+}
+
 /// Where runs have not been made; fewer rows than `count` where places run out.
 Eigen::MatrixXd new_points(const Known& known, const CriteriaTurns& turns, doe::Seed seed,
                            Eigen::Index count) {
   const doe::Evaluations& training = known.tables.training;
-  const auto d = static_cast<Eigen::Index>(training.problem.variables.size());
+  Eigen::MatrixXd points(0, static_cast<Eigen::Index>(training.problem.variables.size()));
   const auto options = [&](Eigen::Index batch, doe::BatchRule rule) {
     return doe::ProposeOptions{.seed = seed,
                                .batch = static_cast<int>(batch),
                                .rule = rule,
-                               .allowed = [&known](const Eigen::VectorXd& x) {
-                                 return !known.failures.avoided(x.transpose()).front();
+                               .allowed = [&](const Eigen::VectorXd& x) {
+                                 return !known.failures.avoided(x.transpose()).front() &&
+                                        !is_among(points, x, training.problem);
                                }};
   };
   const Eigen::Index together = !turns.may_join          ? 0
                                 : turns.new_ones.empty() ? count
                                                          : std::min<Eigen::Index>(turns.together, count);
-  Eigen::MatrixXd points(0, d);
   if (!turns.new_ones.empty() && together < count)
     points = doe::propose(training, mix_of(turns.new_ones, known.fitted.models, known.failures, seed),
                           options(count - together, doe::BatchRule::cells));
   if (together == 0) return points;
   const Eigen::MatrixXd joint =
       doe::propose(training, joint_improvement_beside(points, known.fitted.models, known.failures),
-                   options(together, doe::BatchRule::joint));
-  Eigen::MatrixXd all(points.rows() + joint.rows(), d);
+                   options(count - points.rows(), doe::BatchRule::joint));
+  Eigen::MatrixXd all(points.rows() + joint.rows(), points.cols());
   all << points, joint;
   return all;
 }

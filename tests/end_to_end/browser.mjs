@@ -41,6 +41,7 @@ function protocol(program) {
 export async function openPage(file, {downloads = null} = {}) {
   const profile = mkdtempSync(join(tmpdir(), 'page-'));
   const program = spawn(process.env.DRAWPOINT_BROWSER ?? 'chromium', [...words, '--user-data-dir=' + profile], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+  process.once('exit', () => { program.kill('SIGKILL'); rmSync(profile, {recursive: true, force: true}); });  // however it ends
   const {send: sendAny, on} = protocol(program);
   const ended = new Promise((resolve) => program.on('exit', resolve));
   const close = async () => {

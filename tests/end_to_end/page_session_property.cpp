@@ -16,11 +16,16 @@ const std::string cycles = "env TROUBLE=cycles " TROUBLED_STUDY;
 
 class PageSession : public StudyTest {
  protected:
-  /// What was done with the page, and that each of these was among it.
-  void go_through(const std::filesystem::path& page, const std::vector<std::string>& done) const {
+  /// What was done with the page; each of these was among it, and `missing` steps found nothing to do.
+  void go_through(const std::filesystem::path& page, const std::vector<std::string>& done,
+                  int missing) const {
     const Ended end = run("node " PAGE_SESSION " " + page.string());
     EXPECT_EQ(end.code, 0) << end.out << end.err;
     for (const std::string& line : done) EXPECT_TRUE(contains(end.out, line)) << line << "\n" << end.out;
+    int absent = 0;
+    const std::string words = "not on this page";
+    for (auto at = end.out.find(words); at != std::string::npos; at = end.out.find(words, at + 1)) ++absent;
+    EXPECT_EQ(absent, missing) << end.out;
     EXPECT_TRUE(contains(end.out, "console errors: 0, requests: 0")) << end.out;
   }
   std::string replay() const {
@@ -33,16 +38,20 @@ TEST_F(PageSession, TheReport) {
   go_through(dir() / "report.html",
              {"table, sorted: from", "table, filtered: Copy", "table, copied: it says so",
               "table, downloaded: formula_demo_points_of_the_front.csv", "row, marked: point",
-              "box in a trade-off: ", "range in numbers: ", "slider: ", "surfaces in 3-D: and contours again",
-              "nested contours: 16 plots", "runs side by side: Run 1, Run 2, difference"});
+              "sections: ", "colours: the other ones and back", "of 200 front points",
+              "range in numbers: ", "slider: ", "surfaces in 3-D: and contours again",
+              "nested contours: 16 plots", "runs side by side: Run 1, Run 2, difference"},
+             6);  // those of a scene
 }
 
 TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
   ASSERT_EQ(run(cycles + " --runs 12 --validation 0" + out()).code, 0);
   const auto page = place_ / "replay.html";
   ASSERT_EQ(run(replay() + " --file " + page.string()).code, 0);
-  go_through(page, {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.",
-                    "cameras: side", "click in a plot of the scene: to ", "payload 2.50 t", "cycles: 1, 2"});
+  go_through(page,
+             {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.", "cameras: side",
+              "click in a plot of the scene: to ", "payload 2.50 t", "cycles: 1, 2"},
+             12);  // those of a report
 }
 
 TEST_F(PageSession, OneCycleHasAPageAndPicturesOfItsOwn) {

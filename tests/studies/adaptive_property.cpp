@@ -196,6 +196,15 @@ TEST_F(OneObjective, PointsTogetherTakeTheirShareOfABatch) {
     for (std::size_t l = 0; l < k; ++l) EXPECT_NE(points[k].x, points[l].x);
 }
 
+// Nothing is gained anywhere: the point farthest from all runs, which another criterion took, is not taken twice.
+TEST_F(OneObjective, PointsTogetherAreNotThoseOfOthers) {
+  for (auto& run : runs_) run.y = Eigen::VectorXd::Constant(1, 7.0);
+  const auto points = batch(4, "distance,joint_improvement");
+  ASSERT_EQ(points.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t l = 0; l < k; ++l) EXPECT_GT((points[k].x - points[l].x).norm(), 0.0) << k << " " << l;
+}
+
 // The limit is kept in a quarter of the box, where the second variable is small; none of four points is there by
 // chance in 0.3 of all cases, all four in 0.004.
 TEST_F(OneObjective, FeasibilityKeepsTheLimits) {

@@ -93,7 +93,8 @@ TEST(LoadingFigures, TheSceneHasTheMotionOfItsCycle) {
   log.cycles[0].number = 2;
   for (std::size_t row = 0; row < log.signals.rows(); ++row) log.signals.values[row * 11 + 1] = 2;
   log.scene.shapes = {engine::box({1, 1, 1})};
-  log.scene.bodies = {{0, "#aaaaaa", 1.0, "front unit"}, {0, "#bbbbbb", 1.0, "front unit"}, {0}};
+  log.scene.bodies = {
+      {0, "#aaaaaa", 1.0, "front unit"}, {0, "#bbbbbb", 1.0, "front unit"}, {0, "#808080", 1.0, ""}};
   log.scene.bodies[1].with = 0;
   log.scene.frames = {
       {0.0, 1, "lift"}, {0.0, 2, "lift"}, {0.05, 2, "curl"}, {0.1, 2, "curl"}, {0.15, 2, "curl"}};

@@ -98,6 +98,9 @@ TEST(ReplayPage, ShowsACurveOnce) {
   panels.push_back(curve);
   const auto with = report_cases::data_in(replay_page(replay_input(panels)));
   EXPECT_EQ(with.at("illustrations").size(), 2u);
+  panels.back()["cycle"] = 2;  // whose scene is not there
+  const auto other = report_cases::data_in(replay_page(replay_input(panels)));
+  EXPECT_EQ(other.at("illustrations").size(), 3u);
   const auto alone = report_cases::data_in(replay_page(replay_input(nlohmann::json::array({curve}))));
   EXPECT_EQ(alone.at("illustrations").size(), 1u);
 }
@@ -202,7 +205,7 @@ TEST_F(Replay, IsOfAllCyclesOrOfOne) {
 TEST_F(Replay, SaysWhichCyclesThereAre) {
   EXPECT_EQ(refusal_of_cycle(1), "--cycle: this study does not show run 1 by cycles; leave --cycle out");
   show_by_cycles();
-  EXPECT_EQ(refusal_of_cycle(3), "--cycle 3: the log of run 1 has cycles 1 to 2");
+  EXPECT_EQ(refusal_of_cycle(3), "--cycle 3: the log of run 1 has cycles 1 to 2; choose one of them");
 }
 
 TEST_F(Replay, SaysWhyThereIsNone) {

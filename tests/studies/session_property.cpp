@@ -189,6 +189,19 @@ TEST_F(SessionTest, OtherProblemsAreRefused) {
   EXPECT_NE(refused(other, {}).find("name \"sample\" there, \"other\" here"), std::string::npos);
 }
 
+TEST_F(SessionTest, LogsWithoutAStoreAreNotWrittenOver) {
+  std::filesystem::create_directories(folder_.logs());
+  plan_study(sample(), folder_, {});
+  test::write_file(folder_.log(3), "raw");
+  plan_study(sample(), folder_, {});
+  std::filesystem::remove(folder_.store());
+  const std::string text = complaint([&] { plan_study(sample(), folder_, {}); });
+  EXPECT_NE(text.find("has logs of runs, such as run_0003.h5, and no study.db"), std::string::npos) << text;
+  EXPECT_FALSE(std::filesystem::exists(folder_.store()));
+  std::filesystem::remove(folder_.log(3));
+  EXPECT_EQ(plan_study(sample(), folder_, {}).runs().size(), 8u);
+}
+
 TEST_F(SessionTest, AMissingStudySaysSo) {
   EXPECT_NE(complaint([&] { open_store(sample(), folder_); }).find("there is no study in"),
             std::string::npos);

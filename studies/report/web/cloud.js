@@ -64,7 +64,8 @@ export function pointCloud(box, index, {has, selection}) {
     }
   };
   const soon = oncePerFrame(paint);
-  box.on('plotly_afterplot', soon);
+  // No frame comes before paper is laid out.
+  box.on('plotly_afterplot', () => (matchMedia('print').matches ? paint() : soon()));
   selection.onchange(soon);
   soon();
 }

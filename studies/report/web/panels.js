@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures that the simulation itself supplies: a path over the pile, a scene to replay, lines, a table.
 
-import {cyclesOf} from './cycle_panels.js';
+import {cyclesOf, withBodies} from './cycle_panels.js';
 import {oneCycleAtATime} from './cycles.js';
 import {el, figure, section} from './dom.js';
 import {flat} from './flat_panels.js';
@@ -31,6 +31,6 @@ export function panels(data, {make}) {
   if (!data.illustrations.length) return null;
   const node = section('simulation', 'Inside one simulation', 'One run, looked at closely: check here whether the physics behind the figures makes sense.');
   if (cyclesOf(data.illustrations).length > 1 || data.left_out) node.append(oneCycleAtATime(data, figures));
-  else node.append(...data.illustrations.map(make));
+  else node.append(...withBodies(data.illustrations).map(make));
   return node;
 }
