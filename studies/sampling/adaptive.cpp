@@ -6,6 +6,8 @@
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/sampling/repeats.h>
 #include <drawpoint/studies/sampling/samplers.h>
+#include <drawpoint/doe/detail/nearest.hpp>
+#include <drawpoint/doe/detail/unit_box.hpp>
 #include <drawpoint/doe/propose.hpp>
 
 #include <algorithm>
@@ -29,18 +31,12 @@ struct BatchPoints {
   std::string nothing = {};  ///< why there are no rows
 };
 
-/// Whether x, natural units, is one of the points, to 1e-4 of the box as doe::propose keeps them apart.
+/// Whether x, natural units, is one of the points, to 1e-4 of the unit box as doe::propose keeps them apart.
 bool is_among(const Eigen::MatrixXd& points, const Eigen::VectorXd& x, const doe::Problem& problem) {
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    double squares = 0.0;
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
-      const double share = (x[k] - points(i, k)) / (v.upper - v.lower);
-      squares += share * share;
-    }
-    if (squares < 1e-8) return true;
-  }
-  return false;
+  if (points.rows() == 0) return false;
+  const Eigen::MatrixXd U = doe::detail::to_unit_box(points, problem);
+  return doe::detail::nearest_sites(doe::detail::to_unit_box(x.transpose(), problem), U).squared_distance[0] <
+         1e-8;
 }
 
 /// Where runs have not been made; fewer rows than `count` where places run out.

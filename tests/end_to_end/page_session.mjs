@@ -94,24 +94,20 @@ await step('row, marked', one(front), async () => {
   await click(button(bar, 'Take mark away'));
   return marked;
 });
+/// What a drag over an element selects; cleared again.
+async function selectedBy(element, from, to) {
+  await drag(element, from, to);
+  await until(`!${one(bar)}.hidden && ${one(bar)}.textContent.includes('Selected:')`);
+  const after = await selected();
+  await click(button(bar, 'Clear selection'));
+  await until(`${one(bar)}.hidden`);
+  return after;
+}
 await step('brush of an axis', one(axes), async () => {
-  const at = (share) => [64 / 1100, share];
-  const x = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), l = document.querySelector('#designs .parallel svg line').getBoundingClientRect(); return (l.left + l.width / 2 - r.left) / r.width; })()`);
-  await drag(one(axes), [x || at(0)[0], 0.3], [x || at(0)[0], 0.6]);
-  await until(`!${one(bar)}.hidden && ${one(bar)}.textContent.includes('Selected:')`);
-  const after = await selected();
-  await click(button(bar, 'Clear selection'));
-  await until(`${one(bar)}.hidden`);
-  return after;
+  const x = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), l = document.querySelector('${axes} line').getBoundingClientRect(); return (l.left + l.width / 2 - r.left) / r.width; })()`);
+  return selectedBy(one(axes), [x, 0.3], [x, 0.6]);
 });
-await step('box in a trade-off', one('#front .plot .nsewdrag'), async () => {
-  await drag(one('#front .plot .nsewdrag'), [0.1, 0.1], [0.7, 0.9]);
-  await until(`!${one(bar)}.hidden && ${one(bar)}.textContent.includes('Selected:')`);
-  const after = await selected();
-  await click(button(bar, 'Clear selection'));
-  await until(`${one(bar)}.hidden`);
-  return after;
-});
+await step('box in a trade-off', one('#front .plot .nsewdrag'), () => selectedBy(one('#front .plot .nsewdrag'), [0.1, 0.1], [0.7, 0.9]));
 await step('range in numbers', one('#designs form'), async () => {
   await click(one('#designs form input'));
   await type('0');
