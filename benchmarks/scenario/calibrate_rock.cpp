@@ -36,7 +36,9 @@ constexpr const char* about =
     "it\n"
     "  shear        direct shear of a large box under --stress: angle of friction at the peak and over the\n"
     "               last third of the way, mean dilation, normal stress on the cut\n"
-    "  penetration  an upright plate pushed down into a bed: force, work; nothing published\n\n"
+    "  penetration  an upright plate pushed down into a bed: force, work; nothing published\n"
+    "  edge         a level edge driven along the floor into a bank, as a bucket's: slope before, force, "
+    "work\n\n"
     "Figures are mean +- standard error over the seeds (with one seed: none). A row marked * has runs whose\n"
     "rocks had not come to rest. Ctrl-C ends after the step in hand; the seeds that are complete are "
     "printed.\n"
@@ -221,7 +223,7 @@ int run(const Settings& s) {
 int main(int argc, char** argv) {
   Settings s;
   CLI::App app(about, "calibrate_rock");
-  app.add_option("--test", s.test, "repose, ledge, tilt, density, shear or penetration")
+  app.add_option("--test", s.test, "repose, ledge, tilt, density, shear, penetration or edge")
       ->check(taken_by(rock_test_named))
       ->capture_default_str();
   app.add_option("--friction", s.friction, "of rock on rock and rough walls [1], with commas between")
@@ -252,6 +254,11 @@ int main(int argc, char** argv) {
   app.add_option("--stress", s.options.stress, "shear: normal stress [Pa]")
       ->check(between(100, 1e7, "Pa", "a pile presses 10 to 100 kPa"))
       ->capture_default_str();
+  app.add_option("--edge-friction", s.options.edge_friction, "edge: of rock on the edge [1]")
+      ->check(between(0, 2, "", "0.5 is steel"))
+      ->capture_default_str();
+  app.add_flag("--rough-walls", s.options.rough_walls,
+               "edge: walls as rough as rock, in place of smooth ones");
   add_engine_flags(app, s.engine);
   add_json_flag(app, s.json);
   watch_for_interrupt();

@@ -4,6 +4,7 @@
 
 #include <drawpoint/engine/granular/calibration/bulk_density.hpp>
 #include <drawpoint/engine/granular/calibration/direct_shear.hpp>
+#include <drawpoint/engine/granular/calibration/edge_penetration.hpp>
 #include <drawpoint/engine/granular/calibration/plate_penetration.hpp>
 #include <drawpoint/engine/granular/calibration/repose.hpp>
 #include <drawpoint/engine/granular/calibration/tilting_box.hpp>
@@ -56,6 +57,16 @@ RockTestRun run_penetration(const RockSample& sample, const RockTestOptions& o) 
   return {p.status, p.rocks, {1e-3 * p.mean_force, 1e-3 * p.work, 1e-3 * p.pressure}};
 }
 
+RockTestRun run_edge(const RockSample& sample, const RockTestOptions& o) {
+  auto options = options_of<EdgeOptions>(o);
+  options.rough_walls = o.rough_walls;
+  options.edge_friction = o.edge_friction;
+  const EdgeResult e = edge_penetration(sample, options);
+  return {e.status,
+          e.rocks,
+          {e.slope, 1e-3 * e.early_force, 1e-3 * e.mean_force, 1e-3 * e.line_force, 1e-3 * e.work}};
+}
+
 std::vector<RockTest> made_tests() {
   return {
       {"repose",
@@ -96,7 +107,15 @@ std::vector<RockTest> made_tests() {
       {"penetration",
        "an upright plate pushed down into a loose bed by two largest rocks",
        {{"force_kn", "force kN", 1}, {"work_kj", "work kJ", 2}, {"pressure_kpa", "pressure kPa", 0}},
-       run_penetration}};
+       run_penetration},
+      {"edge",
+       "a level edge five largest rocks wide, driven along the floor two of them deep into a bank",
+       {{"slope_deg", "slope deg", 1, 35, 42, "as for repose"},
+        {"early_force_kn", "first half kN", 1},
+        {"force_kn", "second half kN", 1},
+        {"line_force_kn_m", "kN/m", 1},
+        {"work_kj", "work kJ", 2}},
+       run_edge}};
 }
 
 }  // namespace

@@ -30,8 +30,10 @@ struct RockTestRun {
 /// What a user may choose beside the sample.
 struct RockTestOptions {
   engine::granular::RunOptions run;
-  int rocks = 300;       ///< of a poured heap
-  double stress = 50e3;  ///< of the shear box [Pa]
+  int rocks = 300;             ///< of a poured heap
+  double stress = 50e3;        ///< of the shear box [Pa]
+  double edge_friction = 0.5;  ///< of rock on the edge [1]
+  bool rough_walls = false;    ///< beside and behind the bank of the edge
 };
 
 struct RockTest {
@@ -40,7 +42,7 @@ struct RockTest {
   std::function<RockTestRun(const engine::granular::RockSample&, const RockTestOptions&)> run;
 };
 
-/// repose, ledge, tilt, density, shear, penetration.
+/// repose, ledge, tilt, density, shear, penetration, edge.
 const std::vector<RockTest>& rock_tests();
 /// Throws std::invalid_argument with the names there are.
 const RockTest& rock_test_named(const std::string& name);

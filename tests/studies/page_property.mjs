@@ -5,6 +5,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {bandOutline} from '../../studies/report/web/band_outline.js';
+import {byShade, colourAt} from '../../studies/report/web/cloud.js';
 import {cyclesOf, withBodies} from '../../studies/report/web/cycle_panels.js';
 import {csv, tsv} from '../../studies/report/web/delimited.js';
 import {number, setting} from '../../studies/report/web/format.js';
@@ -262,4 +263,26 @@ test('bars of a design hold every run, those on the bounds too', () => {
     assert.equal(bars.length, parts);
     assert.ok(Math.abs(bars.reduce((sum, bar) => sum + bar, 0) - 100) < 1e-12);
   }
+});
+
+const greyScale = [[0, '#000000'], [0.5, '#808080'], [1, '#ffffff']];
+
+test('a colour lies between the stops of its scale, and at its ends beyond them', () => {
+  assert.equal(colourAt(greyScale, 0.25), 'rgb(64,64,64)');
+  assert.equal(colourAt(greyScale, 0.5), 'rgb(128,128,128)');
+  assert.equal(colourAt(greyScale, 2), 'rgb(255,255,255)');
+  assert.equal(colourAt(greyScale, -1), 'rgb(0,0,0)');
+});
+
+test('points of a large front are drawn by shade, each once: those beyond the scale at its ends, those without a value apart', () => {
+  const marker = {color: [0, 10, 9.99, -5, 50, NaN, 5], colorscale: greyScale, cmin: 0, cmax: 10};
+  const groups = byShade(marker, 7).filter(({points}) => points.length > 0);
+  assert.deepEqual(groups.map(({points}) => points), [[0, 3], [6], [1, 2, 4], [5]]);
+  assert.deepEqual(groups.map(({fill}) => fill), ['rgb(2,2,2)', 'rgb(130,130,130)', 'rgb(253,253,253)', 'rgb(128,128,128)']);
+});
+
+test('one colour is one group, and so is a scale without a length', () => {
+  assert.deepEqual(byShade({color: 'red'}, 3), [{fill: 'red', points: [0, 1, 2]}]);
+  const level = byShade({color: Float64Array.from([4, 4]), colorscale: greyScale, cmin: 4, cmax: 4}, 2);
+  assert.deepEqual(level.filter(({points}) => points.length > 0).map(({points}) => points), [[0, 1]]);
 });

@@ -31,17 +31,17 @@ Eigen::Isometry3d upright(double z) { return Eigen::Isometry3d(Eigen::Translatio
 
 }  // namespace
 
-PenetrationResult push_down(engine::World& world, engine::KinematicBody& plate, double depth,
-                            const PenetrationOptions& o) {
+PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate, const Vector3d& direction,
+                          double depth, const PushOptions& o) {
   TestRun run(world, o);
   PenetrationResult result;
   const double start = plate.work(), part = depth / o.parts / o.speed;
-  plate.set_velocity({0, 0, -o.speed});
+  plate.set_velocity(o.speed * direction);
   for (int k = 1; k <= o.parts && !run.stopped(); ++k) {
     double force = 0;
     int steps = 0;
     run.go_on("push", part, [&] {
-      force += plate.contact_wrench().force.z();
+      force -= plate.contact_wrench().force.dot(direction);
       ++steps;
     });
     result.curve.push_back({k * depth / o.parts, force / std::max(1, steps)});
@@ -71,7 +71,7 @@ PenetrationResult plate_penetration(const RockSample& sample, const PenetrationO
   world.add_part_shape(0, shape_of(engine::box(size)), upright(size.z()), rough);
   plate.set_velocity({0, 0, -o.speed});
   run.go_on("lower", (top - mean) / o.speed);
-  PenetrationResult result = push_down(world, plate, o.depth * L, o);
+  PenetrationResult result = push_in(world, plate, -Vector3d::UnitZ(), o.depth * L, o);
   if (result.status == RunStatus::completed) result.status = run.status();
   result.pressure = result.mean_force / (4 * size.x() * size.y());
   result.rocks = static_cast<int>(world.rocks().size());

@@ -17,17 +17,20 @@
 /// from the mean surface under the plate. World frame, z up, SI units. Cost: 800 rocks, some 1500 steps.
 namespace drawpoint::engine::granular {
 
-struct PenetrationOptions : RunOptions {
+struct PushOptions : RunOptions {
+  double depth = 2;    ///< to which the plate goes [largest rocks]
+  double speed = 0.1;  ///< [m/s]
+  int parts = 10;      ///< of the way, over which the force is averaged
+};
+
+struct PenetrationOptions : PushOptions {
   double side = 7, height = 5;           ///< of the bed, about [largest rocks]
   double width = 2.5, thickness = 0.25;  ///< of the plate [largest rocks]
-  double depth = 2;                      ///< to which it goes [largest rocks]
-  double speed = 0.1;                    ///< [m/s]
-  int parts = 10;                        ///< of the way, over which the force is averaged
 };
 
 struct PenetrationPoint {
   double depth = 0;  ///< of the plate's edge, at the end of the part [m]
-  double force = 0;  ///< upwards on the plate, mean over the part [N]
+  double force = 0;  ///< on the plate against its motion, mean over the part [N]
 };
 
 struct PenetrationResult {
@@ -39,10 +42,9 @@ struct PenetrationResult {
   std::vector<PenetrationPoint> curve;
 };
 
-/// Pushes a plate, whose edge is at its origin, down by `depth` [m] from where it stands; fills curve, mean force
-/// and work. For tests of the method.
-PenetrationResult push_down(engine::World& world, engine::KinematicBody& plate, double depth,
-                            const PenetrationOptions& options);
+/// Pushes a plate by `depth` [m] along a direction, a unit vector; fills curve, mean force and work.
+PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate,
+                          const Eigen::Vector3d& direction, double depth, const PushOptions& options);
 
 /// Throws std::invalid_argument for a plate that is wider than the bed less two rocks, a way that comes nearer
 /// to the floor than two rocks, and for lengths and speeds that are not positive.

@@ -8,6 +8,7 @@ import {oncePerFrame} from './frames.js';
 
 const shades = 64;
 const dimmed = 0.15;
+const valueless = 'rgb(128,128,128)';
 
 /// Of a trace whose points stand on the canvas: Plotly draws the first alone.
 export const onCanvas = {maxdisplayed: 1};
@@ -22,12 +23,16 @@ export function colourAt(scale, share) {
   return `rgb(${[0, 1, 2].map((c) => Math.round((1 - f) * ends[0][c] + f * ends[1][c])).join(',')})`;
 }
 
-/// Points by what they are drawn in: [{fill, points: [i..]}], equal shades of a scale together.
-function byShade({color, colorscale, cmin, cmax}, count) {
+/// Points by what they are drawn in: [{fill, points: [i..]}], equal shades of a scale together, those without a value grey.
+export function byShade({color, colorscale, cmin, cmax}, count) {
   const all = Array.from({length: count}, (_, i) => i);
   if (!Array.isArray(color) && !ArrayBuffer.isView(color)) return [{fill: color, points: all}];
   const groups = Array.from({length: shades}, (_, k) => ({fill: colourAt(colorscale, (k + 0.5) / shades), points: []}));
-  for (const i of all) groups[Math.min(shades - 1, Math.max(0, Math.floor((shades * (color[i] - cmin)) / (cmax - cmin || 1))))].points.push(i);
+  groups.push({fill: valueless, points: []});
+  for (const i of all) {
+    const shade = Math.floor((shades * (color[i] - cmin)) / (cmax - cmin || 1));
+    groups[Number.isNaN(shade) ? shades : Math.min(shades - 1, Math.max(0, shade))].points.push(i);
+  }
   return groups;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <drawpoint/engine/granular/calibration/bulk_density.hpp>
 #include <drawpoint/engine/granular/calibration/direct_shear.hpp>
+#include <drawpoint/engine/granular/calibration/edge_penetration.hpp>
 #include <drawpoint/engine/granular/calibration/repose.hpp>
 #include <drawpoint/engine/granular/calibration/tilting_box.hpp>
 #include <limits>
@@ -142,6 +143,35 @@ TEST(DirectShear, StopsWhenAsked) {
   ShearOptions o;
   o.box = {.length = 4, .width = 2, .height = 2};
   expect_stops_in({"pour", "settle", "shear"}, o, [&] { return direct_shear(stones(0.7), o).status; });
+}
+
+EdgeOptions small_bank() {
+  EdgeOptions o;
+  o.width = o.height = 3;
+  o.edge_width = 2;
+  o.depth = 1;
+  o.speed = 0.15;  // whole steps in every part
+  o.parts = 4;
+  return o;
+}
+
+// The mean force times the way is the work of the edge: over four parts of equal length, with the same steps in each.
+TEST(EdgePenetration, WorkIsForceTimesWayOnAnyNumberOfThreads) {
+  EdgeOptions o = small_bank();
+  const EdgeResult one = edge_penetration(stones(0.7), o);
+  ASSERT_EQ(one.status, RunStatus::completed);
+  EXPECT_NEAR(one.work, 0.5 * (one.early_force + one.mean_force) * o.depth * 0.3, 1e-6 * one.work);
+  EXPECT_EQ(one.line_force, one.mean_force / (2 * 0.3));
+  EXPECT_GT(one.slope, 20);
+  EXPECT_LT(one.slope, 60);
+  o.world.threads = 2;
+  EXPECT_EQ(edge_penetration(stones(0.7), o).work, one.work);
+}
+
+TEST(EdgePenetration, StopsWhenAsked) {
+  EdgeOptions o = small_bank();
+  expect_stops_in({"pour", "settle", "approach", "push"}, o,
+                  [&] { return edge_penetration(stones(0.7), o).status; });
 }
 
 // Friction adds to what interlocking holds: three beds of the default size start at 29.5 ± 0.2° with a
