@@ -7,6 +7,11 @@
 namespace drawpoint::studies {
 namespace {
 
+/// "Example: PROGRAM COMMAND", as it is typed here: through `drawpoint` too, and with a file of a program.
+std::string example_of(const CLI::App& command) {
+  return "Example: " + command.get_parent()->get_name() + " " + command.get_name();
+}
+
 constexpr int most_points = 1'000'000;
 constexpr int most_run = 1'000'000'000;
 
@@ -15,11 +20,11 @@ void add_export_options(CLI::App& command, const Study& study, ExportSettings& s
       ->check(CLI::IsMember({"runs", "front"}))
       ->default_str("runs");
   add_table_options(command, settings, {"csv", "json", "hdf5"});
-  command.footer("hdf5 is the whole study in one file: problem, runs and front.\nExample: " + study.name +
-                 " export --format hdf5 --file " + study.name + ".h5");
+  command.footer("hdf5 is the whole study in one file: problem, runs and front.\n" + example_of(command) +
+                 " --format hdf5 --file " + study.name + ".h5");
 }
 
-void add_front_options(CLI::App& command, const Study& study, FrontSettings& settings) {
+void add_front_options(CLI::App& command, FrontSettings& settings) {
   command
       .add_option("--limit", settings.limit,
                   "points shown, those that confirm would simulate first: the best of each objective, the "
@@ -27,10 +32,10 @@ void add_front_options(CLI::App& command, const Study& study, FrontSettings& set
       ->check(CLI::Range(1, most_points))
       ->capture_default_str();
   command.add_flag("--all", settings.every_point, "show every point");
-  command.footer("Example: " + study.name + " front --limit 10");
+  command.footer(example_of(command) + " --limit 10");
 }
 
-void add_compare_options(CLI::App& command, const Study& study, Settings& settings) {
+void add_compare_options(CLI::App& command, Settings& settings) {
   command
       .add_option("--with", settings.with, "folder B of the same study; --out is A, and neither is changed")
       ->required()
@@ -38,20 +43,20 @@ void add_compare_options(CLI::App& command, const Study& study, Settings& settin
   command.footer(
       "Runs at equal points are paired. Give both studies the same --seed and --runs: then they have equal "
       "points and "
-      "equal random numbers.\nExample: " +
-      study.name + " compare --out results/one --with results/other");
+      "equal random numbers.\n" +
+      example_of(command) + " --out results/one --with results/other");
 }
 
-void add_validate_options(CLI::App& command, const Study& study, Settings& settings) {
+void add_validate_options(CLI::App& command, Settings& settings) {
   command
       .add_option("--with", settings.with,
                   "folder of the same study and options whose validation runs are taken in place of those of "
                   "--out, so that several studies are judged by the same runs; neither is changed")
       ->check(folder_complaint);
-  command.footer("Example: " + study.name + " validate --out results/adaptive --with results/one_shot");
+  command.footer(example_of(command) + " --out results/adaptive --with results/one_shot");
 }
 
-void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& settings) {
+void add_replay_options(CLI::App& command, ReplaySettings& settings) {
   command.add_option("--run", settings.run, "number of the run")->required()->check(CLI::Range(1, most_run));
   command
       .add_option("--cycle", settings.cycle,
@@ -59,18 +64,17 @@ void add_replay_options(CLI::App& command, const Study& study, ReplaySettings& s
       ->check(CLI::Range(1, 1'000'000'000));
   command.add_option("--file", settings.file, "page to write (default: replay_0007.html in the folder)");
   add_frame_options(command, settings.frames);
-  const std::string example = "Example: " + study.name + " replay --run 7 ";
+  const std::string example = example_of(command) + " --run 7 ";
   command.footer(example + "--file run_7.html\n" + example +
                  "--cycle 2 --video run_7.mp4 --camera side --speed 2\n" + example +
                  "--frames pictures --from 4 --to 4 --size 1920x1080");
 }
 
-void add_live_options(CLI::App& command, const Study& study, LiveSettings& settings) {
+void add_live_options(CLI::App& command, LiveSettings& settings) {
   command.add_option("--port", settings.port, "port of 127.0.0.1 (default: one that is free)")
       ->check(CLI::Range(0, 65535));
-  command.footer(
-      "From another machine: ssh -L 8080:127.0.0.1:8080 HOST, and the same port on both sides.\nExample: " +
-      study.name + " live --port 8080");
+  command.footer("From another machine: ssh -L 8080:127.0.0.1:8080 HOST, and the same port on both sides.\n" +
+                 example_of(command) + " --port 8080");
 }
 
 using Command = int (*)(const Study&, const Settings&);
@@ -135,38 +139,38 @@ void add_folder_options(CLI::App& command, Settings& settings) {
 void define_reading_commands(CLI::App& app, const Study& study, Settings& settings,
                              std::function<int()>& action) {
   const Reader commands(app, study, settings, action);
-  const std::string example = "Example: " + study.name + " ";
-  commands.add_with_json("status", "say how many runs are planned, done and failed, and why", status_command)
-      .footer(example + "status --json");
+  CLI::App& status = commands.add_with_json(
+      "status", "say how many runs are planned, done and failed, and why", status_command);
+  status.footer(example_of(status) + " --json");
   CLI::App& live = commands.add(
       "live", "serve a page that follows the study while it runs, on this machine alone, until Ctrl-C",
       live_command);
   add_folder_option(live, settings);
-  add_live_options(live, study, settings.live);
-  commands
-      .add_with_json("fit",
-                     "say how each response is fitted, and how well runs are predicted without themselves",
-                     fit_command)
-      .footer(example + "fit --out results/" + study.name);
+  add_live_options(live, settings.live);
+  CLI::App& fit = commands.add_with_json(
+      "fit", "say how each response is fitted, and how well runs are predicted without themselves",
+      fit_command);
+  fit.footer(example_of(fit) + " --out results/" + study.name);
   add_validate_options(
       commands.add_with_json("validate", "hold the models against the validation runs, one by one",
                              validate_command),
-      study, settings);
+      settings);
   add_front_options(
       commands.add_with_json("front", "show the predicted front, and how far to trust it", front_command),
-      study, settings.front);
+      settings.front);
   add_compare_options(commands.add_with_json("compare",
                                              "say what another folder of this study, made with another "
                                              "choice, changes on average and on the front",
                                              compare_command),
-                      study, settings);
-  commands.add_with_json("report", "make the report again from the stored runs", report_command)
-      .footer(example + "report --out results/" + study.name);
+                      settings);
+  CLI::App& report =
+      commands.add_with_json("report", "make the report again from the stored runs", report_command);
+  report.footer(example_of(report) + " --out results/" + study.name);
   CLI::App& replay = commands.add(
       "replay", "write one run as a page with its figures, or its scene as pictures and as a film",
       replay_command);
   add_folder_option(replay, settings);
-  add_replay_options(replay, study, settings.replay);
+  add_replay_options(replay, settings.replay);
   CLI::App& exported =
       commands.add("export", "write the runs or the front as a table for other programs", export_command);
   add_folder_option(exported, settings);

@@ -71,6 +71,10 @@ TEST_F(ExternalProgram, IsTheSimulatorOfAWholeStudy) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_TRUE(contains(again.err, "as stored, bit for bit"));
   EXPECT_TRUE(contains(run(THROW_STUDY " --help").out, "speed (1 to 6 m/s): of the belt"));
+  for (const std::string command : {"status", "front", "export", "ask"})
+    EXPECT_TRUE(contains(run(THROW_STUDY " " + command + " --help").out,
+                         "Example: external_program " THROW_JSON " " + command))
+        << command;
   EXPECT_TRUE(contains(contents(dir() / "report.html"), "energy of a tonne as it lands"));
 }
 
