@@ -51,7 +51,7 @@ constexpr const char* about =
 struct Settings {
   EngineFlags engine;
   std::string test = "repose", sizes = "0.3";
-  std::vector<double> friction = {0.9}, rolling = {0.1};
+  std::vector<double> friction = {0.7}, rolling = {0};
   double spinning = 0, density = 4500;
   int seeds = 3;
   RockTestOptions options;

@@ -49,6 +49,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.validation = std::move(tables.validation);
   input.kinds = kinds_of(runs);
   input.confirming = confirming_command(study);
+  input.asked = !study.black_box;
   input.confirmations = check_predictions(runs, study.problem, Kind::confirmation, store.sampling().rounds);
   return input;
 }

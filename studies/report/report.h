@@ -47,6 +47,7 @@ struct ReportInput {
   FrontUncertainty uncertainty = {};   ///< of the front
   CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated
   std::string confirming = "confirm";  ///< the command that has them simulated
+  bool asked = false;                  ///< runs are made elsewhere: by ask and tell in place of run
   pareto::Polishing polishing;         ///< of the front
   std::string not_polished;            ///< why it was not; empty when it was
   nlohmann::json illustrations =

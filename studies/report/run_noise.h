@@ -18,4 +18,10 @@ inline std::optional<kriging::ErrorWithoutNoise> telling_noise(const kriging::Va
   return parts;
 }
 
+/// Whether single runs scatter by more than the model misses the mean of many: more runs of the kind do not help.
+inline bool noise_leads(const kriging::Validation& v) {
+  const auto parts = telling_noise(v);
+  return parts && parts->noise > parts->rmse;
+}
+
 }  // namespace drawpoint::studies

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/next_steps.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
@@ -199,10 +200,6 @@ std::string certainty_sentence(const ReportInput& input) {
          " are non-dominated with a chance of one half or more.";
 }
 
-bool is_poor(const ReportInput& input, std::size_t response) {
-  return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
-}
-
 /// "alpha for production, beta for spill", of the responses whose surrogates are good enough to say so.
 std::string drivers(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
   std::string text;
@@ -277,11 +274,10 @@ json grade(const ReportInput& input, std::size_t j) {
 /// Against a large error: it is the model's, or what single runs scatter by, which more runs of the kind do
 /// not change.
 std::string remedy(const kriging::Validation& v) {
-  const auto parts = telling_noise(v);
-  return parts && parts->noise > parts->rmse ? "most of that is the scatter of single runs; make them "
-                                               "longer, if they can be, or begin a study with more "
-                                               "--replicates"
-                                             : "add runs";
+  return noise_leads(v) ? "most of that is the scatter of single runs; make them "
+                          "longer, if they can be, or begin a study with more "
+                          "--replicates"
+                        : "add runs";
 }
 
 void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {
@@ -333,6 +329,13 @@ void caution_about_confirmations(const ReportInput& input, std::vector<std::stri
                   " of predicted fronts failed when simulated.");
 }
 
+json next_json(const ReportInput& input) {
+  json all = json::array();
+  for (const NextStep& step : next_steps(input))
+    all.push_back({{"text", step.text}, {"command", step.command}});
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::size_t> objectives(const doe::Problem& problem) {
@@ -349,6 +352,10 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
     apart = std::max(apart, std::abs(a[k] - b[k]) / (v.upper - v.lower));
   }
   return apart;
+}
+
+bool is_poor(const ReportInput& input, std::size_t response) {
+  return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
 }
 
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front) {
@@ -390,7 +397,8 @@ json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influ
   return {{"cards", cards(input)},
           {"sentences", sentences(input, influence)},
           {"trust", std::move(trust)},
-          {"cautions", cautions(input)}};
+          {"cautions", cautions(input)},
+          {"next", next_json(input)}};
 }
 
 }  // namespace drawpoint::studies::detail

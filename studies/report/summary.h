@@ -26,10 +26,13 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
 /// Places in Problem::responses of the objectives, the order of the front's columns.
 std::vector<std::size_t> objectives(const doe::Problem& problem);
 
+/// Whether the model of a response has an NRMSE above 0.2.
+bool is_poor(const ReportInput& input, std::size_t response);
+
 /// Why to be careful, in sentences, the warnings first.
 std::vector<std::string> cautions(const ReportInput& input);
 
-/// {cards, sentences, trust, cautions}. influence: one vector per model, as many as input.models.
+/// {cards, sentences, trust, cautions, next: [{text, command}]}. influence: one vector per model, as many as input.models.
 nlohmann::json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence);
 
 }  // namespace drawpoint::studies::detail

@@ -286,6 +286,7 @@ TEST_F(Report, SaysThatAllRunsFailed) {
   EXPECT_TRUE(mentions(data.at("summary").at("sentences"), "No training run succeeded"));
   EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "8 of 8 runs failed (100 %)"));
   EXPECT_EQ(data.at("summary").at("trust").at(1).at("grade"), "unknown");
+  EXPECT_EQ(data.at("summary").at("next").at(0).at("command"), "run --retry-failed");
 }
 
 TEST_F(Report, TellsNoiseFromErrorsOfTheSurrogate) {
@@ -345,6 +346,53 @@ TEST_F(Report, FlagsWhatCannotBeTrusted) {
   EXPECT_TRUE(mentions(cautions, "Only 5 validation points"));
   EXPECT_TRUE(mentions(cautions, "simulate it before believing it"));
   EXPECT_EQ(data.at("summary").at("trust").at(0).at("grade"), "poor");
+}
+
+/// Commands of the steps that the page names, in order.
+std::vector<std::string> next_commands(const nlohmann::json& data) {
+  std::vector<std::string> commands;
+  for (const auto& step : data.at("summary").at("next")) commands.push_back(step.at("command"));
+  return commands;
+}
+
+using Commands = std::vector<std::string>;
+
+TEST_F(Report, SaysWhatToDoNext) {
+  ReportInput in = input(2, 2, 16, 12);
+  EXPECT_EQ(next_commands(written(in)), Commands{"confirm"});
+  const Eigen::Vector2d y(1, 2);
+  CheckedRun checked{.run = 30, .round = 1, .x = y, .outcome = Eigen::VectorXd(y), .values = 20, .held = 19};
+  checked.predicted = checked.lower = checked.upper = y;
+  checked.within = {true, true};
+  in.confirmations.add(checked);
+  EXPECT_EQ(next_commands(written(in)), Commands{"front"});
+  in.confirmations = {};
+  checked.held = 10;
+  in.confirmations.add(checked);
+  EXPECT_EQ(next_commands(written(in)), Commands{"confirm"}) << "half of the intervals do not hold";
+  in.training.rows[3].outcome = doe::Failure{"stuck"};
+  in.validation.rows.resize(4);
+  in.validations[0].nrmse = 0.3;
+  in.kinds = {{in.training.rows[0].run, "adaptive"}, {in.training.rows[1].run, "adaptive"}};
+  EXPECT_EQ(next_commands(written(in)),
+            (Commands{"run --retry-failed", "run --validation 12", "run --adaptive 10"}))
+      << "three at most, the most needed first";
+  in.asked = true;
+  EXPECT_EQ(next_commands(written(in)),
+            (Commands{"ask --retry-failed", "ask --validation 12", "ask --adaptive 10"}));
+}
+
+TEST_F(Report, AdvisesQuieterRunsWhereNoiseLeads) {
+  ReportInput in = input(2, 1, 8, 12);
+  kriging::Validation& v = in.validations[0];
+  v.rmse = 5;
+  v.nrmse = 0.3;
+  v.variance = Eigen::VectorXd::Ones(12);
+  v.observation_variance = 17 * v.variance;
+  v.observed = Eigen::VectorXd::LinSpaced(12, 0, 10);
+  const auto data = written(in);
+  EXPECT_EQ(next_commands(data), (Commands{"", "confirm"}));
+  EXPECT_EQ(data.at("summary").at("next").at(0).at("text").get<std::string>().find("Make runs quieter"), 0u);
 }
 
 // A surrogate that is poor leads nobody: what it has learned of its variables may be noise.

@@ -14,10 +14,11 @@ export function navigation(sections) {
 }
 
 export function summary(data) {
-  const {cards, sentences, trust, cautions} = data.summary;
+  const {cards, sentences, trust, cautions, next} = data.summary;
   return section('summary', 'In brief', null,
     cards.length ? el('div', {class: 'cards'}, cards.map(card)) : null,
     sentences.map((text) => el('p', {class: 'sentence'}, text)),
+    next.length ? el('div', {}, el('h3', {}, 'What to do next'), el('ol', {class: 'next'}, next.map(step))) : null,
     el('div', {class: 'columns'},
       el('div', {}, el('h3', {}, 'How far to trust it'), el('ul', {class: 'trust'}, trust.map(verdict))),
       cautions.length ? el('div', {}, el('h3', {}, 'Cautions'), el('ul', {class: 'cautions'}, cautions.map((text) => el('li', {}, text)))) : null));
@@ -25,6 +26,8 @@ export function summary(data) {
 
 const card = ({label, value, unit, note}) => el('div', {class: 'card'}, el('span', {class: 'label'}, label),
   el('span', {class: 'value'}, value, unit ? el('small', {}, ' ' + unit) : null), el('span', {class: 'note'}, note));
+
+const step = ({text, command}) => el('li', {}, text, command ? [' ', el('code', {}, command)] : null);
 
 const verdict = ({response, grade, text}) => el('li', {}, el('span', {class: 'grade ' + grade}, grade), el('span', {}, el('b', {}, response), ' ' + text));
 
