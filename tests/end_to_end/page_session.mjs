@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goes through a report or a replay as a reader does, in a headless Chromium: node page_session.mjs
 // PAGE.html. Says what it did and what came of it, a line each; fails where something did not come, the
-// console had an error, or the page asked for anything but itself. What a page does not have is named, and
-// not tried.
+// console had an error, the page asked for anything but itself, or a report takes more than eight sheets of paper.
+// What a page does not have is named, and not tried.
 
 import assert from 'node:assert/strict';
-import {mkdtempSync, readdirSync, rmSync} from 'node:fs';
+import {mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {openPage} from './browser.mjs';
 
+const mostSheets = 8;
 const downloads = mkdtempSync(join(tmpdir(), 'saved-'));
 process.once('exit', () => rmSync(downloads, {recursive: true, force: true}));
 const page = await openPage(resolve(process.argv[2]), {downloads});
@@ -31,6 +32,14 @@ async function step(name, needs, does) {
 
 /// Numbers of the first rows of a table's column.
 const column = (table, k) => evaluate(`[...document.querySelectorAll(${JSON.stringify(table + ' tbody tr')})].map((row) => row.children[${k}].textContent)`);
+
+/// A file that the page saves: {name, text}.
+async function saved(ending) {
+  const found = () => readdirSync(downloads).find((name) => name.endsWith(ending));
+  for (let k = 0; k < 100 && !found(); ++k) await new Promise((r) => setTimeout(r, 50));
+  assert.ok(found(), 'no file came');
+  return {name: found(), text: readFileSync(join(downloads, found()), 'utf8')};
+}
 
 const front = '#front .whole-table', bar = '.selection', axes = '#designs .parallel svg';
 const selected = async () => (await text(one(bar))).match(/Selected: (.*?)Clear/)?.[1];
@@ -53,6 +62,18 @@ await step('colours', one('button.theme'), async () => {
   await until(`document.documentElement.dataset.theme === "${before}"`);
   return 'the other ones and back';
 });
+// Before anything is opened that paper would then show.
+await step('paper', one('#summary'), async () => {
+  const sheets = [];
+  for (const [name, paperWidth, paperHeight] of [['letter', 8.5, 11], ['A4', 8.27, 11.69]]) {
+    const {data} = await page.send('Page.printToPDF', {paperWidth, paperHeight, printBackground: true});
+    const count = Buffer.from(data, 'base64').toString('latin1').match(/\/Type\s*\/Page\b(?!s)/g).length;
+    assert.ok(count <= mostSheets, `${count} sheets of ${name}`);
+    sheets.push(`${count} sheets of ${name}`);
+  }
+  return sheets.join(', ');
+});
+await step('what to do next', one('ol.next'), async () => (await evaluate("[...document.querySelectorAll('ol.next li')].map((item) => item.textContent)")).join(' '));
 await step('table, sorted', one(front), async () => {
   await click(`document.querySelectorAll('${front} th button')[1]`);
   const up = await column(front, 1);
@@ -82,10 +103,7 @@ await step('table, copied', one(front), async () => {
 });
 await step('table, downloaded', one(front), async () => {
   await click(button(front, 'Download'));
-  for (let k = 0; k < 100 && !readdirSync(downloads).some((name) => name.endsWith('.csv')); ++k) await new Promise((r) => setTimeout(r, 50));
-  const [name] = readdirSync(downloads).filter((file) => file.endsWith('.csv'));
-  assert.ok(name, 'no file came');
-  return name;
+  return (await saved('.csv')).name;
 });
 await step('row, marked', one(front), async () => {
   await click(`document.querySelectorAll('${front} tbody tr')[0].children[1]`);
@@ -93,6 +111,34 @@ await step('row, marked', one(front), async () => {
   const marked = (await text(one(bar))).match(/Marked: (point \d+ of the front)/)[1];
   await click(button(bar, 'Take mark away'));
   return marked;
+});
+/// The place of a point of the front in the first trade-off, as shares of the plot's area; the point farthest right.
+const inPlot = () => evaluate(`(() => {
+  const {_fullData: traces, _fullLayout: {xaxis, yaxis}} = document.querySelector('#front .js-plotly-plot'), {x, y} = traces.find((t) => t.name === 'front');
+  const k = x.reduce((best, value, i) => (value > x[best] ? i : best), 0);
+  return [xaxis.l2p(x[k]) / xaxis._length, yaxis.l2p(y[k]) / yaxis._length];
+})()`);
+const area = one('#front .plot .nsewdrag');
+await step('point, pointed at', area, async () => {
+  await page.mouse('mouseMoved', await page.place(area, await inPlot()), {buttons: 0, button: 'none'});
+  await until(one('#front .hoverlayer .hovertext'));
+  return (await text(one('#front .hoverlayer .hovertext'))).slice(0, 60);
+});
+await step('point, clicked', area, async () => {
+  await click(area, await inPlot());
+  await until(`${one(bar)}.textContent.includes('Marked: ')`);
+  const marked = (await text(one(bar))).match(/Marked: ([^(]*\d+)/)[1];
+  const seen = await evaluate(`(() => { const row = document.querySelector('#front tr[data-selected]'), r = row?.getBoundingClientRect(), f = row?.closest('table').parentElement.getBoundingClientRect(); return Boolean(r) && r.top >= f.top && r.bottom <= f.bottom + 1; })()`);
+  assert.ok(seen, 'its row is not in view in the table');
+  await click(button(bar, 'Take mark away'));
+  return marked;
+});
+await step('figure, saved', area, async () => {
+  await page.mouse('mouseMoved', await page.place(area), {buttons: 0, button: 'none'});
+  await click(one('#front .modebar-btn[data-title="Save as SVG"]'));
+  const {name, text: figure} = await saved('.svg');
+  assert.ok(figure.startsWith('<svg') && figure.includes('</svg>'));
+  return `${name}, ${figure.length} characters`;
 });
 /// What a drag over an element selects; cleared again.
 async function selectedBy(element, from, to) {
@@ -144,6 +190,9 @@ await step('runs side by side', one('#runs details summary'), async () => {
   for (const k of [0, 1]) await click(`document.querySelectorAll('#runs details tbody input[type=checkbox]')[${k}]`);
   await until(one('#runs .comparison table'));
   const heads = await evaluate("[...document.querySelectorAll('#runs .comparison th')].map((h) => h.textContent).filter(Boolean)");
+  for (const k of [2, 3]) await click(`document.querySelectorAll('#runs details tbody input[type=checkbox]')[${k}]`);
+  await until("document.querySelectorAll('#runs .comparison th').length === 8");
+  assert.ok(await evaluate("document.querySelectorAll('#runs details tbody input[type=checkbox]')[4].disabled"), 'a fifth can be ticked');
   await click(button('#runs .comparison', 'Clear'));
   await until(`!${one('#runs .comparison table')}`);
   return heads.join(', ');

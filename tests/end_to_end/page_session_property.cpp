@@ -40,7 +40,8 @@ TEST_F(PageSession, TheReport) {
               "table, downloaded: formula_demo_points_of_the_front.csv", "row, marked: point",
               "sections: ", "colours: the other ones and back", "of 200 front points",
               "range in numbers: ", "slider: ", "surfaces in 3-D: and contours again",
-              "nested contours: 16 plots", "runs side by side: Run 1, Run 2, difference"},
+              "nested contours: 16 plots", "runs side by side: Run 1, Run 2, difference",
+              "what to do next: ", "point, pointed at: point", "point, clicked: point", ".svg, ", "paper: "},
              6);  // those of a scene
 }
 
@@ -51,7 +52,7 @@ TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
   go_through(page,
              {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.", "cameras: side",
               "click in a plot of the scene: to ", "payload 2.50 t", "cycles: 1, 2"},
-             12);  // those of a report
+             17);  // those of a report
 }
 
 TEST_F(PageSession, OneCycleHasAPageAndPicturesOfItsOwn) {
