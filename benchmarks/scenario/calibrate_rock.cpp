@@ -208,6 +208,8 @@ int run(const Settings& s) {
                      {"sizes", s.sizes},
                      {"density_kg_m3", s.density},
                      {"spinning", s.spinning},
+                     {"edge_friction", s.options.edge_friction},
+                     {"rough_walls", s.options.rough_walls},
                      {"engine", described(world_options(s.engine))},
                      {"published", published(test)},
                      {"rows", nlohmann::json::array()}};

@@ -98,6 +98,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   summary.adaptive_wanted = store.sampling().points;
   ReportInput input = input_of(study, store, runs);
   input.command = command;
+  input.going_on.folder = out_option(folder);
   summary.confirmations = input.confirmations;
   const std::vector<const Run*> logged = runs_with_log(study, store.identity(), runs, folder, input.warnings);
   input.headlines = summary.headlines =

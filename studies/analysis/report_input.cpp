@@ -8,6 +8,7 @@
 #include <drawpoint/studies/models/suspects.h>
 #include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/models/unevenness.h>
+#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 
 #include <algorithm>
@@ -49,7 +50,11 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.validation = std::move(tables.validation);
   input.kinds = kinds_of(runs);
   input.confirming = confirming_command(study);
-  input.asked = !study.black_box;
+  input.going_on = {.possible = store.identity().simulator == study.simulator,
+                    .making = making_command(study),
+                    .training = count_points(runs, Kind::training),
+                    .validation = count_points(runs, Kind::validation),
+                    .adaptive = std::max(count_points(runs, Kind::adaptive), store.sampling().points)};
   input.confirmations = check_predictions(runs, study.problem, Kind::confirmation, store.sampling().rounds);
   return input;
 }

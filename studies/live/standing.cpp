@@ -4,19 +4,11 @@
 #include <drawpoint/studies/models/front.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/times.h>
-#include <drawpoint/doe/detail/task_files.hpp>
 
 #include <algorithm>
 
 namespace drawpoint::studies {
 namespace {
-
-std::string out_option(const Folder& folder) {
-  return " --out " + doe::detail::quoted_for_shell(folder.path.string());
-}
-
-/// The command that makes the runs of this study, or gives them to who makes them.
-std::string making(const Study& study) { return study.black_box ? "run" : "ask"; }
 
 int unfinished(const Counts& counts) { return counts.of(Status::planned) + counts.of(Status::running); }
 
@@ -45,7 +37,8 @@ Standing stopped(const Study& study, const Contents& contents, const Counts& cou
     text +=
         " Those that count as running were in flight when a command was stopped, or are being made from "
         "another machine.";
-  return {StandingKind::stopped, text + adaptive_note(contents, counts), making(study) + out_option(folder)};
+  return {StandingKind::stopped, text + adaptive_note(contents, counts),
+          making_command(study) + out_option(folder)};
 }
 
 Standing ended(const Study& study, const Contents& contents, const Counts& counts, const Folder& folder) {
@@ -56,9 +49,10 @@ Standing ended(const Study& study, const Contents& contents, const Counts& count
   };
   if (counts.of(Status::done) == 0)
     return end(" None has succeeded: mend what the failures below name, and make them again.",
-               making(study) + " --retry-failed");
+               making_command(study) + " --retry-failed");
   if (counts.adaptive_points < contents.sampling.points && counts.of(Kind::confirmation, Status::done) == 0)
-    return end(" Next: those that are left, unless the command says that no more are wanted.", making(study));
+    return end(" Next: those that are left, unless the command says that no more are wanted.",
+               making_command(study));
   if (!has_objective(contents.identity.problem)) return end(" Next: the report.", "report");
   const bool confirmed = counts.of(Kind::confirmation, Status::done) > 0;
   if (!confirmed)
@@ -99,8 +93,8 @@ Standing standing_of(const Study& study, const Folder& folder, const View& view)
   if (!view.there)
     return {StandingKind::absent,
             "There is no study in " + folder.path.string() + " yet. This page waits until the command " +
-                making(study) + " of " + study.name + " starts one there.",
-            view.holder ? "" : making(study) + out_option(folder)};
+                making_command(study) + " of " + study.name + " starts one there.",
+            view.holder ? "" : making_command(study) + out_option(folder)};
   if (!view.trouble.empty())
     return {StandingKind::unreadable, "The study cannot be read at the moment: " + view.trouble, ""};
   if (!view.contents) return {StandingKind::unreadable, "The study has not been read yet.", ""};

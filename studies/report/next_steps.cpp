@@ -11,89 +11,109 @@ namespace drawpoint::studies::detail {
 namespace {
 
 constexpr std::size_t most_steps = 3;
-constexpr std::size_t enough_validation = 10;  // runs, below which errors are rough
+constexpr int some_more = 2;  // for those that fail
 
-std::string making(const ReportInput& input) { return input.asked ? "ask" : "run"; }
+using Steps = std::vector<NextStep>;
 
-/// A quarter of the runs more, eight at least; --adaptive counts all adaptive points.
-std::string more_runs(const ReportInput& input) {
-  const auto is_adaptive = [&](const doe::Evaluation& e) {
-    const auto kind = input.kinds.find(e.run);
-    return kind != input.kinds.end() && kind->second == "adaptive";
-  };
-  const auto& runs = input.training.rows;
-  const auto made = static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), is_adaptive));
-  return making(input) + " --adaptive " + std::to_string(made + std::max<std::size_t>(8, runs.size() / 4));
+std::string command(const ReportInput& input, const std::string& options) {
+  return input.going_on.making + " " + options + input.going_on.folder;
 }
 
-/// Names of the responses whose models are poor, by whether single runs scatter by more than the rest.
+/// Whether single runs scatter more than the model errs.
+bool is_noisy(const ReportInput& input, std::size_t j) {
+  return noise_leads(input.validations[j], told_noise(input.headlines, input.problem.responses[j].name));
+}
+
+/// Of the responses whose models are poor, by whether noise makes them so.
 std::string poor_names(const ReportInput& input, bool noisy) {
   std::string names;
-  for (std::size_t j = 0; j < input.validations.size(); ++j) {
-    if (!is_poor(input, j) || noise_leads(input.validations[j]) != noisy) continue;
-    names += (names.empty() ? "" : ", ") + pretty(input.problem.responses[j].name);
-  }
+  for (std::size_t j = 0; j < input.validations.size(); ++j)
+    if (is_poor(input, j) && is_noisy(input, j) == noisy)
+      names += (names.empty() ? "" : ", ") + pretty(input.problem.responses[j].name);
   return names;
 }
 
-void steps_for_runs(const ReportInput& input, std::vector<NextStep>& all) {
-  const auto failed = static_cast<std::size_t>(input.training.failed() + input.validation.failed());
-  if (failed == 0) return;
-  all.push_back(
-      {"See why " + counted(failed, "run") + " failed, and mend the cause; failed runs can be made again.",
-       making(input) + " --retry-failed"});
+/// A quarter of the points more, eight at least. Where some response is noise, places chosen by the models
+/// are chosen by noise: an even design then.
+std::string more_runs(const ReportInput& input) {
+  const Continuation& c = input.going_on;
+  const int more = std::max(8, (c.training + c.adaptive) / 4);
+  bool noisy = false;
+  for (std::size_t j = 0; j < input.validations.size(); ++j) noisy = noisy || is_noisy(input, j);
+  return command(input, noisy ? "--runs " + std::to_string(c.training + more)
+                              : "--adaptive " + std::to_string(c.adaptive + more));
 }
 
-void steps_for_errors(const ReportInput& input, std::vector<NextStep>& all) {
-  const auto known = input.validation.rows.size() - static_cast<std::size_t>(input.validation.failed());
-  if (known >= enough_validation || input.models.empty()) return;
-  all.push_back(
+Steps steps_for_failures(const ReportInput& input) {
+  const int failed = input.training.failed() + input.validation.failed();
+  if (failed == 0) return {};
+  return {{"See why " + counted(static_cast<std::size_t>(failed), "run") +
+               " failed, and mend the cause; failed runs can be made again.",
+           command(input, "--retry-failed")}};
+}
+
+Steps steps_for_errors(const ReportInput& input) {
+  const int ended = static_cast<int>(input.validation.rows.size()), known = ended - input.validation.failed();
+  if (known >= enough_points || input.models.empty() || input.going_on.validation > ended) return {};
+  const int wanted = input.going_on.validation + static_cast<int>(enough_points) + some_more - known;
+  return {
       {"Give the errors a base: validation runs are apart from those that the models know, and ten or more "
        "tell an error.",
-       making(input) + " --validation " + std::to_string(enough_validation + 2)});
+       command(input, "--validation " + std::to_string(wanted))}};
 }
 
-void steps_for_models(const ReportInput& input, std::vector<NextStep>& all) {
+Steps steps_for_models(const ReportInput& input) {
+  Steps steps;
   if (const std::string noisy = poor_names(input, true); !noisy.empty())
-    all.push_back(
+    steps.push_back(
         {"Make runs quieter before more of them: single runs scatter more in " + noisy +
-             " than the models err. Longer runs, if the study has an option for it, or replicates, both in "
-             "a study begun anew.",
+             " than the models err. Longer runs, if the study has an option for it, or replicates, "
+             "both in a study begun anew.",
          ""});
   if (const std::string rough = poor_names(input, false); !rough.empty())
-    all.push_back(
-        {"Add runs where they teach most: the models of " + rough + " are poor.", more_runs(input)});
+    steps.push_back({"Add runs: the models of " + rough + " are poor.", more_runs(input)});
+  return steps;
 }
 
-void steps_for_front(const ReportInput& input, std::vector<NextStep>& all) {
-  if (input.front.Y.rows() == 0) return;
+Steps steps_for_front(const ReportInput& input) {
+  if (input.front.Y.rows() == 0) return {};
+  const std::string confirm = input.confirming + input.going_on.folder;
   const CheckedRuns last = input.confirmations.last_round();
   if (last.runs.empty())
-    all.push_back(
+    return {
         {"Have the points of the front that matter simulated: what is predicted only is not to be decided "
          "on.",
-         input.confirming});
-  else if (!last.agree())
-    all.push_back(
+         confirm}};
+  if (!last.agree())
+    return {
         {"Predictions and simulations of the front do not agree yet: go on confirming, the models learn from "
          "it.",
-         input.confirming});
+         confirm}};
+  return {};
 }
+
+void append(Steps& all, const Steps& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 }  // namespace
 
 std::vector<NextStep> next_steps(const ReportInput& input) {
-  std::vector<NextStep> all;
-  if (objectives(input.problem).empty()) return all;
-  steps_for_runs(input, all);
-  steps_for_errors(input, all);
-  steps_for_models(input, all);
-  steps_for_front(input, all);
-  if (all.empty() && input.front.Y.rows() > 0)
-    all.push_back(
-        {"Choose: the front has the points that matter, with what simulation gave; repeat the one that you "
-         "would take with other seeds before deciding.",
-         "front"});
+  if (objectives(input.problem).empty()) return {};
+  if (!input.going_on.possible)
+    return {
+        {"Begin a study with today's simulator in another folder: another made the runs of this one, and "
+         "none "
+         "can be added to them.",
+         ""}};
+  Steps open = steps_for_errors(input);
+  append(open, steps_for_models(input));
+  append(open, steps_for_front(input));
+  if (open.empty() && input.front.Y.rows() > 0)
+    open.push_back(
+        {"Choose: the front has the points that matter, with what simulation gave; repeat the one that "
+         "you would take with other seeds before deciding.",
+         "front" + input.going_on.folder});
+  Steps all = steps_for_failures(input);
+  append(all, open);
   if (all.size() > most_steps) all.resize(most_steps);
   return all;
 }

@@ -15,8 +15,9 @@ struct NextStep {
   std::string command;  ///< that does it, without the program; empty: none does
 };
 
-/// Three at most; none for a study without objectives. In this order: runs that can be had, errors that can be
-/// known, models that can be relied on, a front that has been simulated, and where all that stands, the choice.
+/// Three at most; none for a study without objectives. In this order: runs that failed, errors that can be
+/// known, models that can be relied on, a front that has been simulated; where the last three stand, the
+/// choice.
 std::vector<NextStep> next_steps(const ReportInput& input);
 
 }  // namespace drawpoint::studies::detail

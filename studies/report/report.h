@@ -31,6 +31,14 @@
 
 namespace drawpoint::studies {
 
+/// How a study goes on: what its next runs are made with, and how many points it plans so far.
+struct Continuation {
+  bool possible = true;        ///< false: another simulator made its runs, and none can be added
+  std::string making = "run";  ///< the command that makes runs, or gives them to who makes them
+  std::string folder = {};     ///< the option that names the folder, with a space before it
+  int training = 0, validation = 0, adaptive = 0;  ///< points, made or not
+};
+
 struct ReportInput {
   std::string study, about, command;     ///< any text; the page shows it as it is
   std::vector<Headline> headlines = {};  ///< said first
@@ -47,7 +55,7 @@ struct ReportInput {
   FrontUncertainty uncertainty = {};   ///< of the front
   CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated
   std::string confirming = "confirm";  ///< the command that has them simulated
-  bool asked = false;                  ///< runs are made elsewhere: by ask and tell in place of run
+  Continuation going_on = {};          ///< how more runs are made
   pareto::Polishing polishing;         ///< of the front
   std::string not_polished;            ///< why it was not; empty when it was
   nlohmann::json illustrations =

@@ -22,7 +22,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double good_nrmse = 0.1, fair_nrmse = 0.2;
-constexpr Eigen::Index enough_points = 10;
 constexpr double enough_coverage = 0.75;
 
 bool maximized(const doe::Response& r) { return r.goal == doe::Goal::maximize; }
@@ -273,11 +272,11 @@ json grade(const ReportInput& input, std::size_t j) {
 
 /// Against a large error: it is the model's, or what single runs scatter by, which more runs of the kind do
 /// not change.
-std::string remedy(const kriging::Validation& v) {
-  return noise_leads(v) ? "most of that is the scatter of single runs; make them "
-                          "longer, if they can be, or begin a study with more "
-                          "--replicates"
-                        : "add runs";
+std::string remedy(const kriging::Validation& v, double told) {
+  return noise_leads(v, told) ? "most of that is the scatter of single runs; make them "
+                                "longer, if they can be, or begin a study with more "
+                                "--replicates"
+                              : "add runs";
 }
 
 void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {
@@ -286,13 +285,28 @@ void caution_about_models(const ReportInput& input, std::vector<std::string>& al
     const std::string name = pretty(input.problem.responses[j].name);
     if (v.observed.size() == 0) continue;
     if (is_poor(input, j))
-      all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) + "): " + remedy(v) +
+      all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
+                    "): " + remedy(v, told_noise(input.headlines, input.problem.responses[j].name)) +
                     ", or read only its trends.");
     const double within =
         count_within(v, input.problem.responses[j]) / static_cast<double>(v.observed.size());
     if (v.observed.size() >= enough_points && within < enough_coverage)
       all.push_back("The error bars of " + name + " are too narrow: only " + percent(within) +
                     " of the validation runs lie within their 95 % interval.");
+  }
+}
+
+/// A model that takes noise for signal follows it, and its intervals are too narrow.
+void caution_about_noise(const ReportInput& input, std::vector<std::string>& all) {
+  for (std::size_t j = 0; j < input.validations.size(); ++j) {
+    const doe::Response& r = input.problem.responses[j];
+    const double told = told_noise(input.headlines, r.name);
+    if (input.validations[j].observed.size() == 0 || !std::isfinite(told)) continue;
+    const double taken = kriging::error_without_noise(input.validations[j]).noise;
+    if (taken < 0.5 * told)
+      all.push_back("The surrogate of " + pretty(r.name) + " takes a run to scatter by " +
+                    number_with_unit(taken, r.unit) + ", the runs themselves say " +
+                    number_with_unit(told, r.unit) + ": its intervals are too narrow.");
   }
 }
 
@@ -386,6 +400,7 @@ std::vector<std::string> cautions(const ReportInput& input) {
     all.push_back("Only " + counted(static_cast<std::size_t>(points), "validation point") +
                   ": the errors stated here are rough; use 10 or more.");
   caution_about_models(input, all);
+  caution_about_noise(input, all);
   caution_about_extrapolation(input, all);
   caution_about_confirmations(input, all);
   return all;

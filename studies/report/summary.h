@@ -16,6 +16,9 @@
 
 namespace drawpoint::studies::detail {
 
+/// Validation runs, below which errors are rough.
+inline constexpr Eigen::Index enough_points = 10;
+
 /// Row of the front nearest to the ideal point, each objective scaled to its range on the front; -1 without a
 /// front.
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front);
@@ -32,7 +35,8 @@ bool is_poor(const ReportInput& input, std::size_t response);
 /// Why to be careful, in sentences, the warnings first.
 std::vector<std::string> cautions(const ReportInput& input);
 
-/// {cards, sentences, trust, cautions, next: [{text, command}]}. influence: one vector per model, as many as input.models.
+/// {cards, sentences, trust, cautions, next: [{text, command}]}. influence: one vector per model, as many as
+/// input.models.
 nlohmann::json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence);
 
 }  // namespace drawpoint::studies::detail

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/option_values.h>
+#include <drawpoint/doe/detail/task_files.hpp>
 
 #include <stdexcept>
 #include <string>
@@ -121,7 +122,13 @@ Run stored_run(const Store& store, const Folder& folder, std::int64_t id) {
   return runs[static_cast<std::size_t>(id) - 1];
 }
 
+std::string making_command(const Study& study) { return study.black_box ? "run" : "ask"; }
+
 std::string confirming_command(const Study& study) { return study.black_box ? "confirm" : "ask --confirm"; }
+
+std::string out_option(const Folder& folder) {
+  return " --out " + doe::detail::quoted_for_shell(folder.path.string());
+}
 
 void require_simulator(const Study& study) {
   if (!study.black_box)

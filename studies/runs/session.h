@@ -19,8 +19,12 @@ Store open_store(const Study& study, const Folder& folder, Access access = Acces
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.
 Run stored_run(const Store& store, const Folder& folder, std::int64_t id);
 
+/// The command that makes the runs of this study, or gives them to who makes them.
+std::string making_command(const Study& study);
 /// The command that has points of a front simulated.
 std::string confirming_command(const Study& study);
+/// " --out FOLDER", for a command that a shell is given.
+std::string out_option(const Folder& folder);
 
 /// Throws UsageError for a study whose runs are made elsewhere: it has no black box.
 void require_simulator(const Study& study);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goes through a report or a replay as a reader does, in a headless Chromium: node page_session.mjs
 // PAGE.html. Says what it did and what came of it, a line each; fails where something did not come, the
-// console had an error, the page asked for anything but itself, or a report takes more than eight sheets of paper.
-// What a page does not have is named, and not tried.
+// console had an error, the page asked for anything but itself, or a report takes more than eight sheets of
+// paper. What a page does not have is named, and not tried.
 
 import assert from 'node:assert/strict';
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
@@ -112,7 +112,8 @@ await step('row, marked', one(front), async () => {
   await click(button(bar, 'Take mark away'));
   return marked;
 });
-/// The place of a point of the front in the first trade-off, as shares of the plot's area; the point farthest right.
+/// The place of a point of the front in the first trade-off, as shares of the plot's area; the point farthest
+/// right.
 const inPlot = () => evaluate(`(() => {
   const {_fullData: traces, _fullLayout: {xaxis, yaxis}} = document.querySelector('#front .js-plotly-plot'), {x, y} = traces.find((t) => t.name === 'front');
   const k = x.reduce((best, value, i) => (value > x[best] ? i : best), 0);

@@ -359,40 +359,73 @@ using Commands = std::vector<std::string>;
 
 TEST_F(Report, SaysWhatToDoNext) {
   ReportInput in = input(2, 2, 16, 12);
-  EXPECT_EQ(next_commands(written(in)), Commands{"confirm"});
+  in.going_on = {.folder = " --out here", .training = 16, .validation = 12};
+  EXPECT_EQ(next_commands(written(in)), Commands{"confirm --out here"});
   const Eigen::Vector2d y(1, 2);
   CheckedRun checked{.run = 30, .round = 1, .x = y, .outcome = Eigen::VectorXd(y), .values = 20, .held = 19};
   checked.predicted = checked.lower = checked.upper = y;
   checked.within = {true, true};
   in.confirmations.add(checked);
-  EXPECT_EQ(next_commands(written(in)), Commands{"front"});
+  EXPECT_EQ(next_commands(written(in)), Commands{"front --out here"});
+  in.training.rows[3].outcome = doe::Failure{"stuck"};
+  EXPECT_EQ(next_commands(written(in)), (Commands{"run --retry-failed --out here", "front --out here"}));
   in.confirmations = {};
   checked.held = 10;
   in.confirmations.add(checked);
-  EXPECT_EQ(next_commands(written(in)), Commands{"confirm"}) << "half of the intervals do not hold";
-  in.training.rows[3].outcome = doe::Failure{"stuck"};
-  in.validation.rows.resize(4);
+  EXPECT_EQ(next_commands(written(in)).back(), "confirm --out here") << "half of the intervals do not hold";
+  in.going_on = {.making = "ask", .training = 16, .validation = 12, .adaptive = 40};
   in.validations[0].nrmse = 0.3;
-  in.kinds = {{in.training.rows[0].run, "adaptive"}, {in.training.rows[1].run, "adaptive"}};
+  EXPECT_EQ(next_commands(written(in)), (Commands{"ask --retry-failed", "ask --adaptive 54", "confirm"}));
+  in.validation.rows.resize(4);
+  EXPECT_EQ(next_commands(written(in)), (Commands{"ask --retry-failed", "ask --adaptive 54", "confirm"}))
+      << "eight validation runs are still to come";
+  in.going_on.validation = 4;
   EXPECT_EQ(next_commands(written(in)),
-            (Commands{"run --retry-failed", "run --validation 12", "run --adaptive 10"}))
-      << "three at most, the most needed first";
-  in.asked = true;
-  EXPECT_EQ(next_commands(written(in)),
-            (Commands{"ask --retry-failed", "ask --validation 12", "ask --adaptive 10"}));
+            (Commands{"ask --retry-failed", "ask --validation 12", "ask --adaptive 54"}))
+      << "three at most";
+  in.validation.rows[0].outcome = doe::Failure{"stuck"};
+  EXPECT_EQ(next_commands(written(in)).at(1), "ask --validation 13");
+  in.going_on.possible = false;
+  EXPECT_EQ(next_commands(written(in)), Commands{""});
 }
 
 TEST_F(Report, AdvisesQuieterRunsWhereNoiseLeads) {
-  ReportInput in = input(2, 1, 8, 12);
+  ReportInput in = input(2, 2, 8, 12);
+  in.going_on.training = 8;
   kriging::Validation& v = in.validations[0];
   v.rmse = 5;
   v.nrmse = 0.3;
   v.variance = Eigen::VectorXd::Ones(12);
   v.observation_variance = 17 * v.variance;
   v.observed = Eigen::VectorXd::LinSpaced(12, 0, 10);
+  EXPECT_EQ(next_commands(written(in)), (Commands{"", "confirm"}));
+  in.validations[1].nrmse = 0.3;
   const auto data = written(in);
-  EXPECT_EQ(next_commands(data), (Commands{"", "confirm"}));
+  EXPECT_EQ(next_commands(data), (Commands{"", "run --runs 16", "confirm"}))
+      << "not where noise would choose";
   EXPECT_EQ(data.at("summary").at("next").at(0).at("text").get<std::string>().find("Make runs quieter"), 0u);
+}
+
+// Of an error of 5 s a noise of 3 s leaves 4 s to the model, one of 4 s leaves 3; the model here knows of
+// 0.1 s.
+TEST_F(Report, BelievesTheStudyOfItsNoiseBeforeTheSurrogate) {
+  ReportInput in = input(2, 1, 8, 12);
+  kriging::Validation& v = in.validations[0];
+  v.rmse = 5;
+  v.nrmse = 0.3;
+  v.variance = Eigen::VectorXd::Ones(12);
+  v.observation_variance = 1.01 * v.variance;
+  v.observed = Eigen::VectorXd::LinSpaced(12, 0, 10);
+  const std::string words = "takes a run to scatter by 0.100 s, the runs themselves say";
+  EXPECT_EQ(next_commands(written(in)), (Commands{"run --adaptive 8", "confirm"}));
+  EXPECT_FALSE(mentions(written(in).at("summary").at("cautions"), words)) << "nobody says";
+  in.headlines = {{"noise_of_y0", "s", 3, ""}};
+  EXPECT_EQ(next_commands(written(in)), (Commands{"run --adaptive 8", "confirm"}));
+  EXPECT_TRUE(mentions(written(in).at("summary").at("cautions"), words));
+  in.headlines[0].value = 4;
+  EXPECT_EQ(next_commands(written(in)), (Commands{"", "confirm"}));
+  in.headlines[0].value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(next_commands(written(in)), (Commands{"run --adaptive 8", "confirm"}));
 }
 
 // A surrogate that is poor leads nobody: what it has learned of its variables may be noise.

@@ -96,7 +96,7 @@ EdgeResult edge_penetration(const RockSample& sample, const EdgeOptions& o) {
                        Eigen::Isometry3d(Eigen::Translation3d(-half.x(), 0, half.z())), steel);
   edge.set_velocity({approach, 0, 0});
   run.go_on("approach", (-bank.foot - start) / approach);
-  EdgeResult result{push_in(world, edge, Vector3d::UnitX(), o.depth * L, o), bank.slope};
+  EdgeResult result{push_in(world, edge, o.depth * L * Vector3d::UnitX(), o), bank.slope};
   if (result.status == RunStatus::completed) result.status = run.status();
   result.pressure = result.mean_force / (4 * half.y() * half.z());
   const std::size_t half_parts = std::min<std::size_t>(o.parts / 2, result.curve.size());  // fewer: stopped

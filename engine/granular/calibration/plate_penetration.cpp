@@ -31,8 +31,10 @@ Eigen::Isometry3d upright(double z) { return Eigen::Isometry3d(Eigen::Translatio
 
 }  // namespace
 
-PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate, const Vector3d& direction,
-                          double depth, const PushOptions& o) {
+PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate, const Vector3d& way,
+                          const PushOptions& o) {
+  const double depth = way.norm();
+  const Vector3d direction = way / depth;
   TestRun run(world, o);
   PenetrationResult result;
   const double start = plate.work(), part = depth / o.parts / o.speed;
@@ -71,7 +73,7 @@ PenetrationResult plate_penetration(const RockSample& sample, const PenetrationO
   world.add_part_shape(0, shape_of(engine::box(size)), upright(size.z()), rough);
   plate.set_velocity({0, 0, -o.speed});
   run.go_on("lower", (top - mean) / o.speed);
-  PenetrationResult result = push_in(world, plate, -Vector3d::UnitZ(), o.depth * L, o);
+  PenetrationResult result = push_in(world, plate, -o.depth * L * Vector3d::UnitZ(), o);
   if (result.status == RunStatus::completed) result.status = run.status();
   result.pressure = result.mean_force / (4 * size.x() * size.y());
   result.rocks = static_cast<int>(world.rocks().size());

@@ -18,7 +18,6 @@
 namespace drawpoint::engine::granular {
 
 struct PushOptions : RunOptions {
-  double depth = 2;    ///< to which the plate goes [largest rocks]
   double speed = 0.1;  ///< [m/s]
   int parts = 10;      ///< of the way, over which the force is averaged
 };
@@ -26,6 +25,7 @@ struct PushOptions : RunOptions {
 struct PenetrationOptions : PushOptions {
   double side = 7, height = 5;           ///< of the bed, about [largest rocks]
   double width = 2.5, thickness = 0.25;  ///< of the plate [largest rocks]
+  double depth = 2;                      ///< to which it goes [largest rocks]
 };
 
 struct PenetrationPoint {
@@ -42,9 +42,9 @@ struct PenetrationResult {
   std::vector<PenetrationPoint> curve;
 };
 
-/// Pushes a plate by `depth` [m] along a direction, a unit vector; fills curve, mean force and work.
-PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate,
-                          const Eigen::Vector3d& direction, double depth, const PushOptions& options);
+/// Pushes a plate along `way` [m] from where it stands; fills curve, mean force and work.
+PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate, const Eigen::Vector3d& way,
+                          const PushOptions& options);
 
 /// Throws std::invalid_argument for a plate that is wider than the bed less two rocks, a way that comes nearer
 /// to the floor than two rocks, and for lengths and speeds that are not positive.

@@ -23,7 +23,8 @@ export function colourAt(scale, share) {
   return `rgb(${[0, 1, 2].map((c) => Math.round((1 - f) * ends[0][c] + f * ends[1][c])).join(',')})`;
 }
 
-/// Points by what they are drawn in: [{fill, points: [i..]}], equal shades of a scale together, those without a value grey.
+/// Points by what they are drawn in: [{fill, points: [i..]}], equal shades of a scale together, those without
+/// a value grey.
 export function byShade({color, colorscale, cmin, cmax}, count) {
   const all = Array.from({length: count}, (_, i) => i);
   if (!Array.isArray(color) && !ArrayBuffer.isView(color)) return [{fill: color, points: all}];

@@ -155,7 +155,8 @@ EdgeOptions small_bank() {
   return o;
 }
 
-// The mean force times the way is the work of the edge: over four parts of equal length, with the same steps in each.
+// The mean force times the way is the work of the edge: over four parts of equal length, with the same steps
+// in each.
 TEST(EdgePenetration, WorkIsForceTimesWayOnAnyNumberOfThreads) {
   EdgeOptions o = small_bank();
   const EdgeResult one = edge_penetration(stones(0.7), o);
