@@ -50,12 +50,6 @@ void each_chord(const engine::World& world, const std::vector<Vector2d>& places,
   }
 }
 
-// [m²]
-double area_above(const std::vector<double>& heights, double spacing, double z) {
-  return spacing * spacing *
-         static_cast<double>(std::count_if(heights.begin(), heights.end(), [z](double h) { return h > z; }));
-}
-
 // Slope of the least-squares line through (x, y).
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
   const double n = static_cast<double>(x.size());
@@ -95,6 +89,11 @@ std::vector<double> surface_heights(const engine::World& world, const Area& area
   each_chord(world, places,
              [&](std::size_t k, const Chord& c) { heights[k] = std::max(heights[k], c.high); });
   return heights;
+}
+
+double area_above(const std::vector<double>& heights, double spacing, double z) {
+  return spacing * spacing *
+         static_cast<double>(std::count_if(heights.begin(), heights.end(), [z](double h) { return h > z; }));
 }
 
 double mean_height(const engine::World& world, const Area& area, double spacing) {

@@ -29,6 +29,8 @@ inline constexpr double place_spacing = 0.05;
 /// Surface height over each place of the area [m], 0 where there is no rock.
 std::vector<double> surface_heights(const engine::World& world, const Area& area,
                                     double spacing = place_spacing);
+/// Over which the surface stands higher than z [m²].
+double area_above(const std::vector<double>& heights, double spacing, double z);
 double mean_height(const engine::World& world, const Area& area, double spacing = place_spacing);  ///< [m]
 
 /// Angle [deg] of a heap with these heights, from one `size` above the floor to where it is one `size` in

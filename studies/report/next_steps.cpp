@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/report/next_steps.h>
-#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
 
@@ -17,11 +16,6 @@ using Steps = std::vector<NextStep>;
 
 std::string command(const ReportInput& input, const std::string& options) {
   return input.going_on.making + " " + options + input.going_on.folder;
-}
-
-/// Whether single runs scatter more than the model errs.
-bool is_noisy(const ReportInput& input, std::size_t j) {
-  return noise_leads(input.validations[j], told_noise(input.headlines, input.problem.responses[j].name));
 }
 
 /// Of the responses whose models are poor, by whether noise makes them so.

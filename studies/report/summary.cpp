@@ -272,11 +272,11 @@ json grade(const ReportInput& input, std::size_t j) {
 
 /// Against a large error: it is the model's, or what single runs scatter by, which more runs of the kind do
 /// not change.
-std::string remedy(const kriging::Validation& v, double told) {
-  return noise_leads(v, told) ? "most of that is the scatter of single runs; make them "
-                                "longer, if they can be, or begin a study with more "
-                                "--replicates"
-                              : "add runs";
+std::string remedy(const ReportInput& input, std::size_t response) {
+  return is_noisy(input, response) ? "most of that is the scatter of single runs; make them "
+                                     "longer, if they can be, or begin a study with more "
+                                     "--replicates"
+                                   : "add runs";
 }
 
 void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {
@@ -286,8 +286,7 @@ void caution_about_models(const ReportInput& input, std::vector<std::string>& al
     if (v.observed.size() == 0) continue;
     if (is_poor(input, j))
       all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
-                    "): " + remedy(v, told_noise(input.headlines, input.problem.responses[j].name)) +
-                    ", or read only its trends.");
+                    "): " + remedy(input, j) + ", or read only its trends.");
     const double within =
         count_within(v, input.problem.responses[j]) / static_cast<double>(v.observed.size());
     if (v.observed.size() >= enough_points && within < enough_coverage)
@@ -370,6 +369,11 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
 
 bool is_poor(const ReportInput& input, std::size_t response) {
   return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
+}
+
+bool is_noisy(const ReportInput& input, std::size_t response) {
+  return noise_leads(input.validations[response],
+                     told_noise(input.headlines, input.problem.responses[response].name));
 }
 
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front) {

@@ -32,6 +32,10 @@ std::vector<std::size_t> objectives(const doe::Problem& problem);
 /// Whether the model of a response has an NRMSE above 0.2.
 bool is_poor(const ReportInput& input, std::size_t response);
 
+/// Whether single runs of a response scatter by more than its model misses the mean of many, by what the study
+/// tells of its noise, or else by the model: more runs of the kind do not help then.
+bool is_noisy(const ReportInput& input, std::size_t response);
+
 /// Why to be careful, in sentences, the warnings first.
 std::vector<std::string> cautions(const ReportInput& input);
 

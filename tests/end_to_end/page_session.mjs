@@ -154,7 +154,7 @@ await step('brush of an axis', one(axes), async () => {
   const x = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), l = document.querySelector('${axes} line').getBoundingClientRect(); return (l.left + l.width / 2 - r.left) / r.width; })()`);
   return selectedBy(one(axes), [x, 0.3], [x, 0.6]);
 });
-await step('box in a trade-off', one('#front .plot .nsewdrag'), () => selectedBy(one('#front .plot .nsewdrag'), [0.1, 0.1], [0.7, 0.9]));
+await step('box in a trade-off', area, () => selectedBy(area, [0.1, 0.1], [0.7, 0.9]));
 await step('range in numbers', one('#designs form'), async () => {
   await click(one('#designs form input'));
   await type('0');

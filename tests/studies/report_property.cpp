@@ -389,15 +389,19 @@ TEST_F(Report, SaysWhatToDoNext) {
   EXPECT_EQ(next_commands(written(in)), Commands{""});
 }
 
+/// An error of 5 in a range of 10, poor by its NRMSE; the model takes single runs to scatter by `noise`.
+void make_poor(kriging::Validation& v, double noise) {
+  v.rmse = 5;
+  v.nrmse = 0.3;
+  v.observed = Eigen::VectorXd::LinSpaced(v.observed.size(), 0, 10);
+  v.variance.setOnes();
+  v.observation_variance = v.variance.array() + noise * noise;
+}
+
 TEST_F(Report, AdvisesQuieterRunsWhereNoiseLeads) {
   ReportInput in = input(2, 2, 8, 12);
   in.going_on.training = 8;
-  kriging::Validation& v = in.validations[0];
-  v.rmse = 5;
-  v.nrmse = 0.3;
-  v.variance = Eigen::VectorXd::Ones(12);
-  v.observation_variance = 17 * v.variance;
-  v.observed = Eigen::VectorXd::LinSpaced(12, 0, 10);
+  make_poor(in.validations[0], 4.0);
   EXPECT_EQ(next_commands(written(in)), (Commands{"", "confirm"}));
   in.validations[1].nrmse = 0.3;
   const auto data = written(in);
@@ -410,12 +414,7 @@ TEST_F(Report, AdvisesQuieterRunsWhereNoiseLeads) {
 // 0.1 s.
 TEST_F(Report, BelievesTheStudyOfItsNoiseBeforeTheSurrogate) {
   ReportInput in = input(2, 1, 8, 12);
-  kriging::Validation& v = in.validations[0];
-  v.rmse = 5;
-  v.nrmse = 0.3;
-  v.variance = Eigen::VectorXd::Ones(12);
-  v.observation_variance = 1.01 * v.variance;
-  v.observed = Eigen::VectorXd::LinSpaced(12, 0, 10);
+  make_poor(in.validations[0], 0.1);
   const std::string words = "takes a run to scatter by 0.100 s, the runs themselves say";
   EXPECT_EQ(next_commands(written(in)), (Commands{"run --adaptive 8", "confirm"}));
   EXPECT_FALSE(mentions(written(in).at("summary").at("cautions"), words)) << "nobody says";

@@ -71,9 +71,8 @@ struct Bank {
 Bank bank_of(const engine::World& world, const Area& area, double size) {
   const double spacing = size / 12;
   const auto heights = surface_heights(world, area, spacing);
-  const auto higher = std::count_if(heights.begin(), heights.end(), [&](double z) { return z > size / 2; });
   const double crest = mean_height(world, {-size, 0, area.y0, area.y1}, spacing);
-  return {static_cast<double>(higher) * spacing * spacing / (area.y1 - area.y0),
+  return {area_above(heights, spacing, size / 2) / (area.y1 - area.y0),
           angle_of_bank(world, area, size, crest, spacing)};
 }
 
@@ -99,8 +98,6 @@ EdgeResult edge_penetration(const RockSample& sample, const EdgeOptions& o) {
   EdgeResult result{push_in(world, edge, o.depth * L * Vector3d::UnitX(), o), bank.slope};
   if (result.status == RunStatus::completed) result.status = run.status();
   result.pressure = result.mean_force / (4 * half.y() * half.z());
-  const std::size_t half_parts = std::min<std::size_t>(o.parts / 2, result.curve.size());  // fewer: stopped
-  for (std::size_t k = 0; k < half_parts; ++k) result.early_force += result.curve[k].force / half_parts;
   result.line_force = result.mean_force / (2 * half.y());
   result.rocks = static_cast<int>(world.rocks().size());
   return result;

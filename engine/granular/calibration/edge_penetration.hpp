@@ -27,9 +27,8 @@ struct EdgeOptions : PushOptions {
 };
 
 struct EdgeResult : PenetrationResult {
-  double slope = 0;        ///< of the bank before [deg]
-  double early_force = 0;  ///< mean over the first half of the way [N]; mean_force is that of the second
-  double line_force = 0;   ///< mean_force over the edge's width [N/m]
+  double slope = 0;       ///< of the bank before [deg]
+  double line_force = 0;  ///< mean_force over the edge's width [N/m]
 };
 
 /// Throws std::invalid_argument for an edge that comes nearer to a side wall than half a rock or to the back

@@ -47,7 +47,9 @@ PenetrationResult push_in(engine::World& world, engine::KinematicBody& plate, co
       ++steps;
     });
     result.curve.push_back({k * depth / o.parts, force / std::max(1, steps)});
-    if (k > o.parts / 2) result.mean_force += result.curve.back().force / (o.parts - o.parts / 2);
+    const int early = o.parts / 2;
+    (k > early ? result.mean_force : result.early_force) +=
+        result.curve.back().force / (k > early ? o.parts - early : early);
   }
   result.work = plate.work() - start;
   result.status = run.status();

@@ -35,9 +35,10 @@ struct PenetrationPoint {
 
 struct PenetrationResult {
   RunStatus status = RunStatus::completed;
-  double mean_force = 0;  ///< over the second half of the way [N]
-  double work = 0;        ///< of the plate [J]
-  double pressure = 0;    ///< mean_force over the plate's section [Pa]
+  double early_force = 0;  ///< mean over the first half of the way [N]
+  double mean_force = 0;   ///< over the second half [N]
+  double work = 0;         ///< of the plate [J]
+  double pressure = 0;     ///< mean_force over the plate's section [Pa]
   int rocks = 0;
   std::vector<PenetrationPoint> curve;
 };
