@@ -245,6 +245,12 @@ inline void check(const Problem& problem) {
   for (const Response& r : problem.responses) detail::check_standard_error(r, problem.responses);
 }
 
+/// Whether response j is what runs tell of the noise of another one.
+inline bool is_standard_error(const Problem& problem, std::size_t j) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [&](const Response& of) { return of.standard_error == problem.responses[j].name; });
+}
+
 /// Place of a response in Problem::responses; throws std::invalid_argument when there is none of that name.
 inline int response_index(const Problem& problem, std::string_view name) {
   std::string known;

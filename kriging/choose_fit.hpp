@@ -91,6 +91,8 @@ class RunFitter {
 struct WayToFit {
   std::string name;
   RunFitter fitter;
+  /// By which the way is judged on runs that it has not seen. Empty: by the noise of its model, one size.
+  ExpectedNoise noise = {};
 };
 
 namespace detail {
@@ -135,12 +137,14 @@ struct ComparedRuns {
   }
 };
 
-/// The runs of `out` as a model of the others predicts them, each with its own noise where that is known.
+/// The runs of `out` as a model of those of `in` predicts them.
 inline Validation validate_on(const TransformedModel& model, const ComparedRuns& runs,
+                              const ExpectedNoise& noise, const std::vector<Eigen::Index>& in,
                               const std::vector<Eigen::Index>& out) {
   const Eigen::MatrixXd X = rows_of(runs.X, out);
   const Eigen::VectorXd y = entries_of(runs.y, out);
-  return runs.noise.noise == Noise::known ? validate(model, X, y, runs.noise_of(out)) : validate(model, X, y);
+  if (!noise) return validate(model, X, y);
+  return validate(model, X, y, noise(rows_of(runs.X, in), runs.noise_of(in), X, runs.noise_of(out)));
 }
 
 /// Of each run, as predicted by the way fitted to the four fifths of the runs that it is not among.
@@ -150,7 +154,7 @@ inline Eigen::VectorXd refitted_scores(const ComparedRuns& runs, const WayToFit&
   for (const std::vector<Eigen::Index>& out : folds_of(n, std::min<Eigen::Index>(5, n), 1)) {
     const std::vector<Eigen::Index> in = rows_besides(out, n);
     const TransformedModel model = way.fitter(rows_of(runs.X, in), entries_of(runs.y, in), runs.noise_of(in));
-    const Validation v = validate_on(model, runs, out);
+    const Validation v = validate_on(model, runs, way.noise, in, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       scores[out[i]] = log_score(predicted_run(v, row), v.observed[row], runs.range);
@@ -182,18 +186,23 @@ inline std::size_t best_standing(const ComparedRuns& runs, const std::vector<Way
   return 0;
 }
 
+/// Throws std::invalid_argument that begins with `place`.
+inline void check_ways(const std::string& place, const Eigen::MatrixXd& X, const std::vector<WayToFit>& ways,
+                       const RunNoise& noise) {
+  if (ways.empty()) throw std::invalid_argument(place + "0 ways; allowed is 1 or more; name at least one");
+  if (noise.noise != Noise::nugget || noise.variance.size() > 0)
+    check_run_noise(noise.variance, X.rows(), place);
+}
+
 }  // namespace detail
 
 /// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. A way
 /// is a function of the runs that it is given, which are fewer than all now and then. Noise that is known is
-/// given to the ways that take it, and runs are judged by it where they are predicted by a model of others.
+/// given to the ways that take it, and each way is judged by the noise that it expects (WayToFit::noise).
 /// Throws std::invalid_argument without ways, for variances that are not one per run, and as the ways do.
 inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
                             const std::vector<WayToFit>& ways, const RunNoise& noise = {}) {
-  if (ways.empty())
-    throw std::invalid_argument("kriging::choose_fit: 0 ways; allowed is 1 or more; name at least one");
-  if (noise.noise != Noise::nugget || noise.variance.size() > 0)
-    detail::check_run_noise(noise.variance, X.rows(), "kriging::choose_fit: ");
+  detail::check_ways("kriging::choose_fit: ", X, ways, noise);
   std::vector<TransformedModel> models;
   std::vector<FitStanding> table;
   Eigen::VectorXd first;
@@ -207,20 +216,45 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   return {std::move(table), best, std::move(models[best])};
 }
 
+/// The same by another rule, for ways that leave-one-out cannot tell apart because it holds each run against
+/// the noise that this run tells: every way is fitted anew to four fifths of the runs, five times, and judged
+/// on the rest. The best is taken where its score is better than the first one's by more than one standard
+/// error. FitStanding has these scores and gains. Cost: six fits per way.
+inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                                 const ResponseRange& range, const std::vector<WayToFit>& ways,
+                                 const RunNoise& noise = {}) {
+  detail::check_ways("kriging::choose_refitted: ", X, ways, noise);
+  std::vector<FitStanding> table;
+  Eigen::VectorXd first;
+  for (const WayToFit& way : ways) {
+    const Eigen::VectorXd scores = detail::refitted_scores({X, y, range, noise}, way);
+    if (table.empty()) first = scores;
+    table.push_back(detail::standing_of(way.name, scores, first));
+  }
+  const std::vector<std::size_t> better = detail::better_standings(table);
+  const std::size_t best = better.empty() ? 0 : better.front();
+  return {std::move(table), best, ways[best].fitter(X, y, noise.variance)};
+}
+
 /// Among the scales that the range allows, the linear one first. Throws as fit_transformed.
 inline FitChoice choose_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
                               const FitOptions& options = {}) {
   std::vector<WayToFit> ways;
   for (const Scale scale : {Scale::linear, Scale::square_root, Scale::logarithm, Scale::logit}) {
     if (!allows(range, scale)) continue;
-    ways.push_back({std::string(to_string(scale)),
-                    [scale, range, options](const Eigen::MatrixXd& P, const Eigen::VectorXd& v,
-                                            const Eigen::VectorXd& noise_variance) {
-                      FitOptions of_runs = options;
-                      of_runs.noise_variance = noise_variance;
-                      if (options.noise == Noise::known) of_runs = with_known_noise(options, noise_variance);
-                      return fit_transformed(P, v, scale, range, of_runs);
-                    }});
+    ways.push_back(
+        {std::string(to_string(scale)),
+         [scale, range, options](const Eigen::MatrixXd& P, const Eigen::VectorXd& v,
+                                 const Eigen::VectorXd& noise_variance) {
+           FitOptions of_runs = options;
+           of_runs.noise_variance = noise_variance;
+           if (options.noise == Noise::known || options.noise == Noise::pooled) {
+             of_runs = with_known_noise(options, noise_variance);
+             if (of_runs.noise == Noise::known) of_runs.noise = options.noise;
+           }
+           return fit_transformed(P, v, scale, range, of_runs);
+         },
+         expected_noise(options.noise == Noise::known ? NoiseSource::told : NoiseSource::estimated)});
   }
   return choose_fit(X, y, range, ways, {options.noise, options.noise_variance});
 }

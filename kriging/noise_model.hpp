@@ -5,7 +5,9 @@
 /// The noise that a run has at a place, learnt from what runs tell of theirs.
 ///
 /// Standard errors of a few samples are off by chance, two samples' by their own size, so a fit should not
-/// take each for the truth (Noise::known). Where noise varies smoothly over the box, a Kriging model of all
+/// take each for the truth (Noise::known). All together they know one size of noise well: of n runs of k
+/// samples each it is off by 1/√(2n(k − 1)) of itself (Noise::pooled), where the likelihood of the responses
+/// alone may be off by several times. Where noise varies smoothly over the box, a Kriging model of all
 /// standard errors, on the scale of their logarithm, knows it better than any of them; its own noise is how
 /// far samples miss. It expects of normal samples 0.8 to 1.0 of their deviation, two samples to many. It does
 /// not know of a run that is worse than its neighbours. Sources: Ankenman, Nelson, Staum 2010, Operations
@@ -18,10 +20,34 @@
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace drawpoint::kriging {
+
+/// Where a fit has the noise of its runs from.
+enum class NoiseSource {
+  estimated,  ///< by the likelihood of the responses, one size
+  pooled,     ///< what the runs tell, together: one size on the scale that is fitted
+  told,       ///< what each run tells
+  modelled,   ///< a model of what the runs tell
+};
+
+inline std::string_view to_string(NoiseSource source) {
+  switch (source) {
+    case NoiseSource::estimated:
+      return "estimated";
+    case NoiseSource::pooled:
+      return "pooled";
+    case NoiseSource::told:
+      return "told";
+    case NoiseSource::modelled:
+      return "modelled";
+  }
+  return "unknown";
+}
 
 /// For runs whose noise is known to be this, n entries, unit of y squared. Where all are exact, as a part of
 /// some runs may be, λ stays at its lower bound.
@@ -63,6 +89,38 @@ inline FitOptions with_modelled_noise(const FitOptions& known, const Eigen::Matr
   of_noise.noise = Noise::nugget;
   of_noise.noise_variance.resize(0);
   return with_known_noise(known, noise_variance_at(fit_noise(X, known.noise_variance, of_noise), X));
+}
+
+/// Variances of noise of some runs, m entries, by where others lie (n x d) and what they tell (n), where these
+/// lie (m x d) and what they tell (m), unit of y squared.
+using ExpectedNoise =
+    std::function<Eigen::VectorXd(const Eigen::MatrixXd& others, const Eigen::VectorXd& told_by_others,
+                                  const Eigen::MatrixXd& X, const Eigen::VectorXd& told)>;
+
+/// What a fit with noise from there expects of runs that it has not seen; empty where that is one size, which
+/// its model knows. options: as fit_noise.
+inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& options = {}) {
+  using Runs = const Eigen::MatrixXd&;
+  using Entries = const Eigen::VectorXd&;
+  if (source == NoiseSource::told) return [](Runs, Entries, Runs, Entries told) { return told; };
+  if (source != NoiseSource::modelled) return {};
+  return [options](Runs others, Entries told_by_others, Runs X, Entries) {
+    return noise_variance_at(fit_noise(others, told_by_others, options), X);
+  };
+}
+
+/// A fit of runs that tell their noise as `source` has it. options: with Noise::nugget; noise_variance: n
+/// entries, unit of y squared, none needed for `estimated`. Throws as fit_transformed and fit_noise.
+inline TransformedModel fit_with_noise(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
+                                       const ResponseRange& range, const FitOptions& options,
+                                       NoiseSource source, const Eigen::VectorXd& noise_variance) {
+  if (source == NoiseSource::estimated) return fit_transformed(X, y, scale, range, options);
+  FitOptions known = with_known_noise(options, noise_variance);
+  if (known.noise == Noise::known) {
+    if (source == NoiseSource::pooled) known.noise = Noise::pooled;
+    if (source == NoiseSource::modelled) known = with_modelled_noise(known, X);
+  }
+  return fit_transformed(X, y, scale, range, known);
 }
 
 }  // namespace drawpoint::kriging

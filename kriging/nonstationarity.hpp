@@ -233,6 +233,9 @@ inline Model fit_with_step(const Model& model, int input, double at) {
   if (s.noise.size() > 0) {
     options.noise = s.known_noise > 0 ? Noise::known : Noise::proportional;
     options.noise_variance = affine(s.noise, s.noise_unit);
+  } else if (s.known_noise > 0) {
+    options.noise = Noise::pooled;
+    options.noise_variance = Eigen::VectorXd::Constant(X.rows(), s.noise_unit);
   }
   return fit(X, s.observed, options);
 }

@@ -22,6 +22,7 @@ namespace drawpoint::kriging {
 enum class Noise {
   nugget,        ///< nothing but that it is the same everywhere: λ is estimated
   known,         ///< the variance of each run, FitOptions::noise_variance; λ follows from s²
+  pooled,        ///< the same everywhere, on the scale that is fitted: each of noise_variance estimates it
   proportional,  ///< the variance of each run up to a common factor, which is estimated as λ
 };
 
@@ -78,7 +79,7 @@ struct FitOptions {
   Basis basis = {};  ///< Trend::user only
 
   Noise noise = Noise::nugget;
-  /// Unit of y squared, one entry per run, >= 0, not all 0; Noise::known and Noise::proportional only.
+  /// Unit of y squared, one entry per run, >= 0, not all 0; none with Noise::nugget.
   Eigen::VectorXd noise_variance = {};
 
   /// 0: all cores. They share the matrix work of 500 runs or more; results do not depend on them.

@@ -40,8 +40,9 @@ struct OutlierOptions {
   double level = 0.01;  ///< chance that normal runs have a suspect by their distance alone, 0 to 1
   double spoilt = 0.7;  ///< 0 to 1; 1: also those that do no harm
   double most = 0.1;    ///< share of the runs, 0 to 0.5
-  /// Of the runs where it is known, n entries, unit of y squared; the fitter may then be f(X, y,
-  /// noise_variance).
+  /// What the runs tell of theirs, n entries, unit of y squared; the fitter may then be f(X, y,
+  /// noise_variance). A suspect is judged by what it tells where the noise of the model differs from run to
+  /// run, else by the model's one size.
   Eigen::VectorXd noise_variance = {};
 };
 
@@ -146,8 +147,9 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
   std::vector<Outlier> outliers;
   const Eigen::MatrixXd P = detail::rows_of(X, suspects);
   const Eigen::VectorXd observed = detail::entries_of(y, suspects), &noise = options.noise_variance;
-  const Validation v = noise.size() == 0 ? validate(best, P, observed)
-                                         : validate(best, P, observed, detail::entries_of(noise, suspects));
+  const bool by_own = noise.size() > 0 && model.model().state().noise.size() > 0;
+  const Validation v =
+      by_own ? validate(best, P, observed, detail::entries_of(noise, suspects)) : validate(best, P, observed);
   for (std::size_t k = 0; k < suspects.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     if (detail::too_far(detail::deviations_of(detail::predicted_run(v, i), observed[i]), X.rows(),

@@ -189,9 +189,27 @@ static_assert(SmoothSurrogate<TransformedModel> && Regression<TransformedModel>)
 
 namespace detail {
 
-/// The options with the noise of each run as it is on the scale of z; `known` only.
+/// One variance on the scale of z that lets noise of the runs have the mean variance that they tell, to first
+/// order: Σ variance/Σ (dg⁻¹/dz)². Where all runs are on a bound of a square root, the mean of what each is
+/// there.
+inline double pooled_on_scale(const Transform& t, const Eigen::VectorXd& y, const Eigen::VectorXd& variance) {
+  double slopes = 0, told = 0, on_scale = 0;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const double z = transformed(t, y[i]), slope = back_slope(t, z);
+    slopes += slope * slope;
+    told += variance[i];
+    on_scale += noise_on_scale(t, z, variance[i]);
+  }
+  return slopes > 0 ? told / slopes : on_scale / static_cast<double>(y.size());
+}
+
+/// The options with the noise of each run as it is on the scale of z; `known` and `pooled` only.
 inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, const Eigen::VectorXd& y) {
   check_noise(options, y.size());
+  if (options.noise == Noise::pooled) {
+    options.noise_variance.setConstant(pooled_on_scale(t, y, options.noise_variance));
+    return options;
+  }
   for (Eigen::Index i = 0; i < y.size(); ++i)
     options.noise_variance[i] = noise_on_scale(t, transformed(t, y[i]), options.noise_variance[i]);
   return options;
@@ -199,8 +217,8 @@ inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, co
 
 }  // namespace detail
 
-/// X: n x d, natural units; y: n, within the range. Variances of Noise::known are about y, in its unit
-/// squared (noise_on_scale); those of Noise::proportional are taken for shares of the noise on the scale.
+/// X: n x d, natural units; y: n, within the range. Variances of Noise::known and Noise::pooled are about y,
+/// in its unit squared; those of Noise::proportional are taken for shares of the noise on the scale.
 /// Throws as transform_for and fit.
 inline TransformedModel fit_transformed(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
                                         const ResponseRange& range, const FitOptions& options = {}) {
@@ -208,7 +226,8 @@ inline TransformedModel fit_transformed(const Eigen::MatrixXd& X, const Eigen::V
   if (transform.scale == Scale::linear) return fit(X, y, options);
   Eigen::VectorXd z = y;
   for (double& entry : z) entry = transformed(transform, entry);
-  if (options.noise != Noise::known) return {fit(X, z, options), transform, y};
+  const bool told = options.noise == Noise::known || options.noise == Noise::pooled;
+  if (!told) return {fit(X, z, options), transform, y};
   return {fit(X, z, detail::with_noise_on_scale(options, transform, y)), transform, y};
 }
 

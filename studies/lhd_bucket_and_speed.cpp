@@ -37,7 +37,8 @@ const doe::Problem problem{
                    .unit = "kg/s",
                    .goal = doe::Goal::maximize,
                    .lower = 0,
-                   .description = "loaded mass over the time of a cycle, mean of the cycles"},
+                   .description = "loaded mass over the time of a cycle, mean of the cycles",
+                   .standard_error = "production_error"},
                   {.name = "energy",
                    .unit = "kJ/t",
                    .goal = doe::Goal::minimize,
@@ -53,7 +54,12 @@ const doe::Problem problem{
                    .unit = "t",
                    .goal = doe::Goal::record,
                    .lower = 0,
-                   .description = "per cycle; rated payload: 21 t"}}};
+                   .description = "per cycle; rated payload: 21 t"},
+                  {.name = "production_error",
+                   .unit = "kg/s",
+                   .goal = doe::Goal::record,
+                   .lower = 0,
+                   .description = "standard error of production, by the scatter of the run's cycles"}}};
 
 /// Another bucket and other speeds are no other pile: all runs begin with the same.
 Scenario scenario_of(const studies::RunContext& run) {
@@ -77,8 +83,9 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
   if (!log.completed) return doe::Failure{log.message};
   const double loaded = 1e-3 * log.numbers.at("payload") * fill_factor(log);
   if (loaded == 0) return doe::Failure{"nothing was loaded, so energy per tonne is unknown"};
-  return {production(log, studies::production_options(options)), energy_per_tonne(log), pin_load_range(log),
-          loaded};
+  const auto producing = studies::production_options(options);
+  return {production(log, producing), energy_per_tonne(log), pin_load_range(log), loaded,
+          production_standard_error(log, producing)};
 }
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {

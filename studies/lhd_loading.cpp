@@ -13,7 +13,17 @@
 #include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/studies/study.hpp>
 
+#include <string>
+
 using namespace drawpoint;
+
+doe::Response standard_error(const char* name, const char* unit, const std::string& of) {
+  return {.name = name,
+          .unit = unit,
+          .goal = doe::Goal::record,
+          .lower = 0,
+          .description = "standard error of " + of + ", by the scatter of the run's cycles"};
+}
 
 const doe::Problem problem{
     .variables = {{.name = "alpha",
@@ -43,24 +53,36 @@ const doe::Problem problem{
          .unit = "kg/s",
          .goal = doe::Goal::maximize,
          .lower = 0,
-         .description = "loaded mass over the time of a cycle and its haul (--haul), mean of the cycles"},
+         .description = "loaded mass over the time of a cycle and its haul (--haul), mean of the cycles",
+         .standard_error = "production_error"},
         {.name = "joint_damage",
          .unit = "s",
          .goal = doe::Goal::minimize,
          .lower = 0,
          .description = "torque in the bucket's hinge above the yield torque, over that and summed over the "
-                        "time of a run of --cycles cycles"},
+                        "time of a run of --cycles cycles",
+         .standard_error = "joint_damage_error"},
         {.name = "rock_spill",
          .unit = "1",
          .goal = doe::Goal::minimize,
          .lower = 0,
          .description = "mass that the run has left before the pile, after a cycle, over the 10 t that would "
-                        "stop the work"}}};
+                        "stop the work",
+         .standard_error = "rock_spill_error"},
+        standard_error("production_error", "kg/s", "production"),
+        standard_error("joint_damage_error", "s", "joint damage"),
+        standard_error("rock_spill_error", "1", "rock spill")}};
 
 doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
   if (!log.completed) return doe::Failure{log.message};
-  return {production(log, studies::production_options(options)),
-          joint_damage(log, studies::damage_options(options)), rock_spill(log)};
+  const auto producing = studies::production_options(options);
+  const auto damaging = studies::damage_options(options);
+  return {production(log, producing),
+          joint_damage(log, damaging),
+          rock_spill(log),
+          production_standard_error(log, producing),
+          joint_damage_standard_error(log, damaging),
+          rock_spill_standard_error(log)};
 }
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {

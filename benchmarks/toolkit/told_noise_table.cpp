@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// told_noise_table: what it is worth that runs tell their own standard error. Each run is the mean of a few
-/// noisy samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell,
-/// fits with a model of that, and the choice among the three. Takes no options; prints a table: errors over
-/// the deviation of the response, and how many of fresh runs lie within their 95 % interval, where the noise
-/// is small and where it is large.
+/// noisy samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell
+/// together, what each tells, and a model of that, and the choice among the four. Takes no options; prints a
+/// table: errors over the deviation of the response, and how many of fresh runs lie within their 95 %
+/// interval, where the noise is small and where it is large.
 
 #include <algorithm>
 #include <array>
@@ -25,12 +25,17 @@ using namespace drawpoint;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Columns: the three ways, and the chosen one.
-constexpr int designs = 15, fresh = 200, columns = 4;
+using kriging::NoiseSource;
 
-/// On the unit square.
+constexpr std::array sources = {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::told,
+                                NoiseSource::modelled};
+/// Columns: the four sources, and the chosen one.
+constexpr int designs = 15, fresh = 200, columns = 5;
+
+/// On the unit box.
 struct Function {
   const char* name;
+  int inputs;
   double (*f)(const VectorXd&);
 };
 
@@ -42,7 +47,14 @@ double branin(const VectorXd& u) {
 
 double waves(const VectorXd& u) { return std::sin(5 * u[0]) + std::cos(4 * u[1]) * u[0]; }
 
-constexpr std::array functions = {Function{"Branin", branin}, Function{"waves", waves}};
+/// Smooth in two inputs, weak in a third, none in the fourth.
+double bowl(const VectorXd& u) {
+  return std::sin(3 * u[0]) + 0.7 * u[1] * u[1] + 0.5 * u[0] * u[1] + 0.2 * u[2];
+}
+
+constexpr std::array functions = {Function{"Branin", 2, branin}, Function{"waves", 2, waves},
+                                  Function{"bowl", 4, bowl},
+                                  Function{"nothing", 4, [](const VectorXd&) { return 0.0; }}};
 
 /// Deviation of the mean of a run, in deviations of the response.
 struct Noise {
@@ -52,6 +64,7 @@ struct Noise {
 
 constexpr std::array noises = {
     Noise{"0.2 everywhere", [](const VectorXd&, int) { return 0.2; }},
+    Noise{"1 everywhere", [](const VectorXd&, int) { return 1.0; }},
     Noise{"0.02 to 0.6 along u0", [](const VectorXd& u, int) { return 0.02 * std::pow(30.0, u[0]); }},
     Noise{"every third run 0.6, others 0.05", [](const VectorXd&, int run) { return run % 3 ? 0.05 : 0.6; }}};
 
@@ -65,16 +78,19 @@ struct Scale {
   double mean, deviation;
 };
 
-doe::Problem square() {
-  return {.variables = {{"u0", "1", 0.0, 1.0}, {"u1", "1", 0.0, 1.0}},
-          .responses = {{"y", "1", doe::Goal::record}}};
+doe::Problem box_of(const Function& function) {
+  doe::Problem problem{.responses = {{"y", "1", doe::Goal::record}}};
+  for (int k = 0; k < function.inputs; ++k)
+    problem.variables.push_back({"u" + std::to_string(k), "1", 0.0, 1.0});
+  return problem;
 }
 
 Scale scale_of(const Function& function) {
-  const MatrixXd X = doe::latin_hypercube(square(), 2000, {.seed = 1});
+  const MatrixXd X = doe::latin_hypercube(box_of(function), 2000, {.seed = 1});
   VectorXd y(X.rows());
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = function.f(X.row(i));
-  return {y.mean(), std::sqrt((y.array() - y.mean()).square().mean())};
+  const double deviation = std::sqrt((y.array() - y.mean()).square().mean());
+  return {y.mean(), deviation > 0 ? deviation : 1.0};
 }
 
 double truth(const Function& function, const Scale& scale, const VectorXd& u) {
@@ -84,7 +100,7 @@ double truth(const Function& function, const Scale& scale, const VectorXd& u) {
 Runs runs_of(const Function& function, const Noise& noise, int n, int samples, doe::Seed seed) {
   const Scale scale = scale_of(function);
   doe::RandomStream random(seed);
-  Runs r{doe::latin_hypercube(square(), n, {.seed = seed}), VectorXd(n), VectorXd(n), VectorXd(n)};
+  Runs r{doe::latin_hypercube(box_of(function), n, {.seed = seed}), VectorXd(n), VectorXd(n), VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     const VectorXd u = r.X.row(i);
     r.deviation[i] = noise.deviation(u, i);
@@ -96,44 +112,30 @@ Runs runs_of(const Function& function, const Noise& noise, int n, int samples, d
   return r;
 }
 
-kriging::FitOptions known(const VectorXd& noise_variance) {
-  kriging::FitOptions options;
-  options.noise = kriging::Noise::known;
-  options.noise_variance = noise_variance;
-  return options;
-}
-
 std::vector<kriging::WayToFit> ways() {
-  return {{"estimated", [](const MatrixXd& X,
-                           const VectorXd& y) { return kriging::TransformedModel(kriging::fit(X, y)); }},
-          {"told",
-           [](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
-             return kriging::TransformedModel(kriging::fit(X, y, known(noise_variance)));
-           }},
-          {"modelled", [](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
-             const kriging::FitOptions modelled = kriging::with_modelled_noise(known(noise_variance), X);
-             return kriging::TransformedModel(kriging::fit(X, y, modelled));
-           }}};
-}
-
-/// Of the fresh runs, as the way k of the three has it; none for the first.
-kriging::RunNoise noise_of(std::size_t k, const Runs& training, const Runs& check) {
-  if (k == 0) return {};
-  if (k == 1) return {kriging::Noise::known, check.noise_variance};
-  const kriging::TransformedModel model = kriging::fit_noise(training.X, training.noise_variance);
-  return {kriging::Noise::known, kriging::noise_variance_at(model, check.X)};
+  std::vector<kriging::WayToFit> all;
+  for (const NoiseSource source : sources)
+    all.push_back({std::string(to_string(source)),
+                   [=](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
+                     return kriging::fit_with_noise(X, y, kriging::Scale::linear, {}, {}, source,
+                                                    noise_variance);
+                   },
+                   kriging::expected_noise(source)});
+  return all;
 }
 
 struct Result {
   double error = 0, quiet = 0, noisy = 0;  // held, of the fresh runs with less and with more noise
 };
 
-Result judged(const kriging::TransformedModel& model, const Function& function, const Runs& r,
-              const kriging::RunNoise& noise) {
+/// Of the fresh runs r, as the way has their noise.
+Result judged(const kriging::WayToFit& way, const Function& function, const Runs& training, const Runs& r) {
   const Scale scale = scale_of(function);
-  const kriging::Validation v = noise.noise == kriging::Noise::known
-                                    ? kriging::validate(model, r.X, r.y, noise.variance)
-                                    : kriging::validate(model, r.X, r.y);
+  const kriging::TransformedModel model = way.fitter(training.X, training.y, training.noise_variance);
+  const kriging::Validation v =
+      way.noise ? kriging::validate(model, r.X, r.y,
+                                    way.noise(training.X, training.noise_variance, r.X, r.noise_variance))
+                : kriging::validate(model, r.X, r.y);
   const double middle = std::sqrt(r.deviation.minCoeff() * r.deviation.maxCoeff());
   double sum = 0;
   int held[2] = {}, all[2] = {};
@@ -161,17 +163,16 @@ std::string text(double share) {
 
 void print_row(const Function& function, const Noise& noise, int n, int samples) {
   std::vector<double> error[columns], quiet[columns], noisy[columns];
-  int chosen[3] = {};
+  int chosen[sources.size()] = {};
   for (int design = 1; design <= designs; ++design) {
     const auto seed = static_cast<doe::Seed>(design);
     const Runs r = runs_of(function, noise, n, samples, seed);
     const Runs check = runs_of(function, noise, fresh, samples, seed + 1000);
-    const auto choice = kriging::choose_fit(r.X, r.y, {}, ways(), {kriging::Noise::known, r.noise_variance});
+    const auto choice =
+        kriging::choose_refitted(r.X, r.y, {}, ways(), {kriging::Noise::known, r.noise_variance});
     ++chosen[choice.best];
     for (std::size_t k = 0; k < columns; ++k) {
-      const std::size_t way = k < 3 ? k : choice.best;
-      const Result result =
-          judged(ways()[way].fitter(r.X, r.y, r.noise_variance), function, check, noise_of(way, r, check));
+      const Result result = judged(ways()[k < sources.size() ? k : choice.best], function, r, check);
       error[k].push_back(result.error);
       quiet[k].push_back(result.quiet);
       noisy[k].push_back(result.noisy);
@@ -181,7 +182,7 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
   for (const auto& errors : error) std::printf(" %.3f |", median(errors));
   for (int k = 0; k < columns; ++k)
     std::printf(" %s / %s |", text(median(quiet[k])).c_str(), text(median(noisy[k])).c_str());
-  std::printf(" %d / %d / %d |\n", chosen[0], chosen[1], chosen[2]);
+  std::printf(" %d / %d / %d / %d |\n", chosen[0], chosen[1], chosen[2], chosen[3]);
   std::fflush(stdout);
 }
 
@@ -190,10 +191,9 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
 int main() {
   try {
     std::printf(
-        "| Function | Noise of a run | Runs | Samples | Error: estimated | told | modelled | chosen | Held "
-        "%%, "
-        "quiet / noisy runs: estimated | told | modelled | chosen | Chosen, of %d |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| Function | Noise of a run | Runs | Samples | Error: pooled | estimated | told | modelled | chosen "
+        "| Held %%, quiet / noisy runs: pooled | estimated | told | modelled | chosen | Chosen, of %d |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         designs);
     for (const Function& function : functions)
       for (const Noise& noise : noises)

@@ -159,7 +159,7 @@ inline void check_noise(const FitOptions& options, Eigen::Index n) {
   const Eigen::VectorXd& v = options.noise_variance;
   if (options.noise == Noise::nugget) {
     if (v.size() > 0)
-      reject("noise_variance is given but noise is nugget; set noise to known or proportional");
+      reject("noise_variance is given but noise is nugget; set noise to known, pooled or proportional");
     return;
   }
   check_run_noise(v, n, "kriging::fit: ");
@@ -260,9 +260,9 @@ inline void set_trend(TrainingData& data, const Eigen::MatrixXd& X, TrendFunctio
 inline void set_noise(TrainingData& data, const FitOptions& options) {
   if (options.noise == Noise::nugget) return;
   const double mean = mean_of(options.noise_variance);
-  data.noise = affine(options.noise_variance, 1.0 / mean);
   data.noise_unit = mean;
-  if (options.noise == Noise::known) data.known_noise = mean / data.y_scale / data.y_scale;
+  if (options.noise != Noise::pooled) data.noise = affine(options.noise_variance, 1.0 / mean);
+  if (options.noise != Noise::proportional) data.known_noise = mean / data.y_scale / data.y_scale;
 }
 
 /// Throws std::invalid_argument for anything that no model can be fitted to.

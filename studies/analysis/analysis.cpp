@@ -75,15 +75,16 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
     else
       ++summary.unfinished;
   }
-  for (const auto& response : study.problem.responses) {
-    summary.nrmse.emplace_back(response.name, std::numeric_limits<double>::quiet_NaN());
-  }
+  for (std::size_t j = 0; j < study.problem.responses.size(); ++j)
+    if (!doe::is_standard_error(study.problem, j))
+      summary.nrmse.emplace_back(study.problem.responses[j].name, std::numeric_limits<double>::quiet_NaN());
   return summary;
 }
 
 void tell_of_models(Summary& summary, const ReportInput& input) {
+  auto said = summary.nrmse.begin();
   for (std::size_t j = 0; j < input.validations.size(); ++j)
-    summary.nrmse[j].second = input.validations[j].nrmse;
+    if (!doe::is_standard_error(input.problem, j)) (said++)->second = input.validations[j].nrmse;
   summary.no_front = input.no_front;
   summary.front = static_cast<int>(input.front.X.rows());
   summary.polishing = input.polishing;

@@ -58,7 +58,8 @@ Json errors_json(const kriging::Validation& v, const doe::Response& response) {
 /// Of one run, on the scale that is fitted.
 std::string noise_text(const kriging::TransformedModel& model, const std::string& unit) {
   const double noise = std::sqrt(model.noise_variance());
-  const std::string told = knows_noise(model) ? ", in the mean square, by what the runs tell" : "";
+  const std::string mean = noise_differs(model) ? ", in the mean square" : "",
+                    told = knows_noise(model) ? mean + ", by what the runs tell" : "";
   if (model.transform().scale == kriging::Scale::linear) return with_unit(noise, unit) + told;
   return number(noise) + " on the scale " + std::string(to_string(model.transform().scale)) + told;
 }

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/frame_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
+#include <drawpoint/studies/runs/session.h>
 
 namespace drawpoint::studies {
 namespace {
@@ -88,7 +89,9 @@ class Reader {
   CLI::App& add(const std::string& name, const std::string& help, Command command) const {
     CLI::App& added = *app_.add_subcommand(name, help);
     added.callback([command, &study = study_, &settings = settings_, &action = action_] {
-      action = [command, &study, &settings] { return command(study, settings); };
+      action = [command, &study, &settings] {
+        return command(as_begun(study, Folder{settings.out}), settings);
+      };
     });
     return added;
   }

@@ -13,8 +13,13 @@
 namespace drawpoint::studies {
 namespace {
 
-kriging::FitOptions default_fit(const doe::Problem& problem) {
+/// With noise that is estimated, or what the runs tell of theirs together.
+kriging::FitOptions default_fit(const doe::Problem& problem, const kriging::RunNoise& noise = {}) {
   kriging::FitOptions options;
+  if (noise.noise == kriging::Noise::known) {
+    options.noise = kriging::Noise::pooled;
+    options.noise_variance = noise.variance;
+  }
   options.threads = 0;
   options.lower = doe::lower_bounds(problem);
   options.upper = doe::upper_bounds(problem);
@@ -38,30 +43,28 @@ std::string name_of(kriging::Scale scale) {
 
 kriging::ResponseRange range_of(const doe::Response& response) { return {response.lower, response.upper}; }
 
-std::string name_of(NoiseOfRuns noise) {
+std::string name_of(kriging::NoiseSource noise) {
   switch (noise) {
-    case NoiseOfRuns::estimated:
+    case kriging::NoiseSource::estimated:
       return "";
-    case NoiseOfRuns::told:
-      return ", noise as the runs tell it";
-    case NoiseOfRuns::modelled:
+    case kriging::NoiseSource::pooled:
+      return ", noise as the runs tell it together";
+    case kriging::NoiseSource::told:
+      return ", noise as each run tells it";
+    case kriging::NoiseSource::modelled:
       return ", noise as a model of what the runs tell";
   }
   return "";
 }
 
 StudyWay way_to_fit(const kriging::FitOptions& options, const kriging::ResponseRange& range,
-                    kriging::Scale scale, NoiseOfRuns noise) {
+                    kriging::Scale scale, kriging::NoiseSource noise) {
   const std::string slope = options.trend == kriging::Trend::linear ? ", linear trend" : "";
   return {{std::string(to_string(options.correlation)) + slope + name_of(scale) + name_of(noise),
            [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
-             if (noise == NoiseOfRuns::estimated)
-               return kriging::fit_transformed(X, y, scale, range, options);
-             kriging::FitOptions known = kriging::with_known_noise(options, noise_variance);
-             if (noise == NoiseOfRuns::modelled && known.noise == kriging::Noise::known)
-               known = kriging::with_modelled_noise(known, X);
-             return kriging::fit_transformed(X, y, scale, range, known);
-           }},
+             return kriging::fit_with_noise(X, y, scale, range, options, noise, noise_variance);
+           },
+           kriging::expected_noise(noise, options)},
           noise};
 }
 
@@ -72,29 +75,18 @@ kriging::Validation validation_of(const Models& fitted, const doe::Evaluations& 
   const Eigen::MatrixXd X = runs.X();
   const Eigen::VectorXd y = runs.y(response.name);
   switch (fitted.noise[j]) {
-    case NoiseOfRuns::estimated:
+    case kriging::NoiseSource::estimated:
+    case kriging::NoiseSource::pooled:
       return kriging::validate(fitted.models[j], X, y);
-    case NoiseOfRuns::told:
+    case kriging::NoiseSource::told:
       return kriging::validate(fitted.models[j], X, y, runs.noise_variance(response.name));
-    case NoiseOfRuns::modelled:
+    case kriging::NoiseSource::modelled:
       break;
   }
   return kriging::validate(fitted.models[j], X, y, expected_noise(fitted.models, runs.problem, j, X));
 }
 
 }  // namespace
-
-std::string_view to_string(NoiseOfRuns noise) {
-  switch (noise) {
-    case NoiseOfRuns::estimated:
-      return "estimated";
-    case NoiseOfRuns::told:
-      return "told";
-    case NoiseOfRuns::modelled:
-      return "modelled";
-  }
-  return "unknown";
-}
 
 kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response) {
   const Eigen::VectorXd variance = runs.noise_variance(response.name);
@@ -104,36 +96,59 @@ kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& 
 }
 
 std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
-                                  kriging::Scale scale, const kriging::RunNoise& noise) {
+                                  kriging::Scale scale, kriging::NoiseSource source) {
   std::vector<StudyWay> ways;
-  for (const NoiseOfRuns source : {NoiseOfRuns::estimated, NoiseOfRuns::told, NoiseOfRuns::modelled}) {
-    if (source != NoiseOfRuns::estimated && noise.noise != kriging::Noise::known) break;
-    for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
-      for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
-        kriging::FitOptions options = default_fit(problem);
-        options.correlation = correlation;
-        options.trend = trend;
-        ways.push_back(way_to_fit(options, range_of(response), scale, source));
-      }
+  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
+    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
+      kriging::FitOptions options = default_fit(problem);
+      options.correlation = correlation;
+      options.trend = trend;
+      ways.push_back(way_to_fit(options, range_of(response), scale, source));
     }
   }
   return ways;
 }
 
+kriging::NoiseSource first_source(const kriging::RunNoise& noise) {
+  return noise.noise == kriging::Noise::known ? kriging::NoiseSource::pooled
+                                              : kriging::NoiseSource::estimated;
+}
+
+namespace {
+
+struct Fitted {
+  StudyWay way;
+  kriging::TransformedModel model;
+};
+
+Fitted fit_response(const doe::Evaluations& runs, const doe::Response& response) {
+  using kriging::NoiseSource;
+  const Eigen::MatrixXd X = runs.X();
+  const Eigen::VectorXd y = runs.y(response.name);
+  const kriging::ResponseRange range = range_of(response);
+  const kriging::RunNoise noise = told_noise(runs, response);
+  const kriging::Scale scale = kriging::choose_scale(X, y, range, default_fit(runs.problem, noise)).scale();
+  const std::vector<StudyWay> kinds = ways_to_fit(runs.problem, response, scale, first_source(noise));
+  kriging::FitChoice kind = kriging::choose_fit(X, y, range, {kinds.begin(), kinds.end()}, noise);
+  if (noise.noise != kriging::Noise::known) return {kinds[kind.best], std::move(kind.model)};
+  std::vector<StudyWay> sources;
+  for (const auto source :
+       {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::told, NoiseSource::modelled})
+    sources.push_back(ways_to_fit(runs.problem, response, scale, source)[kind.best]);
+  kriging::FitChoice choice = kriging::choose_refitted(X, y, range, {sources.begin(), sources.end()}, noise);
+  return {sources[choice.best], std::move(choice.model)};
+}
+
+}  // namespace
+
 Models fit_models(const Tables& tables) {
   const doe::Problem& problem = tables.training.problem;
-  const Eigen::MatrixXd X = tables.training.X();
   Models fitted;
   for (const auto& response : problem.responses) {
-    const Eigen::VectorXd y = tables.training.y(response.name);
-    const kriging::ResponseRange range = range_of(response);
-    const kriging::FitChoice on_scale = kriging::choose_scale(X, y, range, default_fit(problem));
-    const kriging::RunNoise noise = told_noise(tables.training, response);
-    const std::vector<StudyWay> ways = ways_to_fit(problem, response, on_scale.scale(), noise);
-    kriging::FitChoice choice = kriging::choose_fit(X, y, range, {ways.begin(), ways.end()}, noise);
-    fitted.ways.push_back(choice.name());
-    fitted.noise.push_back(ways[choice.best].noise);
-    fitted.models.push_back(std::move(choice.model));
+    Fitted best = fit_response(tables.training, response);
+    fitted.ways.push_back(best.way.name);
+    fitted.noise.push_back(best.way.noise_source);
+    fitted.models.push_back(std::move(best.model));
   }
   if (tables.validation.X().rows() == 0) return fitted;
   for (std::size_t j = 0; j < problem.responses.size(); ++j)
@@ -153,9 +168,10 @@ Models models_or_reason(const Tables& tables) {
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem) {
   std::string text;
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
+    if (doe::is_standard_error(problem, j)) continue;
     char number[32];
     std::snprintf(number, sizeof number, "%.3g", fitted.validations[j].nrmse);
-    text += (j == 0 ? "NRMSE " : ", ") + problem.responses[j].name + " " + number;
+    text += (text.empty() ? "NRMSE " : ", ") + problem.responses[j].name + " " + number;
   }
   return text;
 }

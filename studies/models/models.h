@@ -23,40 +23,36 @@ inline constexpr double most_told_variance = 1e150;
 /// where they do not, tell none but 0, or one tells what cannot be.
 kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& response);
 
-/// Where a fit has the noise of a run from.
-enum class NoiseOfRuns {
-  estimated,  ///< the same for all runs
-  told,       ///< by each run
-  modelled    ///< what the others tell, too: kriging/noise_model.hpp
-};
-
-std::string_view to_string(NoiseOfRuns noise);
-
 struct StudyWay : kriging::WayToFit {
-  NoiseOfRuns noise = NoiseOfRuns::estimated;
+  kriging::NoiseSource noise_source = kriging::NoiseSource::estimated;
 };
 
 /// The ways to fit a response on this scale that are compared: smooth and less smooth, without and with a
-/// slope, with noise that is estimated and, where `noise` is known, with that and a model of it. The first is
-/// the default.
+/// slope, with noise from this source. The first is the default.
 std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
-                                  kriging::Scale scale, const kriging::RunNoise& noise = {});
+                                  kriging::Scale scale,
+                                  kriging::NoiseSource source = kriging::NoiseSource::estimated);
+
+/// Where noise is taken from without a reason for another source: of what the runs tell, together, or of their
+/// likelihood where they tell nothing.
+kriging::NoiseSource first_source(const kriging::RunNoise& noise);
 
 struct Models {
   std::vector<kriging::TransformedModel> models;  ///< one per response, in order
   std::vector<std::string> ways;                  ///< how each was fitted: a name of ways_to_fit
-  std::vector<NoiseOfRuns> noise;                 ///< where each has the noise of a run from
+  std::vector<kriging::NoiseSource> noise;        ///< where each has the noise of a run from
   std::vector<kriging::Validation> validations;   ///< one per response; empty without validation runs
 };
 
 /// The scale is that of kriging::choose_scale among those that the response's range allows, the way to fit on
-/// it that of kriging::choose_fit. Throws std::invalid_argument if the runs do not allow models.
+/// it that of kriging::choose_fit, and where the runs tell their noise, the source of it that of
+/// kriging::choose_refitted. Throws std::invalid_argument if the runs do not allow models.
 Models fit_models(const Tables& tables);
 
 /// The same, for who cannot go on without: std::runtime_error says what to do.
 Models models_or_reason(const Tables& tables);
 
-/// "NRMSE production 0.21, spill 0.09"; empty without validation runs.
+/// "NRMSE production 0.21, spill 0.09", but for standard errors; empty without validation runs.
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem);
 
 /// The points (n x d) with what the models expect of one run there, its noise included, within the ranges of

@@ -275,8 +275,10 @@ json described(const doe::Problem& problem) {
   json all = to_json(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i)
     all["variables"][i]["description"] = problem.variables[i].description;
-  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
     all["responses"][j]["description"] = problem.responses[j].description;
+    if (doe::is_standard_error(problem, j)) all["responses"][j]["is_error"] = true;
+  }
   return all;
 }
 

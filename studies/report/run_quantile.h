@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the models of a study say of one run at a new point, its noise included. Where runs tell their own
-/// standard error and the fit took their word, a run's noise at a point is what the model of the standard
-/// errors expects there; else it is the same everywhere, as the fit estimated it.
+/// standard error and the fit took the word of each, a run's noise at a point is what the model of the
+/// standard errors expects there; else it is the same everywhere, as the fit has it.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
@@ -15,7 +15,12 @@
 
 namespace drawpoint::studies {
 
-/// Whether the model was fitted with the noise that the runs told.
+/// Whether the model was fitted with noise that differs from run to run.
+inline bool noise_differs(const kriging::TransformedModel& model) {
+  return model.model().state().noise.size() > 0;
+}
+
+/// Whether what the runs tell of their noise went into the fit.
 inline bool knows_noise(const kriging::TransformedModel& model) {
   return model.model().state().known_noise > 0;
 }
@@ -34,7 +39,7 @@ inline Eigen::VectorXd run_quantile(const std::vector<kriging::TransformedModel>
                                     double probability) {
   const doe::Response& response = problem.responses[j];
   const auto quantile = [&]() -> Eigen::VectorXd {
-    if (!knows_noise(models[j])) return models[j].quantile(X, probability, kriging::Target::observation);
+    if (!noise_differs(models[j])) return models[j].quantile(X, probability, kriging::Target::observation);
     return models[j].run_quantile(X, probability, expected_noise(models, problem, j, X));
   };
   return quantile().unaryExpr([&](double y) { return doe::within_range(response, y); });

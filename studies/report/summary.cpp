@@ -204,7 +204,8 @@ std::string drivers(const ReportInput& input, const std::vector<Eigen::VectorXd>
   std::string text;
   for (std::size_t j = 0; j < influence.size(); ++j) {
     Eigen::Index k = 0;
-    if (is_poor(input, j) || influence[j].maxCoeff(&k) <= 0.0) continue;
+    if (doe::is_standard_error(input.problem, j) || is_poor(input, j) || influence[j].maxCoeff(&k) <= 0.0)
+      continue;
     text += (text.empty() ? "" : ", ") + pretty(input.problem.variables[static_cast<std::size_t>(k)].name) +
             " for " + pretty(input.problem.responses[j].name);
   }
@@ -283,7 +284,7 @@ void caution_about_models(const ReportInput& input, std::vector<std::string>& al
   for (std::size_t j = 0; j < input.validations.size(); ++j) {
     const kriging::Validation& v = input.validations[j];
     const std::string name = pretty(input.problem.responses[j].name);
-    if (v.observed.size() == 0) continue;
+    if (v.observed.size() == 0 || doe::is_standard_error(input.problem, j)) continue;
     if (is_poor(input, j))
       all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
                     "): " + remedy(input, j) + ", or read only its trends.");
@@ -368,7 +369,8 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
 }
 
 bool is_poor(const ReportInput& input, std::size_t response) {
-  return response < input.validations.size() && input.validations[response].nrmse > fair_nrmse;
+  return !doe::is_standard_error(input.problem, response) && response < input.validations.size() &&
+         input.validations[response].nrmse > fair_nrmse;
 }
 
 bool is_noisy(const ReportInput& input, std::size_t response) {
@@ -412,7 +414,8 @@ std::vector<std::string> cautions(const ReportInput& input) {
 
 json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
   json trust = json::array();
-  for (std::size_t j = 0; j < input.problem.responses.size(); ++j) trust.push_back(grade(input, j));
+  for (std::size_t j = 0; j < input.problem.responses.size(); ++j)
+    if (!doe::is_standard_error(input.problem, j)) trust.push_back(grade(input, j));
   return {{"cards", cards(input)},
           {"sentences", sentences(input, influence)},
           {"trust", std::move(trust)},

@@ -17,6 +17,18 @@ namespace {
                    "; choose another folder with --out, or move this one away");
 }
 
+/// More runs would have responses that those of the folder lack.
+[[noreturn]] void refuse_earlier(const Study& study, const Folder& folder) {
+  std::string how = "begin another folder with --out";
+  if (study.responses)
+    how = "take them from the logs with rerun-responses --from " +
+          doe::detail::quoted_for_shell(folder.path.string()) + " --out NEW, and go on in NEW, or " + how;
+  throw UsageError("studies: " + folder.path.string() +
+                   " was begun before the study had its last responses, " +
+                   study.problem.responses.back().name + " among them; " + how +
+                   ". report, front and the other commands that read take the folder as it is");
+}
+
 void require_same_options(const Identity& stored, const Settings& settings, const Folder& folder) {
   if (settings.seed && *settings.seed != stored.seed) {
     refuse_folder(folder, "seed " + std::to_string(stored.seed) + " there, " +
@@ -94,6 +106,15 @@ Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<
 
 }  // namespace
 
+Study as_begun(const Study& study, const Folder& folder) {
+  Study then = study;
+  if (!std::filesystem::exists(folder.store())) return then;
+  const Identity stored = Store::open(folder.store(), Access::read).identity();
+  if (stored.study != study.name) return then;
+  then.problem = before_later_responses(stored.problem, study.problem).value_or(study.problem);
+  return then;
+}
+
 Store open_store(const Study& study, const Folder& folder, Access access) {
   if (!std::filesystem::exists(folder.store())) {
     throw std::runtime_error(
@@ -104,6 +125,7 @@ Store open_store(const Study& study, const Folder& folder, Access access) {
   const Identity& stored = store.identity();
   if (stored.study != study.name)
     refuse_folder(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");
+  if (before_later_responses(stored.problem, study.problem)) refuse_earlier(study, folder);
   const std::string text = difference(stored.problem, study.problem);
   if (!text.empty()) refuse_folder(folder, text);
   // Values are the folder's own; only what options there are is the program's.

@@ -16,6 +16,10 @@ namespace drawpoint::studies {
 /// to another study or to another problem, saying what differs.
 Store open_store(const Study& study, const Folder& folder, Access access = Access::change);
 
+/// For who reads a folder: the study, or where it has gained recorded responses since the folder was begun, as
+/// it was then.
+Study as_begun(const Study& study, const Folder& folder);
+
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.
 Run stored_run(const Store& store, const Folder& folder, std::int64_t id);
 

@@ -38,6 +38,7 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
 
 /// Whether the NRMSE of every response on the validation runs is at most the target. False without a target
 /// or without validation runs.
-bool target_met(const Sampling& sampling, const std::vector<kriging::Validation>& validations);
+bool target_met(const Sampling& sampling, const doe::Problem& problem,
+                const std::vector<kriging::Validation>& validations);
 
 }  // namespace drawpoint::studies

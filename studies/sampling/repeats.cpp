@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/sampling/repeats.h>
+#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/doe/uniform.hpp>
 #include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/kriging/run_gain.hpp>
 
-#include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,18 +31,12 @@ Eigen::MatrixXd repeatable_points(const doe::Evaluations& runs, const Failures& 
 Eigen::VectorXd noise_of_runs(const std::vector<kriging::TransformedModel>& models,
                               const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& points) {
   const kriging::Model& model = models[j].model();
-  if (!knows_noise(models[j])) return Eigen::VectorXd::Constant(points.rows(), model.noise_variance());
+  if (!noise_differs(models[j])) return Eigen::VectorXd::Constant(points.rows(), model.noise_variance());
   Eigen::VectorXd noise = expected_noise(models, problem, j, points);
   const Eigen::VectorXd z = model.mean(points);
   for (Eigen::Index i = 0; i < noise.size(); ++i)
     noise[i] = kriging::noise_on_scale(models[j].transform(), z[i], noise[i]);
   return noise;
-}
-
-/// Whether it is the standard error that runs tell of another response.
-bool is_standard_error(const doe::Problem& problem, const std::string& name) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [&](const doe::Response& other) { return other.standard_error == name; });
 }
 
 double range_on_scale(const kriging::TransformedModel& model) {
@@ -66,7 +59,7 @@ Eigen::MatrixXd points_to_repeat(const doe::Evaluations& runs,
   std::vector<kriging::ResponseGain> responses;
   for (std::size_t j = 0; j < models.size(); ++j) {
     const double range = range_on_scale(models[j]);
-    if (!(range > 0) || is_standard_error(problem, problem.responses[j].name)) continue;
+    if (!(range > 0) || doe::is_standard_error(problem, j)) continue;
     const Eigen::VectorXd noise = noise_of_runs(models, problem, j, points) / settings.replicates;
     if (noise.maxCoeff() < least_noise * least_noise * range * range) continue;
     responses.push_back({kriging::RunGain(models[j].model(), points, places, noise), range});

@@ -32,14 +32,15 @@ doe::Criterion disagreement_of_ways(const doe::Evaluations& runs,
                                     const std::vector<kriging::TransformedModel>& models) {
   std::vector<std::pair<doe::Criterion, double>> scores;
   for (std::size_t j = 0; j < models.size(); ++j) {
+    if (doe::is_standard_error(runs.problem, j)) continue;
     const doe::Response& response = runs.problem.responses[j];
     const Eigen::VectorXd y = runs.y(response.name);
     std::vector<doe::Criterion> means;
-    for (const auto& way : ways_to_fit(runs.problem, response, models[j].transform().scale)) {
-      means.push_back([model = way.fitter(runs.X(), y)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
-        return model.mean(X);
-      });
-    }
+    const kriging::RunNoise noise = told_noise(runs, response);
+    const kriging::Scale scale = models[j].transform().scale;
+    for (const auto& way : ways_to_fit(runs.problem, response, scale, first_source(noise)))
+      means.push_back([model = way.fitter(runs.X(), y, noise.variance)](
+                          const Eigen::MatrixXd& X) -> Eigen::VectorXd { return model.mean(X); });
     scores.emplace_back(doe::disagreement(std::move(means)), range_of(y));
   }
   return largest_of(std::move(scores));
@@ -49,6 +50,7 @@ doe::Criterion deviation_of(const doe::Evaluations& runs,
                             const std::vector<kriging::TransformedModel>& models) {
   std::vector<std::pair<doe::Criterion, double>> scores;
   for (std::size_t j = 0; j < models.size(); ++j) {
+    if (doe::is_standard_error(runs.problem, j)) continue;
     scores.emplace_back(
         [model = models[j]](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
           return model.predict(X).variance.cwiseMax(0.0).cwiseSqrt();
@@ -59,11 +61,13 @@ doe::Criterion deviation_of(const doe::Evaluations& runs,
 }
 
 /// |leave-one-out error| of the nearest run, on the scales of the models.
-doe::Criterion error_of_the_nearest_run(const std::vector<kriging::TransformedModel>& models) {
+doe::Criterion error_of_the_nearest_run(const doe::Problem& problem,
+                                        const std::vector<kriging::TransformedModel>& models) {
   std::vector<std::pair<doe::Criterion, double>> scores;
-  for (const kriging::TransformedModel& model : models)
-    scores.emplace_back(kriging::cross_validation_error(model.model()),
-                        range_of(model.model().state().observed));
+  for (std::size_t j = 0; j < models.size(); ++j)
+    if (!doe::is_standard_error(problem, j))
+      scores.emplace_back(kriging::cross_validation_error(models[j].model()),
+                          range_of(models[j].model().state().observed));
   return largest_of(std::move(scores));
 }
 
@@ -106,7 +110,7 @@ doe::Sampler sampler_named(const std::string& name, const std::vector<kriging::T
   if (name == "error")
     return [models](const doe::Evaluations& runs) { return disagreement_of_ways(runs, models); };
   if (name == "cross_validation")
-    return [models](const doe::Evaluations&) { return error_of_the_nearest_run(models); };
+    return [models](const doe::Evaluations& runs) { return error_of_the_nearest_run(runs.problem, models); };
   if (name == "variance")
     return [models](const doe::Evaluations& runs) { return deviation_of(runs, models); };
   if (name == "feasibility")

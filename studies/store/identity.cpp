@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/store/identity.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace drawpoint::studies {
@@ -78,6 +80,21 @@ std::string between_lists(const std::vector<Item>& there, const std::vector<Item
 std::string difference(const doe::Problem& there, const doe::Problem& here) {
   const std::string text = between_lists(there.variables, here.variables, "variables");
   return text.empty() ? between_lists(there.responses, here.responses, "responses") : text;
+}
+
+std::optional<doe::Problem> before_later_responses(const doe::Problem& there, const doe::Problem& here) {
+  if (there.responses.size() >= here.responses.size()) return {};
+  const auto later = here.responses.begin() + static_cast<std::ptrdiff_t>(there.responses.size());
+  if (!std::all_of(later, here.responses.end(), [](const auto& r) { return r.goal == doe::Goal::record; }))
+    return {};
+  doe::Problem before = here;
+  before.responses.resize(there.responses.size());
+  for (doe::Response& response : before.responses)
+    if (std::any_of(later, here.responses.end(),
+                    [&](const auto& r) { return r.name == response.standard_error; }))
+      response.standard_error.clear();
+  if (!difference(there, before).empty()) return {};
+  return before;
 }
 
 }  // namespace drawpoint::studies

@@ -9,6 +9,7 @@
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/studies/options.hpp>
 
+#include <optional>
 #include <string>
 
 namespace drawpoint::studies {
@@ -25,5 +26,9 @@ struct Identity {
 
 /// The first difference in words ('variable "alpha": upper bound 2 there, 3 here'), or "" if there is none.
 std::string difference(const doe::Problem& there, const doe::Problem& here);
+
+/// `here` as it was when it had the responses of `there` alone, where it has only gained recorded ones since,
+/// at the end, such as standard errors; nothing for any other difference, or none.
+std::optional<doe::Problem> before_later_responses(const doe::Problem& there, const doe::Problem& here);
 
 }  // namespace drawpoint::studies

@@ -128,7 +128,8 @@ TEST(BadInput, Exponents) {
 
 TEST(BadInput, NoiseVariances) {
   EXPECT_EQ(refusal([](Call& c) { c.options.noise_variance = VectorXd::Ones(6); }),
-            "kriging::fit: noise_variance is given but noise is nugget; set noise to known or proportional");
+            "kriging::fit: noise_variance is given but noise is nugget; set noise to known, pooled or "
+            "proportional");
   const auto with = [](const VectorXd& v) {
     return refusal([&](Call& c) {
       c.options.noise = Noise::known;

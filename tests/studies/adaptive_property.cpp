@@ -361,16 +361,22 @@ TEST(Criteria, AreNamesWithWeights) {
   }
 }
 
+// A model of standard errors need not be good: what runs tell is noise itself.
 TEST(Target, IsMetByEveryResponseOrNot) {
-  std::vector<kriging::Validation> validations(2);
+  const doe::Problem problem{{{"x", "m", 0, 1}},
+                             {{"a", "t", doe::Goal::maximize},
+                              {.name = "b", .unit = "t", .goal = doe::Goal::minimize, .standard_error = "c"},
+                              {.name = "c", .unit = "t", .lower = 0}}};
+  std::vector<kriging::Validation> validations(3);
   validations[0].nrmse = 0.1;
   validations[1].nrmse = 0.2;
-  EXPECT_TRUE(target_met({.target = 0.2}, validations));
-  EXPECT_FALSE(target_met({.target = 0.19}, validations));
-  EXPECT_FALSE(target_met({}, validations));
-  EXPECT_FALSE(target_met({.target = 0.2}, {}));
+  validations[2].nrmse = 0.9;
+  EXPECT_TRUE(target_met({.target = 0.2}, problem, validations));
+  EXPECT_FALSE(target_met({.target = 0.19}, problem, validations));
+  EXPECT_FALSE(target_met({}, problem, validations));
+  EXPECT_FALSE(target_met({.target = 0.2}, problem, {}));
   validations[1].nrmse = std::nan("");
-  EXPECT_FALSE(target_met({.target = 0.2}, validations));
+  EXPECT_FALSE(target_met({.target = 0.2}, problem, validations));
 }
 
 }  // namespace

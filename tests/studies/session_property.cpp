@@ -238,6 +238,55 @@ TEST(Problems, SurviveTheStoreAsText) {
             "variable \"" + other.variables[0].name + "\": kind real there, integer here");
 }
 
+/// The sample study as it may be later: its first response tells its error.
+Study later(Study study) {
+  study.problem.responses[0].standard_error = "error";
+  study.problem.responses.push_back({.name = "error",
+                                     .unit = study.problem.responses[0].unit,
+                                     .goal = doe::Goal::record,
+                                     .lower = 0,
+                                     .description = "of the first"});
+  return study;
+}
+
+TEST(Problems, AreKnownBeforeTheirLaterResponses) {
+  const doe::Problem before = test::two_by_two();
+  Study study;
+  study.problem = before;
+  const doe::Problem after = later(study).problem;
+  const auto found = before_later_responses(before, after);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(difference(*found, before), "");
+  EXPECT_FALSE(before_later_responses(before, before));
+  EXPECT_FALSE(before_later_responses(after, before));
+  doe::Problem other = after;
+  other.responses.back().goal = doe::Goal::minimize;
+  EXPECT_FALSE(before_later_responses(before, other)) << "a new objective makes another study";
+  other = after;
+  other.variables[0].upper += 1;
+  EXPECT_FALSE(before_later_responses(before, other));
+}
+
+// A folder is read as it was begun, and takes no run that would have more responses than its others.
+TEST_F(SessionTest, AFolderOfBeforeIsReadAndTakesNoRuns) {
+  plan_study(sample(), folder_, {});
+  const Study now = later(sample());
+  EXPECT_EQ(as_begun(now, folder_).problem.responses.size(), sample().problem.responses.size());
+  EXPECT_NO_THROW(open_store(as_begun(now, folder_), folder_));
+  const std::string text = complaint([&] { open_store(now, folder_); });
+  EXPECT_NE(text.find("was begun before the study had its last responses, error among them; begin another "
+                      "folder with --out"),
+            std::string::npos)
+      << text;
+  Study with_logs = now;
+  with_logs.responses = [](const std::filesystem::path&, const OptionValues&) {
+    return doe::Failure{"none"};
+  };
+  EXPECT_NE(complaint([&] { open_store(with_logs, folder_); }).find("rerun-responses --from"),
+            std::string::npos);
+  EXPECT_EQ(as_begun(now, Folder{"/nowhere"}).problem.responses.size(), now.problem.responses.size());
+}
+
 TEST(Folders, ARegularFileInTheWayIsNamed) {
   const TestFolder place;
   test::write_file(place / "taken", "x");

@@ -58,8 +58,8 @@ double width(const Models& fitted, double x) {
 // the width either way leaves room for both.
 TEST(ToldNoise, IntervalsAreAsWideAsRunsScatterThere) {
   const Models fitted = fit_models({runs(60, 1), {problem(), {}}});
-  EXPECT_NE(fitted.noise[0], NoiseOfRuns::estimated) << fitted.ways[0];
-  EXPECT_EQ(fitted.noise[1], NoiseOfRuns::estimated) << fitted.ways[1];
+  EXPECT_NE(fitted.noise[0], kriging::NoiseSource::estimated) << fitted.ways[0];
+  EXPECT_EQ(fitted.noise[1], kriging::NoiseSource::estimated) << fitted.ways[1];
   for (const double x : {0.3, 0.6, 0.9}) {
     const double own = 2 * 1.96 * deviation(x);
     EXPECT_GT(width(fitted, x), own / 1.33) << x;
@@ -88,6 +88,29 @@ TEST(ToldNoise, IntervalsHoldOnBothSides) {
     EXPECT_LT(held[side], all[side]);
   }
   EXPECT_TRUE(suspects(fitted, {runs(60, 1), {problem(), {}}}).empty());
+}
+
+// Two samples per run tell each run's error to its own size and all of them together to a tenth: fits that know
+// it are not taken in by 40 runs of nothing but noise, as estimates are now and then (docs/measurements).
+// Fresh runs scatter by √(1/2); a model's interval, 3.92 of what it takes a run to scatter by where the mean
+// is known, is within √(2/40)/2 = 11 % of that, and three times as much leaves room for what the mean is not
+// known by, a third of a run's noise at most.
+TEST(ToldNoise, OfTwoSamplesIsPooled) {
+  int pooled = 0;
+  for (doe::Seed seed = 1; seed <= 5; ++seed) {
+    doe::Evaluations table{problem(), {}};
+    doe::RandomStream random(seed);
+    const Eigen::MatrixXd X = doe::latin_hypercube(table.problem, 40, {.seed = seed});
+    for (int i = 0; i < 40; ++i) {
+      const double a = 5 + random.normal(), b = 5 + random.normal();
+      table.rows.push_back({i + 1, 0, 1, X.row(i), doe::Outcome{0.5 * (a + b), 0.5 * std::abs(a - b)}, 0.0});
+    }
+    const Models fitted = fit_models({table, {problem(), {}}});
+    pooled += fitted.noise[0] == kriging::NoiseSource::pooled;
+    EXPECT_NEAR(width(fitted, 0.5), 3.92 * std::sqrt(0.5), 0.33 * 3.92 * std::sqrt(0.5)) << seed;
+  }
+  EXPECT_GE(pooled, 4)
+      << "another source has to be better by more than a standard error: by chance, now and then";
 }
 
 // All runs exact: nothing is told, and fits estimate as ever.
@@ -124,7 +147,7 @@ TEST(ToldNoise, OfOneRunSpoilsNoModel) {
 TEST(ToldNoise, RunsAreRepeatedWhereTheyAreNoisy) {
   const doe::Evaluations table = runs(40, 3);
   const Models fitted = fit_models({table, {problem(), {}}});
-  ASSERT_NE(fitted.noise[0], NoiseOfRuns::estimated);
+  ASSERT_NE(fitted.noise[0], kriging::NoiseSource::estimated);
   const Eigen::MatrixXd again = points_to_repeat(table, fitted.models, {}, {.count = 6});
   ASSERT_EQ(again.rows(), 6);
   EXPECT_GT(again.col(0).minCoeff(), 0.5);

@@ -42,6 +42,20 @@ double number_or_0(const LoadingLog& log, const char* name) {
   return found == log.numbers.end() ? 0.0 : found->second;
 }
 
+/// Standard error of the mean of two values or more.
+double error_of_mean(const std::vector<double>& values) {
+  const double all = mean(values), k = static_cast<double>(values.size());
+  double squares = 0;
+  for (const double value : values) squares += (value - all) * (value - all);
+  return std::sqrt(squares / (k - 1) / k);
+}
+
+/// The same where there may be one value, of as many as were wanted.
+double error_of_cycles(const std::vector<double>& by_cycle, double wanted) {
+  if (by_cycle.size() > 1) return error_of_mean(by_cycle);
+  return wanted > 1 ? std::abs(by_cycle.front()) : 0.0;
+}
+
 double magnitude(const Vector3d& torque, TorqueComponent component) {
   return component == TorqueComponent::all ? torque.norm() : std::hypot(torque.x(), torque.z());
 }
@@ -79,11 +93,16 @@ double production(const LoadingLog& log, const ProductionOptions& options) {
 
 double production_error(const LoadingLog& log, const ProductionOptions& options) {
   const std::vector<double> rates = production_by_cycle(log, options);
-  const double k = static_cast<double>(rates.size()), all = mean(rates);
+  const double all = mean(rates);
   if (rates.size() < 2 || !(all > 0)) return std::numeric_limits<double>::infinity();
-  double squares = 0;
-  for (const double rate : rates) squares += (rate - all) * (rate - all);
-  return std::sqrt(squares / (k - 1) / k) / all;
+  return error_of_mean(rates) / all;
+}
+
+double production_standard_error(const LoadingLog& log, const ProductionOptions& options) {
+  if (options.mean != ProductionMean::of_ratios)
+    throw std::invalid_argument(
+        "loading::production_standard_error: of the ratio of sums it is not known; take the mean of ratios");
+  return error_of_cycles(production_by_cycle(log, options), counted_cycles(log));
 }
 
 std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOptions& options) {
@@ -107,6 +126,15 @@ double joint_damage(const LoadingLog& log, const DamageOptions& options) {
   if (options.sum == DamageSum::per_cycle) return mean(damage);
   const double done = static_cast<double>(damage.size());
   return std::accumulate(damage.begin(), damage.end(), 0.0) * (counted_cycles(log) / done);
+}
+
+double joint_damage_standard_error(const LoadingLog& log, const DamageOptions& options) {
+  const double of_mean = error_of_cycles(joint_damage_by_cycle(log, options), counted_cycles(log));
+  return options.sum == DamageSum::per_cycle ? of_mean : of_mean * counted_cycles(log);
+}
+
+double rock_spill_standard_error(const LoadingLog& log) {
+  return error_of_cycles(rock_spill_by_cycle(log), counted_cycles(log));
 }
 
 double counted_cycles(const LoadingLog& log) {

@@ -17,9 +17,12 @@ export function collect(data) {
   const {variables, responses} = data.problem;
   const values = (key, k) => ({runs: column(runs, key, k), front: column(front, key, k)});
   const axes = [...variables.map((item, k) => ({item, isVariable: true, low: item.lower, high: item.upper, values: values('x', k)})),
-    ...responses.map((item, j) => bounded({item, isVariable: false, values: values('y', j)}))];
+    ...own(responses).map(({response: item, j}) => bounded({item, isVariable: false, values: values('y', j)}))];
   return {runs, front, axes: axes.map((axis) => ({...axis, title: labelled(axis.item)}))};
 }
+
+/// The responses that are no standard error of another one, {response, j}: of those the tables of runs have all.
+export const own = (responses) => responses.map((response, j) => ({response, j})).filter(({response}) => !response.is_error);
 
 const column = (rows, key, k) => Float64Array.from(rows, (row) => row[key]?.[k] ?? NaN);
 
@@ -56,7 +59,7 @@ export const inputsText = ({variables}, x) => variables.map((v, k) => `${plain(p
 /// Name, responses and variables of a design in one sentence.
 export function sentence(data, designs, set, i) {
   const {x, y, reason} = designs[set][i];
-  const outputs = data.problem.responses.map((r, j) => (y?.[j] == null ? '' : `${pretty(r.name)} ${withUnit(y[j], r)}`)).filter(Boolean);
+  const outputs = own(data.problem.responses).map(({response: r, j}) => (y?.[j] == null ? '' : `${pretty(r.name)} ${withUnit(y[j], r)}`)).filter(Boolean);
   const said = y ? outputs.join(', ') : `failed (${reason})`;
   const name = nameOf(designs, set, i), broken = brokenText(data.problem, designs[set][i]);
   return `${name[0].toUpperCase() + name.slice(1)}: ${said} at ${data.problem.variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(x[k], v)}`).join(', ')}${broken ? `; it ${broken}` : ''}.`;

@@ -3,6 +3,7 @@
 // What was asked, before what came out: the variables with their ranges, the responses with what is wanted of
 // them and what the runs gave.
 
+import {own} from './designs.js';
 import {el, section} from './dom.js';
 import {labelled, number, setting} from './format.js';
 import {came, question, wanted} from './question_words.js';
@@ -11,7 +12,7 @@ import {table} from './table.js';
 export function asked(data, {designs}) {
   const {variables, responses} = data.problem;
   const inputs = list('Variable', variables, [['Values', (v) => (v.levels ? v.levels.join(', ') : span(setting(v.lower, v), setting(v.upper, v)))]]);
-  const outputs = list('Response', responses, [['Wanted', wanted], ['Runs gave', (r, j) => range(came(designs.runs, j))]]);
+  const outputs = list('Response', own(responses).map(({response, j}) => ({...response, j})), [['Wanted', wanted], ['Runs gave', ({j}) => range(came(designs.runs, j))]]);
   return section('study', 'The study', question(data.problem), el('div', {class: 'block columns compact'}, inputs, outputs));
 }
 

@@ -4,6 +4,7 @@
 // and along every variable alone. The surrogates are evaluated here, in the browser.
 /* global Plotly */
 
+import {own} from './designs.js';
 import {choice, el, figure, section, select} from './dom.js';
 import {axisLabel, labelled, number, place, plain, pretty, settingWithUnit, ticks} from './format.js';
 import {oncePerFrame} from './frames.js';
@@ -20,7 +21,7 @@ import {colour, faded, scale, series} from './theme.js';
 const dots = 200;  // runs drawn on a surface
 
 export function surfaces(data, {chosen}) {
-  const fitted = data.problem.responses.map((response, j) => ({response, j, model: data.models[j]})).filter((f) => f.model?.surface);
+  const fitted = own(data.problem.responses).map((f) => ({...f, model: data.models[f.j]})).filter((f) => f.model?.surface);
   const node = section('surfaces', 'Response surfaces', fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.');
   if (!fitted.length) return node;
   for (const f of fitted) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How good the surrogates are: a table, and predicted against simulated values.
 
-import {inputsText} from './designs.js';
+import {inputsText, own} from './designs.js';
 import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
 import {el, figure, section} from './dom.js';
 import {labelled, number, percent, plain, pretty} from './format.js';
@@ -17,7 +17,7 @@ export function validation(data, shared) {
     {title: 'NRMSE', format: percent}, {title: 'Points', format: String},
     {title: 'Scale', text: true}, ...variables.map((v) => ({title: 'ϑ ' + pretty(v.name), format: number})), {title: 'Nugget', format: number},
     {title: 'Process σ', format: number}];
-  const rows = responses.map((r, j) => row(labelled(r), data.models[j], data.validations[j], variables.length));
+  const rows = own(responses).map(({response: r, j}) => row(labelled(r), data.models[j], data.validations[j], variables.length));
   const node = section('surrogates', 'How good the surrogates are',
     data.models.length ? 'A regression Kriging model stands in for the simulation. It was fitted to the training runs and checked on validation runs that it has never seen.'
       : 'No surrogate could be fitted.');
@@ -27,7 +27,7 @@ export function validation(data, shared) {
     'the rest is by how much the model misses the mean of many runs, give or take a standard error. NRMSE: RMSE over the range of the simulated values. ' +
     'Scale: what was fitted, the response itself or its square root, logarithm or logit, chosen by leave-one-out; ' +
     'ϑ, nugget and process σ are of that scale. ϑ: how fast the response changes along an input scaled to [-1, 1]; larger is livelier. Nugget: share of run-to-run noise, relative to the process variance.')));
-  const known = responses.map((_, j) => j).filter((j) => data.validations[j]?.observed.length);
+  const known = own(responses).map(({j}) => j).filter((j) => data.validations[j]?.observed.length);
   if (known.length) node.append(figure(el('div', {class: 'grid'}, known.map((j) => parity(data, j, shared))),
     'Predicted against simulated value of each validation run. A perfect surrogate puts every point on the dashed line; the bars are its own 95 % intervals, and about 19 of 20 should reach the line.' + legendOfLimits(data.validation.rows)));
   return node;

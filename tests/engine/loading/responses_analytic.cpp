@@ -161,6 +161,42 @@ TEST(Production, KnowsItsErrorByTheScatterOfTheCycles) {
   EXPECT_EQ(production_error(log), std::numeric_limits<double>::infinity()) << "empty buckets";
 }
 
+// Of the same rates 50 000/12 is the variance of the mean; of damages of 1 and 2 s the error of the mean is 0.5
+// and that of the run, which is their sum, twice that. Four cycles that were lost count with the mean of the
+// others, so the sum of six has thrice that of two.
+TEST(StandardErrors, AreTheScatterOfTheCycles) {
+  LoadingLog log;
+  for (const double rate : {400, 500, 600, 700}) log.cycles.push_back(cycle(0, 10, 10 * rate, rate));
+  EXPECT_NEAR(production_standard_error(log), std::sqrt(50e3 / 12), 1e-12);
+  EXPECT_NEAR(rock_spill_standard_error(log), std::sqrt(50e3 / 12) / 1e4, 1e-16);
+
+  LoadingLog damaged;
+  damaged.signals = empty_signals();
+  for (int c = 1; c <= 2; ++c)
+    for (int k = 1; k <= 100; ++k)
+      damaged.signals.append_row(std::vector<double>{10.0 * c + k * h, 1.0 * c, 0, 0, (1.0 + c) * 145e3});
+  damaged.cycles = {cycle(10, 11, 0, 0), cycle(20, 21, 0, 0)};
+  EXPECT_NEAR(joint_damage_standard_error(damaged, unfiltered()), 1.0, 1e-12);
+  damaged.numbers["lost_cycles"] = 4;
+  EXPECT_NEAR(joint_damage_standard_error(damaged, unfiltered()), 3.0, 1e-12);
+  DamageOptions per_cycle = unfiltered();
+  per_cycle.sum = DamageSum::per_cycle;
+  EXPECT_NEAR(joint_damage_standard_error(damaged, per_cycle), 0.5, 1e-12);
+}
+
+TEST(StandardErrors, OfOneCycleAreNoneAndOfOneThatIsLeftAll) {
+  LoadingLog log;
+  log.cycles = {cycle(0, 10, 5000, 100)};
+  EXPECT_EQ(production_standard_error(log), 0);
+  EXPECT_EQ(rock_spill_standard_error(log), 0);
+  log.numbers["lost_cycles"] = 1;
+  EXPECT_EQ(production_standard_error(log), 500);
+  EXPECT_EQ(rock_spill_standard_error(log), 0.01);
+  EXPECT_EQ(
+      thrown_by([&] { production_standard_error(log, {.mean = ProductionMean::ratio_of_sums}); }),
+      "loading::production_standard_error: of the ratio of sums it is not known; take the mean of ratios");
+}
+
 TEST(Responses, SayWhatIsMissing) {
   const LoadingLog nothing;
   EXPECT_NE(thrown_by([&] { production(nothing); }).find("the log has no cycle"), std::string::npos);
