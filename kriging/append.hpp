@@ -61,7 +61,7 @@ inline void check_new_runs(const Model& model, const NewRuns& runs) {
   if (runs.noise_variance.size() != wanted)
     reject("noise_variance has " + std::to_string(runs.noise_variance.size()) + " entries; allowed is " +
            std::to_string(wanted) +
-           "; give one per run when the model was fitted with noise variances, else none");
+           "; give one per run of a model whose noise differs from run to run, else none");
   check_run_noise(runs.noise_variance, wanted, "kriging::append: ");
 }
 

@@ -91,7 +91,8 @@ class RunFitter {
 struct WayToFit {
   std::string name;
   RunFitter fitter;
-  /// By which the way is judged on runs that it has not seen. Empty: by the noise of its model, one size.
+  /// By which the way is judged on runs that it has not seen. Empty: by the noise of its model, one size, the
+  /// mean of what differs; a way that takes each run's own noise gives expected_noise(NoiseSource::told).
   ExpectedNoise noise = {};
 };
 
@@ -198,7 +199,8 @@ inline void check_ways(const std::string& place, const Eigen::MatrixXd& X, const
 
 /// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. A way
 /// is a function of the runs that it is given, which are fewer than all now and then. Noise that is known is
-/// given to the ways that take it, and each way is judged by the noise that it expects (WayToFit::noise).
+/// given to the ways that take it, and runs that a way was not fitted to are judged by the noise that it
+/// expects of them (WayToFit::noise).
 /// Throws std::invalid_argument without ways, for variances that are not one per run, and as the ways do.
 inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
                             const std::vector<WayToFit>& ways, const RunNoise& noise = {}) {
@@ -216,14 +218,16 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   return {std::move(table), best, std::move(models[best])};
 }
 
-/// The same by another rule, for ways that leave-one-out cannot tell apart because it holds each run against
-/// the noise that this run tells: every way is fitted anew to four fifths of the runs, five times, and judged
-/// on the rest. The best is taken where its score is better than the first one's by more than one standard
-/// error. FitStanding has these scores and gains. Cost: six fits per way.
+/// The same by another rule, for ways that differ in where noise is taken from: leave-one-out holds each run
+/// against the noise that this run tells, by chance next to none. Every way is fitted anew to four fifths of
+/// the runs, five times, and judged on the rest by the noise that it expects there (WayToFit::noise). The best
+/// is taken where its score is better than the first one's by more than one standard error, the first of a
+/// single run. FitStanding has these scores and gains. Cost: five fits per way and one.
 inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                                  const ResponseRange& range, const std::vector<WayToFit>& ways,
                                  const RunNoise& noise = {}) {
   detail::check_ways("kriging::choose_refitted: ", X, ways, noise);
+  if (X.rows() < 2) return {{{.name = ways[0].name}}, 0, ways[0].fitter(X, y, noise.variance)};
   std::vector<FitStanding> table;
   Eigen::VectorXd first;
   for (const WayToFit& way : ways) {
@@ -248,10 +252,8 @@ inline FitChoice choose_scale(const Eigen::MatrixXd& X, const Eigen::VectorXd& y
                                  const Eigen::VectorXd& noise_variance) {
            FitOptions of_runs = options;
            of_runs.noise_variance = noise_variance;
-           if (options.noise == Noise::known || options.noise == Noise::pooled) {
+           if (options.noise == Noise::known || options.noise == Noise::pooled)
              of_runs = with_known_noise(options, noise_variance);
-             if (of_runs.noise == Noise::known) of_runs.noise = options.noise;
-           }
            return fit_transformed(P, v, scale, range, of_runs);
          },
          expected_noise(options.noise == Noise::known ? NoiseSource::told : NoiseSource::estimated)});

@@ -49,12 +49,13 @@ inline std::string_view to_string(NoiseSource source) {
   return "unknown";
 }
 
-/// For runs whose noise is known to be this, n entries, unit of y squared. Where all are exact, as a part of
-/// some runs may be, λ stays at its lower bound.
+/// For runs whose noise is known to be this, n entries, unit of y squared, or, where options.noise is pooled,
+/// estimated by these. Where all are exact, as a part of some runs may be, λ stays at its lower bound.
 inline FitOptions with_known_noise(FitOptions options, const Eigen::VectorXd& noise_variance) {
   const bool noisy =
       std::any_of(noise_variance.begin(), noise_variance.end(), [](double v) { return v > 0; });
-  options.noise = noisy ? Noise::known : Noise::nugget;
+  if (options.noise != Noise::pooled) options.noise = Noise::known;
+  if (!noisy) options.noise = Noise::nugget;
   options.noise_variance = noisy ? noise_variance : Eigen::VectorXd();
   if (!noisy) options.nugget_upper = options.nugget_lower;
   return options;
@@ -82,7 +83,9 @@ inline Eigen::VectorXd noise_variance_at(const TransformedModel& noise, const Ei
 inline FitOptions with_modelled_noise(const FitOptions& known, const Eigen::MatrixXd& X) {
   if (known.noise != Noise::known)
     throw std::invalid_argument("kriging::with_modelled_noise: noise is " +
-                                std::string(known.noise == Noise::nugget ? "nugget" : "proportional") +
+                                std::string(known.noise == Noise::nugget   ? "nugget"
+                                            : known.noise == Noise::pooled ? "pooled"
+                                                                           : "proportional") +
                                 "; allowed is known; give noise_variance with it");
   detail::check_noise(known, X.rows());
   FitOptions of_noise = known;
@@ -115,11 +118,10 @@ inline TransformedModel fit_with_noise(const Eigen::MatrixXd& X, const Eigen::Ve
                                        const ResponseRange& range, const FitOptions& options,
                                        NoiseSource source, const Eigen::VectorXd& noise_variance) {
   if (source == NoiseSource::estimated) return fit_transformed(X, y, scale, range, options);
-  FitOptions known = with_known_noise(options, noise_variance);
-  if (known.noise == Noise::known) {
-    if (source == NoiseSource::pooled) known.noise = Noise::pooled;
-    if (source == NoiseSource::modelled) known = with_modelled_noise(known, X);
-  }
+  FitOptions known = options;
+  known.noise = source == NoiseSource::pooled ? Noise::pooled : Noise::known;
+  known = with_known_noise(known, noise_variance);
+  if (source == NoiseSource::modelled && known.noise == Noise::known) known = with_modelled_noise(known, X);
   return fit_transformed(X, y, scale, range, known);
 }
 

@@ -189,18 +189,24 @@ static_assert(SmoothSurrogate<TransformedModel> && Regression<TransformedModel>)
 
 namespace detail {
 
-/// One variance on the scale of z that lets noise of the runs have the mean variance that they tell, to first
-/// order: Σ variance/Σ (dg⁻¹/dz)². Where all runs are on a bound of a square root, the mean of what each is
-/// there.
+/// One variance τ² on the scale of z by which the runs have the mean variance that they tell: the mean of
+/// ((g⁻¹(z + τ) − g⁻¹(z − τ))/2)², as noise_on_scale has it of one run. Between the bounds of a logit τ is 8 at
+/// most, by which all noise is as wide as they are. Bisected to round-off.
 inline double pooled_on_scale(const Transform& t, const Eigen::VectorXd& y, const Eigen::VectorXd& variance) {
-  double slopes = 0, told = 0, on_scale = 0;
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const double z = transformed(t, y[i]), slope = back_slope(t, z);
-    slopes += slope * slope;
-    told += variance[i];
-    on_scale += noise_on_scale(t, z, variance[i]);
-  }
-  return slopes > 0 ? told / slopes : on_scale / static_cast<double>(y.size());
+  const auto lacks = [&](double tau) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < y.size(); ++i) {
+      const double z = transformed(t, y[i]);
+      const double width = 0.5 * (back_transformed(t, z + tau) - back_transformed(t, z - tau));
+      sum += width * width - variance[i];
+    }
+    return sum < 0;
+  };
+  double low = 0, high = 1;
+  while (lacks(high) && (t.scale != Scale::logit || high < 8)) high *= 2;
+  for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high))
+    (lacks(middle) ? low : high) = middle;
+  return high * high;
 }
 
 /// The options with the noise of each run as it is on the scale of z; `known` and `pooled` only.

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 LoadingRuns::LoadingRuns(const StudyResults& results) : results_(results) {
-  if (results.X.rows() > 0) front_ = pareto::non_dominated(results.problem, results.Y);
+  if (results.X.rows() > 0) front_ = pareto::non_dominated(results.problem, results.Y.leftCols<3>());
 }
 
 VectorXd LoadingRuns::within(Index r, Index v, double from, double to) const {

@@ -4,7 +4,10 @@
 #include <cstdio>
 #include <drawpoint/engine/loading/log/energy_balance.hpp>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "command.hpp"
 
@@ -23,7 +26,10 @@ constexpr const char* about =
     "          a cycle that was lost gives its load to what was cleared away\n"
     "  energy  of the motors of lift, tilt and wheels; gained by machine and rock; the rest is dissipated\n"
     "  errors  deepest overlap of a rock, widest gap of a loop of the linkage, steps that had to be\n"
-    "          done again\n\n"
+    "          done again\n"
+    "  scatter of production, joint damage and spill from cycle to cycle, and the correlation of a cycle "
+    "with\n"
+    "          the next: standard errors of a run take cycles as independent\n\n"
     "  run_ledger results/lhd_loading/logs/run_0001.h5\n"
     "  bucket_fill --piles /tmp/piles --cycles 30 --alphas 1 --seeds 1 --logs /tmp/logs\n"
     "                                                             makes the log of thirty cycles";
@@ -74,6 +80,29 @@ nlohmann::json cycles_of(const LoadingLog& log) {
   return cycles;
 }
 
+/// Of a measure that every cycle has. The correlation with the next is Σ (xᵢ − m)(xᵢ₊₁ − m)/Σ (xᵢ − m)²; of n
+/// independent cycles it is −1/n ± 1/√n.
+nlohmann::json scatter_of(const char* name, const char* unit, const std::vector<double>& by_cycle) {
+  const double n = static_cast<double>(by_cycle.size());
+  const double mean = std::accumulate(by_cycle.begin(), by_cycle.end(), 0.0) / n;
+  double squares = 0, products = 0;
+  for (std::size_t k = 0; k < by_cycle.size(); ++k) {
+    squares += (by_cycle[k] - mean) * (by_cycle[k] - mean);
+    if (k > 0) products += (by_cycle[k] - mean) * (by_cycle[k - 1] - mean);
+  }
+  nlohmann::json scatter{{"measure", name}, {"unit", unit}, {"mean", mean}};
+  if (by_cycle.size() > 1) scatter["deviation"] = std::sqrt(squares / (n - 1));
+  if (squares > 0) scatter["correlation_with_the_next"] = products / squares;
+  return scatter;
+}
+
+nlohmann::json scatters_of(const LoadingLog& log) {
+  if (log.cycles.empty()) return nlohmann::json::array();
+  return {scatter_of("production", "kg/s", production_by_cycle(log)),
+          scatter_of("joint damage", "s", joint_damage_by_cycle(log)),
+          scatter_of("spill", "1", rock_spill_by_cycle(log))};
+}
+
 nlohmann::json ledger(const LoadingLog& log) {
   EnergyBalance sum;
   for (const EnergyBalance& balance : energy_balance_by_cycle(log)) {
@@ -87,6 +116,7 @@ nlohmann::json ledger(const LoadingLog& log) {
           {"cycles", cycles_of(log)},
           {"rock", rock_of(log)},
           {"energy", energy_of(sum)},
+          {"scatter", scatters_of(log)},
           {"errors",
            {{"overlap_mm", 1e3 * number(log, "largest_overlap")},
             {"loop_gap_mm", 1e3 * number(log, "largest_loop_error")},
@@ -114,6 +144,14 @@ void print(const nlohmann::json& j) {
   std::printf("errors: overlap %.1f mm, gap of a loop %.2g mm, %.0f steps done again, %.0f cycles lost\n",
               of(errors, "overlap_mm"), of(errors, "loop_gap_mm"), of(errors, "repeated_steps"),
               of(errors, "lost_cycles"));
+  for (const auto& s : j.at("scatter")) {
+    if (!s.contains("correlation_with_the_next")) continue;
+    const std::string unit = s.at("unit").get<std::string>();
+    std::printf("%s: %.3g%s per cycle, deviation %.3g, correlation with the next cycle %.2f\n",
+                s.at("measure").get<std::string>().c_str(), of(s, "mean"),
+                (unit == "1" ? "" : " " + unit).c_str(), of(s, "deviation"),
+                of(s, "correlation_with_the_next"));
+  }
   if (!j.at("completed").get<bool>())
     std::printf("the run did not complete: %s\n", j.at("message").get<std::string>().c_str());
 }

@@ -5,7 +5,9 @@
 /// noisy samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell
 /// together, what each tells, and a model of that, and the choice among the four. Takes no options; prints a
 /// table: errors over the deviation of the response, and how many of fresh runs lie within their 95 %
-/// interval, where the noise is small and where it is large.
+/// interval, where the noise is small and where it is large. A second table has what a study does, which
+/// chooses among four kinds of fit before the source: with estimated noise, with pooled noise, and with pooled
+/// noise and then the source that refits prefer; means over the designs, and the least share held.
 
 #include <algorithm>
 #include <array>
@@ -126,6 +128,7 @@ std::vector<kriging::WayToFit> ways() {
 
 struct Result {
   double error = 0, quiet = 0, noisy = 0;  // held, of the fresh runs with less and with more noise
+  double all = 0;                          // held, of all fresh runs
 };
 
 /// Of the fresh runs r, as the way has their noise.
@@ -147,7 +150,8 @@ Result judged(const kriging::WayToFit& way, const Function& function, const Runs
                   r.y[i] <= kriging::predicted_quantile(v, i, 0.975);
   }
   const auto share = [&](int side) { return all[side] > 0 ? 1.0 * held[side] / all[side] : std::nan(""); };
-  return {std::sqrt(sum / static_cast<double>(r.y.size())), share(0), share(1)};
+  return {std::sqrt(sum / static_cast<double>(r.y.size())), share(0), share(1),
+          1.0 * (held[0] + held[1]) / static_cast<double>(r.y.size())};
 }
 
 double median(std::vector<double> values) {
@@ -186,6 +190,59 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
   std::fflush(stdout);
 }
 
+/// Smooth or less smooth, without or with a slope, all with noise from this source.
+std::vector<kriging::WayToFit> kinds(NoiseSource source) {
+  std::vector<kriging::WayToFit> all;
+  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52})
+    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
+      kriging::FitOptions options;
+      options.correlation = correlation;
+      options.trend = trend;
+      all.push_back({"",
+                     [=](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
+                       return kriging::fit_with_noise(X, y, kriging::Scale::linear, {}, options, source,
+                                                      noise_variance);
+                     },
+                     kriging::expected_noise(source, options)});
+    }
+  return all;
+}
+
+/// The best kind with estimated noise, with pooled noise, and that kind with the source that refits prefer.
+std::array<kriging::WayToFit, 3> chosen_ways(const Runs& r) {
+  const kriging::RunNoise noise{kriging::Noise::known, r.noise_variance};
+  const auto best_kind = [&](NoiseSource source) {
+    return kriging::choose_fit(r.X, r.y, {}, kinds(source), noise).best;
+  };
+  const std::size_t kind = best_kind(NoiseSource::pooled);
+  std::vector<kriging::WayToFit> by_source;
+  for (const NoiseSource source : sources) by_source.push_back(kinds(source)[kind]);
+  const std::size_t source = kriging::choose_refitted(r.X, r.y, {}, by_source, noise).best;
+  return {kinds(NoiseSource::estimated)[best_kind(NoiseSource::estimated)], by_source[0], by_source[source]};
+}
+
+void print_study_row(const Function& function, const Noise& noise, int n, int samples) {
+  std::array<double, 3> error{}, held{}, least{1, 1, 1};
+  for (int design = 1; design <= designs; ++design) {
+    const auto seed = static_cast<doe::Seed>(design);
+    const Runs r = runs_of(function, noise, n, samples, seed);
+    const Runs check = runs_of(function, noise, fresh, samples, seed + 1000);
+    const auto ways = chosen_ways(r);
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const Result result = judged(ways[k], function, r, check);
+      error[k] += result.error / designs;
+      held[k] += result.all / designs;
+      least[k] = std::min(least[k], result.all);
+    }
+  }
+  std::printf("| %s | %s | %d | %d |", function.name, noise.name, n, samples);
+  for (const double e : error) std::printf(" %.3f |", e);
+  for (std::size_t k = 0; k < held.size(); ++k)
+    std::printf(" %s, %s |", text(held[k]).c_str(), text(least[k]).c_str());
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main() {
@@ -199,6 +256,14 @@ int main() {
       for (const Noise& noise : noises)
         for (const int n : {20, 60})
           for (const int samples : {2, 5, 20}) print_row(function, noise, n, samples);
+    std::printf(
+        "\n| Function | Noise of a run | Runs | Samples | Error, mean: estimated | pooled | pooled, then "
+        "the source | Held %%, mean and least of %d: estimated | pooled | pooled, then the source |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n",
+        designs);
+    for (const Function& function : functions)
+      for (const Noise& noise : noises)
+        for (const int samples : {2, 5}) print_study_row(function, noise, 40, samples);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "told_noise_table: %s\n", e.what());
     return 1;

@@ -114,7 +114,8 @@ void LoadingRun::sum_up() {
 // Whether the mean production is known as well as wanted.
 bool LoadingRun::ends_after(int cycle) {
   if (scenario_.precision == 0 || std::ssize(log_.cycles) < least_cycles_to_end) return false;
-  if (cycles_per_lost_one * lost_ > cycle || production_error(log_) > scenario_.precision) return false;
+  if (cycles_per_lost_one * lost_ > cycle || relative_production_error(log_) > scenario_.precision)
+    return false;
   left_out_ = scenario_.cycles - cycle;
   return true;
 }

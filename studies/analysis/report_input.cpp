@@ -69,7 +69,8 @@ void add_models(ReportInput& input, doe::Seed seed) {
   input.models = std::move(fitted.models);
   input.validations = std::move(fitted.validations);
   for (std::size_t j = 0; j < fitted.ways.size(); ++j)
-    input.facts.emplace_back("Model of " + input.problem.responses[j].name, fitted.ways[j]);
+    if (!doe::is_standard_error(input.problem, j))
+      input.facts.emplace_back("Model of " + input.problem.responses[j].name, fitted.ways[j]);
   PredictedFront predicted = predicted_front(input.models, tables, seed);
   input.front = std::move(predicted.found.front);
   input.uncertainty = uncertainty_of(input.front, input.models, input.problem, seed);
@@ -86,7 +87,8 @@ void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
   });
   if (missing > 0) input.warnings.push_back(std::to_string(missing) + " planned runs are not finished yet.");
   for (std::size_t j = 0; j < input.models.size(); ++j) {
-    if (input.models[j].status() == kriging::Status::converged) continue;
+    if (input.models[j].status() == kriging::Status::converged || doe::is_standard_error(input.problem, j))
+      continue;
     input.warnings.push_back("Model of " + input.problem.responses[j].name + ": " +
                              input.models[j].message() + ".");
   }

@@ -151,9 +151,10 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
       ->check(criteria_complaint)
       ->group(group);
   command
-      .add_option("--target", settings.target,
-                  "stop when the NRMSE of every response on the validation runs is at most this (default 0: "
-                  "never)")
+      .add_option(
+          "--target", settings.target,
+          "stop when the NRMSE of every response, standard errors apart, on the validation runs is at "
+          "most this (default 0: never)")
       ->check(target_complaint)
       ->group(group);
 }

@@ -28,6 +28,12 @@ Store store_of_other_folder(const std::string& command, const Study& study, cons
     store.complete_options(with_later_ones(study.options, other.options));
     return store;
   }
+  const bool earlier = before_later_responses(other.problem, study.problem) ||
+                       before_later_responses(study.problem, other.problem);
+  if (earlier)
+    throw UsageError(command + ": one of " + settings.out.string() + " and " + name +
+                     " was begun before the study had its last responses: " + differs +
+                     "; where its logs are there, rerun-responses makes a folder that has them");
   throw UsageError(command + ": " + name + " holds another study: " + differs +
                    "; name a folder with the same variables and responses with --with");
 }

@@ -54,6 +54,10 @@ Standing ended(const Study& study, const Contents& contents, const Counts& count
     return end(" Next: those that are left, unless the command says that no more are wanted.",
                making_command(study));
   if (!has_objective(contents.identity.problem)) return end(" Next: the report.", "report");
+  if (contents.identity.simulator != study.simulator)
+    return end(
+        " No run can be added: another simulator made them, or one with fewer responses. Next: the report.",
+        "report");
   const bool confirmed = counts.of(Kind::confirmation, Status::done) > 0;
   if (!confirmed)
     return end(" Next: simulate the points of the predicted front that a decision would rest on.",

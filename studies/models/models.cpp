@@ -83,7 +83,7 @@ kriging::Validation validation_of(const Models& fitted, const doe::Evaluations& 
     case kriging::NoiseSource::modelled:
       break;
   }
-  return kriging::validate(fitted.models[j], X, y, expected_noise(fitted.models, runs.problem, j, X));
+  return kriging::validate(fitted.models[j], X, y, noise_expected_at(fitted.models, runs.problem, j, X));
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
   const std::vector<std::int64_t> runs = runs_with_values(tables.training);
   std::vector<std::string> sentences = absurd_errors(tables);
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    if (doe::is_standard_error(problem, j)) continue;
     const doe::Response& response = problem.responses[j];
     const kriging::TransformedModel& model = fitted.models[j];
     const kriging::RunNoise noise = told_noise(tables.training, response);

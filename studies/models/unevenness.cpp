@@ -57,6 +57,7 @@ std::vector<std::string> unevenness(const Models& fitted, const Tables& tables) 
   const std::vector<std::int64_t> runs = runs_with_values(tables.training);
   std::vector<std::string> sentences;
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    if (doe::is_standard_error(tables.training.problem, j)) continue;
     const kriging::Stationarity found = kriging::check_stationarity(fitted.models[j].model());
     if (found.uneven)
       sentences.push_back(uneven_sentence(found, tables.training.problem, j, runs,

@@ -207,12 +207,15 @@ json front_json(const ReportInput& input) {
 
 /// The two variables with the largest total effect on any response, in the problem's order; twice the only
 /// one.
-json main_pair(std::size_t variables, const std::vector<Eigen::VectorXd>& influence) {
+json main_pair(const doe::Problem& problem, const std::vector<Eigen::VectorXd>& influence) {
+  const std::size_t variables = problem.variables.size();
   std::vector<std::size_t> order(variables);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto weight = [&](std::size_t k) {
     double most = 0.0;
-    for (const Eigen::VectorXd& row : influence) most = std::max(most, row[static_cast<Eigen::Index>(k)]);
+    for (std::size_t j = 0; j < influence.size(); ++j)
+      if (!doe::is_standard_error(problem, j))
+        most = std::max(most, influence[j][static_cast<Eigen::Index>(k)]);
     return most;
   };
   std::stable_sort(order.begin(), order.end(),
@@ -293,14 +296,15 @@ json report_data(const ReportInput& input) {
   for (std::size_t j = 0; j < input.models.size(); ++j) {
     const kriging::TransformedModel& model = input.models[j];
     const auto formula = surface(model);
-    if (!formula)
+    const bool own = !doe::is_standard_error(input.problem, j);
+    if (!formula && own)
       known.warnings.push_back(
           "The response surface of " + pretty(input.problem.responses[j].name) +
           " is not drawn: its model has a trend or a correlation that this page does not know.");
     models.push_back(to_json(model, formula));
     validations.push_back(
         j < input.validations.size() ? to_json(input.validations[j], input.problem.responses[j]) : json());
-    shares.push_back(to_json(effects[j]));
+    shares.push_back(own ? to_json(effects[j]) : json());
   }
   json panels = without_repeated(checked_panels(input.illustrations, known.warnings));
   json contrasts = checked_panels(input.contrasts, known.warnings);
@@ -318,7 +322,7 @@ json report_data(const ReportInput& input) {
           {"confirmations", to_json(input.confirmations)},
           {"polishing", to_json(input.polishing, input.not_polished)},
           {"influence", std::move(shares)},
-          {"main_pair", main_pair(input.problem.variables.size(), effects)},
+          {"main_pair", main_pair(input.problem, effects)},
           {"findings", to_json(input.findings)},
           {"illustrations", std::move(panels)},
           {"contrasts", std::move(contrasts)},

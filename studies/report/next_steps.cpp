@@ -33,7 +33,8 @@ std::string more_runs(const ReportInput& input) {
   const Continuation& c = input.going_on;
   const int more = std::max(8, (c.training + c.adaptive) / 4);
   bool noisy = false;
-  for (std::size_t j = 0; j < input.validations.size(); ++j) noisy = noisy || is_noisy(input, j);
+  for (std::size_t j = 0; j < input.validations.size(); ++j)
+    noisy = noisy || (!doe::is_standard_error(input.problem, j) && is_noisy(input, j));
   return command(input, noisy ? "--runs " + std::to_string(c.training + more)
                               : "--adaptive " + std::to_string(c.adaptive + more));
 }
@@ -94,9 +95,8 @@ std::vector<NextStep> next_steps(const ReportInput& input) {
   if (objectives(input.problem).empty()) return {};
   if (!input.going_on.possible)
     return {
-        {"Begin a study with today's simulator in another folder: another made the runs of this one, and "
-         "none "
-         "can be added to them.",
+        {"Begin a study with today's simulator in another folder: another, or one with fewer responses, made "
+         "the runs of this one, and none can be added to them.",
          ""}};
   Steps open = steps_for_errors(input);
   append(open, steps_for_models(input));

@@ -27,8 +27,9 @@ inline bool knows_noise(const kriging::TransformedModel& model) {
 
 /// Variance of the noise of response j that runs at the rows of X (n x d) are expected to tell: n entries, by
 /// the model of its standard error, which it must name.
-inline Eigen::VectorXd expected_noise(const std::vector<kriging::TransformedModel>& models,
-                                      const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& X) {
+inline Eigen::VectorXd noise_expected_at(const std::vector<kriging::TransformedModel>& models,
+                                         const doe::Problem& problem, std::size_t j,
+                                         const Eigen::MatrixXd& X) {
   const int told = doe::response_index(problem, problem.responses[j].standard_error);
   return kriging::noise_variance_at(models[static_cast<std::size_t>(told)], X);
 }
@@ -40,7 +41,7 @@ inline Eigen::VectorXd run_quantile(const std::vector<kriging::TransformedModel>
   const doe::Response& response = problem.responses[j];
   const auto quantile = [&]() -> Eigen::VectorXd {
     if (!noise_differs(models[j])) return models[j].quantile(X, probability, kriging::Target::observation);
-    return models[j].run_quantile(X, probability, expected_noise(models, problem, j, X));
+    return models[j].run_quantile(X, probability, noise_expected_at(models, problem, j, X));
   };
   return quantile().unaryExpr([&](double y) { return doe::within_range(response, y); });
 }

@@ -17,12 +17,24 @@ namespace {
                    "; choose another folder with --out, or move this one away");
 }
 
+/// The options of responses that the folder has other values of than the study, as they are typed.
+std::string response_options(const Study& study, const OptionValues& stored) {
+  std::string text;
+  for (const StudyOption& option : study.options) {
+    const auto value = stored.find(option.name);
+    if (option.of_responses && value != stored.end() && value->second != option.value)
+      text += " --" + option.name + "=" + doe::detail::quoted_for_shell(value->second);
+  }
+  return text;
+}
+
 /// More runs would have responses that those of the folder lack.
-[[noreturn]] void refuse_earlier(const Study& study, const Folder& folder) {
+[[noreturn]] void refuse_earlier(const Study& study, const Folder& folder, const OptionValues& stored) {
   std::string how = "begin another folder with --out";
   if (study.responses)
     how = "take them from the logs with rerun-responses --from " +
-          doe::detail::quoted_for_shell(folder.path.string()) + " --out NEW, and go on in NEW, or " + how;
+          doe::detail::quoted_for_shell(folder.path.string()) + response_options(study, stored) +
+          " --out NEW, and go on in NEW, or " + how;
   throw UsageError("studies: " + folder.path.string() +
                    " was begun before the study had its last responses, " +
                    study.problem.responses.back().name + " among them; " + how +
@@ -111,7 +123,10 @@ Study as_begun(const Study& study, const Folder& folder) {
   if (!std::filesystem::exists(folder.store())) return then;
   const Identity stored = Store::open(folder.store(), Access::read).identity();
   if (stored.study != study.name) return then;
-  then.problem = before_later_responses(stored.problem, study.problem).value_or(study.problem);
+  const auto before = before_later_responses(stored.problem, study.problem);
+  if (!before) return then;
+  then.problem = *before;
+  then.simulator += ", with more responses";  // none of its runs can be added
   return then;
 }
 
@@ -125,7 +140,7 @@ Store open_store(const Study& study, const Folder& folder, Access access) {
   const Identity& stored = store.identity();
   if (stored.study != study.name)
     refuse_folder(folder, "name \"" + stored.study + "\" there, \"" + study.name + "\" here");
-  if (before_later_responses(stored.problem, study.problem)) refuse_earlier(study, folder);
+  if (before_later_responses(stored.problem, study.problem)) refuse_earlier(study, folder, stored.options);
   const std::string text = difference(stored.problem, study.problem);
   if (!text.empty()) refuse_folder(folder, text);
   // Values are the folder's own; only what options there are is the program's.

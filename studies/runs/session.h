@@ -17,7 +17,7 @@ namespace drawpoint::studies {
 Store open_store(const Study& study, const Folder& folder, Access access = Access::change);
 
 /// For who reads a folder: the study, or where it has gained recorded responses since the folder was begun, as
-/// it was then.
+/// it was then, with a simulator of another name than the folder's.
 Study as_begun(const Study& study, const Folder& folder);
 
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.

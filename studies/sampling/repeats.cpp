@@ -32,7 +32,7 @@ Eigen::VectorXd noise_of_runs(const std::vector<kriging::TransformedModel>& mode
                               const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& points) {
   const kriging::Model& model = models[j].model();
   if (!noise_differs(models[j])) return Eigen::VectorXd::Constant(points.rows(), model.noise_variance());
-  Eigen::VectorXd noise = expected_noise(models, problem, j, points);
+  Eigen::VectorXd noise = noise_expected_at(models, problem, j, points);
   const Eigen::VectorXd z = model.mean(points);
   for (Eigen::Index i = 0; i < noise.size(); ++i)
     noise[i] = kriging::noise_on_scale(models[j].transform(), z[i], noise[i]);

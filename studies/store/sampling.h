@@ -22,7 +22,7 @@ struct Sampling {
   /// Who chooses and how often, as "name=weight" with commas between; sampling/criteria.h has the names.
   std::string criteria = "lola_voronoi=0.7,error=0.3";
   std::vector<ConfirmationRound> rounds = {};  ///< in rising order
-  double target = 0.0;  ///< NRMSE of every response on the validation runs at which to stop; 0: none
+  double target = 0.0;  ///< NRMSE of every response but standard errors, at which to stop; 0: none
 };
 
 /// As one JSON object. Throws std::invalid_argument for a target that is not finite.

@@ -231,9 +231,8 @@ TEST(PooledNoise, IsTheMeanOfWhatIsTold) {
   EXPECT_LT((pooled.mean(at) - same.mean(at)).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-// On another scale the noise is one size there. For ln(y + c) the slope back is y + c, so with variances of
-// 1e-4 (y + c)² every run tells a deviation of 1e-2 there; with equal variances the pooled one is the one that
-// gives the runs their mean, Σ variance/Σ (y + c)².
+// On another scale the noise is one size τ there. Carried back from ln(y + c) it is (y + c) sinh τ wide, so
+// Σ variance = sinh²τ Σ (y + c)², whatever single runs tell.
 TEST(PooledNoise, IsOneSizeOnTheScaleThatIsFitted) {
   const Runs r = runs(40, 1);
   const VectorXd y = r.X.col(0).unaryExpr(&wave);
@@ -244,9 +243,11 @@ TEST(PooledNoise, IsOneSizeOnTheScaleThatIsFitted) {
   };
   const double offset = transform_for(Scale::logarithm, y, {.lower = 0}).offset;
   const VectorXd squares = (y.array() + offset).square();
-  EXPECT_NEAR(noise_of(1e-4 * squares), 1e-4, 1e-12);
+  const double tau = std::asinh(std::sqrt(0.04));
+  EXPECT_NEAR(noise_of(0.04 * squares), tau * tau, 1e-12);
   const VectorXd alike = VectorXd::Constant(40, 9e-4);
-  EXPECT_NEAR(noise_of(alike), alike.sum() / squares.sum(), 1e-12);
+  const double one = std::asinh(std::sqrt(alike.sum() / squares.sum()));
+  EXPECT_NEAR(noise_of(alike), one * one, 1e-12);
   // All runs on the bound of a square root: nothing to first order, z = √(2σ) where it is not.
   const TransformedModel none = fit_with_noise(r.X, VectorXd::Zero(40), Scale::square_root, {.lower = 0}, {},
                                                NoiseSource::pooled, alike);
@@ -293,7 +294,30 @@ TEST(PooledNoise, GoesThroughAFileAndTakesMoreRuns) {
   EXPECT_EQ(from_text(to_text(model)).mean(at), model.mean(at));
   const Model longer = append(model, more.X, more.y);
   EXPECT_NEAR(longer.noise_variance(), model.noise_variance(), 1e-12);
-  EXPECT_NO_THROW(check_stationarity(model));
+  EXPECT_NEAR(detail::fit_with_step(model, 0, 0.5).noise_variance(), model.noise_variance(), 1e-12)
+      << "a model with a step keeps the noise";
+}
+
+// A third of the runs scatters fiftyfold and tells so: the choice finds it. What is told of other runs it
+// leaves, and so does it what two runs or one could say.
+TEST(ChooseRefitted, TakesWhatPredictsOtherRuns) {
+  const std::vector<WayToFit> ways{way(NoiseSource::pooled), way(NoiseSource::estimated),
+                                   way(NoiseSource::told), way(NoiseSource::modelled)};
+  for (doe::Seed seed = 1; seed <= 5; ++seed) {
+    Runs r = runs(60, seed);
+    EXPECT_EQ(choose_refitted(r.X, r.y, {}, ways, {Noise::known, r.noise_variance}).name(), "told") << seed;
+    r.noise_variance = r.noise_variance.reverse().eval();
+    std::swap(r.noise_variance[0], r.noise_variance[1]);
+    EXPECT_NE(choose_refitted(r.X, r.y, {}, ways, {Noise::known, r.noise_variance}).name(), "told") << seed;
+  }
+  for (const Eigen::Index n : {1, 2, 3, 4}) {
+    const Runs few = runs(n, 1);
+    const FitChoice choice = choose_refitted(few.X, few.y, {}, ways, {Noise::known, few.noise_variance});
+    EXPECT_EQ(choice.model.runs(), n);
+    if (n == 1) EXPECT_EQ(choice.name(), "pooled");
+  }
+  EXPECT_EQ(refusal([&] { choose_refitted(MatrixXd(3, 1), VectorXd(3), {}, {}); }),
+            "kriging::choose_refitted: 0 ways; allowed is 1 or more; name at least one");
 }
 
 // A way is judged by the noise that it expects of the runs left out. Runs that tell no error by chance, as the

@@ -110,6 +110,24 @@ TEST(LoadingFindings, FailWhereTheRunsSayOtherwise) {
     EXPECT_EQ(of.at(id).verdict, Verdict::not_reproduced) << id << " " << of.at(id).grounds;
 }
 
+// Standard errors that runs tell beside the three change nothing.
+TEST(LoadingFindings, StandAsTheyAreBesideStandardErrors) {
+  const StudyResults plain = results_of(200, as_the_source);
+  StudyResults told = plain;
+  for (const char* name : {"production_error", "joint_damage_error", "rock_spill_error"})
+    told.problem.responses.push_back({.name = name, .goal = doe::Goal::record, .lower = 0});
+  told.Y.conservativeResize(Eigen::NoChange, 6);
+  told.Y.rightCols(3) = 1000 * uniform_points(200, 3).leftCols(3);
+  told.Y_new.conservativeResize(Eigen::NoChange, 6);
+  told.Y_new.rightCols(3).setZero();
+  told.nrmse.resize(6, 0.9);
+  const auto of_plain = found(plain), of_told = found(told);
+  for (const auto& [id, finding] : of_plain) {
+    EXPECT_EQ(of_told.at(id).verdict, finding.verdict) << id;
+    EXPECT_EQ(of_told.at(id).grounds, finding.grounds) << id;
+  }
+}
+
 /// Production rises with x₀, and one of the others does too; the third swings about it.
 Vector3d uneven(const Vector4d& x, bool damage_is) {
   const double even = x[0], swinging = x[0] + 0.3 * std::sin(40 * x[0]);

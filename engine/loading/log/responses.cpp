@@ -91,7 +91,7 @@ double production(const LoadingLog& log, const ProductionOptions& options) {
   return mass / time;
 }
 
-double production_error(const LoadingLog& log, const ProductionOptions& options) {
+double relative_production_error(const LoadingLog& log, const ProductionOptions& options) {
   const std::vector<double> rates = production_by_cycle(log, options);
   const double all = mean(rates);
   if (rates.size() < 2 || !(all > 0)) return std::numeric_limits<double>::infinity();

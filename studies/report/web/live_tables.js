@@ -39,7 +39,7 @@ const goals = {minimize: 'smallest', maximize: 'largest', at_most: 'at most', at
 
 export function best(state) {
   const {variables, responses} = state.problem;
-  const rows = responses.map((r, j) => {
+  const rows = responses.map((r, j) => ({r, j})).filter(({r}) => !r.is_error).map(({r, j}) => {
     const {lowest, highest, done, within, best: found} = state.responses[j];
     const span = done ? `${number(lowest)} to ${number(highest)}` : 'none yet';
     if (r.limit != null) return [labelled(r), `${goals[r.goal]} ${number(r.limit)}`, `kept by ${within} of ${done}`, '', span, ''];

@@ -18,7 +18,7 @@ export function question({variables, responses}) {
   const sought = [...named('maximize'), ...named('minimize')], limits = of('at_most', 'at_least').map((r) => `${pretty(r.name)} of ${limit(r)}`);
   const asked = [...sought.length ? [and(sought)] : [], ...limits.length ? [and(limits)] : []];
   const varied = `The study varies ${variables.length === 1 ? pretty(variables[0].name) : `${variables.length} variables`}`;
-  if (!asked.length) return `${varied} and records ${and(responses.map((r) => pretty(r.name)))}.`;
+  if (!asked.length) return `${varied} and records ${and(responses.filter((r) => !r.is_error).map((r) => pretty(r.name)))}.`;
   return `${varied} and asks for ${asked.join(', with ')}.`;
 }
 

@@ -218,7 +218,7 @@ TEST(LoadingCycle, OutlivesACycleThatBreaksDownAndEndsOnceTheMeanIsKnown) {
   EXPECT_GT(log.numbers.at("cleared_mass"), 0.5 * usual.loaded_mass);
   ASSERT_EQ(log.cycles.size(), 5u);
   EXPECT_EQ(log.numbers.at("left_out_cycles"), 2);
-  EXPECT_LE(production_error(log), 1);
+  EXPECT_LE(relative_production_error(log), 1);
   EXPECT_EQ(cycle_log().numbers.at("left_out_cycles"), 0);
   const std::vector<double> time = log.signals.column("time"), number = log.signals.column("cycle");
   for (std::size_t k = 0; k < 5; ++k) {

@@ -152,13 +152,13 @@ TEST(JointDamage, OnlyCyclesCount) {
 TEST(Production, KnowsItsErrorByTheScatterOfTheCycles) {
   LoadingLog log;
   for (const double rate : {400, 500, 600, 700}) log.cycles.push_back(cycle(0, 10, 10 * rate, 0));
-  EXPECT_NEAR(production_error(log), std::sqrt(50e3 / 12) / 550, 1e-15);
-  EXPECT_NEAR(production_error(log, {.haul = 10}), std::sqrt(50e3 / 12) / 550, 1e-15)
+  EXPECT_NEAR(relative_production_error(log), std::sqrt(50e3 / 12) / 550, 1e-15);
+  EXPECT_NEAR(relative_production_error(log, {.haul = 10}), std::sqrt(50e3 / 12) / 550, 1e-15)
       << "of cycles that take the same time, a haul halves rate and scatter";
   log.cycles.resize(1);
-  EXPECT_EQ(production_error(log), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(relative_production_error(log), std::numeric_limits<double>::infinity());
   log.cycles = {cycle(0, 10, 0, 0), cycle(20, 30, 0, 0)};
-  EXPECT_EQ(production_error(log), std::numeric_limits<double>::infinity()) << "empty buckets";
+  EXPECT_EQ(relative_production_error(log), std::numeric_limits<double>::infinity()) << "empty buckets";
 }
 
 // Of the same rates 50 000/12 is the variance of the mean; of damages of 1 and 2 s the error of the mean is 0.5
