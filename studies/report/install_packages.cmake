@@ -6,5 +6,6 @@ execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --loglev
   WORKING_DIRECTORY ${TO} RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_VARIABLE output)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "npm could not fetch the report's libraries (plotly.js, three.js); check the network or npm's "
-    "registry setting and build again. npm said:\n${errors}${output}")
+    "registry setting and build again; behind a proxy with a certificate of its own, name that with npm config set "
+    "cafile FILE. npm said:\n${errors}${output}")
 endif()
