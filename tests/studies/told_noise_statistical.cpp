@@ -4,6 +4,7 @@
 
 #include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/models/suspects.h>
+#include <drawpoint/studies/report/data.h>
 #include <drawpoint/studies/sampling/repeats.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
@@ -111,6 +112,27 @@ TEST(ToldNoise, OfTwoSamplesIsPooled) {
   }
   EXPECT_GE(pooled, 4)
       << "another source has to be better by more than a standard error: by chance, now and then";
+}
+
+// However poor the model of the errors is, the page says nothing of it, and marks the response, so that plots
+// and tables of models leave it out.
+TEST(ToldNoise, HasNoModelOnThePage) {
+  const Models fitted = fit_models({runs(40, 1), runs(10, 2)});
+  ReportInput in;
+  in.problem = problem();
+  in.training = runs(40, 1);
+  in.validation = runs(10, 2);
+  in.models = fitted.models;
+  in.validations = fitted.validations;
+  in.validations[1].nrmse = 0.9;
+  const nlohmann::json page = detail::report_data(in);
+  EXPECT_FALSE(page["problem"]["responses"][0].contains("is_error"));
+  EXPECT_TRUE(page["problem"]["responses"][1].at("is_error").get<bool>());
+  ASSERT_EQ(page["summary"]["trust"].size(), 1u);
+  EXPECT_EQ(page["summary"]["trust"][0]["response"], "load");
+  EXPECT_TRUE(page["influence"][1].is_null());
+  EXPECT_FALSE(page["influence"][0].is_null());
+  EXPECT_EQ(page["summary"].dump().find("load error"), std::string::npos);
 }
 
 // All runs exact: nothing is told, and fits estimate as ever.
