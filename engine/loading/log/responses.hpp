@@ -76,9 +76,9 @@ double rock_spill(const LoadingLog& log, const SpillOptions& options = {});
 /// Standard errors of the three, in their units, by the scatter of the run's cycles alone: of k cycles known to
 /// 1/√(2(k − 1)) of themselves. They take cycles as independent. In thirty-cycle runs the damage of one cycle
 /// and the next go against each other (correlation −0.2 to −0.3): the error is a fifth to a third too large.
-/// Spill goes together in deep plans (0.5 to 0.6), where what lies is counted again, and production in one run
-/// of four (0.4): their errors are up to a half too small. One cycle of one that was wanted tells none: 0; one
-/// that is left of several tells as little: the response itself.
+/// Spill goes together in three of five runs (0.5 to 0.6), since what lies is counted again, and production in
+/// two (0.4): their errors are up to a half too small. One cycle of one that was wanted tells none: 0; one that
+/// is left of several tells as little: the response itself.
 double production_standard_error(const LoadingLog& log, const ProductionOptions& options = {});  // of_ratios
 double joint_damage_standard_error(const LoadingLog& log, const DamageOptions& options = {});
 double rock_spill_standard_error(const LoadingLog& log);
