@@ -6,6 +6,7 @@
 #include <drawpoint/studies/store/option_values.h>
 #include <drawpoint/doe/detail/task_files.hpp>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -118,12 +119,24 @@ Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<
 
 }  // namespace
 
+namespace {
+
+/// The problem of a store that can be read at once; nothing where there is none.
+std::optional<doe::Problem> stored_problem(const Folder& folder) {
+  try {
+    return Store::open(folder.store(), Access::read).identity().problem;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 Study as_begun(const Study& study, const Folder& folder) {
   Study then = study;
-  if (!std::filesystem::exists(folder.store())) return then;
-  const Identity stored = Store::open(folder.store(), Access::read).identity();
-  if (stored.study != study.name) return then;
-  const auto before = before_later_responses(stored.problem, study.problem);
+  const auto stored = stored_problem(folder);
+  if (!stored) return then;
+  const auto before = before_later_responses(*stored, study.problem);
   if (!before) return then;
   then.problem = *before;
   then.simulator += ", with more responses";  // none of its runs can be added

@@ -17,7 +17,8 @@ namespace drawpoint::studies {
 Store open_store(const Study& study, const Folder& folder, Access access = Access::change);
 
 /// For who reads a folder: the study, or where it has gained recorded responses since the folder was begun, as
-/// it was then, with a simulator of another name than the folder's.
+/// it was then, with a simulator of another name than the folder's. Never throws and never writes: a store
+/// that is not there, busy or damaged is left to whoever opens it next, who waits, cleans up or says so.
 Study as_begun(const Study& study, const Folder& folder);
 
 /// The run of that number, from 1. Throws UsageError that names --run and says which there are.

@@ -287,6 +287,14 @@ TEST_F(SessionTest, AFolderOfBeforeIsReadAndTakesNoRuns) {
   EXPECT_EQ(as_begun(now, Folder{"/nowhere"}).problem.responses.size(), now.problem.responses.size());
 }
 
+// What is wrong with a store is said by the command that opens it, not by a look before: the live page waits
+// for a store that is damaged or busy, and others clean up after a writer that died.
+TEST_F(SessionTest, ALookAtAFolderOfBeforeLeavesFaultsToOthers) {
+  test::write_file(folder_.store(), "no database");
+  EXPECT_EQ(as_begun(later(sample()), folder_).problem.responses.size(), 3u);
+  EXPECT_THROW(open_store(sample(), folder_), std::runtime_error);
+}
+
 TEST(Folders, ARegularFileInTheWayIsNamed) {
   const TestFolder place;
   test::write_file(place / "taken", "x");
