@@ -96,6 +96,17 @@ struct WayToFit {
   ExpectedNoise noise = {};
 };
 
+/// A fit on this scale with noise from this source, judged by what such a fit expects (noise_model.hpp).
+/// options: with Noise::nugget.
+inline WayToFit way_with_noise(std::string name, Scale scale, const ResponseRange& range,
+                               const FitOptions& options, NoiseSource source) {
+  return {std::move(name),
+          [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
+            return fit_with_noise(X, y, scale, range, options, source, noise_variance);
+          },
+          expected_noise(source, options)};
+}
+
 namespace detail {
 
 /// −ln of the predicted density of y; on a bound of the probability of that bound.
@@ -124,6 +135,15 @@ inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& s
   return {name, mean_of(scores), gain,
           n > 1 ? std::sqrt(square(affine(gains, 1.0, -gain)) / (n - 1) / n)
                 : std::numeric_limits<double>::infinity()};
+}
+
+/// One per way, by its scores.
+inline std::vector<FitStanding> standings_of(const std::vector<WayToFit>& ways,
+                                             const std::vector<Eigen::VectorXd>& scores) {
+  std::vector<FitStanding> table;
+  for (std::size_t k = 0; k < ways.size(); ++k)
+    table.push_back(standing_of(ways[k].name, scores[k], scores.front()));
+  return table;
 }
 
 /// What ways are compared on.
@@ -206,14 +226,12 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
                             const std::vector<WayToFit>& ways, const RunNoise& noise = {}) {
   detail::check_ways("kriging::choose_fit: ", X, ways, noise);
   std::vector<TransformedModel> models;
-  std::vector<FitStanding> table;
-  Eigen::VectorXd first;
+  std::vector<Eigen::VectorXd> scores;
   for (const WayToFit& way : ways) {
     models.push_back(way.fitter(X, y, noise.variance));
-    const Eigen::VectorXd scores = detail::left_out_scores(models.back(), range);
-    if (table.empty()) first = scores;
-    table.push_back(detail::standing_of(way.name, scores, first));
+    scores.push_back(detail::left_out_scores(models.back(), range));
   }
+  std::vector<FitStanding> table = detail::standings_of(ways, scores);
   const std::size_t best = detail::best_standing({X, y, range, noise}, ways, table);
   return {std::move(table), best, std::move(models[best])};
 }
@@ -228,13 +246,9 @@ inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd
                                  const RunNoise& noise = {}) {
   detail::check_ways("kriging::choose_refitted: ", X, ways, noise);
   if (X.rows() < 2) return {{{.name = ways[0].name}}, 0, ways[0].fitter(X, y, noise.variance)};
-  std::vector<FitStanding> table;
-  Eigen::VectorXd first;
-  for (const WayToFit& way : ways) {
-    const Eigen::VectorXd scores = detail::refitted_scores({X, y, range, noise}, way);
-    if (table.empty()) first = scores;
-    table.push_back(detail::standing_of(way.name, scores, first));
-  }
+  std::vector<Eigen::VectorXd> scores;
+  for (const WayToFit& way : ways) scores.push_back(detail::refitted_scores({X, y, range, noise}, way));
+  std::vector<FitStanding> table = detail::standings_of(ways, scores);
   const std::vector<std::size_t> better = detail::better_standings(table);
   const std::size_t best = better.empty() ? 0 : better.front();
   return {std::move(table), best, ways[best].fitter(X, y, noise.variance)};

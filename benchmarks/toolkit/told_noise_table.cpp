@@ -114,15 +114,13 @@ Runs runs_of(const Function& function, const Noise& noise, int n, int samples, d
   return r;
 }
 
+kriging::WayToFit way(NoiseSource source, const kriging::FitOptions& options = {}) {
+  return kriging::way_with_noise(std::string(to_string(source)), kriging::Scale::linear, {}, options, source);
+}
+
 std::vector<kriging::WayToFit> ways() {
   std::vector<kriging::WayToFit> all;
-  for (const NoiseSource source : sources)
-    all.push_back({std::string(to_string(source)),
-                   [=](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
-                     return kriging::fit_with_noise(X, y, kriging::Scale::linear, {}, {}, source,
-                                                    noise_variance);
-                   },
-                   kriging::expected_noise(source)});
+  for (const NoiseSource source : sources) all.push_back(way(source));
   return all;
 }
 
@@ -198,12 +196,7 @@ std::vector<kriging::WayToFit> kinds(NoiseSource source) {
       kriging::FitOptions options;
       options.correlation = correlation;
       options.trend = trend;
-      all.push_back({"",
-                     [=](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
-                       return kriging::fit_with_noise(X, y, kriging::Scale::linear, {}, options, source,
-                                                      noise_variance);
-                     },
-                     kriging::expected_noise(source, options)});
+      all.push_back(way(source, options));
     }
   return all;
 }

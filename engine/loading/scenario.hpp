@@ -35,9 +35,9 @@ struct Scenario {
   std::uint64_t seed = 1;  ///< of the rocks that come down the raise where others were loaded or cleared away
   int cycles = 1;
   /// The run ends before `cycles` are done, after least_cycles_to_end or more, once the standard error of its
-  /// mean production (at the pile, without haul; relative_production_error) is at most this share of the mean; 0: it
-  /// does not. A run ends when its cycles happen to agree, so that it understates its error, by a fifth or so,
-  /// and its spill is that of fewer cycles: rock that stays counts again after each.
+  /// mean production (at the pile, without haul; relative_production_error) is at most this share of the mean;
+  /// 0: it does not. A run ends when its cycles happen to agree, so that it understates its error, by a fifth
+  /// or so, and its spill is that of fewer cycles: rock that stays counts again after each.
   double precision = 0;
   double standoff = 2.0;  ///< tip to toe at the start [m]
   Drift drift;

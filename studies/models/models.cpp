@@ -60,12 +60,9 @@ std::string name_of(kriging::NoiseSource noise) {
 StudyWay way_to_fit(const kriging::FitOptions& options, const kriging::ResponseRange& range,
                     kriging::Scale scale, kriging::NoiseSource noise) {
   const std::string slope = options.trend == kriging::Trend::linear ? ", linear trend" : "";
-  return {{std::string(to_string(options.correlation)) + slope + name_of(scale) + name_of(noise),
-           [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
-             return kriging::fit_with_noise(X, y, scale, range, options, noise, noise_variance);
-           },
-           kriging::expected_noise(noise, options)},
-          noise};
+  const std::string name =
+      std::string(to_string(options.correlation)) + slope + name_of(scale) + name_of(noise);
+  return {kriging::way_with_noise(name, scale, range, options, noise), noise};
 }
 
 /// Of response j on runs that the models have not seen, by the noise that these tell, or are expected to

@@ -42,11 +42,7 @@ Runs runs(Eigen::Index n, doe::Seed seed) {
 }
 
 WayToFit way(NoiseSource source) {
-  return {std::string(to_string(source)),
-          [=](const MatrixXd& X, const VectorXd& y, const VectorXd& noise_variance) {
-            return fit_with_noise(X, y, Scale::linear, {}, {}, source, noise_variance);
-          },
-          expected_noise(source)};
+  return way_with_noise(std::string(to_string(source)), Scale::linear, {}, {}, source);
 }
 
 WayToFit told() { return way(NoiseSource::told); }

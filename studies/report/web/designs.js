@@ -6,6 +6,7 @@
 import {labelled, plain, pretty, settingWithUnit, withUnit} from './format.js';
 import {predictor} from './kriging.js';
 import {brokenText} from './limits.js';
+import {own} from './responses.js';
 
 /// {runs, front, axes}. A run is as in the data, with its kind; a point of the front is {x, y}, y being null
 /// where nothing is known. An axis is a variable or a response: {item, title, isVariable, low, high, values:
@@ -20,9 +21,6 @@ export function collect(data) {
     ...own(responses).map(({response: item, j}) => bounded({item, isVariable: false, values: values('y', j)}))];
   return {runs, front, axes: axes.map((axis) => ({...axis, title: labelled(axis.item)}))};
 }
-
-/// The responses that are no standard error of another one, {response, j}: of those the tables of runs have all.
-export const own = (responses) => responses.map((response, j) => ({response, j})).filter(({response}) => !response.is_error);
 
 const column = (rows, key, k) => Float64Array.from(rows, (row) => row[key]?.[k] ?? NaN);
 

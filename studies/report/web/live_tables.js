@@ -5,6 +5,7 @@
 import {el} from './dom.js';
 import {labelled, number, pretty, setting, settingWithUnit, withUnit} from './format.js';
 import {clock, totals} from './live_state.js';
+import {own} from './responses.js';
 import {table} from './table.js';
 
 const card = (label, value, note = null, unit = null) => el('div', {class: 'card'}, el('span', {class: 'label'}, label),
@@ -39,7 +40,7 @@ const goals = {minimize: 'smallest', maximize: 'largest', at_most: 'at most', at
 
 export function best(state) {
   const {variables, responses} = state.problem;
-  const rows = responses.map((r, j) => ({r, j})).filter(({r}) => !r.is_error).map(({r, j}) => {
+  const rows = own(responses).map(({response: r, j}) => {
     const {lowest, highest, done, within, best: found} = state.responses[j];
     const span = done ? `${number(lowest)} to ${number(highest)}` : 'none yet';
     if (r.limit != null) return [labelled(r), `${goals[r.goal]} ${number(r.limit)}`, `kept by ${within} of ${done}`, '', span, ''];

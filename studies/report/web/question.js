@@ -3,10 +3,10 @@
 // What was asked, before what came out: the variables with their ranges, the responses with what is wanted of
 // them and what the runs gave.
 
-import {own} from './designs.js';
 import {el, section} from './dom.js';
 import {labelled, number, setting} from './format.js';
 import {came, question, wanted} from './question_words.js';
+import {own} from './responses.js';
 import {table} from './table.js';
 
 export function asked(data, {designs}) {

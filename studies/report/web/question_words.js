@@ -3,6 +3,7 @@
 // What a study asks, in words.
 
 import {pretty, withUnit} from './format.js';
+import {own} from './responses.js';
 
 const and = (items) => (items.length < 2 ? items.join('') : `${items.slice(0, -1).join(', ')} and ${items.at(-1)}`);
 const limit = (response) => `${response.goal === 'at_most' ? 'at most' : 'at least'} ${withUnit(response.limit, response)}`;
@@ -18,7 +19,7 @@ export function question({variables, responses}) {
   const sought = [...named('maximize'), ...named('minimize')], limits = of('at_most', 'at_least').map((r) => `${pretty(r.name)} of ${limit(r)}`);
   const asked = [...sought.length ? [and(sought)] : [], ...limits.length ? [and(limits)] : []];
   const varied = `The study varies ${variables.length === 1 ? pretty(variables[0].name) : `${variables.length} variables`}`;
-  if (!asked.length) return `${varied} and records ${and(responses.filter((r) => !r.is_error).map((r) => pretty(r.name)))}.`;
+  if (!asked.length) return `${varied} and records ${and(own(responses).map(({response}) => pretty(response.name)))}.`;
   return `${varied} and asks for ${asked.join(', with ')}.`;
 }
 

@@ -4,7 +4,6 @@
 // and along every variable alone. The surrogates are evaluated here, in the browser.
 /* global Plotly */
 
-import {own} from './designs.js';
 import {choice, el, figure, section, select} from './dom.js';
 import {axisLabel, labelled, number, place, plain, pretty, settingWithUnit, ticks} from './format.js';
 import {oncePerFrame} from './frames.js';
@@ -14,6 +13,7 @@ import {breaksLimit, legendOfLimits, symbols} from './limits.js';
 import {nested} from './nested.js';
 import {axis, draw, plotBox} from './plot.js';
 import {profiles} from './profiles.js';
+import {own} from './responses.js';
 import {nearCut} from './sampled.js';
 import {extent, places} from './steps.js';
 import {colour, faded, scale, series} from './theme.js';

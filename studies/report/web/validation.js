@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // How good the surrogates are: a table, and predicted against simulated values.
 
-import {inputsText, own} from './designs.js';
+import {inputsText} from './designs.js';
 import {link, linkPoints, opacities, ring, ringMarked} from './dimming.js';
 import {el, figure, section} from './dom.js';
 import {labelled, number, percent, plain, pretty} from './format.js';
 import {legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
+import {own} from './responses.js';
 import {table} from './table.js';
 import {colour} from './theme.js';
 

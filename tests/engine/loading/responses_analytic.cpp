@@ -44,6 +44,17 @@ LoadingLog constant_torque(double x, double y, double z) {
   return log;
 }
 
+/// Two cycles of 1 s, with an excess of one yield torque and of two.
+LoadingLog log_of_two_torques() {
+  LoadingLog log;
+  log.signals = empty_signals();
+  for (int c = 1; c <= 2; ++c)
+    for (int k = 1; k <= 100; ++k)
+      log.signals.append_row(std::vector<double>{10.0 * c + k * h, 1.0 * c, 0, 0, (1.0 + c) * 145e3});
+  log.cycles = {cycle(10, 11, 100, 1000), cycle(20, 21, 300, 4000)};
+  return log;
+}
+
 DamageOptions unfiltered(double tau_y = 145e3) { return {.tau_y = tau_y, .lowpass_hz = 0}; }
 
 template <class F>
@@ -170,12 +181,7 @@ TEST(StandardErrors, AreTheScatterOfTheCycles) {
   EXPECT_NEAR(production_standard_error(log), std::sqrt(50e3 / 12), 1e-12);
   EXPECT_NEAR(rock_spill_standard_error(log), std::sqrt(50e3 / 12) / 1e4, 1e-16);
 
-  LoadingLog damaged;
-  damaged.signals = empty_signals();
-  for (int c = 1; c <= 2; ++c)
-    for (int k = 1; k <= 100; ++k)
-      damaged.signals.append_row(std::vector<double>{10.0 * c + k * h, 1.0 * c, 0, 0, (1.0 + c) * 145e3});
-  damaged.cycles = {cycle(10, 11, 0, 0), cycle(20, 21, 0, 0)};
+  LoadingLog damaged = log_of_two_torques();
   EXPECT_NEAR(joint_damage_standard_error(damaged, unfiltered()), 1.0, 1e-12);
   damaged.numbers["lost_cycles"] = 4;
   EXPECT_NEAR(joint_damage_standard_error(damaged, unfiltered()), 3.0, 1e-12);
@@ -235,12 +241,7 @@ TEST(FillAndStalls, AreSharesOfPayloadAndCycles) {
 
 // A run's responses are the means, and damage the sum, of what its cycles say.
 TEST(ByCycle, AddsUpToTheRun) {
-  LoadingLog log;
-  log.signals = empty_signals();
-  for (int c = 1; c <= 2; ++c)
-    for (int k = 1; k <= 100; ++k)
-      log.signals.append_row(std::vector<double>{10.0 * c + k * h, 1.0 * c, 0, 0, (1.0 + c) * 145e3});
-  log.cycles = {cycle(10, 11, 100, 1000), cycle(20, 21, 300, 4000)};
+  const LoadingLog log = log_of_two_torques();
   EXPECT_EQ(production_by_cycle(log), (std::vector<double>{100, 300}));
   EXPECT_EQ(rock_spill_by_cycle(log), (std::vector<double>{0.1, 0.4}));
   const std::vector<double> damage = joint_damage_by_cycle(log, unfiltered());
