@@ -129,10 +129,16 @@ function(drawpoint_add_test module stem)
   set_tests_properties(${module}.${stem} PROPERTIES LABELS "${label};${module}" TIMEOUT ${limit})
 endfunction()
 
-# drawpoint_benchmark(FILE_STEM LIBRARY...): one executable in <build>/benchmarks, built by `all_benchmarks`.
+# drawpoint_benchmark(FILE_STEM LIBRARY...): one executable in <build>/benchmarks. `FOLDER_benchmarks` builds those of its
+# folder, `all_benchmarks` those of all.
 function(drawpoint_benchmark stem)
   add_executable(${stem} ${stem}.cpp)
   target_link_libraries(${stem} PRIVATE ${ARGN} drawpoint_build_flags)
   set_target_properties(${stem} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/benchmarks)
-  add_dependencies(all_benchmarks ${stem})
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  if(NOT TARGET ${folder}_benchmarks)
+    add_custom_target(${folder}_benchmarks)
+    add_dependencies(all_benchmarks ${folder}_benchmarks)
+  endif()
+  add_dependencies(${folder}_benchmarks ${stem})
 endfunction()

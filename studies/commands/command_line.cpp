@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/freed_memory.h>
 #include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/commands/questions.h>
 #include <drawpoint/studies/commands/reading_commands.h>
@@ -409,6 +410,7 @@ void check_study(const Study& study) {
 }  // namespace
 
 int run(int argc, char** argv, const Study& study) {
+  keep_freed_memory();
   try {
     check_study(study);
     const int code = parse_and_act(argc, argv, study);

@@ -11,11 +11,11 @@
 /// Who may include whom, and the check of a source file against it.
 ///
 /// A file belongs to the row with the longest folder that its path starts with. It may include the standard
-/// library and POSIX, the project folders of its row, and the packages of its row; a package of `in_cpp_only`
-/// never in a *.hpp, and its names do not appear in other rows at all, so that users of the module never
-/// need it. A *.h is an internal header: it may use what a *.cpp of its room may, is not installed, and no
-/// *.hpp includes it. Headers of no known package are refused: a new dependency starts as a line here and as
-/// a decision note.
+/// library, the C library and POSIX, the project folders of its row, and the packages of its row; a package of
+/// `in_cpp_only` never in a *.hpp, and its names do not appear in other rows at all, so that users of the
+/// module never need it. A *.h is an internal header: it may use what a *.cpp of its room may, is not
+/// installed, and no *.hpp includes it. Headers of no known package are refused: a new dependency starts as a
+/// line here and as a decision note.
 namespace drawpoint::house {
 
 struct Row {
@@ -144,7 +144,7 @@ inline std::optional<std::string> package_of(const std::string& header) {
       {std::regex("CLI/.*"), "CLI11"},
       {std::regex("nlohmann/.*"), "nlohmann-json"},
       {std::regex("[a-z_0-9]+"), "standard"},
-      {std::regex("(unistd|fcntl|spawn|poll|signal|immintrin)\\.h|sys/[a-z]+\\.h"), "standard"}};
+      {std::regex("(unistd|fcntl|spawn|poll|signal|immintrin|malloc)\\.h|sys/[a-z]+\\.h"), "standard"}};
   for (const auto& [pattern, name] : packages) {
     if (std::regex_match(header, pattern)) return name;
   }

@@ -5,6 +5,7 @@
 #include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/loading_headlines.h>
+#include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 
@@ -49,14 +50,15 @@ LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
 
 class LoadingHeadlines : public testing::Test {
  protected:
-  std::map<std::string, Headline> told(const std::vector<LoadingLog>& logs) {
+  std::map<std::string, Headline> told(const std::vector<LoadingLog>& logs,
+                                       const OptionValues& options = {}) {
     std::vector<std::filesystem::path> files;
     for (const LoadingLog& log : logs) {
       files.push_back(place_ / (std::to_string(files.size()) + ".h5"));
       write_log(files.back(), log);
     }
     std::map<std::string, Headline> named;
-    for (const Headline& headline : loading_headlines(files)) named[headline.name] = headline;
+    for (const Headline& headline : loading_headlines(files, options)) named[headline.name] = headline;
     return named;
   }
   test::TestFolder place_;
@@ -149,6 +151,18 @@ TEST_F(LoadingHeadlines, FillStallsAndNoiseComeFirst) {
   EXPECT_EQ(said[0].name, "fill_factor");
   EXPECT_EQ(said[1].name, "stall_share");
   EXPECT_EQ(said[2].name, "noise_of_production");
+}
+
+TEST_F(LoadingHeadlines, TellThatTheMaterialsNeedTheirSolver) {
+  const auto note = [&](const char* materials, const char* solver) {
+    OptionValues options = {{"materials", materials}, {"solver", solver}};
+    for (const StudyOption& option : loading_options()) options.try_emplace(option.name, option.value);
+    return told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})}, options).at("fill_factor").note;
+  };
+  const std::string remedy = "give --solver lindmark2016";
+  EXPECT_NE(note("lindmark2016", "scene").find(remedy), std::string::npos);
+  EXPECT_EQ(note("lindmark2016", "lindmark2016").find(remedy), std::string::npos);
+  EXPECT_EQ(note("calibrated", "scene").find(remedy), std::string::npos);
 }
 
 TEST_F(LoadingHeadlines, NoRunsNoHeadlines) { EXPECT_TRUE(told({}).empty()); }
