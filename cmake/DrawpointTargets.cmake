@@ -77,6 +77,7 @@ function(drawpoint_join_tests target)
   endif()
   set(headers)
   foreach(file IN LISTS ARGN)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
     file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${file} lines REGEX "^#include <")
     list(APPEND headers ${lines})
   endforeach()
@@ -130,7 +131,8 @@ function(drawpoint_add_test module stem)
 endfunction()
 
 # drawpoint_benchmark(FILE_STEM LIBRARY...): one executable in <build>/benchmarks. `FOLDER_benchmarks` builds those of its
-# folder, `all_benchmarks` those of all.
+# folder, `all_benchmarks` those of all, `checked_benchmarks` (.ci/run) those that are not tried otherwise: a folder that
+# does so sets drawpoint_tried_apart for them.
 function(drawpoint_benchmark stem)
   add_executable(${stem} ${stem}.cpp)
   target_link_libraries(${stem} PRIVATE ${ARGN} drawpoint_build_flags)
@@ -141,4 +143,7 @@ function(drawpoint_benchmark stem)
     add_dependencies(all_benchmarks ${folder}_benchmarks)
   endif()
   add_dependencies(${folder}_benchmarks ${stem})
+  if(NOT drawpoint_tried_apart)
+    add_dependencies(checked_benchmarks ${stem})
+  endif()
 endfunction()

@@ -180,7 +180,7 @@ struct Study {
 };
 
 /// The whole command line. Returns the exit code: 0 success, 1 failure, 2 wrong usage, 130 interrupted.
-/// Prints; never throws.
+/// Prints; never throws. The process keeps memory that it frees (commands/freed_memory.h).
 int run(int argc, char** argv, const Study& study);
 
 }  // namespace drawpoint::studies

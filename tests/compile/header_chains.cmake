@@ -1,6 +1,6 @@
 # Fewer files that try whether headers compile alone. Where a file includes A and then B, A is tried alone; so is B, if B itself
-# includes A, with whatever A brings, before its own text. So a chain of headers, each of which includes those before it, is
-# tried in one file, in the time that its last header takes.
+# includes A, with whatever A brings, before its own text, and if the others that it includes are tried themselves. So a chain of
+# headers, each of which includes those before it, is tried in one file, in the time that its last header takes.
 
 # drawpoint_included(HEADER BEFORE ALL): the headers of the project that it includes before its own text, and all, those that
 # they include among them. Headers that include each other know less, which makes chains shorter and no less true.
@@ -10,13 +10,16 @@ function(drawpoint_included header before all)
   if(NOT known)
     set_property(GLOBAL PROPERTY ${property} "")
     set_property(GLOBAL PROPERTY ${property}_before "")
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
-    file(STRINGS ${PROJECT_SOURCE_DIR}/${header} lines REGEX "^(#include <drawpoint/|namespace )")
+    set(lines)
+    if(EXISTS ${PROJECT_SOURCE_DIR}/${header}) # or the compiler says who includes it
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+      file(STRINGS ${PROJECT_SOURCE_DIR}/${header} lines REGEX "^(#include <drawpoint/|#if|namespace )")
+    endif()
     set(found_before)
     set(found)
     set(in_text FALSE)
     foreach(line IN LISTS lines)
-      if(line MATCHES "^namespace")
+      if(line MATCHES "^(namespace|#if)") # what depends on a condition may be missing
         set(in_text TRUE)
         continue()
       endif()

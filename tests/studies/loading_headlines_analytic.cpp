@@ -159,7 +159,7 @@ TEST_F(LoadingHeadlines, TellThatTheMaterialsNeedTheirSolver) {
     for (const StudyOption& option : loading_options()) options.try_emplace(option.name, option.value);
     return told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})}, options).at("fill_factor").note;
   };
-  const std::string remedy = "give --solver lindmark2016";
+  const std::string remedy = "with --solver lindmark2016 too";
   EXPECT_NE(note("lindmark2016", "scene").find(remedy), std::string::npos);
   EXPECT_EQ(note("lindmark2016", "lindmark2016").find(remedy), std::string::npos);
   EXPECT_EQ(note("calibrated", "scene").find(remedy), std::string::npos);
