@@ -69,6 +69,7 @@ std::string noise_text(const kriging::TransformedModel& model, const std::string
 std::string fit_text(const Models& fitted, const doe::Problem& problem) {
   std::string text;
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    if (doe::is_standard_error(problem, j)) continue;
     const kriging::TransformedModel& model = fitted.models[j];
     const doe::Response& response = problem.responses[j];
     text += detail::labelled(response.name, response.unit) + ": " + fitted.ways[j] + ", " +
@@ -87,6 +88,7 @@ std::string fit_text(const Models& fitted, const doe::Problem& problem) {
 Json fit_json(const Models& fitted, const doe::Problem& problem) {
   Json all = Json::object();
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
+    if (doe::is_standard_error(problem, j)) continue;
     const kriging::TransformedModel& model = fitted.models[j];
     Json theta = Json::object();
     for (std::size_t k = 0; k < problem.variables.size(); ++k)
@@ -135,6 +137,7 @@ std::string validation_text(const Models& fitted, const Tables& tables) {
   const std::vector<std::int64_t> runs = runs_with_values(tables.validation);
   std::string text;
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
+    if (doe::is_standard_error(tables.training.problem, j)) continue;
     const kriging::Validation& v = fitted.validations[j];
     text +=
         detail::labelled(responses[j].name, responses[j].unit) + ": " + errors_text(v, responses[j]) + "\n";
@@ -154,6 +157,7 @@ Json validation_json(const Models& fitted, const Tables& tables) {
   const std::vector<std::int64_t> runs = runs_with_values(tables.validation);
   Json all = Json::object();
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
+    if (doe::is_standard_error(tables.training.problem, j)) continue;
     const kriging::Validation& v = fitted.validations[j];
     Json entry = errors_json(v, responses[j]);
     entry["rows"] = Json::array();

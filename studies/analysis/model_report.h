@@ -12,8 +12,8 @@
 
 namespace drawpoint::studies {
 
-/// Per response: how it is fitted and how the fit ended, the rates and the noise on its scale, and how runs
-/// are predicted without themselves.
+/// Per response that is no standard error of another: how it is fitted and how the fit ended, the rates and
+/// the noise on its scale, and how runs are predicted without themselves.
 std::string fit_text(const Models& fitted, const doe::Problem& problem);
 nlohmann::ordered_json fit_json(const Models& fitted, const doe::Problem& problem);
 
@@ -22,7 +22,8 @@ nlohmann::ordered_json fit_json(const Models& fitted, const doe::Problem& proble
 std::string success_text(const Failures& failures, const doe::Problem& problem);
 nlohmann::ordered_json success_json(const Failures& failures, const doe::Problem& problem);
 
-/// Per response: the errors on the validation runs, then each of these beside its 95 % interval.
+/// Per response that is no standard error of another: the errors on the validation runs, then each of these
+/// beside its 95 % interval.
 std::string validation_text(const Models& fitted, const Tables& tables);
 nlohmann::ordered_json validation_json(const Models& fitted, const Tables& tables);
 

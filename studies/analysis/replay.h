@@ -36,8 +36,8 @@ std::string replay_page(const Study& study, const Identity& identity, const Fold
 nlohmann::json scene_of_run(const Study& study, const Identity& identity, const Folder& folder,
                             const Replayed& shown);
 
-/// The figures of the page but for scenes to play; a sentence for each that cannot be drawn goes to
-/// `cautions`. Throws as `replay` does.
+/// The figures of the page but for scenes to play, of several cycles those of the last; a sentence for each
+/// that cannot be drawn goes to `cautions`. Throws as `replay` does.
 nlohmann::json flat_figures(const Study& study, const Identity& identity, const Folder& folder,
                             const Run& run, std::vector<std::string>& cautions);
 

@@ -127,6 +127,10 @@ bool store_end(Store& store, const Folder& folder, const Settings& settings, Wor
   return outcome.failed();
 }
 
+bool was_interrupted(const doe::ProcessEnd& end) {
+  return ended_with_this_process(end, [] { return InterruptGuard::requested(); });
+}
+
 ProgressState state_of(const std::vector<Run>& runs) {
   ProgressState state;
   state.total = static_cast<int>(runs.size());
@@ -162,6 +166,7 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
     }
     ends = pool.wait(patience);
   }
+  if (was_interrupted(ends.front())) throw Interrupted{};
   const doe::Outcome outcome = outcome_of(ends.front(), printed);
   if (outcome.failed()) {
     if (disk_is_full(folder)) stop_for_full_disk(folder);
@@ -200,7 +205,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
       waiting.pop_front();
     }
     for (const auto& end : workers->wait(patience))
-      progress.finished_one(store_end(store, folder, settings, *workers, end));
+      if (!was_interrupted(end)) progress.finished_one(store_end(store, folder, settings, *workers, end));
     progress.tick(workers->standing());
   }
   workers->finish();

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/runs/interrupt.h>
 #include <signal.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/doe/processes.hpp>
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::chrono::milliseconds time_to_end(
+constexpr std::chrono::milliseconds program_time_to_end(
     1000);                            // for the program to end by itself; less than a study's own
 constexpr int could_not_start = 127;  // the shell's code, doe/processes.hpp
 
@@ -144,9 +145,10 @@ doe::ProcessEnd run_to_end(const doe::Process& process) {
   while (ends.empty()) {
     ends = pool.wait(std::chrono::milliseconds(100));
     if (stop_signal == 0) continue;
-    pool.terminate(time_to_end);
+    pool.terminate(program_time_to_end);
     throw Stopped{stop_signal};
   }
+  if (ended_with_this_process(ends.front(), [] { return stop_signal != 0; })) throw Stopped{stop_signal};
   return ends.front();
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/runs/interrupt.h>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstddef>
+#include <thread>
 #include <utility>
 
 namespace drawpoint::studies {
@@ -44,6 +47,16 @@ InterruptGuard::InterruptGuard(std::string message) {
 
 InterruptGuard::~InterruptGuard() {
   for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
+}
+
+bool ended_with_this_process(const doe::ProcessEnd& child, const std::function<bool()>& told) {
+  constexpr std::chrono::milliseconds grace(1000), step(10);
+  const bool by_signal = child.told.empty() && !child.timed_out && WIFSIGNALED(child.wait_status);
+  if (!by_signal || std::find(signals.begin(), signals.end(), WTERMSIG(child.wait_status)) == signals.end())
+    return false;
+  for (auto waited = std::chrono::milliseconds::zero(); waited < grace && !told(); waited += step)
+    std::this_thread::sleep_for(step);
+  return told();
 }
 
 bool InterruptGuard::requested() { return requested_ != 0; }

@@ -8,13 +8,21 @@
 /// there (EndsAtOnce) the signal prints the message on how to go on and ends the process. Both end with exit
 /// code 130.
 
+#include <drawpoint/doe/processes.hpp>
+
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace drawpoint::studies {
 
 /// That processes have to end by themselves after a signal.
 inline constexpr std::chrono::milliseconds time_to_end(2000);
+
+/// A system that shuts down, or somebody who ends all processes of a name, reaches a child and this process in
+/// any order: true if the child was ended by SIGINT, SIGTERM or SIGHUP and `told`, whether this process got one
+/// too, is true within a second. The child has not failed then.
+bool ended_with_this_process(const doe::ProcessEnd& child, const std::function<bool()>& told);
 
 /// Thrown to leave a command after an interruption.
 struct Interrupted {};

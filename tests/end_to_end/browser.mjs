@@ -38,8 +38,9 @@ function protocol(program) {
   return {send, on: (f) => listeners.push(f)};
 }
 
-/// The page of a file, drawn. downloads: the folder for what it saves.
-export async function openPage(file, {downloads = null} = {}) {
+/// A page, drawn: of a file by its path, or of a server by its address. downloads: the folder for what it saves.
+export async function openPage(place, {downloads = null} = {}) {
+  const served = place.startsWith('http://'), address = served ? place : 'file://' + encodeURI(place);
   const profile = mkdtempSync(join(tmpdir(), 'page-'));
   const program = spawn(process.env.DRAWPOINT_BROWSER ?? 'chromium', [...words, '--user-data-dir=' + profile], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
   process.once('exit', () => { program.kill('SIGKILL'); rmSync(profile, {recursive: true, force: true}); });  // however it ends
@@ -67,14 +68,14 @@ export async function openPage(file, {downloads = null} = {}) {
   if (downloads) await sendAny('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: downloads});
   const page = {...hands(send), product, errors, send, close};
   const begin = performance.now();
-  await send('Page.navigate', {url: 'file://' + file});
+  await send('Page.navigate', {url: address});
   await page.until('document.documentElement?.dataset.ready === "true"', 4 * patience);
   page.loaded = performance.now() - begin;
   await page.evaluate("document.documentElement.style.scrollBehavior = 'auto'");  // a click aims at what stands still
   /// Of the page's main thread so far [ms].
   page.processor = async () => 1000 * (await send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration').value;
-  /// All but the page itself.
-  page.requests = () => requests.filter((url) => url !== 'file://' + encodeURI(file));
+  /// All but the page itself, or what its server gives.
+  page.requests = () => requests.filter((url) => (served ? !url.startsWith(address) : url !== address));
   return page;
 }
 

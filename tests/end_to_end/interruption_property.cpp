@@ -49,6 +49,24 @@ TEST_F(Interruption, CtrlCKeepsWhatIsDoneAndSaysHowToGoOn) {
   expect_resumes(finished());
 }
 
+// As when the system shuts down: runs may be ended before the command that waits for them.
+TEST_F(Interruption, RunsThatAreEndedWithTheirCommandHaveNotFailed) {
+  Command study(slow + out(), place_);
+  await_done(2);
+  int ended = 0;
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    const bool is_run =
+        contents(process.path() / "cmdline").find("--log=" + dir().string()) != std::string::npos;
+    if (is_run) ended += kill(std::stoi(process.path().filename()), SIGTERM) == 0;
+  }
+  study.send(SIGTERM);
+  EXPECT_EQ(study.wait().code, 130);
+  EXPECT_GT(ended, 0);
+  EXPECT_EQ(count("status = 'failed'"), 0);
+  EXPECT_EQ(count("status = 'running'"), 0);
+  expect_resumes(finished());
+}
+
 TEST_F(Interruption, AKilledStudyGoesOn) {
   Command study(slow + out(), place_);
   await_done(3);

@@ -22,9 +22,9 @@ const std::string study = "env TROUBLE=slow " TROUBLED_STUDY;
 class LiveCommand : public StudyTest {
  protected:
   /// Waits until the command has said where its page is, at most a minute.
-  void start() {
+  void start(const std::string& program = study) {
     const std::filesystem::path told = place_ / "told";
-    live_.emplace(study + " live" + out() + " >" + told.string(), place_);
+    live_.emplace(program + " live" + out() + " >" + told.string(), place_);
     const std::string before = "http://127.0.0.1:";
     for (int i = 0; i < 6000 && !contents(told).ends_with("/\n"); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -77,6 +77,27 @@ TEST_F(LiveCommand, FollowsAStudyFromBeforeItsBeginningToItsEnd) {
   const Ended end = stop();
   EXPECT_EQ(end.code, 0) << end.err;
   EXPECT_TRUE(contains(end.err, "There is no study in " + dir().string() + " yet."));
+}
+
+// A browser watches the page, from before the study is there.
+TEST_F(LiveCommand, IsWatchedInABrowser) {
+  const std::string program = "env TROUBLE=cycles " TROUBLED_STUDY;
+  start(program);
+  const std::filesystem::path seen = place_ / "seen";
+  Command watching("node " LIVE_SESSION " http://127.0.0.1:" + std::to_string(port_) + "/ >" + seen.string(),
+                   place_);
+  for (int i = 0; i < 1200 && !contents(seen).ends_with("waiting\n"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_EQ(run(program + " run --runs 12 --validation 4" + out()).code, 0);
+  const Ended end = watching.wait();
+  EXPECT_EQ(end.code, 0) << end.err;
+  const std::string all = contents(seen);
+  for (const char* line :
+       {"before the study: waiting\n", "at the end: 16/16 troubled, live\n",
+        "axes: cost [EUR], wear, x [m], y [deg], run\n", "points over the runs: ", "last run: measured\n",
+        "page of the best run: troubled, run ", "console errors: 0, requests elsewhere: 0\n"})
+    EXPECT_TRUE(contains(all, line)) << all;
+  EXPECT_EQ(stop().code, 0);
 }
 
 TEST_F(LiveCommand, SaysThatARunWasStopped) {

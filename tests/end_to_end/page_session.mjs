@@ -141,6 +141,22 @@ await step('figure, saved', area, async () => {
   assert.ok(figure.startsWith('<svg') && figure.includes('</svg>'));
   return `${name}, ${figure.length} characters`;
 });
+await step('line of a design, pointed at and clicked', one(axes), async () => {
+  const middle = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), [a, b] = [...document.querySelectorAll('${axes} line')].filter((l) => l.x1.baseVal.value === l.x2.baseVal.value).map((l) => l.x1.baseVal.value); return 0.5 * (a + b) / r.width; })()`);
+  const label = '#designs .parallel .label';
+  let share = 0.2;
+  for (; share < 0.95; share += 0.01) {
+    await page.mouse('mouseMoved', await page.place(one(axes), [middle, share]), {buttons: 0, button: 'none'});
+    await new Promise((r) => setTimeout(r, 40));
+    if (!(await evaluate(`${one(label)}.hidden`))) break;
+  }
+  const said = await text(one(label + ' b'));
+  assert.equal(await count(axes + ' polyline') > 0, true);
+  await click(one(axes), [middle, share]);
+  await until(`${one(bar)}.textContent.includes('Marked: ${said}')`);
+  await click(button(bar, 'Take mark away'));
+  return said;
+});
 /// What a drag over an element selects; cleared again.
 async function selectedBy(element, from, to) {
   await drag(element, from, to);
@@ -198,6 +214,19 @@ await step('runs side by side', one('#runs details summary'), async () => {
   await until(`!${one('#runs .comparison table')}`);
   return heads.join(', ');
 });
+// It opens the table of the runs.
+const dot = '#surfaces .plot .scatterlayer .point';
+await step('run on a surface, pointed at and clicked', one(dot), async () => {
+  await page.mouse('mouseMoved', await page.place(one(dot)), {buttons: 0, button: 'none'});
+  await until(one('#surfaces .hoverlayer .hovertext'));
+  const said = await text(one('#surfaces .hoverlayer .hovertext'));
+  await click(one(dot));
+  await until(`${one(bar)}.textContent.includes('Marked: ')`);
+  const marked = (await text(one(bar))).match(/Marked: ([^(]*\d+)/)[1];
+  assert.ok(marked.endsWith(said.match(/^run \d+/)[0]), `${said} shown, ${marked} marked`);
+  await click(button(bar, 'Take mark away'));
+  return said;
+});
 
 const scene = '#simulation .replay', clock = one(scene + ' .player .note');
 const seconds = async () => Number((await text(clock)).split(' ')[0]);
@@ -250,6 +279,12 @@ await step('click in a plot of the scene', one(scene + ' .scene-plot canvas'), a
   await click(one(scene + ' .scene-plot canvas'), [0.3, 0.5]);
   assert.notEqual(await seconds(), before);
   return `to ${await seconds()} s; ${(await evaluate(`[...document.querySelectorAll('${scene} .scene-plot > div')].map((d) => d.textContent)`)).join('; ')}`;
+});
+await step('plot of the scene, saved', button(scene + ' .scene-plot', 'SVG'), async () => {
+  await click(button(scene + ' .scene-plot', 'SVG'));
+  const {name, text: figure} = await saved('.svg');
+  assert.ok(figure.startsWith('<svg') && /<path d="M[^"]*L/.test(figure) && figure.endsWith('</svg>'));
+  return name;
 });
 await step('cycles', one('.cycles select'), async () => {
   const names = await evaluate("[...document.querySelectorAll('.cycles option')].map((o) => o.textContent)");

@@ -36,13 +36,27 @@ class PageSession : public StudyTest {
 TEST_F(PageSession, TheReport) {
   ASSERT_EQ(run(FORMULA_DEMO " --runs 30 --validation 5 --jobs 2" + out()).code, 0);
   go_through(dir() / "report.html",
-             {"table, sorted: from", "table, filtered: Copy", "table, copied: it says so",
-              "table, downloaded: formula_demo_points_of_the_front.csv", "row, marked: point",
-              "sections: ", "colours: the other ones and back", "of 200 front points",
-              "range in numbers: ", "slider: ", "surfaces in 3-D: and contours again",
-              "nested contours: 16 plots", "runs side by side: Run 1, Run 2, difference",
-              "what to do next: ", "point, pointed at: point", "point, clicked: point", ".svg, ", "paper: "},
-             6);  // those of a scene
+             {"table, sorted: from",
+              "table, filtered: Copy",
+              "table, copied: it says so",
+              "table, downloaded: formula_demo_points_of_the_front.csv",
+              "row, marked: point",
+              "sections: ",
+              "colours: the other ones and back",
+              "of 200 front points",
+              "range in numbers: ",
+              "slider: ",
+              "surfaces in 3-D: and contours again",
+              "nested contours: 16 plots",
+              "runs side by side: Run 1, Run 2, difference",
+              "what to do next: ",
+              "point, pointed at: point",
+              "point, clicked: point",
+              "line of a design, pointed at and clicked: point",
+              "run on a surface, pointed at and clicked: run",
+              ".svg, ",
+              "paper: "},
+             7);  // those of a scene
 }
 
 TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
@@ -51,8 +65,9 @@ TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
   ASSERT_EQ(run(replay() + " --file " + page.string()).code, 0);
   go_through(page,
              {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.", "cameras: side",
-              "click in a plot of the scene: to ", "payload 2.50 t", "cycles: 1, 2"},
-             17);  // those of a report
+              "click in a plot of the scene: to ", "payload 2.50 t",
+              "plot of the scene, saved: troubled_run_", "cycles: 1, 2"},
+             19);  // those of a report
 }
 
 TEST_F(PageSession, OneCycleHasAPageAndPicturesOfItsOwn) {

@@ -79,3 +79,10 @@ test('runs are shown along two objectives first, or one over the runs', () => {
   assert.deepEqual(axes.map(({of}) => of([4, 'training', [0.5], [1, 2]])), [1, 2, 0.5, 4]);
   assert.deepEqual(axes.map(({of}) => of([4, 'training', [0.5], null])), [null, null, 0.5, 4]);
 });
+
+test('standard errors are no axes', () => {
+  const problem = {variables: [{name: 'x', unit: 'm'}], responses: [{name: 'e', unit: '1', goal: 'record', is_error: true}, {name: 'a', unit: '1', goal: 'minimize'}, {name: 'b', unit: '1', goal: 'minimize'}]};
+  const axes = axesOf(problem);
+  assert.deepEqual(axes.map(({item}) => item.name), ['a', 'b', 'x', 'run']);
+  assert.deepEqual(firstAxes(problem).map((i) => axes[i].of([4, 'training', [0.5], [9, 1, 2]])), [1, 2]);
+});

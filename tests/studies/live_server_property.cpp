@@ -110,6 +110,22 @@ TEST_F(LiveServer, GivesTheFiguresOfARunButNoScene) {
   EXPECT_EQ(json::parse(none.body).at("error"), "there is no run 2");
 }
 
+TEST_F(LiveServer, GivesTheFiguresOfTheLastCycle) {
+  study_.replay = [](const std::filesystem::path&) {
+    json panels = json::array();
+    for (const char* title : {"all", "first", "last"})
+      panels.push_back(
+          {{"type", "table"}, {"title", title}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}});
+    panels[1]["cycle"] = 1;
+    panels[2]["cycle"] = 2;
+    return panels;
+  };
+  const json figures = json::parse(get("/figures.json?run=1").body).at("illustrations");
+  ASSERT_EQ(figures.size(), 2u);
+  EXPECT_EQ(figures.at(0).at("title"), "all");
+  EXPECT_EQ(figures.at(1).at("title"), "last");
+}
+
 TEST_F(LiveServer, GivesTheReplayOfARun) {
   test::write_file(folder_.log(1), "other");
   EXPECT_EQ(get("/run/1").status, 404);

@@ -13,12 +13,14 @@ import {predictor} from '../../studies/report/web/kriging.js';
 import {meanInterval, scaledDeviation} from '../../studies/report/web/kriging_error.js';
 import {brokenText, symbols} from '../../studies/report/web/limits.js';
 import {leftOutText, nestedVariables, outerLevels} from '../../studies/report/web/nested_levels.js';
+import {lineAt, piecesOf} from '../../studies/report/web/parallel_pointer.js';
 import {came, question} from '../../studies/report/web/question_words.js';
 import {distanceToCut, nearCut} from '../../studies/report/web/sampled.js';
 import {words} from '../../studies/report/web/inscription.js';
 import {Poses} from '../../studies/report/web/poses.js';
 import {peaksKept, sampleAt, valueAt} from '../../studies/report/web/signals.js';
 import {selecting} from '../../studies/report/web/selection.js';
+import {SvgPen} from '../../studies/report/web/svg_pen.js';
 import {shares} from '../../studies/report/web/shares.js';
 
 /// One axis that all have values on, and one that run 2 lacks.
@@ -149,8 +151,39 @@ test('the farther a run lies from a cut, the fainter it is', () => {
   const rows = [{x: [0, 8, 1], y: [1]}, {x: [2, 5, 1], y: [2]}, {x: [1, 6, 1], y: null}, {x: [1, 0, 1], y: [3]}];
   const near = nearCut(box, rows, [1, 5, 1], [0], 2);
   assert.deepEqual(near.rows, [rows[1], rows[0]]);
+  assert.deepEqual(near.indices, [1, 0]);
   assert.equal(near.opacity[0], 1);
   assert.ok(Math.abs(near.opacity[1] - (1 - 0.3 / Math.sqrt(2) / 0.5)) < 1e-12);
+});
+
+// Axes 100 px apart, of which values are pixels: run 0 rises from 10 to 110, run 1 lies at 50 and ends there.
+test('the line at the pointer is the nearest within reach that is shown', () => {
+  const values = [[10, 50], [110, 50], [60, NaN]], axes = values.map((runs, k) => ({x: 100 * k, y: (value) => value, values: {runs}}));
+  const all = () => true, at = (x, y, shown = all) => lineAt(axes, [['runs', 2]], shown, [x, y]);
+  assert.deepEqual(at(25, 35), {set: 'runs', i: 0});
+  assert.equal(at(25, 42), null);
+  assert.deepEqual(at(38, 49.5), {set: 'runs', i: 1});
+  assert.deepEqual(at(38, 49.5, (set, i) => i !== 1), {set: 'runs', i: 0});
+  assert.equal(at(150, 50), null);
+  assert.equal(at(250, 50), null);
+  assert.equal(at(-1, 10), null);
+  assert.deepEqual(piecesOf(axes, {set: 'runs', i: 0}), [[[0, 10], [100, 110], [200, 60]]]);
+  assert.deepEqual(piecesOf(axes, {set: 'runs', i: 1}), [[[0, 50], [100, 50]]]);
+});
+
+test('what a pen draws comes out as SVG', () => {
+  const pen = new SvgPen(100, 50);
+  Object.assign(pen, {strokeStyle: '#123456', fillStyle: '#654321', textAlign: 'right', textBaseline: 'middle'});
+  pen.setLineDash([5, 4]);
+  pen.beginPath();
+  pen.moveTo(1, 2);
+  pen.lineTo(3, 4.126);
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.fillText('a < b', 10, 20);
+  assert.equal(pen.text('#ffffff'), '<svg xmlns="http://www.w3.org/2000/svg" width="100" height="50" viewBox="0 0 100 50"><rect width="100%" height="100%" fill="#ffffff"/>' +
+    '<path d="M1.00 2.00L3.00 4.13" fill="none" stroke="#123456" stroke-width="1" stroke-linejoin="bevel" stroke-dasharray="5,4"/>' +
+    '<text x="10.00" y="20.00" fill="#654321" text-anchor="end" dominant-baseline="central" style="font:11px sans-serif">a &lt; b</text></svg>');
 });
 
 test('a run that breaks a limit has a shape and words of its own', () => {

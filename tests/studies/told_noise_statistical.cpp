@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Runs that tell their own standard error, from the table of runs to what is predicted of the next.
 
+#include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/models/models.h>
 #include <drawpoint/studies/models/suspects.h>
 #include <drawpoint/studies/report/data.h>
@@ -133,6 +134,20 @@ TEST(ToldNoise, HasNoModelOnThePage) {
   EXPECT_TRUE(page["influence"][1].is_null());
   EXPECT_FALSE(page["influence"][0].is_null());
   EXPECT_EQ(page["summary"].dump().find("load error"), std::string::npos);
+}
+
+// The commands fit and validate speak of the response, and not of its standard error.
+TEST(ToldNoise, HasNoModelInTheCommands) {
+  const Tables tables{runs(40, 1), runs(10, 2)};
+  const Models fitted = fit_models(tables);
+  for (const std::string& text : {fit_text(fitted, problem()), validation_text(fitted, tables)}) {
+    EXPECT_EQ(text.rfind("load [t]: ", 0), 0u) << text;
+    EXPECT_EQ(text.find("load_error"), std::string::npos) << text;
+  }
+  for (const nlohmann::ordered_json& all : {fit_json(fitted, problem()), validation_json(fitted, tables)}) {
+    EXPECT_EQ(all.size(), 1u) << all;
+    EXPECT_TRUE(all.contains("load")) << all;
+  }
 }
 
 // All runs exact: nothing is told, and fits estimate as ever.

@@ -37,7 +37,7 @@ function comparison({problem}, runs, clear) {
   const columns = [{title: '', text: true}, ...runs.flatMap((r, i) => [{title: `Run ${r.run}`}, ...i ? [{title: 'difference'}] : []])];
   const line = (title, of, {shown = number, missing = 'n/a', levels = false} = {}) => [title, ...runs.flatMap((r, i) => {
     const value = of(r);
-    return [value == null ? missing : shown(value), ...i ? [difference(value, of(runs[0]), shown, levels)] : []];
+    return [value == null ? missing : levels ? shown(value) : {value, shown: shown(value)}, ...i ? [difference(value, of(runs[0]), shown, levels)] : []];
   })];
   const words = (title, of) => [title, ...runs.flatMap((r, i) => [of(r), ...i ? [''] : []])];
   const rows = [words('kind', (r) => r.kind),
@@ -47,12 +47,12 @@ function comparison({problem}, runs, clear) {
   if (anyBreaks(runs)) rows.push(words('limits', (r) => brokenText(problem, r)));
   if (runs.some((r) => !r.y)) rows.push(words('failed, because', (r) => (r.y ? '' : r.reason)));
   return [el('div', {class: 'tools'}, el('h3', {}, 'Side by side'), el('button', {type: 'button', onclick: clear}, 'Clear')),
-    table(columns, rows, {sortable: false}).node];
+    table(columns, rows, {name: 'Side by side', sortable: false}).node];
 }
 
 function difference(value, reference, shown, levels) {
   if (value == null || reference == null) return 'n/a';
   if (levels) return value === reference ? 'same' : 'another';
   const change = value - reference;
-  return (change > 0 ? '+' : '') + shown(change);
+  return {value: change, shown: (change > 0 ? '+' : '') + shown(change)};
 }

@@ -14,7 +14,11 @@ const many = 2000;  // points from which on a plot waits until the selection res
 /// A trace whose i-th point is design indices[i] of the set, or its i-th design.
 export const link = (set, indices = null, opacity = 1) => ({set, index: (i) => (indices ? indices[i] : i), opacity});
 
-/// links: per trace of the plot a link, or undefined for a trace that does not belong to designs.
+/// The same of a trace that shows others each time: indices() are those of now.
+export const movingLink = (set, indices) => ({set, index: (i) => indices()[i], opacity: 1});
+
+/// links: per trace of the plot a link, or undefined for a trace that does not belong to designs. Returns what
+/// links the plot again after it was taken apart (Plotly.purge) and drawn.
 export function linkPoints(box, links, {chosen, selection}) {
   const large = box.querySelectorAll('.point').length > many;
   const apply = () => box.querySelectorAll('.scatterlayer .trace').forEach((trace) => {
@@ -30,11 +34,15 @@ export function linkPoints(box, links, {chosen, selection}) {
     }
   });
   selection.onchange(large ? whenResting(apply) : apply);
-  box.on('plotly_afterplot', apply);
-  box.on('plotly_click', ({points: [point]}) => {
-    const known = links[point.curveNumber];
-    if (known) chosen.pick(known.set, known.index(point.pointIndex));
-  });
+  const listen = () => {
+    box.on('plotly_afterplot', apply);
+    box.on('plotly_click', ({points: [point]}) => {
+      const known = links[point.curveNumber];
+      if (known) chosen.pick(known.set, known.index(point.pointIndex ?? point.pointNumber));
+    });
+  };
+  listen();
+  return listen;
 }
 
 /// The same as Plotly's marker.opacity, where the picture is to be saved and not drawn here.

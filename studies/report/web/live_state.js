@@ -3,6 +3,8 @@
 // What the live page works out without a browser: which rows it has, curves, and how it stands with the
 // server.
 
+import {own} from './responses.js';
+
 /// Points that a plot shows, the latest.
 export const mostPoints = 3000;
 
@@ -66,14 +68,14 @@ export function pause(kind, connected, more) {
 
 /// The axes that runs can be shown along: name as of a variable or response, and the value of a row.
 export function axesOf({variables, responses}) {
-  return [...responses.map((item, j) => ({item, of: ([, , , y]) => (y ? y[j] : null)})),
+  return [...own(responses).map(({response: item, j}) => ({item, of: ([, , , y]) => (y ? y[j] : null)})),
     ...variables.map((item, k) => ({item, of: ([, , x]) => x[k]})),
     {item: {name: 'run', unit: '1'}, of: ([run]) => run}];
 }
 
 /// Which two of these a study's runs are shown along first: two objectives, or one over the runs.
-export function firstAxes({variables, responses}) {
-  const objectives = responses.map((r, j) => (/^(min|max)imize$/.test(r.goal) ? j : -1)).filter((j) => j >= 0);
+export function firstAxes(problem) {
+  const axes = axesOf(problem), objectives = axes.map(({item}, i) => (/^(min|max)imize$/.test(item.goal) ? i : -1)).filter((i) => i >= 0);
   if (objectives.length >= 2) return [objectives[0], objectives[1]];
-  return [responses.length + variables.length, objectives[0] ?? 0];
+  return [axes.length - 1, objectives[0] ?? 0];
 }

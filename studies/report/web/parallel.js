@@ -4,13 +4,13 @@
 // response.
 
 import {choice, el, figure, section} from './dom.js';
-import {download} from './delimited.js';
+import {download, fileName} from './delimited.js';
 import {pretty} from './format.js';
 import {oncePerFrame, whenResting} from './frames.js';
-import {axesSvg, brush, placed} from './parallel_axes.js';
 import {anyBreaks} from './limits.js';
+import {axesSvg, axisAt, brush, outline, placed} from './parallel_axes.js';
 import {asSvg, colourOf, dimmedLines, drawnAs, isDashed, lineCount, many, paint, selectedLines} from './parallel_lines.js';
-import {fileName} from './plot.js';
+import {lineAt, piecesOf, pointing} from './parallel_pointer.js';
 import {rangeForm} from './range_form.js';
 import {colour, onPaper, onTheme} from './theme.js';
 
@@ -22,12 +22,12 @@ export function parallelCoordinates(data, shared) {
   const {designs} = shared, front = designs.front.length > 0;
   const shownSets = [['front', 'runs'], ['front'], ['runs']];
   const view = {sets: front ? shownSets[0] : ['runs']};
-  const {node, redraw, save} = stage(view, shared);
+  const {node, redraw, save} = stage(view, {data, ...shared});
   const which = front ? choice(['Runs and front', 'Front', 'Runs'], (i) => { view.sets = shownSets[i]; redraw(); }) : null;
   const clear = clearButton(shared.selection);
   return section('designs', 'All designs', 'Each line is one design: its variables, then its responses. What is selected here or in a trade-off is selected in every plot and table; the rest is dimmed.',
     figure(el('div', {}, el('div', {class: 'controls'}, which, el('button', {type: 'button', onclick: save}, 'Save as SVG'), clear), legend(designs), node, rangeForm(designs.axes, shared.selection)),
-      `Draw along an axis to select a range; drag the range or its ends to change it, click it to take it away. Several ranges select what lies in all of them. A failed run has no responses, so its line ends early.${front ? ' Responses of the front are predicted.' : ''} Arrows say which way a response is wanted.${anyBreaks(designs.runs) ? ' A dashed line is a run that breaks a limit.' : ''}`));
+      `Draw along an axis to select a range; drag the range or its ends to change it, click it to take it away. Several ranges select what lies in all of them. Point at a line between two axes to read it, and click to follow it through the report. A failed run has no responses, so its line ends early.${front ? ' Responses of the front are predicted.' : ''} Arrows say which way a response is wanted.${anyBreaks(designs.runs) ? ' A dashed line is a run that breaks a limit.' : ''}`));
 }
 
 function clearButton(selection) {
@@ -50,10 +50,11 @@ function legend(designs) {
 /// drawn, only a part of them is, until it rests.
 function stage(view, shared) {
   const {designs, selection, chosen} = shared;
-  const behind = el('canvas'), front = el('canvas'), overlay = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  const inner = el('div', {class: 'parallel', style: `height:${height}px;min-width:${128 + leastGap * (designs.axes.length - 1)}px`}, behind, front, overlay);
+  const behind = el('canvas'), front = el('canvas'), overlay = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), label = el('div', {class: 'label', hidden: true});
+  const inner = el('div', {class: 'parallel', style: `height:${height}px;min-width:${128 + leastGap * (designs.axes.length - 1)}px`}, behind, front, overlay, label);
   const node = el('div', {class: 'scrolled', role: 'img', 'aria-label': 'Parallel coordinates of all designs'}, inner);
-  let axes = [], size = {width: 0, height}, stale = true;
+  let axes = [], size = {width: 0, height}, stale = true, pointed = null;
+  const lines = () => overlay.replaceChildren(axesSvg(axes, selection.ranges), ...pointed ? [outline(piecesOf(axes, pointed))] : []);
   const draw = (most = Infinity) => {
     if (stale) {
       size = {width: inner.clientWidth, height};
@@ -66,7 +67,7 @@ function stage(view, shared) {
     }
     behind.hidden = !selection.active;
     paint(front, size, axes, selectedLines(designs, view.sets, shared, most));
-    overlay.replaceChildren(axesSvg(axes, selection.ranges));
+    lines();
   };
   const soon = oncePerFrame(() => draw(lineCount(designs, view.sets) > many ? thinned : Infinity)), later = whenResting(draw);
   const update = () => {
@@ -79,6 +80,8 @@ function stage(view, shared) {
   chosen.onchange(() => { if (mark !== chosen.mark) { mark = chosen.mark; update(); } });
   onTheme((now) => { anew(); if (now) draw(); });
   new ResizeObserver(anew).observe(inner);
+  const at = (place) => (axisAt(axes, place[0]) < 0 ? lineAt(axes, view.sets.map((set) => [set, designs[set].length]), selection.has, place) : null);
+  pointing(overlay, label, shared, at, (line) => { pointed = line; lines(); });
   brush(overlay, {axes: () => axes, ranges: selection.ranges, setRange: selection.setRange});
   return {node, redraw: anew, save: () => onPaper(() => save(axes, size, view, shared))};
 }

@@ -4,6 +4,7 @@
 // other colours.
 /* global Plotly */
 
+import {fileName} from './delimited.js';
 import {el} from './dom.js';
 import {colour, onPaper, onTheme} from './theme.js';
 
@@ -59,9 +60,6 @@ export function forget(node) {
     Plotly.purge(box);
   }
 }
-
-/// A name for a file from words.
-export const fileName = (...words) => words.join(' ').toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_|_$/g, '');
 
 /// The plot as it is seen, in the colours for paper.
 function save(box) {

@@ -14,8 +14,8 @@ export function distanceToCut({variables}, point, at, along) {
 }
 
 /// The runs of `rows` with values that lie nearest to the cut through `at` along some variables, at most so
-/// many: {rows, opacity}, one opacity per row.
+/// many: {rows, indices, opacity}, per run its index in `rows` and its opacity.
 export function nearCut(problem, rows, at, along, most = 60) {
-  const near = rows.filter((r) => r.y).map((r) => ({r, d: distanceToCut(problem, r.x, at, along)})).sort((p, q) => p.d - q.d).slice(0, most);
-  return {rows: near.map(({r}) => r), opacity: near.map(({d}) => Math.max(faintest, 1 - d / farthest))};
+  const near = rows.map((r, i) => ({r, i, d: distanceToCut(problem, r.x, at, along)})).filter(({r}) => r.y).sort((p, q) => p.d - q.d).slice(0, most);
+  return {rows: near.map(({r}) => r), indices: near.map(({i}) => i), opacity: near.map(({d}) => Math.max(faintest, 1 - d / farthest))};
 }

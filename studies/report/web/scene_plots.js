@@ -3,10 +3,12 @@
 // Plots of signals in time with the scene: a cursor stands at the time that is shown, and a click goes to
 // another.
 
+import {download, fileName} from './delimited.js';
 import {el} from './dom.js';
 import {number} from './format.js';
 import {peaksKept, valueAt} from './signals.js';
-import {colour, onTheme, series} from './theme.js';
+import {SvgPen} from './svg_pen.js';
+import {colour, onPaper, onTheme, series} from './theme.js';
 
 const height = 96, left = 58, right = 10, top = 18, bottom = 16;  // [px]
 
@@ -34,7 +36,8 @@ class Plot {
     this.background = document.createElement('canvas');
     this.canvas = el('canvas', {role: 'img', 'aria-label': `${signal.name} over time`});
     this.value = el('span', {class: 'note'});
-    this.node = el('div', {class: 'scene-plot'}, el('div', {}, el('b', {}, signal.name), this.value, this.legend()), this.canvas);
+    this.node = el('div', {class: 'scene-plot'}, el('div', {}, el('b', {}, signal.name), this.value, this.legend(),
+      el('button', {type: 'button', title: `Save the plot of ${signal.name} as SVG`, onclick: () => this.save()}, 'SVG')), this.canvas);
     const go = (event) => seek(this.timeAt(event.offsetX));
     this.canvas.addEventListener('pointerdown', (event) => { this.canvas.setPointerCapture(event.pointerId); go(event); });
     this.canvas.addEventListener('pointermove', (event) => { if (event.buttons & 1) go(event); });
@@ -66,7 +69,7 @@ class Plot {
     return this.known;
   }
 
-  /// All but the cursor, which moves with play, is drawn once.
+  /// What stands still while the cursor moves with play is drawn once.
   draw() {
     if (!this.width) return;
     const ratio = window.devicePixelRatio || 1;
@@ -74,12 +77,29 @@ class Plot {
       canvas.width = Math.round(this.width * ratio);
       canvas.height = Math.round(height * ratio);
     }
-    const context = this.background.getContext('2d'), [low, high] = this.range();
+    const context = this.background.getContext('2d');
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const y = (v) => height - bottom - ((v - low) / (high - low)) * (height - top - bottom);
+    this.still(context);
+    this.show(this.time);
+  }
+
+  /// All but the cursor.
+  still(context) {
+    const [low, high] = this.range(), y = (v) => height - bottom - ((v - low) / (high - low)) * (height - top - bottom);
     this.axes(context, low, high, y);
     this.curve(context, y);
-    this.show(this.time);
+  }
+
+  /// With its name above it, in the colours for paper.
+  save() {
+    const {signal} = this, pen = new SvgPen(this.width, height);
+    const text = onPaper(() => {
+      this.still(pen);
+      Object.assign(pen, {fillStyle: colour.ink, textAlign: 'left', font: 'bold 11px system-ui, sans-serif'});
+      pen.fillText([`${signal.name} [${signal.unit}]`, ...(signal.lines ?? []).map((line) => `${line.name} ${number(line.y)} ${signal.unit}`)].join(', '), left, 8);
+      return pen.text(colour.paper);
+    });
+    download(fileName(document.title, signal.name) + '.svg', text, 'image/svg+xml');
   }
 
   axes(context, low, high, y) {

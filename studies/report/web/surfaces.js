@@ -4,6 +4,8 @@
 // and along every variable alone. The surrogates are evaluated here, in the browser.
 /* global Plotly */
 
+import {inputsText} from './designs.js';
+import {linkPoints, movingLink} from './dimming.js';
 import {choice, el, figure, section, select} from './dom.js';
 import {axisLabel, labelled, number, place, plain, pretty, settingWithUnit, ticks} from './format.js';
 import {oncePerFrame} from './frames.js';
@@ -20,7 +22,8 @@ import {colour, faded, scale, series} from './theme.js';
 
 const dots = 200;  // runs drawn on a surface
 
-export function surfaces(data, {chosen}) {
+export function surfaces(data, shared) {
+  const {chosen} = shared;
   const fitted = own(data.problem.responses).map((f) => ({...f, model: data.models[f.j]})).filter((f) => f.model?.surface);
   const node = section('surfaces', 'Response surfaces', fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.');
   if (!fitted.length) return node;
@@ -34,8 +37,8 @@ export function surfaces(data, {chosen}) {
   node.append(influence(data, fitted));
   const controls = sliders(data, chosen);
   node.append(controls);
-  if (data.problem.variables.length > 1) node.append(maps(data, fitted, chosen));
-  node.append(profiles(data, fitted, chosen));
+  if (data.problem.variables.length > 1) node.append(maps(data, fitted, shared));
+  node.append(profiles(data, fitted, shared));
   const grid = nested(data, fitted, chosen);
   if (grid) node.append(grid);
   return node;
@@ -74,24 +77,35 @@ function sliders(data, chosen) {
     el('button', {type: 'button', onclick: () => chosen.reset()}, 'Middle of the box'));
 }
 
-function maps(data, fitted, chosen) {
-  const {variables} = data.problem;
+function maps(data, fitted, shared) {
+  const {variables} = data.problem, {chosen} = shared;
   let [a, b] = data.main_pair;
-  let solid = false;
+  let solid = false, near = null;
   const boxes = fitted.map((f) => plotBox(fitted.length === 1 ? 460 : 380, 'Response surface of ' + f.response.name));
-  const redraw = oncePerFrame(() => fitted.forEach((f, i) => map(boxes[i], f, data, [a, b], chosen, solid)));
+  const redraw = oncePerFrame(() => {
+    near = nearCut(data.problem, data.training.rows, chosen.x, [a, b], dots);
+    fitted.forEach((f, i) => map(boxes[i], f, data, [a, b], {chosen, near, solid}));
+  });
   const names = variables.map(labelled);
   const across = select('Across', names, a, (k) => { if (k === b) { b = a; up.querySelector('select').value = b; } a = k; redraw(); });
   const up = select('Up', names, b, (k) => { if (k === a) { a = b; across.querySelector('select').value = a; } b = k; redraw(); });
   chosen.onchange(redraw);
   redraw.now();
-  return figure(el('div', {}, el('div', {class: 'controls'}, across, up, choice(['Contours', '3-D'], (i) => { solid = i === 1; boxes.forEach((box) => Plotly.purge(box)); redraw(); })),
+  const links = [undefined, movingLink('runs', () => near.indices)], listening = boxes.map((box) => linkPoints(box, links, shared));
+  const change = (i) => {
+    solid = i === 1;
+    boxes.forEach((box) => Plotly.purge(box));
+    redraw.now();
+    listening.forEach((listen) => listen());
+  };
+  return figure(el('div', {}, el('div', {class: 'controls'}, across, up, choice(['Contours', '3-D'], change)),
     el('div', {class: 'grid'}, boxes)),
-    'Predicted response over two variables, the others held at the sliders above. The colours span the simulated range of each response and do not move with the sliders; the cross marks the sliders’ point. Lines close together mean a steep response. Dots are simulated runs, projected onto the cut: the fainter, the farther they lie from it. In 3-D the pale sheets below and above hold the mean of many runs with 95 %.' + legendOfLimits(data.training.rows));
+    'Predicted response over two variables, the others held at the sliders above. The colours span the simulated range of each response and do not move with the sliders; the cross marks the sliders’ point. Lines close together mean a steep response. Dots are simulated runs, projected onto the cut: the fainter, the farther they lie from it; a click marks one and moves the cut there. In 3-D the pale sheets below and above hold the mean of many runs with 95 %.' + legendOfLimits(data.training.rows));
 }
 
-function map(box, f, data, [a, b], chosen, solid) {
-  const {variables} = data.problem, near = nearCut(data.problem, data.training.rows, chosen.x, [a, b], dots);
+/// The runs are the second trace.
+function map(box, f, data, [a, b], {chosen, near, solid}) {
+  const {variables} = data.problem;
   const count = f.model.surface.weights.length > 200 ? 31 : 41;
   const x = places(variables[a], count), y = places(variables[b], count);
   const point = [...chosen.x];
@@ -103,13 +117,13 @@ function map(box, f, data, [a, b], chosen, solid) {
     const side = (item) => ({title: {text: axisLabel(item)}, color: colour.ink, gridcolor: colour.axis, zeroline: false});
     const scene = () => ({xaxis: {...side(variables[a]), ...ticks(variables[a])}, yaxis: {...side(variables[b]), ...ticks(variables[b])}, zaxis: side(f.response), camera: {eye: {x: -1.75, y: -1.85, z: 1.05}, center: {x: 0, y: 0, z: -0.15}}});
     const {zmin, zmax, ...rest} = range;
-    draw(box, () => ({traces: [{type: 'surface', x, y, z, cmin: zmin, cmax: zmax, ...rest, showscale: false, contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}}}, ...sheets(f, variables, [a, b], chosen), sampledIn3d(f, near, [a, b])], layout: {title, margin: {l: 0, r: 0, t: 36, b: 0}, scene: scene(), uirevision: revision}}));
+    draw(box, () => ({traces: [{type: 'surface', x, y, z, cmin: zmin, cmax: zmax, ...rest, showscale: false, contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}}}, sampledIn3d(data.problem, f, near, [a, b]), ...sheets(f, variables, [a, b], chosen)], layout: {title, margin: {l: 0, r: 0, t: 36, b: 0}, scene: scene(), uirevision: revision}}));
     return;
   }
   draw(box, () => ({traces: [
     {type: 'contour', x, y, z, ...range, ncontours: 14, contours: {coloring: 'heatmap', showlines: true}, line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
       hovertemplate: `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`},
-    {x: near.rows.map((r) => r.x[a]), y: near.rows.map((r) => r.x[b]), mode: 'markers', text: near.rows.map((r) => `run ${r.run}: ${number(r.y[f.j])}`), hovertemplate: '%{text}<extra></extra>',
+    {x: near.rows.map((r) => r.x[a]), y: near.rows.map((r) => r.x[b]), mode: 'markers', text: near.rows.map((r) => runText(data.problem, f, r)), hovertemplate: '%{text}<extra></extra>',
       marker: {size: 6, color: '#fff', opacity: near.opacity, symbol: symbols(near.rows), line: {color: '#1c2733', width: 1}}},
     {x: [chosen.x[a]], y: [chosen.x[b]], mode: 'markers', hoverinfo: 'skip', marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}}},
   ], layout: {title, showlegend: false, margin: {l: 56, r: 8, t: 36, b: 52}, uirevision: revision, xaxis: axis(axisLabel(variables[a]), within(variables[a])), yaxis: axis(axisLabel(variables[b]), within(variables[b]))}}));
@@ -124,8 +138,10 @@ function sheets(f, variables, [a, b], chosen) {
     colorscale: [[0, colour.guide], [1, colour.guide]]}));
 }
 
-const sampledIn3d = (f, {rows, opacity}, [a, b]) => ({type: 'scatter3d', mode: 'markers', x: rows.map((r) => r.x[a]), y: rows.map((r) => r.x[b]), z: rows.map((r) => r.y[f.j]),
-  text: rows.map((r) => `run ${r.run}`), hovertemplate: '%{text}: %{z:.4g}<extra></extra>', marker: {size: 3, symbol: rows.map((r) => (breaksLimit(r) ? 'x' : 'circle')), color: opacity.map((o) => faded(colour.ink, o))}});
+const runText = (problem, f, r) => `<b>run ${r.run}</b><br>${inputsText(problem, r.x)}<br>${plain(pretty(f.response.name))}: ${number(r.y[f.j], 4)}`;
+
+const sampledIn3d = (problem, f, {rows, opacity}, [a, b]) => ({type: 'scatter3d', mode: 'markers', x: rows.map((r) => r.x[a]), y: rows.map((r) => r.x[b]), z: rows.map((r) => r.y[f.j]),
+  text: rows.map((r) => runText(problem, f, r)), hovertemplate: '%{text}<extra></extra>', marker: {size: 3, symbol: rows.map((r) => (breaksLimit(r) ? 'x' : 'circle')), color: opacity.map((o) => faded(colour.ink, o))}});
 
 /// Of an axis: no wider than the variable, wherever the cross is.
 const within = (v) => ({...ticks(v), ...(v.kind ? {} : {range: [v.lower, v.upper]})});

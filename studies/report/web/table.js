@@ -17,7 +17,8 @@ const order = (a, b) => {
   return String(a ?? '').localeCompare(String(b ?? ''), undefined, {numeric: true});
 };
 
-/// columns: [{title, format?, text?, missing?, parts?, control?}]; rows: arrays of values. parts: [{title,
+/// columns: [{title, format?, text?, missing?, parts?, control?}]; rows: arrays of values, or of {value, shown}
+/// with a text of their own. parts: [{title,
 /// of(value)}] are the columns that a copy has in place of this one; control(row index) gives an element and
 /// is no value. name: of the table, gives it the tools to filter and copy. onpick(row index) makes the rows
 /// selectable. passes(row index) tells whether a row is selected. Returns {node, mark(row index), show(row
@@ -120,8 +121,9 @@ function pager(onstep) {
 function said(value, {format, missing = 'n/a'} = {}) {
   if (value instanceof Node) return value.textContent;
   if (value === null || value === undefined) return missing;
+  if (value.shown !== undefined) return value.shown;
   return format && typeof value !== 'string' ? format(value) : String(value);
 }
 
 const content = (value, column) => (value instanceof Node ? value : said(value, column));
-const raw = (value) => (value instanceof Node ? value.textContent : value);
+const raw = (value) => (value instanceof Node ? value.textContent : value?.shown === undefined ? value : value.value);

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Above a table: a box to filter its rows, and buttons that copy or download those that are left.
 
-import {copy, csv, download, tsv} from './delimited.js';
+import {copy, csv, download, fileName, tsv} from './delimited.js';
 import {el} from './dom.js';
-import {fileName} from './plot.js';
 
 /// rows(): head and rows as values. Returns {node, update(count of rows)}.
 export function tableTools(name, {onfilter, rows}) {

@@ -14,7 +14,7 @@ import {colour} from './theme.js';
 
 export function validation(data, shared) {
   const {variables, responses} = data.problem;
-  const columns = [{title: 'Response', text: true}, {title: 'RMSE', format: number}, {title: 'Noise of a run', format: number}, {title: 'RMSE without noise', text: true}, {title: 'Range', format: number},
+  const columns = [{title: 'Response', text: true}, {title: 'RMSE', format: number}, {title: 'Noise of a run', format: number}, {title: 'RMSE without noise', text: true, format: withoutNoise, missing: '', parts: ['RMSE without noise', 'its lower end', 'its upper end'].map((title, k) => ({title, of: (rest) => rest?.[k]}))}, {title: 'Range', format: number},
     {title: 'NRMSE', format: percent}, {title: 'Points', format: String},
     {title: 'Scale', text: true}, ...variables.map((v) => ({title: 'ϑ ' + pretty(v.name), format: number})), {title: 'Nugget', format: number},
     {title: 'Process σ', format: number}];
@@ -23,7 +23,7 @@ export function validation(data, shared) {
     data.models.length ? 'A regression Kriging model stands in for the simulation. It was fitted to the training runs and checked on validation runs that it has never seen.'
       : 'No surrogate could be fitted.');
   if (!data.models.length) return node;
-  node.append(el('div', {class: 'block'}, table(columns, rows, {sortable: false}).node, el('p', {class: 'note'},
+  node.append(el('div', {class: 'block'}, table(columns, rows, {name: 'Surrogates', sortable: false}).node, el('p', {class: 'note'},
     'RMSE: root mean square error on the validation runs, in the unit of the response. In it is what single runs scatter by, the noise of a run as the model has it; ' +
     'the rest is by how much the model misses the mean of many runs, give or take a standard error. NRMSE: RMSE over the range of the simulated values. ' +
     'Scale: what was fitted, the response itself or its square root, logarithm or logit, chosen by leave-one-out; ' +
@@ -36,11 +36,11 @@ export function validation(data, shared) {
 
 function row(name, model, check, inputs) {
   const fit = model ? [pretty(model.scale), ...model.theta, model.nugget, Math.sqrt(model.process_variance)] : ['', ...Array(inputs + 2).fill(null)];
-  return [name, ...(check ? [check.rmse, check.noise, withoutNoise(check), check.range, check.nrmse, check.observed.length] : [null, null, '', null, null, 0]), ...fit];
+  return [name, ...(check ? [check.rmse, check.noise, check.rmse_without_noise, check.range, check.nrmse, check.observed.length] : [null, null, null, null, null, 0]), ...fit];
 }
 
 /// By how much the mean of many runs is missed, within a standard error.
-const withoutNoise = ({rmse_without_noise: rest}) => (rest ? `${number(rest[0])} (${number(rest[1])} to ${number(rest[2])})` : '');
+const withoutNoise = (rest) => `${number(rest[0])} (${number(rest[1])} to ${number(rest[2])})`;
 
 /// Index of each validation run that ended, in the order of the checks.
 const checkedRuns = ({runs}) => runs.map((_, i) => i).filter((i) => runs[i].kind === 'validation' && runs[i].y);

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+/// The two studies of loading as programs, on a pile of one bucket: what they store is what their logs say, a
+/// run can be made again, and report and replay show it.
+
+#include <drawpoint/tests/end_to_end/support.hpp>
+
+using namespace drawpoint;
+using namespace drawpoint::test;
+
+namespace {
+
+class LoadingStudies : public StudyTest {
+ protected:
+  /// Three runs of one cycle, none of which fails.
+  void make(const std::string& program) const {
+    const Ended made =
+        run(program + " run --runs 3 --validation 0 --cycles 1 --pile-mass 20 --jobs 2" + out());
+    ASSERT_EQ(made.code, 0) << made.err;
+    ASSERT_EQ(count("status = 'done'"), 3) << made.err;
+    EXPECT_TRUE(contains(made.out, "fill_factor"));
+  }
+  /// The program takes the same responses from the logs, to the bit.
+  void expect_equal_from_logs(const std::string& program) const {
+    const auto anew = place_ / "anew";
+    ASSERT_EQ(run(program + " rerun-responses --from " + dir().string() + " --out " + anew.string()).code, 0);
+    EXPECT_EQ(values_in(anew / "study.db"), values_in(database()));
+  }
+  static std::string values_in(const std::filesystem::path& store) {
+    SQLite::Database database(store.string(), SQLite::OPEN_READONLY, 10000);
+    return database
+        .execAndGet("SELECT group_concat(id || ' ' || quote(production) || ' ' || log, ', ') FROM runs")
+        .getString();
+  }
+};
+
+TEST_F(LoadingStudies, TheStrategyOfALoader) {
+  make(LHD_LOADING);
+  expect_equal_from_logs(LHD_LOADING);
+  EXPECT_EQ(count("production > 0 AND joint_damage >= 0 AND rock_spill >= 0"), 3);
+  const std::string report = contents(dir() / "report.html");
+  for (const char* part : {"Planned and actual path of the cutting edge", "The machine in the drift",
+                           "Drive forces and the torque in hinge G", "Rock in the bucket"})
+    EXPECT_TRUE(report.find(part) != std::string::npos) << part;
+  const Ended again = run(LHD_LOADING " evaluate --run 2 --json" + out());
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(again.json()["as_stored"].get<bool>()) << again.out;
+  const Ended replay = run(LHD_LOADING " replay --run 2" + out());
+  EXPECT_EQ(replay.code, 0) << replay.err;
+  EXPECT_TRUE(std::filesystem::exists(dir() / "replay_0002.html"));
+}
+
+TEST_F(LoadingStudies, BucketSpeedsAndStrategy) {
+  make(LHD_BUCKET_AND_SPEED);
+  expect_equal_from_logs(LHD_BUCKET_AND_SPEED);
+  EXPECT_EQ(count("production > 0 AND energy > 0 AND pin_load > 0 AND load > 0 AND load < 30"), 3);
+}
+
+}  // namespace
