@@ -28,6 +28,8 @@ bool solved_loosely(const std::string& solver) {
   return solver == "lindmark2016";
 }
 
+constexpr std::array<std::string_view, 2> motion_names = {"pictures", "full"};
+
 /// One of two ways that the program has, of which folders of before the option have the first.
 StudyOption choice(const std::string& name, const std::string& help,
                    const std::array<std::string_view, 2>& names) {
@@ -90,6 +92,12 @@ std::vector<StudyOption> loading_options() {
              engine::loading::progress_names),
       choice("arm", "what moves it: its cylinders, or motors in its hinges as in Lindmark (2016)",
              engine::loading::arm_drive_names),
+      choice(
+          "motion",
+          "what run logs keep of it: pictures, 20 per second and 2 cm true, and the load of the bucket's "
+          "hinge; or full: every step as it was, and the load of every joint of the tree, 6 MB per cycle of "
+          "120 t in place of 0.6",
+          motion_names),
       {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
       {.name = "precision",
        .help = "per cent: a run ends after five cycles or more once the standard error of its mean "
@@ -154,6 +162,11 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.lift = engine::loading::lift_named(chosen(run, "lift"));
   scenario.executor.progress = engine::loading::progress_named(chosen(run, "progress"));
   scenario.machine.arm_drive = engine::loading::arm_drive_named(chosen(run, "arm"));
+  if (chosen(run, "motion") == motion_names[1]) {
+    scenario.frame_interval = scenario.world.step;
+    scenario.frame_tolerance = 0;
+    scenario.log_all_joints = true;
+  }
   scenario.cycles = std::stoi(chosen(run, "cycles"));
   scenario.precision = std::stod(chosen(run, "precision")) / 100;
   scenario.pile_file = run.shared / "pile.h5";

@@ -22,10 +22,11 @@ constexpr const char* about =
     "145 kN m with settings of its own; where the rock stood there is not known.\n\n"
     "  yield_torque                           rock before the middle, half-way to and near the corner\n"
     "  yield_torque --setting 5x16x5          another step and more iterations\n"
+    "  yield_torque --arm hinges              with motors in the hinges, as in Lindmark (2016)\n"
     "  yield_torque --offsets 0 --lowpass 0   the raw peak";
 
 struct Settings {
-  std::string speeds = "lindmark2016", setting;
+  std::string speeds = "lindmark2016", arm = "cylinders", materials = "calibrated", setting;
   std::vector<double> offsets = {0, 0.8, 1.5};
   double rock = YieldTestOptions{}.rock_size, lowpass = YieldTestOptions{}.lowpass_hz;
   bool json = false;
@@ -33,10 +34,14 @@ struct Settings {
 
 nlohmann::json run(const Settings& s) {
   Scenario scenario = with_speeds(lh621_in_a_drift(), s.speeds);
+  scenario.machine.arm_drive = arm_drive_named(s.arm);
+  scenario.materials = materials_named(s.materials);
   if (!s.setting.empty()) scenario.world = with(scenario.world, setting_of(s.setting));
   nlohmann::json out{{"rock_m", s.rock},
                      {"lowpass_hz", s.lowpass},
                      {"speeds", s.speeds},
+                     {"arm", s.arm},
+                     {"materials", s.materials},
                      {"solved", in_words(described(scenario.world))},
                      {"rows", nlohmann::json::array()}};
   for (const double offset : s.offsets) {
@@ -52,9 +57,10 @@ nlohmann::json run(const Settings& s) {
 }
 
 void print(const nlohmann::json& j) {
-  std::printf("rock of %g m, low-pass %g Hz, %s speeds; solved with %s\n", j.at("rock_m").get<double>(),
-              j.at("lowpass_hz").get<double>(), j.at("speeds").get<std::string>().c_str(),
-              j.at("solved").get<std::string>().c_str());
+  const auto text = [&](const char* key) { return j.at(key).get<std::string>(); };
+  std::printf("rock of %g m, low-pass %g Hz, %s speeds, arm moved by %s, %s materials; solved with %s\n",
+              j.at("rock_m").get<double>(), j.at("lowpass_hz").get<double>(), text("speeds").c_str(),
+              text("arm").c_str(), text("materials").c_str(), text("solved").c_str());
   std::printf("offset m  touches at m/s  torque kN m  twisting kN m  without low-pass kN m\n");
   for (const nlohmann::json& row : j.at("rows")) {
     const auto number = [&](const char* key) { return row.at(key).get<double>(); };
@@ -80,6 +86,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--speeds", s.speeds, "preset of the actuators' speeds")
       ->check(one_of(speed_names))
+      ->capture_default_str();
+  app.add_option("--arm", s.arm, "what moves it: cylinders, or motors in its hinges as in Lindmark (2016)")
+      ->check(one_of(arm_drive_names))
+      ->capture_default_str();
+  app.add_option("--materials", s.materials, "contact coefficients; the rock meets the bucket's steel")
+      ->check(one_of(material_names))
       ->capture_default_str();
   app.add_option("--setting", s.setting,
                  "step and work, as 10x16x5 or 10x16x1+20000~0.02 (default: the scene's)")

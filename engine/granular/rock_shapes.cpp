@@ -135,4 +135,13 @@ const std::array<ConvexPolyhedron, 6>& rock_shapes() {
   return shapes;
 }
 
+std::uint64_t rock_shapes_checksum() {
+  std::uint64_t sum = 1469598103934665603u;  // FNV-1a, a coefficient at a time
+  for (const Planes& planes : fractures())
+    for (const HalfSpace& h : planes)
+      for (const int coefficient : {h.a, h.b, h.c, h.d})
+        sum = (sum ^ static_cast<std::uint32_t>(coefficient)) * 1099511628211u;
+  return sum;
+}
+
 }  // namespace drawpoint::engine::granular

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 
 /// Six shapes of blasted rock: blocks bounded by 10 to 12 fracture planes, 16 to 20 vertices.
@@ -17,5 +18,9 @@ namespace drawpoint::engine::granular {
 
 /// Built on the first call, the same objects ever after.
 const std::array<engine::ConvexPolyhedron, 6>& rock_shapes();
+
+/// Of the coefficients that make the shapes: other shapes have another one. Files that name a shape by its
+/// number keep it.
+std::uint64_t rock_shapes_checksum();
 
 }  // namespace drawpoint::engine::granular

@@ -38,6 +38,13 @@ void add_sizes(std::string& provenance, const granular::SizeDistribution& sizes)
   }
 }
 
+// Files of before the shapes had a checksum name none, and have these.
+void add_shapes(std::string& provenance) {
+  constexpr std::uint64_t unnamed = 0xa162d90cb5523f32u;
+  const std::uint64_t shapes = granular::rock_shapes_checksum();
+  if (shapes != unnamed) provenance += "shapes=" + std::to_string(shapes) + " ";
+}
+
 double pile_height(const engine::World& world) {
   double top = 0;
   for (const engine::Rock& rock : world.rocks())
@@ -60,6 +67,7 @@ std::string pile_provenance(const Scenario& s) {
   add_number(provenance, "mass", s.pile.mass);
   add_number(provenance, "density", s.pile.density);
   add_sizes(provenance, s.pile.sizes);
+  add_shapes(provenance);
   add_number(provenance, "max_height", s.pile.max_height);
   provenance += "seed=" + std::to_string(s.pile.seed) + " ";
   const granular::EmitterOptions emitter = emitter_of(d);
@@ -162,9 +170,10 @@ SettledPile read_pile(const std::filesystem::path& path, const Scenario& scenari
   const record::Reader file(path, pile_kind);
   const std::string provenance = file.text("/", file.version() == 1 ? "recipe" : "provenance");
   if (provenance != pile_provenance(scenario))
-    throw std::runtime_error("loading::read_pile: " + path.string() +
-                             " was made for another drift, pile, rock material or solver; remove it to pour "
-                             "a new one, or name another file");
+    throw std::runtime_error(
+        "loading::read_pile: " + path.string() +
+        " was made for another drift, pile, rock material, rock shapes or solver; remove it to pour "
+        "a new one, or name another file");
   const auto shapes = file.integers("/shape").values;
   const auto sizes = file.doubles("/size").values, poses = file.doubles("/pose").values;
   if (sizes.size() != shapes.size() || poses.size() != 12 * shapes.size())

@@ -1,9 +1,25 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/loading/run_description.h>
+#include <cstdio>
+#include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/libraries.hpp>
 
 namespace drawpoint::engine::loading {
+namespace {
+
+// "0.2 of 0.3 m, 0.3 of 0.4 m": shares of the mass.
+std::string in_words(const granular::SizeDistribution& sizes) {
+  std::string words;
+  for (const granular::SizeClass& size : sizes) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%g of %g m", words.empty() ? "" : ", ", size.mass_share, size.length);
+    words += text;
+  }
+  return words;
+}
+
+}  // namespace
 
 void describe(const Scenario& s, const Site& site, LoadingLog& log) {
   const Lhd& lhd = site.lhd();
@@ -44,6 +60,12 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"set_curl", s.executor.speeds.curl},
                  {"drive_acceleration", s.executor.speeds.limits.drive_acceleration},
                  {"set_back_out", s.executor.speeds.back_out},
+                 {"longest_drive_in", s.executor.speeds.stage_limit[0]},
+                 {"longest_lift", s.executor.speeds.stage_limit[1]},
+                 {"longest_curl", s.executor.speeds.stage_limit[2]},
+                 {"longest_back_out", s.executor.speeds.stage_limit[3]},
+                 {"slow_share", s.executor.slow_share},
+                 {"slow_window", s.executor.slow_window},
                  {"most_pulses", s.executor.moves.most_pulses},
                  {"held_up", s.executor.moves.held_up},
                  {"pulse", s.executor.moves.pulse},
@@ -63,6 +85,10 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
   log.texts = {{"machine", "Sandvik LH621 class"},
                {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
                {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
+               {"progress", s.executor.progress.mode == ProgressMode::projected ? "projected" : "faithful"},
+               {"after_stuck", s.executor.stuck == StuckPolicy::next_stage ? "next stage" : "back out"},
+               {"rock_sizes", in_words(s.pile.sizes)},
+               {"rock_shapes", std::to_string(granular::rock_shapes_checksum())},
                {"seed", std::to_string(s.seed)},
                {"lift", s.lift == LiftGoal::behind_surface ? "behind surface" : "along slope"},
                {"simulator", simulator},

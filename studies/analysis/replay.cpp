@@ -121,13 +121,13 @@ nlohmann::json flat_figures(const Study& study, const Identity& identity, const 
                             const Run& run, std::vector<std::string>& cautions) {
   require_log(study, identity, folder, run);
   nlohmann::json panels = illustrated(study, identity, folder, {run, {}});
-  const std::vector<int> cycles = panels.is_array() ? detail::cycles_of(panels) : std::vector<int>();
-  if (!cycles.empty()) panels = detail::panels_of_cycle(panels, cycles.back());
   nlohmann::json flat = nlohmann::json::array();
   for (auto& panel : panels)
     if (!panel.is_object() || panel.value("type", nlohmann::json()) != "scene")
       flat.push_back(std::move(panel));
-  return detail::checked_panels(flat, cautions);
+  const std::vector<int> cycles = detail::cycles_of(flat);
+  return detail::checked_panels(cycles.empty() ? flat : detail::panels_of_cycle(flat, cycles.back()),
+                                cautions);
 }
 
 }  // namespace drawpoint::studies

@@ -7,6 +7,7 @@
 #include <drawpoint/studies/store/run_logs.h>
 #include <drawpoint/studies/store/shared_files.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <deque>
@@ -16,6 +17,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -127,8 +129,12 @@ bool store_end(Store& store, const Folder& folder, const Settings& settings, Wor
   return outcome.failed();
 }
 
-bool was_interrupted(const doe::ProcessEnd& end) {
-  return ended_with_this_process(end, [] { return InterruptGuard::requested(); });
+/// Those of runs that were not ended together with this process. (Slurm's tasks have signals of their own.)
+std::vector<doe::ProcessEnd> ends_of_runs(Workers& workers, const Settings& settings) {
+  std::vector<doe::ProcessEnd> ends = workers.wait(patience);
+  const bool stopped = !settings.slurm && std::any_of(ends.begin(), ends.end(), ended_by_stop_signal);
+  if (stopped && soon(InterruptGuard::requested)) std::erase_if(ends, ended_by_stop_signal);
+  return ends;
 }
 
 ProgressState state_of(const std::vector<Run>& runs) {
@@ -166,7 +172,7 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
     }
     ends = pool.wait(patience);
   }
-  if (was_interrupted(ends.front())) throw Interrupted{};
+  if (ended_by_stop_signal(ends.front()) && soon(InterruptGuard::requested)) throw Interrupted{};
   const doe::Outcome outcome = outcome_of(ends.front(), printed);
   if (outcome.failed()) {
     if (disk_is_full(folder)) stop_for_full_disk(folder);
@@ -191,7 +197,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
   }
   const std::unique_ptr<Workers> workers = workers_for(folder, settings);
   Progress progress(message_descriptor, state_of(runs));
-  while (!waiting.empty() || workers->running() > 0) {
+  while (!waiting.empty() || workers->running() > 0 || InterruptGuard::requested()) {
     if (InterruptGuard::requested()) {
       workers->leave();
       store.plan_again(false);
@@ -204,8 +210,8 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
       workers->start(process_for(*waiting.front(), folder, store.identity().options, settings));
       waiting.pop_front();
     }
-    for (const auto& end : workers->wait(patience))
-      if (!was_interrupted(end)) progress.finished_one(store_end(store, folder, settings, *workers, end));
+    for (const auto& end : ends_of_runs(*workers, settings))
+      progress.finished_one(store_end(store, folder, settings, *workers, end));
     progress.tick(workers->standing());
   }
   workers->finish();

@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::chrono::milliseconds program_time_to_end(
-    1000);                            // for the program to end by itself; less than a study's own
+// For the program to end by itself; less than a study's own.
+constexpr std::chrono::milliseconds program_time_to_end(1000);
 constexpr int could_not_start = 127;  // the shell's code, doe/processes.hpp
 
 /// Thrown to leave a run after a signal.
@@ -148,7 +148,7 @@ doe::ProcessEnd run_to_end(const doe::Process& process) {
     pool.terminate(program_time_to_end);
     throw Stopped{stop_signal};
   }
-  if (ended_with_this_process(ends.front(), [] { return stop_signal != 0; })) throw Stopped{stop_signal};
+  if (ended_by_stop_signal(ends.front()) && soon([] { return stop_signal != 0; })) throw Stopped{stop_signal};
   return ends.front();
 }
 

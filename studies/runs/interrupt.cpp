@@ -49,11 +49,17 @@ InterruptGuard::~InterruptGuard() {
   for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
 }
 
-bool ended_with_this_process(const doe::ProcessEnd& child, const std::function<bool()>& told) {
+bool ended_by_stop_signal(const doe::ProcessEnd& child) {
+  if (!child.told.empty() || child.timed_out || !child.reply.empty()) return false;
+  const int status = child.wait_status;
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status)
+                     : WIFEXITED(status) ? WEXITSTATUS(status) - 128
+                                         : 0;
+  return std::find(signals.begin(), signals.end(), signal) != signals.end();
+}
+
+bool soon(const std::function<bool()>& told) {
   constexpr std::chrono::milliseconds grace(1000), step(10);
-  const bool by_signal = child.told.empty() && !child.timed_out && WIFSIGNALED(child.wait_status);
-  if (!by_signal || std::find(signals.begin(), signals.end(), WTERMSIG(child.wait_status)) == signals.end())
-    return false;
   for (auto waited = std::chrono::milliseconds::zero(); waited < grace && !told(); waited += step)
     std::this_thread::sleep_for(step);
   return told();

@@ -19,10 +19,13 @@ namespace drawpoint::studies {
 /// That processes have to end by themselves after a signal.
 inline constexpr std::chrono::milliseconds time_to_end(2000);
 
-/// A system that shuts down, or somebody who ends all processes of a name, reaches a child and this process in
-/// any order: true if the child was ended by SIGINT, SIGTERM or SIGHUP and `told`, whether this process got one
-/// too, is true within a second. The child has not failed then.
-bool ended_with_this_process(const doe::ProcessEnd& child, const std::function<bool()>& told);
+/// Whether SIGINT, SIGTERM or SIGHUP ended a child that had not replied: as a signal, or as the exit code by
+/// which programs that take it say so (128 + its number). A system that shuts down, or somebody who ends all
+/// processes of a name, reaches the child and this process in any order; such a child has not failed.
+bool ended_by_stop_signal(const doe::ProcessEnd& child);
+
+/// Whether `told`, that this process got one too, is true within a second.
+bool soon(const std::function<bool()>& told);
 
 /// Thrown to leave a command after an interruption.
 struct Interrupted {};

@@ -20,6 +20,16 @@ class Interruption : public StudyTest {
         "status = 'done'");
   }
 
+  /// Tells the processes of runs to end; how many.
+  int end_runs() const {
+    int ended = 0;
+    for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+      const std::string line = contents(process.path() / "cmdline");
+      if (line.find("--log=" + dir().string()) == std::string::npos) continue;
+      ended += kill(std::stoi(process.path().filename()), SIGTERM) == 0;
+    }
+    return ended;
+  }
   /// Kept is what was done before; the rest follows.
   void expect_resumes(const std::string& before) {
     const Ended rest = run(slow + out() + " --json");
@@ -49,21 +59,20 @@ TEST_F(Interruption, CtrlCKeepsWhatIsDoneAndSaysHowToGoOn) {
   expect_resumes(finished());
 }
 
-// As when the system shuts down: runs may be ended before the command that waits for them.
+// As when the system shuts down: runs may be ended before the command that waits for them, also the last two, after
+// which none is waiting.
 TEST_F(Interruption, RunsThatAreEndedWithTheirCommandHaveNotFailed) {
-  Command study(slow + out(), place_);
-  await_done(2);
-  int ended = 0;
-  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
-    const bool is_run =
-        contents(process.path() / "cmdline").find("--log=" + dir().string()) != std::string::npos;
-    if (is_run) ended += kill(std::stoi(process.path().filename()), SIGTERM) == 0;
+  for (const int done : {2, 14}) {
+    Command study(slow + out(), place_);
+    await_done(done);
+    EXPECT_GT(end_runs(), 0);
+    study.send(SIGTERM);
+    const Ended end = study.wait();
+    EXPECT_EQ(end.code, 130);
+    EXPECT_TRUE(contains(end.err, "give the same command again to go on"));
+    EXPECT_EQ(count("status = 'failed'"), 0);
+    EXPECT_EQ(count("status = 'running'"), 0);
   }
-  study.send(SIGTERM);
-  EXPECT_EQ(study.wait().code, 130);
-  EXPECT_GT(ended, 0);
-  EXPECT_EQ(count("status = 'failed'"), 0);
-  EXPECT_EQ(count("status = 'running'"), 0);
   expect_resumes(finished());
 }
 

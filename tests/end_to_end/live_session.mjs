@@ -21,7 +21,10 @@ const axes = await evaluate("[...document.querySelectorAll('#runs select')[0].op
 console.log(`axes: ${axes.join(', ')}`);
 await choose("document.querySelectorAll('#runs select')[0]", String(axes.length - 1));
 await until("document.querySelector('#runs .xtitle')?.textContent === 'run'");
-console.log(`points over the runs: ${await evaluate("document.querySelectorAll('#runs .point').length")}`);
+const {responses, rows} = await evaluate("fetch('/state.json?epoch=&since=0').then((answer) => answer.json())");
+const done = rows.filter((row) => row[3]).length;
+assert.ok(done > 0 && responses[0].done === done);
+await until(`[${done}, ${done + 1}].includes(document.querySelectorAll('#runs .point').length)`);  // one more where the last run is ringed
 console.log(`best: ${await text('#best tbody tr')}`);
 await until("document.querySelector('#last figure')", 60000);
 console.log(`last run: ${await evaluate("[...document.querySelectorAll('#last figure')].map((f) => f.querySelector('h3').textContent).join(', ')")}`);

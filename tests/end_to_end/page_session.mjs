@@ -147,12 +147,16 @@ await step('line of a design, pointed at and clicked', one(axes), async () => {
   let share = 0.2;
   for (; share < 0.95; share += 0.01) {
     await page.mouse('mouseMoved', await page.place(one(axes), [middle, share]), {buttons: 0, button: 'none'});
-    await new Promise((r) => setTimeout(r, 40));
+    await page.settled();
     if (!(await evaluate(`${one(label)}.hidden`))) break;
   }
+  await page.settled();
   const said = await text(one(label + ' b'));
   assert.equal(await count(axes + ' polyline') > 0, true);
-  await click(one(axes), [middle, share]);
+  const [x, y] = await page.place(one(axes), [middle, share]);
+  await page.mouse('mousePressed', [x, y]);
+  await page.mouse('mouseMoved', [x + 1, y]);  // as a hand does
+  await page.mouse('mouseReleased', [x + 1, y]);
   await until(`${one(bar)}.textContent.includes('Marked: ${said}')`);
   await click(button(bar, 'Take mark away'));
   return said;

@@ -107,6 +107,15 @@ TEST(LoadingScenario, TheLawsOfTheSourceAreChosenOneByOne) {
   EXPECT_EQ(source.machine.arm_drive, loading::ArmDrive::hinges);
 }
 
+TEST(LoadingScenario, FullMotionIsEveryStepAsItWas) {
+  const loading::Scenario usual = with({}), full = with({{"motion", "full"}});
+  EXPECT_EQ(usual.frame_tolerance, loading::Scenario{}.frame_tolerance);
+  EXPECT_FALSE(usual.log_all_joints);
+  EXPECT_EQ(full.frame_interval, full.world.step);
+  EXPECT_EQ(full.frame_tolerance, 0);
+  EXPECT_TRUE(full.log_all_joints);
+}
+
 TEST(LoadingScenario, AHigherPileIsSolvedAsFarAsTheScenes) {
   const loading::Scenario s = with({{"scene", "lindmark2016"}, {"pile-mass", "800"}}),
                           scene = with({{"scene", "lindmark2016"}});

@@ -37,7 +37,7 @@ function comparison({problem}, runs, clear) {
   const columns = [{title: '', text: true}, ...runs.flatMap((r, i) => [{title: `Run ${r.run}`}, ...i ? [{title: 'difference'}] : []])];
   const line = (title, of, {shown = number, missing = 'n/a', levels = false} = {}) => [title, ...runs.flatMap((r, i) => {
     const value = of(r);
-    return [value == null ? missing : levels ? shown(value) : {value, shown: shown(value)}, ...i ? [difference(value, of(runs[0]), shown, levels)] : []];
+    return [value == null ? {value: null, shown: missing} : levels ? shown(value) : {value, shown: shown(value)}, ...i ? [difference(value, of(runs[0]), shown, levels)] : []];
   })];
   const words = (title, of) => [title, ...runs.flatMap((r, i) => [of(r), ...i ? [''] : []])];
   const rows = [words('kind', (r) => r.kind),
@@ -51,7 +51,7 @@ function comparison({problem}, runs, clear) {
 }
 
 function difference(value, reference, shown, levels) {
-  if (value == null || reference == null) return 'n/a';
+  if (value == null || reference == null) return {value: null, shown: 'n/a'};
   if (levels) return value === reference ? 'same' : 'another';
   const change = value - reference;
   return {value: change, shown: (change > 0 ? '+' : '') + shown(change)};

@@ -9,6 +9,8 @@ import {whenResting} from './frames.js';
 import {colour} from './theme.js';
 
 const dimmed = 0.15;
+const still = 4;     // px that a press may move
+const late = 300;    // ms after a press in which a plot says what was clicked
 const many = 2000;  // points from which on a plot waits until the selection rests, and has points without edges
 
 /// A trace whose i-th point is design indices[i] of the set, or its i-th design.
@@ -34,16 +36,42 @@ export function linkPoints(box, links, {chosen, selection}) {
     }
   });
   selection.onchange(large ? whenResting(apply) : apply);
+  const clicked = oncePerPress(box, chosen.pick);
   const listen = () => {
     box.on('plotly_afterplot', apply);
     box.on('plotly_click', ({points: [point]}) => {
       const known = links[point.curveNumber];
-      if (known) chosen.pick(known.set, known.index(point.pointIndex ?? point.pointNumber));
+      if (known) clicked(known.set, known.index(point.pointIndex ?? point.pointNumber));
     });
   };
   listen();
   return listen;
 }
+
+/// A plot in 3-D says "click" at each of its frames while a button is down, also while it is being turned. Of
+/// these the first counts, once the button is up where it went down.
+function oncePerPress(box, pick) {
+  let press = null;
+  const released = (mine, e) => {
+    if (press !== mine) return;
+    if (Math.hypot(e.clientX - mine.x, e.clientY - mine.y) >= still) press = null;
+    else if (mine.design) { press = null; pick(...mine.design); }
+    else setTimeout(() => { if (press === mine) press = null; }, late);
+    mine.up = true;
+  };
+  box.addEventListener('pointerdown', ({clientX: x, clientY: y}) => {
+    const mine = press = {x, y, design: null, up: false};
+    addEventListener('pointerup', (e) => released(mine, e), {capture: true, once: true});
+  }, {capture: true});
+  return (...design) => {
+    if (!press?.up) { if (press) press.design ??= design; return; }
+    press = null;
+    pick(...design);
+  };
+}
+
+/// The same of points that have opacities of their own.
+export const dimmedBy = (selection, {set, index}, opacity) => (selection.active ? opacity.map((o, i) => (selection.has(set, index(i)) ? o : dimmed * o)) : opacity);
 
 /// The same as Plotly's marker.opacity, where the picture is to be saved and not drawn here.
 export const opacities = (selection, {set, index, opacity}, count, saved) =>

@@ -67,7 +67,7 @@ function one(axis, k, range) {
 export const axisAt = (axes, x) => axes.findIndex((axis) => Math.abs(axis.x - x) < Math.min(18, 0.45 * (axis.gap || 40)));
 
 /// The places of a line over the axes, in pieces, as SVG.
-export const outline = (pieces) => svg('g', {fill: 'none', stroke: colour.accent, 'stroke-width': 2.5}, ...pieces.map((piece) => svg('polyline', {points: piece.map((place) => place.join(',')).join(' ')})));
+export const outline = (pieces) => svg('g', {fill: 'none', 'pointer-events': 'none', stroke: colour.accent, 'stroke-width': 2.5}, ...pieces.map((piece) => svg('polyline', {points: piece.map((place) => place.join(',')).join(' ')})));
 
 /// What the pointer does on the axes: draws a range, moves it or one of its ends; a click takes it away.
 export function brush(surface, {axes, ranges, setRange}) {

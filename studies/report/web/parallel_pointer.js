@@ -4,8 +4,9 @@
 
 import {nameOf} from './designs.js';
 import {el} from './dom.js';
-import {number, pretty, settingWithUnit} from './format.js';
+import {pretty, settingWithUnit, withUnit} from './format.js';
 import {oncePerFrame} from './frames.js';
+import {brokenText} from './limits.js';
 import {own} from './responses.js';
 
 const reach = 6;  // px up or down to a line
@@ -36,9 +37,10 @@ export function piecesOf(axes, {set, i}) {
 }
 
 function wordsOf(data, designs, {set, i}) {
-  const {variables, responses} = data.problem, {x, y} = designs[set][i];
+  const {variables, responses} = data.problem, {x, y, reason} = designs[set][i];
   return [nameOf(designs, set, i), ...variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(x[k], v)}`),
-    ...own(responses).filter(({j}) => y?.[j] != null).map(({response, j}) => `${pretty(response.name)}: ${number(y[j], 4)}`)];
+    ...own(responses).filter(({j}) => y?.[j] != null).map(({response, j}) => `${pretty(response.name)}: ${withUnit(y[j], response)}`),
+    y || set === 'front' ? '' : `failed (${reason})`, brokenText(data.problem, designs[set][i])].filter(Boolean);
 }
 
 /// at([x, y]): the line there, or null. label: an element over the surface, which stands at the pointer.
@@ -47,9 +49,9 @@ export function pointing(surface, label, {data, designs, chosen}, at, highlight)
   let place = null, line = null, pressed = null;
   const placeOf = (e) => { const frame = surface.getBoundingClientRect(); return [e.clientX - frame.left, e.clientY - frame.top]; };
   const stand = ([x, y]) => {
-    const {clientWidth: width, clientHeight: height} = label.parentElement, right = x + 14;
-    label.style.left = `${right + label.offsetWidth < width ? right : x - 14 - label.offsetWidth}px`;
-    label.style.top = `${Math.max(0, Math.min(height - label.offsetHeight, y + 10))}px`;
+    const inner = label.parentElement, {scrollLeft, clientWidth} = inner.parentElement, right = x + 14;
+    label.style.left = `${right + label.offsetWidth < scrollLeft + clientWidth ? right : Math.max(scrollLeft, x - 14 - label.offsetWidth)}px`;
+    label.style.top = `${Math.max(0, Math.min(inner.clientHeight - label.offsetHeight, y + 10))}px`;
   };
   const show = oncePerFrame(() => {
     const found = place && at(place);

@@ -4,11 +4,11 @@
 // it, and the runs near the cut.
 
 import {inputsText} from './designs.js';
-import {linkPoints, movingLink} from './dimming.js';
+import {dimmedBy, linkPoints, movingLink} from './dimming.js';
 import {figure} from './dom.js';
 import {axisLabel, place, plain, pretty, ticks} from './format.js';
 import {oncePerFrame} from './frames.js';
-import {symbols, legendOfLimits} from './limits.js';
+import {brokenText, legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
 import {nearCut} from './sampled.js';
 import {extent, places} from './steps.js';
@@ -18,18 +18,19 @@ const mostProfiles = 6;
 const many = 200;  // runs of a model from which on bands have fewer places
 
 export function profiles(data, fitted, shared) {
-  const {variables} = data.problem, {chosen} = shared;
+  const {variables} = data.problem, {chosen, selection} = shared;
   const weight = (k) => Math.max(...data.influence.filter(Boolean).map((row) => row[k]));
   const shown = variables.map((_, k) => k).sort((p, q) => weight(q) - weight(p)).slice(0, mostProfiles).sort((p, q) => p - q);
   const box = plotBox(60 + 190 * fitted.length, 'Profiles along each variable');
   let near = null;
+  const known = new Map(shown.map((k) => [k, movingLink('runs', () => near.get(k).indices)]));
   const redraw = oncePerFrame(() => {
     near = new Map(shown.map((k) => [k, nearCut(data.problem, data.training.rows, chosen.x, [k])]));
-    draw(box, () => profile(data, fitted, shown, {chosen, near}));
+    draw(box, (saved) => profile(data, fitted, shown, {chosen, near, opacity: (k) => (saved ? dimmedBy(selection, known.get(k), near.get(k).opacity) : near.get(k).opacity)}));
   });
   chosen.onchange(redraw);
   redraw.now();
-  linkPoints(box, fitted.flatMap((f) => shown.flatMap((k) => [...f.interval ? [undefined] : [], movingLink('runs', () => near.get(k).indices), undefined, undefined])), shared);
+  linkPoints(box, fitted.flatMap((f) => shown.flatMap((k) => [...f.interval ? [undefined] : [], known.get(k), undefined, undefined])), shared);
   return figure(box, caption(variables.length, fitted.some((f) => f.interval)) + legendOfLimits(data.training.rows));
 }
 
@@ -46,7 +47,7 @@ function curve(f, v, k, chosen) {
   return {k, v, x, y: x.map((value) => f.mean(through(value))), xBand, band: f.interval ? xBand.map((value) => f.interval(through(value))) : []};
 }
 
-function profile(data, fitted, shown, {chosen, near}) {
+function profile(data, fitted, shown, {chosen, near, opacity}) {
   const rows = fitted.length, columns = shown.length, traces = [];
   const layout = {showlegend: false, grid: {rows, columns, pattern: 'independent', xgap: 0.06, ygap: 0.14}, margin: {l: 66, r: 12, t: 12, b: 52}};
   fitted.forEach((f, r) => {
@@ -55,7 +56,7 @@ function profile(data, fitted, shown, {chosen, near}) {
     const pad = 0.05 * (high - low);
     curves.forEach((c, column) => {
       const id = r * columns + column + 1, suffix = id === 1 ? '' : id;
-      traces.push(...panel(data.problem, f, c, {chosen, near: near.get(c.k)}, series[r % series.length]).map((trace) => ({...trace, xaxis: 'x' + suffix, yaxis: 'y' + suffix})));
+      traces.push(...panel(data.problem, f, c, {chosen, rows: near.get(c.k).rows, opacity: opacity(c.k)}, series[r % series.length]).map((trace) => ({...trace, xaxis: 'x' + suffix, yaxis: 'y' + suffix})));
       layout['xaxis' + suffix] = axis(r === rows - 1 ? axisLabel(c.v) : '', {showticklabels: r === rows - 1, nticks: 6, automargin: false, ...ticks(c.v)});
       layout['yaxis' + suffix] = axis(column === 0 ? axisLabel(f.response) : '', {showticklabels: column === 0, range: [low - pad, high + pad], nticks: 6, automargin: false});
     });
@@ -64,12 +65,12 @@ function profile(data, fitted, shown, {chosen, near}) {
 }
 
 /// Traces: the band, where the model knows one, the runs, the curve, the point of the sliders.
-function panel(problem, f, {k, v, x, y, xBand, band}, {chosen, near}, hue) {
+function panel(problem, f, {k, v, x, y, xBand, band}, {chosen, rows, opacity}, hue) {
   const around = {x: [...xBand, ...[...xBand].reverse()], y: [...band.map(([low]) => low), ...[...band].reverse().map(([, high]) => high)],
     mode: 'lines', fill: 'toself', fillcolor: translucent(hue, 0.2), line: {width: 0}, hoverinfo: 'skip'};
   return [...band.length ? [around] : [],
-    {x: near.rows.map((r) => r.x[k]), y: near.rows.map((r) => r.y[f.j]), mode: 'markers', marker: {size: 5, color: colour.guide, opacity: near.opacity, symbol: symbols(near.rows)},
-      text: near.rows.map((r) => `<b>run ${r.run}</b><br>${inputsText(problem, r.x)}`), hovertemplate: `%{text}<br>${plain(pretty(f.response.name))}: %{y:.4g}<extra></extra>`},
+    {x: rows.map((r) => r.x[k]), y: rows.map((r) => r.y[f.j]), mode: 'markers', marker: {size: 5, color: colour.guide, opacity, symbol: symbols(rows)},
+      text: rows.map((r) => [`<b>run ${r.run}</b>`, inputsText(problem, r.x), plain(brokenText(problem, r))].filter(Boolean).join('<br>')), hovertemplate: `%{text}<br>${plain(pretty(f.response.name))}: %{y:.4g}<extra></extra>`},
     {x, y, mode: v.kind ? 'lines+markers' : 'lines', marker: {size: 4}, line: {color: hue, width: 2.5}, hovertemplate: `${place(v, 'x')}: %{y:.4g}<extra></extra>`},
     {x: [chosen.x[k]], y: [f.mean(chosen.x)], mode: 'markers', marker: {size: 8, color: hue, line: {color: colour.paper, width: 1.5}}, hoverinfo: 'skip'}];
 }

@@ -5,13 +5,13 @@
 /* global Plotly */
 
 import {inputsText} from './designs.js';
-import {linkPoints, movingLink} from './dimming.js';
+import {dimmedBy, linkPoints, movingLink} from './dimming.js';
 import {choice, el, figure, section, select} from './dom.js';
-import {axisLabel, labelled, number, place, plain, pretty, settingWithUnit, ticks} from './format.js';
+import {axisLabel, labelled, place, plain, pretty, settingWithUnit, ticks, withUnit} from './format.js';
 import {oncePerFrame} from './frames.js';
 import {predictor} from './kriging.js';
 import {meanInterval} from './kriging_error.js';
-import {breaksLimit, legendOfLimits, symbols} from './limits.js';
+import {breaksLimit, brokenText, legendOfLimits, symbols} from './limits.js';
 import {nested} from './nested.js';
 import {axis, draw, plotBox} from './plot.js';
 import {profiles} from './profiles.js';
@@ -78,20 +78,22 @@ function sliders(data, chosen) {
 }
 
 function maps(data, fitted, shared) {
-  const {variables} = data.problem, {chosen} = shared;
+  const {variables} = data.problem, {chosen, selection} = shared;
   let [a, b] = data.main_pair;
   let solid = false, near = null;
   const boxes = fitted.map((f) => plotBox(fitted.length === 1 ? 460 : 380, 'Response surface of ' + f.response.name));
+  const known = movingLink('runs', () => near.indices);
   const redraw = oncePerFrame(() => {
     near = nearCut(data.problem, data.training.rows, chosen.x, [a, b], dots);
-    fitted.forEach((f, i) => map(boxes[i], f, data, [a, b], {chosen, near, solid}));
+    fitted.forEach((f, i) => map(boxes[i], f, data, [a, b], {chosen, near, opacity: () => dimmedBy(selection, known, near.opacity), solid}));
   });
+  selection.onchange(() => { if (solid) redraw(); });
   const names = variables.map(labelled);
   const across = select('Across', names, a, (k) => { if (k === b) { b = a; up.querySelector('select').value = b; } a = k; redraw(); });
   const up = select('Up', names, b, (k) => { if (k === a) { a = b; across.querySelector('select').value = a; } b = k; redraw(); });
   chosen.onchange(redraw);
   redraw.now();
-  const links = [undefined, movingLink('runs', () => near.indices)], listening = boxes.map((box) => linkPoints(box, links, shared));
+  const links = [undefined, known], listening = boxes.map((box) => linkPoints(box, links, shared));
   const change = (i) => {
     solid = i === 1;
     boxes.forEach((box) => Plotly.purge(box));
@@ -103,8 +105,8 @@ function maps(data, fitted, shared) {
     'Predicted response over two variables, the others held at the sliders above. The colours span the simulated range of each response and do not move with the sliders; the cross marks the sliders’ point. Lines close together mean a steep response. Dots are simulated runs, projected onto the cut: the fainter, the farther they lie from it; a click marks one and moves the cut there. In 3-D the pale sheets below and above hold the mean of many runs with 95 %.' + legendOfLimits(data.training.rows));
 }
 
-/// The runs are the second trace.
-function map(box, f, data, [a, b], {chosen, near, solid}) {
+/// The runs are the second trace. opacity(): theirs where a plot does not dim them itself.
+function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
   const {variables} = data.problem;
   const count = f.model.surface.weights.length > 200 ? 31 : 41;
   const x = places(variables[a], count), y = places(variables[b], count);
@@ -117,14 +119,14 @@ function map(box, f, data, [a, b], {chosen, near, solid}) {
     const side = (item) => ({title: {text: axisLabel(item)}, color: colour.ink, gridcolor: colour.axis, zeroline: false});
     const scene = () => ({xaxis: {...side(variables[a]), ...ticks(variables[a])}, yaxis: {...side(variables[b]), ...ticks(variables[b])}, zaxis: side(f.response), camera: {eye: {x: -1.75, y: -1.85, z: 1.05}, center: {x: 0, y: 0, z: -0.15}}});
     const {zmin, zmax, ...rest} = range;
-    draw(box, () => ({traces: [{type: 'surface', x, y, z, cmin: zmin, cmax: zmax, ...rest, showscale: false, contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}}}, sampledIn3d(data.problem, f, near, [a, b]), ...sheets(f, variables, [a, b], chosen)], layout: {title, margin: {l: 0, r: 0, t: 36, b: 0}, scene: scene(), uirevision: revision}}));
+    draw(box, () => ({traces: [{type: 'surface', x, y, z, cmin: zmin, cmax: zmax, ...rest, showscale: false, contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}}}, sampledIn3d(data.problem, f, {rows: near.rows, opacity: opacity()}, [a, b]), ...sheets(f, variables, [a, b], chosen)], layout: {title, margin: {l: 0, r: 0, t: 36, b: 0}, scene: scene(), uirevision: revision}}));
     return;
   }
-  draw(box, () => ({traces: [
+  draw(box, (saved) => ({traces: [
     {type: 'contour', x, y, z, ...range, ncontours: 14, contours: {coloring: 'heatmap', showlines: true}, line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
       hovertemplate: `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`},
     {x: near.rows.map((r) => r.x[a]), y: near.rows.map((r) => r.x[b]), mode: 'markers', text: near.rows.map((r) => runText(data.problem, f, r)), hovertemplate: '%{text}<extra></extra>',
-      marker: {size: 6, color: '#fff', opacity: near.opacity, symbol: symbols(near.rows), line: {color: '#1c2733', width: 1}}},
+      marker: {size: 6, color: '#fff', opacity: saved ? opacity() : near.opacity, symbol: symbols(near.rows), line: {color: '#1c2733', width: 1}}},
     {x: [chosen.x[a]], y: [chosen.x[b]], mode: 'markers', hoverinfo: 'skip', marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}}},
   ], layout: {title, showlegend: false, margin: {l: 56, r: 8, t: 36, b: 52}, uirevision: revision, xaxis: axis(axisLabel(variables[a]), within(variables[a])), yaxis: axis(axisLabel(variables[b]), within(variables[b]))}}));
 }
@@ -138,7 +140,7 @@ function sheets(f, variables, [a, b], chosen) {
     colorscale: [[0, colour.guide], [1, colour.guide]]}));
 }
 
-const runText = (problem, f, r) => `<b>run ${r.run}</b><br>${inputsText(problem, r.x)}<br>${plain(pretty(f.response.name))}: ${number(r.y[f.j], 4)}`;
+const runText = (problem, f, r) => [`<b>run ${r.run}</b>`, inputsText(problem, r.x), `${plain(pretty(f.response.name))}: ${plain(withUnit(r.y[f.j], f.response))}`, plain(brokenText(problem, r))].filter(Boolean).join('<br>');
 
 const sampledIn3d = (problem, f, {rows, opacity}, [a, b]) => ({type: 'scatter3d', mode: 'markers', x: rows.map((r) => r.x[a]), y: rows.map((r) => r.x[b]), z: rows.map((r) => r.y[f.j]),
   text: rows.map((r) => runText(problem, f, r)), hovertemplate: '%{text}<extra></extra>', marker: {size: 3, symbol: rows.map((r) => (breaksLimit(r) ? 'x' : 'circle')), color: opacity.map((o) => faded(colour.ink, o))}});

@@ -18,11 +18,10 @@ const order = (a, b) => {
 };
 
 /// columns: [{title, format?, text?, missing?, parts?, control?}]; rows: arrays of values, or of {value, shown}
-/// with a text of their own. parts: [{title,
-/// of(value)}] are the columns that a copy has in place of this one; control(row index) gives an element and
-/// is no value. name: of the table, gives it the tools to filter and copy. onpick(row index) makes the rows
-/// selectable. passes(row index) tells whether a row is selected. Returns {node, mark(row index), show(row
-/// index), refresh()}.
+/// with a text of their own. parts: [{title, of(value)}] are the columns that a copy has in place of this one;
+/// control(row index) gives an element and is no value. name: of the table, gives it the tools to filter and
+/// copy. onpick(row index) makes the rows selectable. passes(row index) tells whether a row is selected. Returns
+/// {node, mark(row index), show(row index), refresh()}.
 export function table(columns, rows, {name = null, onpick = null, passes = null, sortable = true, tall = false} = {}) {
   const body = el('tbody'), cut = el('p', {class: 'note cut'});
   const heads = columns.map((column, c) => head(column, sortable && !column.control ? () => sort(c) : null));

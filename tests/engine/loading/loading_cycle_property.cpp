@@ -68,6 +68,10 @@ TEST(LoadingCycle, EveryNumberOfTheLogSaysWhatItIs) {
   }
   EXPECT_EQ(file.text("numbers/hydraulic_pressure", "unit"), "Pa");
   EXPECT_EQ(read_log(path).numbers, cycle_log().numbers);
+  const std::map<std::string, std::string> texts = read_log(path).texts;
+  EXPECT_EQ(texts.at("progress"), "projected");
+  EXPECT_EQ(texts.at("after_stuck"), "next stage");
+  EXPECT_EQ(texts.at("rock_sizes"), "0.2 of 0.3 m, 0.3 of 0.4 m, 0.3 of 0.6 m, 0.2 of 0.8 m");
   std::filesystem::remove(path);
 }
 
