@@ -5,6 +5,7 @@
 #include <drawpoint/engine/loading/log/energy_balance.hpp>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
+#include <map>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ constexpr const char* about =
     "          done again\n"
     "  scatter of production, joint damage and spill from cycle to cycle, and the correlation of a cycle "
     "with\n"
-    "          the next: standard errors of a run take cycles as independent\n\n"
+    "          the next: standard errors of a run take cycles as independent\n"
+    "  bucket  the rock in it at the end of each stage, mean of the cycles: which of them loads\n\n"
     "  run_ledger results/lhd_loading/logs/run_0001.h5\n"
     "  bucket_fill --piles /tmp/piles --cycles 30 --alphas 1 --seeds 1 --logs /tmp/logs\n"
     "                                                             makes the log of thirty cycles";
@@ -103,6 +105,23 @@ nlohmann::json scatters_of(const LoadingLog& log) {
           scatter_of("spill", "1", rock_spill_by_cycle(log))};
 }
 
+/// By stage, in the order of a cycle; cycles that lack it do not count. Empty for logs without pictures, or of a
+/// version that did not weigh in them.
+nlohmann::json bucket_of(const LoadingLog& log) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const Stage stage : {Stage::drive_in, Stage::lift, Stage::curl, Stage::back_out}) {
+    std::map<int, double> at_the_end;
+    for (const SceneFrame& frame : log.scene.frames)
+      if (frame.label == name(stage) && !std::isnan(frame.bucket_mass))
+        at_the_end[frame.cycle] = frame.bucket_mass;
+    if (at_the_end.empty()) continue;
+    const double sum = std::accumulate(at_the_end.begin(), at_the_end.end(), 0.0,
+                                       [](double s, const auto& of_cycle) { return s + of_cycle.second; });
+    all.push_back({{"stage", name(stage)}, {"mean_kg", sum / static_cast<double>(at_the_end.size())}});
+  }
+  return all;
+}
+
 nlohmann::json ledger(const LoadingLog& log) {
   EnergyBalance sum;
   for (const EnergyBalance& balance : energy_balance_by_cycle(log)) {
@@ -117,6 +136,7 @@ nlohmann::json ledger(const LoadingLog& log) {
           {"rock", rock_of(log)},
           {"energy", energy_of(sum)},
           {"scatter", scatters_of(log)},
+          {"bucket", bucket_of(log)},
           {"errors",
            {{"overlap_mm", 1e3 * number(log, "largest_overlap")},
             {"loop_gap_mm", 1e3 * number(log, "largest_loop_error")},
@@ -144,6 +164,13 @@ void print(const nlohmann::json& j) {
   std::printf("errors: overlap %.1f mm, gap of a loop %.2g mm, %.0f steps done again, %.0f cycles lost\n",
               of(errors, "overlap_mm"), of(errors, "loop_gap_mm"), of(errors, "repeated_steps"),
               of(errors, "lost_cycles"));
+  if (!j.at("bucket").empty()) {
+    std::printf("rock in the bucket at the end of");
+    for (const auto& s : j.at("bucket"))
+      std::printf("%s %s %.2f t", s == j.at("bucket").front() ? "" : ",",
+                  s.at("stage").get<std::string>().c_str(), 1e-3 * of(s, "mean_kg"));
+    std::printf("\n");
+  }
   for (const auto& s : j.at("scatter")) {
     if (!s.contains("correlation_with_the_next")) continue;
     const std::string unit = s.at("unit").get<std::string>();
@@ -164,6 +191,5 @@ int main(int argc, char** argv) {
   CLI::App app(about, "run_ledger");
   app.add_option("LOG_FILE", path, "of a loading run (HDF5)")->required();
   add_json_flag(app, json);
-  return run_command(app, argc, argv,
-                     [&] { return show(ledger(read_log(path, LogContent::without_scene)), json, print); });
+  return run_command(app, argc, argv, [&] { return show(ledger(read_log(path)), json, print); });
 }
