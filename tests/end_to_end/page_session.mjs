@@ -33,12 +33,15 @@ async function step(name, needs, does) {
 /// Numbers of the first rows of a table's column.
 const column = (table, k) => evaluate(`[...document.querySelectorAll(${JSON.stringify(table + ' tbody tr')})].map((row) => row.children[${k}].textContent)`);
 
-/// A file that the page saves: {name, text}.
+const seen = new Set();
+/// A file that the page saves, not one of before: {name, text}.
 async function saved(ending) {
-  const found = () => readdirSync(downloads).find((name) => name.endsWith(ending));
+  const found = () => readdirSync(downloads).find((name) => name.endsWith(ending) && !seen.has(name));
   for (let k = 0; k < 100 && !found(); ++k) await new Promise((r) => setTimeout(r, 50));
-  assert.ok(found(), 'no file came');
-  return {name: found(), text: readFileSync(join(downloads, found()), 'utf8')};
+  const name = found();
+  assert.ok(name, 'no file came');
+  seen.add(name);
+  return {name, text: readFileSync(join(downloads, name), 'utf8')};
 }
 
 const front = '#front .whole-table', bar = '.selection', axes = '#designs .parallel svg';
@@ -207,7 +210,7 @@ await step('nested contours', one('#surfaces details summary'), async () => {
   return `${await count('#surfaces details .contour')} plots`;
 });
 await step('runs side by side', one('#runs details summary'), async () => {
-  await click(one('#runs details summary'));
+  if (!(await evaluate("document.querySelector('#runs details').open"))) await click(one('#runs details summary'));  // a marked run opens it
   for (const k of [0, 1]) await click(`document.querySelectorAll('#runs details tbody input[type=checkbox]')[${k}]`);
   await until(one('#runs .comparison table'));
   const heads = await evaluate("[...document.querySelectorAll('#runs .comparison th')].map((h) => h.textContent).filter(Boolean)");
@@ -218,7 +221,6 @@ await step('runs side by side', one('#runs details summary'), async () => {
   await until(`!${one('#runs .comparison table')}`);
   return heads.join(', ');
 });
-// It opens the table of the runs.
 const dot = '#surfaces .plot .scatterlayer .point';
 await step('run on a surface, pointed at and clicked', one(dot), async () => {
   await page.mouse('mouseMoved', await page.place(one(dot)), {buttons: 0, button: 'none'});
