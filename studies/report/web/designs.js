@@ -54,6 +54,10 @@ export const nameOf = ({runs}, set, i) => (set === 'front' ? `point ${i + 1} of 
 /// All variables of a design with their units, one per line, for a hover text.
 export const inputsText = ({variables}, x) => variables.map((v, k) => `${plain(pretty(v.name))} = ${plain(settingWithUnit(x[k], v))}`).join('<br>');
 
+/// A run for a hover text: its number, its variables, lines of the plot's own, and a limit that it breaks.
+export const runText = (problem, r, ...more) =>
+  [`<b>run ${r.run}${r.y ? '' : ', failed'}</b>`, inputsText(problem, r.x), ...more, plain(brokenText(problem, r))].filter(Boolean).join('<br>');
+
 /// Name, responses and variables of a design in one sentence.
 export function sentence(data, designs, set, i) {
   const {x, y, reason} = designs[set][i];

@@ -10,7 +10,8 @@ import {oncePerFrame, whenResting} from './frames.js';
 import {anyBreaks} from './limits.js';
 import {axesSvg, axisAt, brush, outline, placed} from './parallel_axes.js';
 import {asSvg, colourOf, dimmedLines, drawnAs, isDashed, lineCount, many, paint, selectedLines} from './parallel_lines.js';
-import {lineAt, piecesOf, pointing} from './parallel_pointer.js';
+import {lineAt, pointing} from './parallel_pointer.js';
+import {piecesOf} from './parallel_trace.js';
 import {rangeForm} from './range_form.js';
 import {colour, onPaper, onTheme} from './theme.js';
 

@@ -4,6 +4,7 @@
 // SVG paths are slow, or as SVG text to save.
 
 import {breaksLimit} from './limits.js';
+import {trace} from './parallel_trace.js';
 import {colour} from './theme.js';
 
 const bundle = 10;    // lines per stroke: fewer strokes are faster, but within one stroke crossings do not get darker
@@ -45,18 +46,6 @@ const widthOf = (count) => (count > many ? 1 / ratio() : 1.2);
 
 function bundles(set, indices, look) {
   return Array.from({length: Math.ceil(indices.length / bundle)}, (_, k) => ({...look, lines: indices.slice(k * bundle, (k + 1) * bundle).map((i) => ({set, i}))}));
-}
-
-/// Moves and lines; a missing value is a gap.
-function trace({set, i}, axes, pen) {
-  let down = false;
-  for (const {x, y, values} of axes) {
-    const value = values[set][i];
-    if (Number.isNaN(value)) { down = false; continue; }
-    if (down) pen.lineTo(x, y(value));
-    else pen.moveTo(x, y(value));
-    down = true;
-  }
 }
 
 /// axes: [{x, y(value), values}].

@@ -26,16 +26,6 @@ export function lineAt(axes, counts, shown, [x, y]) {
   return best;
 }
 
-/// The corners (x, y) of a line, in pieces where values are missing.
-export function piecesOf(axes, {set, i}) {
-  const pieces = [[]];
-  for (const {x, y, values} of axes) {
-    if (Number.isNaN(values[set][i])) pieces.push([]);
-    else pieces[pieces.length - 1].push([x, y(values[set][i])]);
-  }
-  return pieces.filter((piece) => piece.length > 1);
-}
-
 function wordsOf(data, designs, {set, i}) {
   const {variables, responses} = data.problem, {x, y, reason} = designs[set][i];
   return [nameOf(designs, set, i), ...variables.map((v, k) => `${pretty(v.name)} = ${settingWithUnit(x[k], v)}`),

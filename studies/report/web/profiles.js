@@ -3,12 +3,12 @@
 // Each response along each variable alone, through the point of the sliders: the mean, the band that holds
 // it, and the runs near the cut.
 
-import {inputsText} from './designs.js';
+import {runText} from './designs.js';
 import {dimmedBy, linkPoints, movingLink} from './dimming.js';
 import {figure} from './dom.js';
 import {axisLabel, place, plain, pretty, ticks} from './format.js';
 import {oncePerFrame} from './frames.js';
-import {brokenText, legendOfLimits, symbols} from './limits.js';
+import {legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
 import {nearCut} from './sampled.js';
 import {extent, places} from './steps.js';
@@ -70,7 +70,7 @@ function panel(problem, f, {k, v, x, y, xBand, band}, {chosen, rows, opacity}, h
     mode: 'lines', fill: 'toself', fillcolor: translucent(hue, 0.2), line: {width: 0}, hoverinfo: 'skip'};
   return [...band.length ? [around] : [],
     {x: rows.map((r) => r.x[k]), y: rows.map((r) => r.y[f.j]), mode: 'markers', marker: {size: 5, color: colour.guide, opacity, symbol: symbols(rows)},
-      text: rows.map((r) => [`<b>run ${r.run}</b>`, inputsText(problem, r.x), plain(brokenText(problem, r))].filter(Boolean).join('<br>')), hovertemplate: `%{text}<br>${plain(pretty(f.response.name))}: %{y:.4g}<extra></extra>`},
+      text: rows.map((r) => runText(problem, r)), hovertemplate: `%{text}<br>${plain(pretty(f.response.name))}: %{y:.4g}<extra></extra>`},
     {x, y, mode: v.kind ? 'lines+markers' : 'lines', marker: {size: 4}, line: {color: hue, width: 2.5}, hovertemplate: `${place(v, 'x')}: %{y:.4g}<extra></extra>`},
     {x: [chosen.x[k]], y: [f.mean(chosen.x)], mode: 'markers', marker: {size: 8, color: hue, line: {color: colour.paper, width: 1.5}}, hoverinfo: 'skip'}];
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the runs lie: every pair of variables, and how often each part of a variable's range occurs.
 
-import {inputsText} from './designs.js';
+import {runText} from './designs.js';
 import {link, linkPoints, opacities} from './dimming.js';
 import {figure} from './dom.js';
-import {axisLabel, plain, ticks} from './format.js';
-import {brokenText, legendOfLimits, symbols} from './limits.js';
+import {axisLabel, ticks} from './format.js';
+import {legendOfLimits, symbols} from './limits.js';
 import {axis, draw, plotBox} from './plot.js';
 import {shares} from './shares.js';
 import {colour} from './theme.js';
@@ -36,8 +36,7 @@ function matrix(view) {
   return {traces, layout};
 }
 
-const hoverTexts = ({problem, training, validation}) => [...training.rows, ...validation.rows].map((r) =>
-  `<b>run ${r.run}${r.y ? '' : ', failed'}</b><br>${inputsText(problem, r.x)}${brokenText(problem, r) ? '<br>' + plain(brokenText(problem, r)) : ''}`);
+const hoverTexts = ({problem, training, validation}) => [...training.rows, ...validation.rows].map((r) => runText(problem, r));
 
 /// In the order of the problem, at most mostVariables of them.
 function mostInfluential(data) {

@@ -4,14 +4,14 @@
 // and along every variable alone. The surrogates are evaluated here, in the browser.
 /* global Plotly */
 
-import {inputsText} from './designs.js';
+import {runText} from './designs.js';
 import {dimmedBy, linkPoints, movingLink} from './dimming.js';
 import {choice, el, figure, section, select} from './dom.js';
 import {axisLabel, labelled, place, plain, pretty, settingWithUnit, ticks, withUnit} from './format.js';
 import {oncePerFrame} from './frames.js';
 import {predictor} from './kriging.js';
 import {meanInterval} from './kriging_error.js';
-import {breaksLimit, brokenText, legendOfLimits, symbols} from './limits.js';
+import {breaksLimit, legendOfLimits, symbols} from './limits.js';
 import {nested} from './nested.js';
 import {axis, draw, plotBox} from './plot.js';
 import {profiles} from './profiles.js';
@@ -125,7 +125,7 @@ function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
   draw(box, (saved) => ({traces: [
     {type: 'contour', x, y, z, ...range, ncontours: 14, contours: {coloring: 'heatmap', showlines: true}, line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
       hovertemplate: `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`},
-    {x: near.rows.map((r) => r.x[a]), y: near.rows.map((r) => r.x[b]), mode: 'markers', text: near.rows.map((r) => runText(data.problem, f, r)), hovertemplate: '%{text}<extra></extra>',
+    {x: near.rows.map((r) => r.x[a]), y: near.rows.map((r) => r.x[b]), mode: 'markers', text: near.rows.map((r) => dotText(data.problem, f, r)), hovertemplate: '%{text}<extra></extra>',
       marker: {size: 6, color: '#fff', opacity: saved ? opacity() : near.opacity, symbol: symbols(near.rows), line: {color: '#1c2733', width: 1}}},
     {x: [chosen.x[a]], y: [chosen.x[b]], mode: 'markers', hoverinfo: 'skip', marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}}},
   ], layout: {title, showlegend: false, margin: {l: 56, r: 8, t: 36, b: 52}, uirevision: revision, xaxis: axis(axisLabel(variables[a]), within(variables[a])), yaxis: axis(axisLabel(variables[b]), within(variables[b]))}}));
@@ -140,10 +140,10 @@ function sheets(f, variables, [a, b], chosen) {
     colorscale: [[0, colour.guide], [1, colour.guide]]}));
 }
 
-const runText = (problem, f, r) => [`<b>run ${r.run}</b>`, inputsText(problem, r.x), `${plain(pretty(f.response.name))}: ${plain(withUnit(r.y[f.j], f.response))}`, plain(brokenText(problem, r))].filter(Boolean).join('<br>');
+const dotText = (problem, {response, j}, r) => runText(problem, r, `${plain(pretty(response.name))}: ${plain(withUnit(r.y[j], response))}`);
 
 const sampledIn3d = (problem, f, {rows, opacity}, [a, b]) => ({type: 'scatter3d', mode: 'markers', x: rows.map((r) => r.x[a]), y: rows.map((r) => r.x[b]), z: rows.map((r) => r.y[f.j]),
-  text: rows.map((r) => runText(problem, f, r)), hovertemplate: '%{text}<extra></extra>', marker: {size: 3, symbol: rows.map((r) => (breaksLimit(r) ? 'x' : 'circle')), color: opacity.map((o) => faded(colour.ink, o))}});
+  text: rows.map((r) => dotText(problem, f, r)), hovertemplate: '%{text}<extra></extra>', marker: {size: 3, symbol: rows.map((r) => (breaksLimit(r) ? 'x' : 'circle')), color: opacity.map((o) => faded(colour.ink, o))}});
 
 /// Of an axis: no wider than the variable, wherever the cross is.
 const within = (v) => ({...ticks(v), ...(v.kind ? {} : {range: [v.lower, v.upper]})});
