@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
-#include <drawpoint/engine/loading/drift.hpp>
-#include <drawpoint/engine/loading/lhd_driver.hpp>
+#include <drawpoint/engine/base/random.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
-#include <memory>
-#include <random>
+#include <drawpoint/tests/support/yard.hpp>
 #include <vector>
 
 #include "command.hpp"
@@ -19,11 +17,12 @@
 using namespace drawpoint;
 using namespace drawpoint::benchmarks;
 namespace granular = engine::granular;
-namespace machine = engine::machine;
 using namespace drawpoint::engine::loading;
 using Eigen::Vector3d;
 
 namespace {
+
+const double density = PileOptions{}.density;  // of the rock [kg/m³]
 
 constexpr const char* about =
     "Tilts the loader's bucket back as it is carried, lets rock fall into it until no more stays, and weighs "
@@ -47,18 +46,10 @@ struct Settings {
 class Filling {
  public:
   Filling(const Settings& s, int seed)
-      : scenario_(lh621_in_a_drift()),
-        lhd_(sandvik_lh621(scenario_.machine)),
-        machine_(lhd_.spec),
-        world_(scenario_.world, material_table(scenario_.materials)),
-        driver_(lhd_, machine_),
-        library_(scenario_.pile.density, static_cast<int>(SurfaceKind::rock)),
-        sampler_(static_cast<std::uint64_t>(seed), scenario_.pile.density, granular::sizes_named(s.sizes)),
+      : yard_({}, lh621_in_a_drift().world),
+        library_(density, static_cast<int>(SurfaceKind::rock)),
+        sampler_(static_cast<std::uint64_t>(seed), density, granular::sizes_named(s.sizes)),
         random_(static_cast<std::uint64_t>(seed)) {
-    world_.add_static(std::make_shared<const engine::Shape>(engine::HalfSpace{Vector3d::UnitZ(), 0}),
-                      Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
-    driver_.place(0, 0);
-    add_machine(world_, lhd_, machine_);
     tilt_back(s.tilt * M_PI / 180);
   }
 
@@ -74,81 +65,68 @@ class Filling {
         take_away_fallen();
       }
       let_go += 5e3;
-      held = std::max(held, in_bucket());
+      held = std::max(held, mass_in_bucket());
     }
     stand(3);
-    return in_bucket();
+    return mass_in_bucket();
   }
 
  private:
   void stand(double seconds) {
-    for (const double end = world_.time() + seconds; world_.time() < end;) {
+    for (const double end = yard_.world.time() + seconds; yard_.world.time() < end;) {
       end_if_interrupted();
-      world_.step();
+      yard_.world.step();
     }
   }
 
   void tilt_back(double angle) {
     stand(1);
-    const double start = world_.time();
-    for (double t = 0; t < 12; t = world_.time() - start) {
+    const double start = yard_.world.time();
+    for (double t = 0; t < 12; t = yard_.world.time() - start) {
       const double boom = t < 3 ? 0.15 : 0;
-      const double turn = std::clamp(3 * (angle - driver_.read().tip.phi), -0.4, 0.4);
-      driver_.command({0, boom, turn - boom});
-      stand(world_.options().step);
+      const double turn = std::clamp(3 * (angle - yard_.driver.read().tip.phi), -0.4, 0.4);
+      yard_.driver.command({0, boom, turn - boom});
+      stand(yard_.world.options().step);
     }
-    driver_.command({});
+    yard_.driver.command({});
     stand(1);
   }
-
-  // As the machine's spec has it to the world.
-  Eigen::Isometry3d bucket() const {
-    const Vector3d centre = lhd_.spec.bodies[static_cast<std::size_t>(lhd_.bucket)].centre;
-    return machine_.pose(lhd_.bucket) * Eigen::Translation3d(-centre);
-  }
-
-  double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }  // the same with any library
 
   double let_fall(double side) {
     const granular::RockDraw draw = sampler_.next();
     const engine::RockBody body = library_.body({draw.shape, draw.length});
-    const Eigen::Vector4d turn(uniform() - 0.5, uniform() - 0.5, uniform() - 0.5, uniform() - 0.5);
-    const Vector3d mouth = bucket() * Vector3d(2.9, 0, 0.9);
-    Eigen::Isometry3d pose(Eigen::Quaterniond(turn.normalized()));
-    pose.translation() = mouth + Vector3d(1.2 * (uniform() - 0.5), side * (0.1 + 1.1 * uniform()), 3);
-    world_.add_rock(body, pose, Vector3d(0, 0, -2));
+    const Vector3d mouth = yard_.machine.point(yard_.lhd.bucket, Vector3d(2.9, 0, 0.9));
+    Eigen::Isometry3d pose(random_.rotation());
+    const double along = 1.2 * (random_.uniform() - 0.5), across = side * (0.1 + 1.1 * random_.uniform());
+    pose.translation() = mouth + Vector3d(along, across, 3);
+    yard_.world.add_rock(body, pose, Vector3d(0, 0, -2));
     return body.mass;
   }
 
-  template <class Act>
-  void for_each_rock(const Act& act) {
-    const Eigen::Isometry3d to_machine = bucket().inverse();
-    for (std::size_t k = 0; k < world_.rocks().size(); ++k)
-      if (const engine::Rock& rock = world_.rocks()[k]; rock.present)
-        act(static_cast<int>(k), rock, in_heaped_bucket(lhd_, to_machine * rock.pose.translation()));
+  bool in_bucket(const engine::Rock& rock) const {
+    return in_heaped_bucket(yard_.lhd, yard_.driver.in_bucket_frame(rock.pose.translation()));
   }
 
   void take_away_fallen() {
-    const double low = machine_.point(lhd_.bucket, lhd_.K).z() - 1.5;
-    for_each_rock([&](int k, const engine::Rock& rock, bool inside) {
-      if (!inside && rock.pose.translation().z() < std::max(0.5, low)) world_.remove_rock(k);
-    });
+    const double edge = yard_.machine.point(yard_.lhd.bucket, yard_.lhd.K).z(),
+                 low = std::max(0.5, edge - 1.5);
+    for (std::size_t k = 0; k < yard_.world.rocks().size(); ++k)
+      if (const engine::Rock& rock = yard_.world.rocks()[k];
+          rock.present && !in_bucket(rock) && rock.pose.translation().z() < low)
+        yard_.world.remove_rock(static_cast<int>(k));
   }
 
-  double in_bucket() {
+  double mass_in_bucket() const {
     double mass = 0;
-    for_each_rock([&](int, const engine::Rock& rock, bool inside) { mass += inside ? rock.body.mass : 0; });
+    for (const engine::Rock& rock : yard_.world.rocks())
+      if (rock.present && in_bucket(rock)) mass += rock.body.mass;
     return mass;
   }
 
-  Scenario scenario_;
-  Lhd lhd_;
-  machine::Machine machine_;
-  engine::World world_;
-  LhdDriver driver_;
+  support::Yard yard_;
   granular::RockLibrary library_;
   granular::RockSampler sampler_;
-  std::mt19937_64 random_;
+  engine::CounterRandom random_;
 };
 
 nlohmann::json run(const Settings& s) {
@@ -159,7 +137,7 @@ nlohmann::json run(const Settings& s) {
     held[static_cast<std::size_t>(seed - 1)] = mass;
   });
   const Estimate mean = estimate(held);
-  const double loose = 1e-3 * Scenario{}.pile.density * (1 - loose_ore_porosity);
+  const double loose = 1e-3 * density * (1 - loose_ore_porosity);
   return {{"sizes", s.sizes},
           {"tilt_deg", s.tilt},
           {"held_t", held},

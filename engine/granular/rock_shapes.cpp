@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstddef>
+#include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <vector>
 
@@ -136,12 +137,11 @@ const std::array<ConvexPolyhedron, 6>& rock_shapes() {
 }
 
 std::uint64_t rock_shapes_checksum() {
-  std::uint64_t sum = 1469598103934665603u;  // FNV-1a, a coefficient at a time
+  engine::StateHash hash;
   for (const Planes& planes : fractures())
     for (const HalfSpace& h : planes)
-      for (const int coefficient : {h.a, h.b, h.c, h.d})
-        sum = (sum ^ static_cast<std::uint32_t>(coefficient)) * 1099511628211u;
-  return sum;
+      for (const int coefficient : {h.a, h.b, h.c, h.d}) hash.add(static_cast<std::uint64_t>(coefficient));
+  return hash.value();
 }
 
 }  // namespace drawpoint::engine::granular

@@ -40,7 +40,7 @@ void add_sizes(std::string& provenance, const granular::SizeDistribution& sizes)
 
 // Files of before the shapes had a checksum name none, and have these.
 void add_shapes(std::string& provenance) {
-  constexpr std::uint64_t unnamed = 0xa162d90cb5523f32u;
+  constexpr std::uint64_t unnamed = 0x19b8448b9a203462u;
   const std::uint64_t shapes = granular::rock_shapes_checksum();
   if (shapes != unnamed) provenance += "shapes=" + std::to_string(shapes) + " ";
 }
