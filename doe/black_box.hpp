@@ -8,13 +8,14 @@
 /// give equal outcomes, and a black box may be called from several threads at once: so the call must be
 /// const. Where a type offers several forms, the batch form is used, for it is the one that can be faster
 /// than its rows one by one. The calls below turn what goes wrong (an exception, a wrong count, a value that
-/// is not finite) into a Failure. `stop` is a std::stop_token: a long run that looks at it now and then can
+/// is not finite) into a Failure; where the first values have a wrong count, evaluations and searches end. `stop` is a std::stop_token: a long run that looks at it now and then can
 /// end early when its time is up or the study is cancelled; what it returns then does not count.
 
 #include <Eigen/Core>
 #include <concepts>
 #include <exception>
 #include <span>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -107,9 +108,7 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
   if (outcome.failed()) return outcome;
   const Eigen::VectorXd& values = outcome.values();
   const auto expected = static_cast<Eigen::Index>(problem.responses.size());
-  if (values.size() != expected)
-    return Failure{"returned " + std::to_string(values.size()) + " values where the problem has " +
-                   std::to_string(expected) + " responses"};
+  if (values.size() != expected) return Outcome::of_wrong_count(values.size(), problem.responses.size());
   for (Eigen::Index j = 0; j < expected; ++j) {
     const Response& r = problem.responses[j];
     if (!std::isfinite(values[j])) return Failure{"response \"" + r.name + "\" is " + number_text(values[j])};
@@ -119,6 +118,23 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
   }
   return outcome;
 }
+
+/// Whether black box and problem belong together: the first run that gives values, in the order of the runs, tells.
+/// A wrong count there is a mistake of the program; one among good runs is a failed run.
+class FirstValues {
+ public:
+  /// Outcomes in the order of their runs. Throws std::invalid_argument in the name of `who`.
+  void take(const Outcome& outcome, const char* who) {
+    if (came_) return;
+    if (outcome.wrong_count())
+      throw std::invalid_argument(std::string(who) + ": the black box " + outcome.reason() +
+                                  "; return one value per response, in the order of Problem::responses");
+    came_ = !outcome.failed();
+  }
+
+ private:
+  bool came_ = false;
+};
 
 /// Runs `body` and turns whatever it throws into a Failure.
 template <class Result, class Body>

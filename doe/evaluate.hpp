@@ -91,7 +91,9 @@ class RunBook {
     const std::scoped_lock lock(mutex_);
     if (fault_) return;
     try {
-      if (journal_) journal_->add(table_.rows[i]);
+      done_[i] = 1;
+      look_at_first_values();
+      if (journal_ && !table_.rows[i].outcome.wrong_count()) journal_->add(table_.rows[i]);
       count(i);
       if (options_.on_result) options_.on_result(table_.rows[i]);
       if (options_.progress) options_.progress(timed_progress());
@@ -115,8 +117,13 @@ class RunBook {
   }
 
  private:
+  // Of the rows to run up to the first that is not done.
+  void look_at_first_values() {
+    for (; looked_at_ < to_run_.size() && done_[to_run_[looked_at_]]; ++looked_at_)
+      first_values_.take(table_.rows[to_run_[looked_at_]].outcome, "doe::evaluate");
+  }
+
   void count(std::size_t i) {
-    done_[i] = 1;
     ++progress_.done;
     progress_.failed += table_.rows[i].outcome.failed();
   }
@@ -125,6 +132,8 @@ class RunBook {
     const Evaluation* known = journal_ ? journal_->find(table_.rows[i]) : nullptr;
     if (!known) return to_run_.push_back(i);
     table_.rows[i] = *known;
+    done_[i] = 1;
+    first_values_.take(known->outcome, "doe::evaluate");
     count(i);
   }
 
@@ -139,6 +148,8 @@ class RunBook {
   const EvaluateOptions& options_;
   std::vector<char> done_;
   std::vector<std::size_t> to_run_;
+  std::size_t looked_at_ = 0;  // of to_run_
+  FirstValues first_values_;
   std::unique_ptr<RunJournal> journal_;
   EvaluateProgress progress_;
   std::int64_t remembered_ = 0;
@@ -232,8 +243,9 @@ Evaluations evaluated(const F& f, const Problem& problem, const Eigen::MatrixXd&
 
 /// X: n x d, natural units, inside the bounds, whole numbers where the variable takes no others. Returns
 /// n·replicates rows, or those that were done when options.stop was requested. Throws std::invalid_argument
-/// on a faulty problem, X or option, std::runtime_error from the journal, and whatever the callbacks throw;
-/// what f throws becomes a failed row.
+/// on a faulty problem, X or option, and where the first run that gives values gives another number than the
+/// problem has responses; std::runtime_error from the journal; and whatever the callbacks throw. What f throws
+/// becomes a failed row, as does a wrong number later, which a journal does not keep.
 template <class F>
 Evaluations evaluate(const F& f, const Problem& problem, const Eigen::MatrixXd& X,
                      const EvaluateOptions& options = {}) {

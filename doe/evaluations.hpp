@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -66,6 +67,8 @@ struct Evaluations {
       if (!row.outcome.failed()) values[i++] = row.outcome.values()[j];
     return values;
   }
+
+  Eigen::VectorXd y(std::nullptr_t) const = delete;  // y(0): responses go by their names
 
   /// What the runs themselves know of the noise of one response, aligned with y(): the squares of its
   /// standard errors; empty where the problem names none. Throws as y().

@@ -9,6 +9,7 @@
 /// Eigen::VectorXd) or `return doe::Failure{"bucket stuck"};`.
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -40,8 +41,17 @@ class Outcome {
   /// Empty when the run succeeded.
   const std::string& reason() const { return reason_; }
 
+  /// A failed run: it gave so many values, which are not one per response.
+  static Outcome of_wrong_count(Eigen::Index values, std::size_t responses) {
+    Outcome outcome(Failure{"returned " + std::to_string(values) + " values where the problem has " +
+                            std::to_string(responses) + " responses"});
+    outcome.wrong_count_ = true;
+    return outcome;
+  }
+  bool wrong_count() const { return wrong_count_; }
+
  private:
-  bool failed_ = false;
+  bool failed_ = false, wrong_count_ = false;
   Eigen::VectorXd values_;
   std::string reason_;
 };

@@ -105,8 +105,8 @@ class Remembered {
                                   "; allowed is 1 or more");
   }
 
-  /// Outcomes are those that evaluate would have recorded: what goes wrong in f is a Failure, and stored. Throws
-  /// what the store throws.
+  /// Outcomes are those that evaluate would have recorded: what goes wrong in f is a Failure, and stored, but for
+  /// a wrong number of values. Throws what the store throws.
   std::vector<Outcome> operator()(const Eigen::MatrixXd& X, std::span<const Seed> seeds) const {
     std::vector<std::optional<Outcome>> known = look_up(X, seeds);
     std::vector<Eigen::Index> missing;
@@ -140,7 +140,8 @@ class Remembered {
     std::vector<Outcome> outcomes = detail::call_batch(f_, problem_, part, part_seeds);
     const std::scoped_lock lock(*mutex_);
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      store_->add(part.row(static_cast<Eigen::Index>(k)).transpose(), part_seeds[k], outcomes[k]);
+      if (!outcomes[k].wrong_count())
+        store_->add(part.row(static_cast<Eigen::Index>(k)).transpose(), part_seeds[k], outcomes[k]);
       known[static_cast<std::size_t>(rows[k])] = std::move(outcomes[k]);
     }
   }

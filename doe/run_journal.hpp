@@ -14,6 +14,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,12 +80,13 @@ inline std::string journal_line(const CsvRecord& record) {
 class RunJournal {
  public:
   /// Opens the file, or begins it, and reads what it has. Throws std::runtime_error when it cannot be opened,
-  /// is in use, belongs to another problem or is damaged before its last line.
+  /// is no file, is in use, belongs to another problem or is damaged before its last line.
   RunJournal(const Problem& problem, std::filesystem::path path)
       : problem_(problem), path_(path.string()), parser_(problem_, path) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail_by_system("open");
     try {
+      require_file();
       if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
         fail("is in use by another process; wait for it to end or choose another file");
       const std::string text = content();
@@ -143,6 +145,13 @@ class RunJournal {
   [[noreturn]] void fail_by_system(const char* verb) const {
     throw std::runtime_error("doe::RunJournal: cannot " + std::string(verb) + " \"" + path_ + "\": " +
                              std::system_category().message(errno) + "; check the folder and the free space");
+  }
+
+  // A device may be read for ever.
+  void require_file() const {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) fail_by_system("look at");
+    if (!S_ISREG(status.st_mode)) fail("is a device or a pipe; choose a file");
   }
 
   std::string content() const {

@@ -80,7 +80,9 @@ template <class F>
 void predict_without(const std::vector<Eigen::Index>& out, const Eigen::MatrixXd& X, const F& fitter,
                      Validation& v) {
   const std::vector<Eigen::Index> in = rows_besides(out, X.rows());
-  const auto model = fitter(rows_of(X, in), entries_of(v.observed, in));
+  const Eigen::MatrixXd others = rows_of(X, in);  // with names: a fitter may take `auto&`
+  const Eigen::VectorXd of_others = entries_of(v.observed, in);
+  const auto model = fitter(others, of_others);
   const Eigen::MatrixXd points = rows_of(X, out);
   const Prediction p = model.predict(points), run = model.predict(points, Target::observation);
   for (std::size_t i = 0; i < out.size(); ++i) {

@@ -14,6 +14,7 @@
 /// valid: see Status for what was met on the way.
 
 #include <Eigen/Core>
+#include <concepts>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
 
@@ -22,6 +23,15 @@ namespace drawpoint::kriging {
 /// X: n x d, one run per row, natural units; y: n, any unit. Throws std::invalid_argument for no run, unequal
 /// lengths, numbers that are not finite, and options out of their range.
 Model fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const FitOptions& options = {});
+
+/// Stops the compiler at fit(y, X), which the types above would let through.
+template <std::same_as<Eigen::VectorXd> Responses, std::same_as<Eigen::MatrixXd> Inputs>
+Model fit(const Responses& y, const Inputs& X, const FitOptions& options = {}) {
+  static_assert(!std::same_as<Responses, Responses>,
+                "drawpoint: kriging::fit takes the inputs first: fit(X, y), X one run per row, y one response "
+                "per run");
+  return fit(X, y, options);
+}
 
 }  // namespace drawpoint::kriging
 

@@ -34,6 +34,21 @@ enum class Estimation {
   maximum_likelihood,  ///< the likelihood alone, its highest maximum
 };
 
+/// One number for all variables, or one per variable.
+class PerVariable {
+ public:
+  PerVariable(double all) : values_(Eigen::VectorXd::Constant(1, all)) {}
+  template <class Vector>
+  PerVariable(const Eigen::MatrixBase<Vector>& one_each) : values_(one_each), one_each_(true) {}
+  double operator[](Eigen::Index k) const { return values_[one_each_ ? k : 0]; }
+  const Eigen::VectorXd& values() const { return values_; }
+  bool one_each() const { return one_each_; }
+
+ private:
+  Eigen::VectorXd values_;
+  bool one_each_ = false;
+};
+
 struct FitOptions {
   doe::Seed seed = 1;  ///< of the candidates
 
@@ -46,9 +61,10 @@ struct FitOptions {
   /// not count. Two different levels correlate alike, by one θ, as the ends of a number's range do.
   std::vector<int> levels = {};
 
-  /// > 0; equal bounds fix θ. At the lower one the correlation across the range of an input is 1 − 5e-5: the
+  /// > 0, of all variables or, as a vector, of each; equal bounds fix θ. Structure::isotropic has one θ for all numbers,
+  /// so one bound each. At the lower one the correlation across the range of an input is 1 − 5e-5: the
   /// input has no effect. A length scale of 0.01 at the upper one is shorter than runs can lie apart.
-  double theta_lower = 1.2e-5, theta_upper = 1250.0;
+  PerVariable theta_lower = 1.2e-5, theta_upper = 1250.0;
   /// > 0; equal bounds fix λ. Far below 1e-10 the matrix of some hundred smooth runs is singular to
   /// round-off.
   double nugget_lower = 1e-10, nugget_upper = 10.0;

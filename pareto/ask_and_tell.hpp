@@ -61,7 +61,8 @@ class Search {
 
   /// outcomes: one per row of ask(), in that order; a wrong count of values or a value that is not finite
   /// counts as a failure. Calls `progress` last, at the end of a generation; it may save the search. Throws
-  /// std::invalid_argument for another number of outcomes, and once the search has ended.
+  /// std::invalid_argument for another number of outcomes, where the first of the search that has values has
+  /// another number than the problem has responses, and once the search has ended.
   void tell(std::vector<doe::Outcome> outcomes);
 
   /// The best points so far, in rising order of the minimised objectives. Before the end `stopped_by` is
@@ -141,6 +142,7 @@ class Search {
     detail::Course::fields(self.course_, stream);
   }
 
+  void take_in(std::vector<doe::Outcome>& outcomes);
   void explain(Front& front) const;
 
   int per_generation() const { return steps() * setting_.children; }  // evaluations
@@ -153,6 +155,7 @@ class Search {
   Eigen::MatrixXd asked_;  // at the end: what would be next
   int generation_ = 0, evaluations_ = 0, failed_ = 0;
   std::string first_reason_;  // of the first failure
+  doe::detail::FirstValues first_values_;
   Eigen::RowVectorXd largest_;
   std::optional<StopReason> ended_;
   std::optional<SearchProgress> news_;  // of the generation that ended, until the caller has been told
@@ -165,6 +168,18 @@ inline std::vector<doe::Seed> Search::seeds() const {
   return seeds;
 }
 
+/// Nothing has changed when it throws.
+inline void Search::take_in(std::vector<doe::Outcome>& outcomes) {
+  doe::detail::FirstValues first_values = first_values_;
+  for (doe::Outcome& outcome : outcomes) {
+    outcome = doe::detail::checked(std::move(outcome), problem_);
+    first_values.take(outcome, "pareto::Search");
+  }
+  first_values_ = first_values;
+  for (const doe::Outcome& outcome : outcomes)
+    if (outcome.failed() && failed_++ == 0) first_reason_ = outcome.reason();
+}
+
 inline void Search::tell(std::vector<doe::Outcome> outcomes) {
   if (ended_)
     throw std::invalid_argument("pareto::Search::tell: the search has ended (" +
@@ -173,10 +188,7 @@ inline void Search::tell(std::vector<doe::Outcome> outcomes) {
     throw std::invalid_argument("pareto::Search::tell: " + std::to_string(outcomes.size()) +
                                 " outcomes for " + std::to_string(asked_.rows()) +
                                 " points; give one per row of ask()");
-  for (doe::Outcome& outcome : outcomes) {
-    outcome = doe::detail::checked(std::move(outcome), problem_);
-    if (outcome.failed() && failed_++ == 0) first_reason_ = outcome.reason();
-  }
+  take_in(outcomes);
   evaluations_ += static_cast<int>(outcomes.size());
   detail::Population told = detail::assess(problem_, std::move(asked_), outcomes);
   const Eigen::RowVectorXd largest = told.violations.colwise().maxCoeff();

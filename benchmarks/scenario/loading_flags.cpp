@@ -12,6 +12,8 @@ void OperationFlags::apply(engine::loading::Scenario& scenario) const {
   scenario = engine::loading::with_speeds(scenario, speeds);
   scenario.executor.moves = engine::loading::operator_named(operated);
   if (curl_hold) scenario.executor.moves.curl_hold = *curl_hold;
+  if (crowd) scenario.executor.moves.crowd = *crowd;
+  if (pulses) scenario.executor.moves.most_pulses = *pulses;
   scenario.curl = engine::loading::curl_named(curl);
   scenario.lift = engine::loading::lift_named(lift);
   scenario.executor.progress = engine::loading::progress_named(progress);
@@ -22,6 +24,8 @@ std::string in_words(const OperationFlags& flags) {
   std::ostringstream words;
   words << flags.operated;
   if (flags.curl_hold) words << ", curl held by " << *flags.curl_hold;
+  if (flags.crowd) words << ", crowding at " << *flags.crowd << " m/s";
+  if (flags.pulses) words << ", " << *flags.pulses << " pulses";
   const OperationFlags usual;
   if (flags.curl != usual.curl) words << ", --curl " << flags.curl;
   if (flags.lift != usual.lift) words << ", --lift " << flags.lift;
@@ -46,6 +50,13 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
   app.add_option("--curl-hold", flags.curl_hold,
                  "share of the wheels' torque that holds the loader while the bucket curls; 0: they roll")
       ->check(between(0, 1, "", "leave it out for the operator's"));
+  app.add_option(
+         "--crowd", flags.crowd,
+         "speed that the drive is set to while the bucket curls, which falls as the curl does [m/s]; skilled "
+         "has 0.5, 0 stands")
+      ->check(between(0, 4, "m/s", "leave it out for the operator's"));
+  app.add_option("--pulses", flags.pulses, "most pulses of lift and curl in a drive-in; skilled has 4")
+      ->check(between(0, 100, "", "leave it out for the operator's"));
   app.add_option("--curl", flags.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")
       ->check(one_of(engine::loading::curl_names))

@@ -15,16 +15,17 @@ namespace drawpoint::benchmarks {
 struct OperationFlags {
   std::string speeds = "lindmark2016", operated = "plan", curl = "hinge", lift = "surface",
               progress = "projected", arm = "cylinders";
-  std::optional<double> curl_hold;
+  std::optional<double> curl_hold, crowd;
+  std::optional<int> pulses;
 
   void apply(engine::loading::Scenario& scenario) const;
 };
 
-/// The operator, a hold in the curl that was given and the laws that are not the default: "plan, curl held by 0,
+/// The operator, what was given of its moves and the laws that are not the default: "plan, curl held by 0,
 /// --arm hinges".
 std::string in_words(const OperationFlags& flags);
 
-/// --speeds, --operator, --curl-hold, and the laws of the operation: --curl, --lift, --progress and --arm.
+/// --speeds, --operator, --curl-hold, --crowd, --pulses, and the laws of the operation: --curl, --lift, --progress and --arm.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
 /// The drift and what lies in it; what is not given is the scene's.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// What adaptive sampling is worth: the error of a Kriging model after so many runs, chosen in seven ways.
+// What adaptive sampling is worth: the error of a Kriging model after so many runs, chosen in six ways.
 //
 //   adaptive_sampling [SEEDS] [FUNCTION]      11 seeds and all functions by default
 // One-shot designs: random Latin hypercube, scrambled Sobol'. Adaptive, from one Latin hypercube with corners

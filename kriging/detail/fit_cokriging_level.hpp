@@ -111,9 +111,10 @@ inline CokrigingProblem problem_of(const CokrigingLevels& levels, const Cokrigin
 inline Box cokriging_box(const CokrigingLevel& level, const FitOptions& options) {
   constexpr double least = 1e-12, most = 1e4;
   const Index d = level.X.cols();
-  Box box{Eigen::VectorXd::Constant(d + 2, std::log(options.theta_lower)),
-          Eigen::VectorXd::Constant(d + 2, std::log(options.theta_upper))};
-  fix_untold(level.s.X, level.s.correlation, parameter_places(level.s.correlation, d, false), box);
+  Box box{Eigen::VectorXd(d + 2), Eigen::VectorXd(d + 2)};
+  const ParameterPlaces places = parameter_places(level.s.correlation, d, false);
+  bound_thetas(places, options, box);
+  fix_untold(level.s.X, level.s.correlation, places, box);
   box.lower[d] = std::log(least);
   box.upper[d] = std::log(most);
   box.lower[d + 1] = std::log(options.nugget_lower);

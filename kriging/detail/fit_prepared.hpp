@@ -24,6 +24,9 @@
 namespace drawpoint::kriging::detail {
 
 inline constexpr double condition_limit = 1e14;  // leaves two of the 16 digits
+/// Up to so many runs intervals are far too narrow, since no run tells which variables matter
+/// (docs/measurements/kriging.md, few runs per variable).
+inline constexpr Eigen::Index few_per_variable = 2;
 
 inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitOptions& options) {
   return {data.X,
@@ -64,13 +67,20 @@ inline void fix_untold(const Eigen::MatrixXd& X, const CorrelationFunction& f, c
   }
 }
 
+/// Isotropic numbers share their θ, and its bounds.
+inline void bound_thetas(const ParameterPlaces& places, const FitOptions& options, Box& box) {
+  for (Eigen::Index k = 0; k < places.variables(); ++k) {
+    box.lower[places.theta(k)] = std::log(options.theta_lower[k]);
+    box.upper[places.theta(k)] = std::log(options.theta_upper[k]);
+  }
+}
+
 /// Bounds of (ln θ, exponents, weights, ln λ).
 inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood, const FitOptions& options) {
   const ParameterPlaces& places = likelihood.places();
   const Eigen::Index last = places.count() - 1;
   Box box{Eigen::VectorXd::Constant(last + 1, 1.0), Eigen::VectorXd::Constant(last + 1, 2.0)};
-  std::fill_n(box.lower.begin(), places.theta_count, std::log(options.theta_lower));
-  std::fill_n(box.upper.begin(), places.theta_count, std::log(options.theta_upper));
+  bound_thetas(places, options, box);
   for (Eigen::Index k = places.weight(0); k < last; ++k) {
     box.lower[k] = -weight_range;
     box.upper[k] = weight_range;
@@ -119,6 +129,10 @@ inline void add_remarks(const TrainingData& data, FitReport& report) {
                                                                  : ": predictions there are the trend") +
                         ", with intervals that are too narrow; run it";
   }
+  if (data.X.rows() <= few_per_variable * data.X.cols())
+    report.message += "; " + std::to_string(data.X.rows()) + " runs in " + std::to_string(data.X.cols()) +
+                      " variables are too few to trust: of intervals of 95 % some 45 hold; make " +
+                      std::to_string(10 * data.X.cols()) + " or so";
   if (data.terms_dropped > 0)
     report.message += "; " + std::to_string(data.terms_dropped) + " terms of the trend are left out, which " +
                       std::to_string(data.X.rows()) + " runs cannot tell from the others";
@@ -136,8 +150,8 @@ inline Model constant_model(const TrainingData& data, const FitOptions& options)
   s.y_centre = data.y_centre;
   s.y_scale = 0;
   const auto d = data.X.cols();
-  s.correlation = {options.correlation, Eigen::VectorXd::Constant(d, options.theta_lower), options.exponent,
-                   data.levels, data.structure};
+  s.correlation = {options.correlation, Eigen::VectorXd(d), options.exponent, data.levels, data.structure};
+  for (Eigen::Index k = 0; k < d; ++k) s.correlation.theta[k] = options.theta_lower[k];
   if (data.structure == Structure::additive)
     s.correlation.weight = Eigen::VectorXd::Constant(d, 1.0 / static_cast<double>(d));
   s.nugget = options.nugget_lower;

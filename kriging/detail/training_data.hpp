@@ -19,6 +19,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drawpoint::kriging::detail {
@@ -91,13 +92,31 @@ inline void check_runs(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   }
 }
 
-inline void check_bounds(const std::string& name, double lower, double upper) {
+/// `of` begins the message: the variable that the bounds are of.
+inline void check_bounds(const std::string& name, double lower, double upper, const std::string& of = "") {
   if (!(lower > 0) || !std::isfinite(lower))
-    reject(name + "_lower is " + text(lower) +
+    reject(of + name + "_lower is " + text(lower) +
            "; allowed are finite numbers above 0; use a small one for none");
   if (!(upper >= lower) || !std::isfinite(upper))
-    reject(name + "_upper is " + text(upper) + "; allowed are finite numbers from " + name + "_lower " +
+    reject(of + name + "_upper is " + text(upper) + "; allowed are finite numbers from " + name + "_lower " +
            text(lower) + " on; raise it");
+}
+
+inline void check_theta_bounds(const FitOptions& options, Eigen::Index d) {
+  const bool each = options.theta_lower.one_each() || options.theta_upper.one_each();
+  if (!each) return check_bounds("theta", options.theta_lower[0], options.theta_upper[0]);
+  for (const auto& [name, bound] :
+       {std::pair("theta_lower", &options.theta_lower), std::pair("theta_upper", &options.theta_upper)})
+    if (bound->one_each() && bound->values().size() != d)
+      reject(std::string(name) + " has " + std::to_string(bound->values().size()) +
+             " entries; allowed is one number, or one a column of X, " + std::to_string(d));
+  if (options.structure == Structure::isotropic)
+    reject(
+        "theta_lower or theta_upper has an entry per variable; an isotropic correlation has one theta for "
+        "all numbers; give one number, or take product");
+  for (Eigen::Index k = 0; k < d; ++k)
+    check_bounds("theta", options.theta_lower[k], options.theta_upper[k],
+                 "variable " + std::to_string(k) + ": ");
 }
 
 inline void check_box(const FitOptions& options, Eigen::Index d) {
@@ -168,7 +187,7 @@ inline void check_noise(const FitOptions& options, Eigen::Index n) {
 }
 
 inline void check_options(const FitOptions& options, Eigen::Index d) {
-  check_bounds("theta", options.theta_lower, options.theta_upper);
+  check_theta_bounds(options, d);
   check_bounds("nugget", options.nugget_lower, options.nugget_upper);
   check_level_counts("kriging::fit", options.levels, d);
   check_box(options, d);

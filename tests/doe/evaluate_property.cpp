@@ -55,19 +55,38 @@ TEST(Evaluate, OneTwoAndEightThreadsGiveTheSameTable) {
 TEST(Evaluate, EveryKindOfFailureIsDataWithItsReason) {
   const Problem problem = support::unit_problem(2, 2);
   Eigen::MatrixXd X(7, 2);
-  X << 0.05, 0, 0.15, 0, 0.25, 0, 0.35, 0, 0.45, 0, 0.55, 0, 0.65, 0.5;
+  X << 0.05, 0, 0.15, 0, 0.25, 0, 0.35, 0, 0.45, 0, 0.65, 0.5, 0.55, 0;
   const Evaluations table = evaluate(troubled, problem, X);
   const std::vector<std::string> reasons{"stuck at the \"toe\", twice",
                                          "exception: diverged",
                                          "exception of a type that is not a std::exception",
                                          "response \"f1\" is nan",
                                          "response \"f1\" is -inf",
-                                         "returned 3 values where the problem has 2 responses",
-                                         ""};
+                                         "",
+                                         "returned 3 values where the problem has 2 responses"};
   for (std::size_t i = 0; i < reasons.size(); ++i) EXPECT_EQ(table.rows[i].outcome.reason(), reasons[i]);
   EXPECT_EQ(table.failed(), 6);
-  EXPECT_EQ(table.X(), X.bottomRows(1));
+  EXPECT_EQ(table.X(), X.row(5));
   EXPECT_EQ(table.y("f1")[0], 0.5);
+}
+
+// On however many threads: the first values in the order of the runs tell, which is row 2 here.
+TEST(Evaluate, FirstValuesOfAWrongCountEndIt) {
+  const Problem problem = support::unit_problem(2, 2);
+  const std::string expected =
+      "doe::evaluate: the black box returned 3 values where the problem has 2 responses; return one value "
+      "per "
+      "response, in the order of Problem::responses";
+  Eigen::MatrixXd X(5, 2);
+  X << 0.05, 0, 0.15, 0, 0.55, 0, 0.65, 0.5, 0.75, 0.5;
+  for (const int threads : {1, 2, 8})
+    EXPECT_EQ(support::thrown_text<std::invalid_argument>(
+                  [&] { evaluate(troubled, problem, X, {.threads = threads}); }),
+              expected);
+  const auto batch = [](const Eigen::MatrixXd& points, std::span<const Seed>) {
+    return std::vector<Outcome>(static_cast<std::size_t>(points.rows()), Outcome{1.0, 2.0, 3.0});
+  };
+  EXPECT_EQ(support::thrown_text<std::invalid_argument>([&] { evaluate(batch, problem, X); }), expected);
 }
 
 TEST(Evaluate, SeedsDependOnStudyRunAndReplicateOnly) {
@@ -134,7 +153,7 @@ TEST(Evaluate, ReportsEachRunOnceAndOneAtATime) {
     EXPECT_TRUE(seen.emplace(row.run, row.replicate).second);
     --inside;
   };
-  evaluate(troubled, problem, uniform_random(problem, 60), options);
+  evaluate(troubled, problem, uniform_random(problem, 60, {.seed = 5}), options);
   EXPECT_EQ(seen.size(), 120U);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <drawpoint/doe/augmented_latin_hypercube.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/orthogonal_array.hpp>
@@ -193,6 +194,22 @@ TEST(NestedLatinHypercube, EveryLayerIsLatin) {
   const Eigen::MatrixXd X = nested_latin_hypercube(problem, sizes, {.seed = 3, .sweeps = 20});
   ASSERT_EQ(X.rows(), 60);
   for (const int size : sizes) EXPECT_TRUE(is_latin(problem, X.topRows(size))) << size;
+}
+
+// A design that validates must not be the one that was fitted to, whatever the order of its rows.
+TEST(LatinSearch, AnotherSeedIsAnotherSetOfPoints) {
+  const Problem problem = support::unit_problem(2);
+  for (const int runs : {20, 60}) {
+    std::set<std::vector<std::pair<double, double>>> sets;
+    for (Seed seed = 1; seed <= 11; ++seed) {
+      const Eigen::MatrixXd X = optimized_latin_hypercube(problem, runs, {.seed = seed});
+      std::vector<std::pair<double, double>> points;
+      for (const auto& row : X.rowwise()) points.emplace_back(row[0], row[1]);
+      std::sort(points.begin(), points.end());
+      sets.insert(points);
+    }
+    EXPECT_EQ(sets.size(), 11u) << runs;
+  }
 }
 
 TEST(LatinSearch, BadOptionsAreRefused) {

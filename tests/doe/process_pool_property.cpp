@@ -60,7 +60,10 @@ TEST(ProcessPool, WhateverEndsARunIsItsReason) {
             "the run's process ended with exit code 0 without values on file descriptor 3");
   EXPECT_EQ(reason_of("echo one >&3"),
             "the run's process ended with exit code 0 and wrote what are no numbers");
-  EXPECT_EQ(reason_of("echo 1 2 >&3"), "returned 2 values where the problem has 1 responses");
+  EXPECT_EQ(
+      support::thrown_text<std::invalid_argument>([] { reason_of("echo 1 2 >&3"); }),
+      "doe::evaluate: the black box returned 2 values where the problem has 1 responses; return one value "
+      "per response, in the order of Problem::responses");
   EXPECT_EQ(reason_of("kill -SEGV $$"), "the run's process ended by signal SIGSEGV (Segmentation fault)");
   EXPECT_EQ(reason_of("echo 1 >&3; sleep 30", {.time_limit = 0.1}),
             "the run's process stopped after 0.1 s, its time limit");

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/remembered.hpp>
 #include <drawpoint/doe/uniform.hpp>
@@ -101,13 +102,22 @@ TEST_F(Remembering, BatchesAreStoredOneAfterTheOther) {
 
 TEST_F(Remembering, WhatGoesWrongIsStoredAsEvaluateRecordsIt) {
   MemoryStore store;
-  const auto f = remembered([](const Eigen::VectorXd&) { return Outcome{1.0, 2.0}; }, problem_, store);
+  const auto f = remembered([](const Eigen::VectorXd&) { return std::nan(""); }, problem_, store);
   const Evaluations runs = evaluate(f, problem_, X_.topRows(1));
-  EXPECT_EQ(runs.rows[0].outcome.reason(), "returned 2 values where the problem has 1 responses");
+  EXPECT_EQ(runs.rows[0].outcome.reason(), "response \"f0\" is nan");
   EXPECT_EQ(store.find(runs.rows[0].x, runs.rows[0].seed)->reason(), runs.rows[0].outcome.reason());
   EXPECT_EQ(
       support::thrown_text<std::invalid_argument>([&] { remembered(f, problem_, store, {.batch = 0}); }),
       "doe::remembered: batch is 0; allowed is 1 or more");
+}
+
+// It says nothing of the run: the program that is put right makes it again.
+TEST_F(Remembering, AWrongCountIsNotStored) {
+  MemoryStore store;
+  const auto f = remembered([](const Eigen::VectorXd&) { return Outcome{1.0, 2.0}; }, problem_, store);
+  EXPECT_NE(support::thrown_text<std::invalid_argument>([&] { evaluate(f, problem_, X_); }), "");
+  EXPECT_EQ(store.size(), 0u);
+  expect_as_if_run(remembered(Counted{&runs_}, problem_, store), X_, 20);
 }
 
 }  // namespace

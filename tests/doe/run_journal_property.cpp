@@ -158,4 +158,32 @@ TEST_F(RunJournalTest, ChecksumsAreFnv1a) {  // published test vectors of the 64
   EXPECT_EQ(detail::checksum("foobar"), "85944171f73967e8");
 }
 
+// Reading one to its end takes all memory.
+TEST_F(RunJournalTest, RefusesADevice) {
+  EXPECT_EQ(support::thrown_text<std::runtime_error>([&] { RunJournal(problem_, "/dev/zero"); }),
+            "doe::RunJournal: \"/dev/zero\" is a device or a pipe; choose a file");
+}
+
+// A wrong count among good runs fails the run here, and is made again by the next call, which may return what it should.
+TEST_F(RunJournalTest, KeepsNoWrongCount) {
+  const auto f = [](bool right) {
+    return [right](const Eigen::VectorXd& x) {
+      return right || x[0] < 0.5 ? Outcome(x[0]) : Outcome{1.0, 2.0};
+    };
+  };
+  const Eigen::MatrixXd X{{0.2, 0.0}, {0.8, 0.0}, {0.4, 0.0}};
+  EXPECT_EQ(evaluate(f(false), problem_, X, {.journal = path_}).failed(), 1);
+  EXPECT_EQ(RunJournal(problem_, path_).size(), 2);
+  EXPECT_EQ(evaluate(f(true), problem_, X, {.journal = path_}).failed(), 0);
+}
+
+// With runs of before in the journal, the first of this call is not the first of the study.
+TEST_F(RunJournalTest, RunsOfBeforeShowThatTheProgramIsRight) {
+  const Eigen::MatrixXd X{{0.2, 0.0}, {0.8, 0.0}};
+  evaluate([](const Eigen::VectorXd& x) { return x[0]; }, problem_, X.topRows(1), {.journal = path_});
+  const auto two = [](const Eigen::VectorXd&) { return Outcome{1.0, 2.0}; };
+  EXPECT_EQ(evaluate(two, problem_, X, {.journal = path_}).failed(), 1);
+  EXPECT_THROW(evaluate(two, problem_, X.bottomRows(1), {.first_run = 1}), std::invalid_argument);
+}
+
 }  // namespace

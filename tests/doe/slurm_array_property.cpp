@@ -85,7 +85,10 @@ TEST_F(SlurmArray, OutcomesAreThoseOfAPoolOfProcesses) {
 TEST_F(SlurmArray, WhateverEndsARunIsItsReason) {
   EXPECT_EQ(reason_of("echo failure the bucket is stuck >&3; exit 1"), "the bucket is stuck");
   EXPECT_EQ(reason_of("exit 3"), "the run's process ended with exit code 3");
-  EXPECT_EQ(reason_of("echo 1 2 >&3"), "returned 2 values where the problem has 1 responses");
+  EXPECT_EQ(
+      support::thrown_text<std::invalid_argument>([] { reason_of("echo 1 2 >&3"); }),
+      "doe::evaluate: the black box returned 2 values where the problem has 1 responses; return one value "
+      "per response, in the order of Problem::responses");
   EXPECT_EQ(reason_of("exit 255"), "the run's process ended with exit code 255");
   EXPECT_EQ(reason_of("kill -SEGV $$"), "the run's process ended by signal SIGSEGV (Segmentation fault)");
   EXPECT_EQ(reason_of("echo 1 >&3; sleep 30", {.time_limit = 0.5}),

@@ -87,6 +87,18 @@ TEST(BadInput, Box) {
 TEST(BadInput, Options) {
   EXPECT_EQ(refusal([](Call& c) { c.options.theta_lower = 0; }),
             "kriging::fit: theta_lower is 0; allowed are finite numbers above 0; use a small one for none");
+  EXPECT_EQ(refusal([](Call& c) { c.options.theta_upper = VectorXd::Ones(3); }),
+            "kriging::fit: theta_upper has 3 entries; allowed is one number, or one a column of X, 2");
+  EXPECT_EQ(refusal([](Call& c) { c.options.theta_upper = Eigen::Vector2d(1, 1e-6); }),
+            "kriging::fit: variable 1: theta_upper is 1e-06; allowed are finite numbers from theta_lower "
+            "1.2e-05 on; raise it");
+  EXPECT_EQ(
+      refusal([](Call& c) {
+        c.options.structure = Structure::isotropic;
+        c.options.theta_upper = Eigen::Vector2d(1, 2);
+      }),
+      "kriging::fit: theta_lower or theta_upper has an entry per variable; an isotropic correlation has one "
+      "theta for all numbers; give one number, or take product");
   EXPECT_EQ(
       refusal([](Call& c) { c.options.nugget_lower = not_a_number; }),
       "kriging::fit: nugget_lower is nan; allowed are finite numbers above 0; use a small one for none");

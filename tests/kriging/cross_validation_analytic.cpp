@@ -32,7 +32,7 @@ FitOptions fixed(const Model& model) {
   return options;
 }
 
-const auto fitter = [](const MatrixXd& X, const VectorXd& y) { return fit(X, y); };
+const auto fitter = [](auto& X, auto& y) { return fit(X, y); };  // as docs/kriging.md has it
 
 }  // namespace
 

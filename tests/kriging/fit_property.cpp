@@ -226,6 +226,36 @@ TEST(Fit, RaisesTheNuggetOfASingularMatrixAndSaysSo) {
   EXPECT_LT((model.mean(x) - VectorXd(x.array().sin())).cwiseAbs().maxCoeff(), 1e-2);
 }
 
+// The bounds leave one input free: what one number for all would find there is found with the others fixed to it.
+TEST(Fit, KeepsThetaWithinTheBoundsOfEachInput) {
+  const Runs runs = hilly(60, 0.05);
+  const Model whole = fit(runs.X, runs.y);
+  FitOptions options;
+  options.theta_lower = options.theta_upper = whole.theta();
+  EXPECT_LT((fit(runs.X, runs.y, options).theta() - whole.theta()).cwiseAbs().maxCoeff(),
+            1e-12 * whole.theta().maxCoeff());  // exp(ln θ)
+  VectorXd lower = 0.5 * whole.theta(), upper = 2.0 * whole.theta();
+  lower[0] = 3.0 * whole.theta()[0];
+  upper[0] = 4.0 * whole.theta()[0];
+  options.theta_lower = lower;
+  options.theta_upper = upper;
+  const VectorXd theta = fit(runs.X, runs.y, options).theta();
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    EXPECT_GE(theta[k], lower[k] * (1 - 1e-12)) << k;
+    EXPECT_LE(theta[k], upper[k] * (1 + 1e-12)) << k;
+  }
+}
+
+TEST(Fit, SaysThatRunsAreFewForTheirInputs) {
+  const auto message = [](int n) {
+    const MatrixXd X = reference::design(n, 5, 5);
+    return fit(X, X.rowwise().sum()).message();
+  };
+  const std::string said = "10 runs in 5 variables are too few to trust";
+  EXPECT_NE(message(10).find(said), std::string::npos) << message(10);
+  EXPECT_EQ(message(11).find("too few"), std::string::npos) << message(11);
+}
+
 TEST(Fit, SaysWhenASearchWasCutShort) {
   FitOptions options;
   options.max_iterations = options.starts = 1;

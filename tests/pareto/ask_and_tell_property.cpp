@@ -108,6 +108,24 @@ class DrivenSearches : public testing::TestWithParam<Named> {
                                       ("drawpoint-checkpoint-" + std::to_string(::getpid()) + ".txt");
 };
 
+// A search of a black box with another number of responses would else spend all of its evaluations on failures.
+TEST_P(DrivenSearches, FirstValuesOfAWrongCountAreRefusedAndChangeNothing) {
+  const auto search = made(), other = made();
+  std::vector<doe::Outcome> outcomes(search->seeds().size(), doe::Failure{"stuck"});
+  outcomes[3] = {1.0, 2.0};
+  EXPECT_EQ(
+      support::thrown_text<std::invalid_argument>([&] { search->tell(outcomes); }),
+      "pareto::Search: the black box returned 2 values where the problem has 3 responses; return one value "
+      "per response, in the order of Problem::responses");
+  EXPECT_THROW(finish(*made(), [](const Eigen::VectorXd& x) { return x[0]; }), std::invalid_argument);
+  expect_equal(finish(*search, noisy), finish(*other, noisy));
+  const auto later = made();
+  advance(*later);
+  const int failed = later->front().failed, told = static_cast<int>(later->seeds().size());
+  later->tell(std::vector<doe::Outcome>(later->seeds().size(), doe::Outcome{1.0, 2.0}));
+  EXPECT_EQ(later->front().failed, failed + told);
+}
+
 TEST_P(DrivenSearches, DrivenFromOutsideGiveTheSameFront) {
   const auto inside = made(), outside = made();
   while (!outside->done()) {
@@ -298,9 +316,7 @@ TEST_P(DrivenSearches, RefuseOutcomesThatDoNotFit) {
 
 TEST_P(DrivenSearches, TakeFaultyOutcomesForFailures) {
   const auto search = made();
-  std::vector<doe::Outcome> outcomes(20, doe::Outcome({1.0, NAN, 0.0}));
-  outcomes.back() = doe::Outcome(1.0);
-  search->tell(outcomes);
+  search->tell(std::vector<doe::Outcome>(20, doe::Outcome({1.0, NAN, 0.0})));
   EXPECT_EQ(search->front().failed, 20);
   EXPECT_EQ(search->front().message, "all 20 evaluations failed; the first: response \"yield\" is nan");
 }
