@@ -8,8 +8,9 @@
 /// give equal outcomes, and a black box may be called from several threads at once: so the call must be
 /// const. Where a type offers several forms, the batch form is used, for it is the one that can be faster
 /// than its rows one by one. The calls below turn what goes wrong (an exception, a wrong count, a value that
-/// is not finite) into a Failure; where the first values have a wrong count, evaluations and searches end. `stop` is a std::stop_token: a long run that looks at it now and then can
-/// end early when its time is up or the study is cancelled; what it returns then does not count.
+/// is not finite) into a Failure; where the first values have a wrong count, evaluations and searches end. `stop`
+/// is a std::stop_token: a long run that looks at it now and then can end early when its time is up or the study
+/// is cancelled; what it returns then does not count.
 
 #include <Eigen/Core>
 #include <concepts>
@@ -119,8 +120,8 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
   return outcome;
 }
 
-/// Whether black box and problem belong together: the first run that gives values, in the order of the runs, tells.
-/// A wrong count there is a mistake of the program; one among good runs is a failed run.
+/// Whether black box and problem belong together: the first run that gives values, in the order of the runs,
+/// tells. A wrong count there is a mistake of the program; one among good runs is a failed run.
 class FirstValues {
  public:
   /// Outcomes in the order of their runs. Throws std::invalid_argument in the name of `who`.

@@ -36,9 +36,9 @@ namespace drawpoint::doe {
 
 enum class LatinCriterion { maximin, phi_p, centred_discrepancy };
 
-/// Where the search starts: `best` tries both, each with half of the sweeps, and takes the more even result. In few
-/// variables the best lattice is the same for every seed: then `lattice` and `best` give the same set of points again,
-/// which validates nothing that was fitted to it.
+/// Where the search starts: `best` tries both, each with half of the sweeps, and takes the more even result. In
+/// few variables the best lattice is the same for every seed: then `lattice` and `best` give the same set of
+/// points again, which validates nothing that was fitted to it.
 enum class LatinStart { best, random, lattice };
 
 struct OptimizedLatinOptions {

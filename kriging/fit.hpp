@@ -27,9 +27,10 @@ Model fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const FitOptions& 
 /// Stops the compiler at fit(y, X), which the types above would let through.
 template <std::same_as<Eigen::VectorXd> Responses, std::same_as<Eigen::MatrixXd> Inputs>
 Model fit(const Responses& y, const Inputs& X, const FitOptions& options = {}) {
-  static_assert(!std::same_as<Responses, Responses>,
-                "drawpoint: kriging::fit takes the inputs first: fit(X, y), X one run per row, y one response "
-                "per run");
+  static_assert(
+      !std::same_as<Responses, Responses>,
+      "drawpoint: kriging::fit takes the inputs first: fit(X, y), X one run per row, y one response "
+      "per run");
   return fit(X, y, options);
 }
 

@@ -61,8 +61,8 @@ struct FitOptions {
   /// not count. Two different levels correlate alike, by one θ, as the ends of a number's range do.
   std::vector<int> levels = {};
 
-  /// > 0, of all variables or, as a vector, of each; equal bounds fix θ. Structure::isotropic has one θ for all numbers,
-  /// so one bound each. At the lower one the correlation across the range of an input is 1 − 5e-5: the
+  /// > 0, of all variables or, as a vector, of each; equal bounds fix θ. Structure::isotropic has one θ for all
+  /// numbers, so one bound each. At the lower one the correlation across the range of an input is 1 − 5e-5: the
   /// input has no effect. A length scale of 0.01 at the upper one is shorter than runs can lie apart.
   PerVariable theta_lower = 1.2e-5, theta_upper = 1250.0;
   /// > 0; equal bounds fix λ. Far below 1e-10 the matrix of some hundred smooth runs is singular to

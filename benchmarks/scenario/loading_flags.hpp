@@ -25,7 +25,8 @@ struct OperationFlags {
 /// --arm hinges".
 std::string in_words(const OperationFlags& flags);
 
-/// --speeds, --operator, --curl-hold, --crowd, --pulses, and the laws of the operation: --curl, --lift, --progress and --arm.
+/// --speeds, --operator, --curl-hold, --crowd, --pulses, and the laws of the operation: --curl, --lift, --progress
+/// and --arm.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
 /// The drift and what lies in it; what is not given is the scene's.

@@ -130,9 +130,11 @@ inline void add_remarks(const TrainingData& data, FitReport& report) {
                         ", with intervals that are too narrow; run it";
   }
   if (data.X.rows() <= few_per_variable * data.X.cols())
-    report.message += "; " + std::to_string(data.X.rows()) + " runs in " + std::to_string(data.X.cols()) +
-                      " variables are too few to trust: of intervals of 95 % some 45 hold; make " +
-                      std::to_string(10 * data.X.cols()) + " or so";
+    report.message +=
+        "; " + std::to_string(data.X.rows()) + " runs in " + std::to_string(data.X.cols()) +
+        " variables are too few to trust: of intervals of 95 % some 45 hold for the mean, 80 for "
+        "a new run; make " +
+        std::to_string(10 * data.X.cols()) + " or so";
   if (data.terms_dropped > 0)
     report.message += "; " + std::to_string(data.terms_dropped) + " terms of the trend are left out, which " +
                       std::to_string(data.X.rows()) + " runs cannot tell from the others";

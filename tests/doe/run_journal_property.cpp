@@ -164,7 +164,8 @@ TEST_F(RunJournalTest, RefusesADevice) {
             "doe::RunJournal: \"/dev/zero\" is a device or a pipe; choose a file");
 }
 
-// A wrong count among good runs fails the run here, and is made again by the next call, which may return what it should.
+// A wrong count among good runs fails the run here, and is made again by the next call, which may return what it
+// should.
 TEST_F(RunJournalTest, KeepsNoWrongCount) {
   const auto f = [](bool right) {
     return [right](const Eigen::VectorXd& x) {

@@ -310,7 +310,9 @@ TEST(ChooseRefitted, TakesWhatPredictsOtherRuns) {
     const Runs few = runs(n, 1);
     const FitChoice choice = choose_refitted(few.X, few.y, {}, ways, {Noise::known, few.noise_variance});
     EXPECT_EQ(choice.model.runs(), n);
-    if (n == 1) EXPECT_EQ(choice.name(), "pooled");
+    if (n == 1) {
+      EXPECT_EQ(choice.name(), "pooled");
+    }
   }
   EXPECT_EQ(refusal([&] { choose_refitted(MatrixXd(3, 1), VectorXd(3), {}, {}); }),
             "kriging::choose_refitted: 0 ways; allowed is 1 or more; name at least one");
