@@ -14,19 +14,19 @@ using namespace drawpoint;
 using namespace drawpoint::studies;
 using test::TestFolder;
 
-// The cycles of a run say what a run's production is known to: 58 kg/s (headline noise_of_production). A
-// model whose noise is half of that follows the noise. It was taken once, for its leave-one-out, and had an
-// NRMSE of 0.147 on the 40 validation runs, 33 of them within their 95 %; the mean of the fits that do not
-// has 0.11. Of 40 runs 35 or more lie within 95 % with a probability of 0.986.
+// The cycles of a run say what a run's production is known to: 54 kg/s (headline noise_of_production). A
+// model whose noise is half of that follows the noise. It was taken once, in a study of before, for its
+// leave-one-out, and had an NRMSE of 0.147 on 40 validation runs, 33 of them within their 95 %; fits that do
+// not have 0.12 here. Of 40 runs 35 or more lie within 95 % with a probability of 0.986.
 TEST(KeptStudy, ItsModelsDoNotFollowTheNoise) {
   const TestFolder folder;
   std::filesystem::copy_file(KEPT_STUDY, folder / "study.db");
   const Store store = Store::open(folder / "study.db");
   const Tables tables = tables_of(store.runs(), store.identity().problem);
-  ASSERT_EQ(tables.training.rows.size(), 112u);
+  ASSERT_EQ(tables.training.rows.size(), 106u);
   const Models fitted = fit_models(tables);
   const kriging::Validation& production = fitted.validations[0];
-  EXPECT_GT(kriging::error_without_noise(production).noise, 29);
+  EXPECT_GT(kriging::error_without_noise(production).noise, 27);
   EXPECT_LT(production.nrmse, 0.13);
   EXPECT_GE(count_within(production, store.identity().problem.responses[0]), 35);
 }
