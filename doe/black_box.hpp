@@ -109,13 +109,19 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
   if (outcome.failed()) return outcome;
   const Eigen::VectorXd& values = outcome.values();
   const auto expected = static_cast<Eigen::Index>(problem.responses.size());
-  if (values.size() != expected) return Outcome::of_wrong_count(values.size(), problem.responses.size());
+  if (values.size() != expected)
+    return Outcome::refused(Outcome::Given::wrong_count, "returned " + std::to_string(values.size()) +
+                                                             " values where the problem has " +
+                                                             std::to_string(expected) + " responses");
   for (Eigen::Index j = 0; j < expected; ++j) {
     const Response& r = problem.responses[j];
-    if (!std::isfinite(values[j])) return Failure{"response \"" + r.name + "\" is " + number_text(values[j])};
+    const std::string is = "response \"" + r.name + "\" is ";
+    if (!std::isfinite(values[j]))
+      return Outcome::refused(Outcome::Given::one_per_response, is + number_text(values[j]));
     if (values[j] < r.lower || values[j] > r.upper)
-      return Failure{"response \"" + r.name + "\" is " + with_unit(values[j], r.unit) +
-                     ", outside its range " + number_text(r.lower) + " to " + with_unit(r.upper, r.unit)};
+      return Outcome::refused(Outcome::Given::one_per_response,
+                              is + with_unit(values[j], r.unit) + ", outside its range " +
+                                  number_text(r.lower) + " to " + with_unit(r.upper, r.unit));
   }
   return outcome;
 }
@@ -124,17 +130,20 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
 /// tells. A wrong count there is a mistake of the program; one among good runs is a failed run.
 class FirstValues {
  public:
+  /// `came`: whether runs before these gave values.
+  explicit FirstValues(bool came = false) : came_(came) {}
+
   /// Outcomes in the order of their runs. Throws std::invalid_argument in the name of `who`.
   void take(const Outcome& outcome, const char* who) {
     if (came_) return;
-    if (outcome.wrong_count())
+    if (outcome.given() == Outcome::Given::wrong_count)
       throw std::invalid_argument(std::string(who) + ": the black box " + outcome.reason() +
                                   "; return one value per response, in the order of Problem::responses");
-    came_ = !outcome.failed();
+    came_ = !outcome.failed() || outcome.given() == Outcome::Given::one_per_response;
   }
 
  private:
-  bool came_ = false;
+  bool came_;
 };
 
 /// Runs `body` and turns whatever it throws into a Failure.

@@ -93,7 +93,8 @@ class RunBook {
     try {
       done_[i] = 1;
       look_at_first_values();
-      if (journal_ && !table_.rows[i].outcome.wrong_count()) journal_->add(table_.rows[i]);
+      if (journal_ && table_.rows[i].outcome.given() != Outcome::Given::wrong_count)
+        journal_->add(table_.rows[i]);
       count(i);
       if (options_.on_result) options_.on_result(table_.rows[i]);
       if (options_.progress) options_.progress(timed_progress());

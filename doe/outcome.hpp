@@ -9,7 +9,6 @@
 /// Eigen::VectorXd) or `return doe::Failure{"bucket stuck"};`.
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -41,17 +40,18 @@ class Outcome {
   /// Empty when the run succeeded.
   const std::string& reason() const { return reason_; }
 
-  /// A failed run: it gave so many values, which are not one per response.
-  static Outcome of_wrong_count(Eigen::Index values, std::size_t responses) {
-    Outcome outcome(Failure{"returned " + std::to_string(values) + " values where the problem has " +
-                            std::to_string(responses) + " responses"});
-    outcome.wrong_count_ = true;
+  /// What a failed run gave: no values, one per response of which one was refused, or another number.
+  enum class Given { nothing, one_per_response, wrong_count };
+  static Outcome refused(Given given, std::string reason) {
+    Outcome outcome(Failure{std::move(reason)});
+    outcome.given_ = given;
     return outcome;
   }
-  bool wrong_count() const { return wrong_count_; }
+  Given given() const { return given_; }
 
  private:
-  bool failed_ = false, wrong_count_ = false;
+  bool failed_ = false;
+  Given given_ = Given::nothing;
   Eigen::VectorXd values_;
   std::string reason_;
 };

@@ -140,7 +140,7 @@ class Remembered {
     std::vector<Outcome> outcomes = detail::call_batch(f_, problem_, part, part_seeds);
     const std::scoped_lock lock(*mutex_);
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (!outcomes[k].wrong_count())
+      if (outcomes[k].given() != Outcome::Given::wrong_count)
         store_->add(part.row(static_cast<Eigen::Index>(k)).transpose(), part_seeds[k], outcomes[k]);
       known[static_cast<std::size_t>(rows[k])] = std::move(outcomes[k]);
     }

@@ -155,7 +155,6 @@ class Search {
   Eigen::MatrixXd asked_;  // at the end: what would be next
   int generation_ = 0, evaluations_ = 0, failed_ = 0;
   std::string first_reason_;  // of the first failure
-  doe::detail::FirstValues first_values_;
   Eigen::RowVectorXd largest_;
   std::optional<StopReason> ended_;
   std::optional<SearchProgress> news_;  // of the generation that ended, until the caller has been told
@@ -170,12 +169,11 @@ inline std::vector<doe::Seed> Search::seeds() const {
 
 /// Nothing has changed when it throws.
 inline void Search::take_in(std::vector<doe::Outcome>& outcomes) {
-  doe::detail::FirstValues first_values = first_values_;
+  doe::detail::FirstValues first_values(failed_ < evaluations_);
   for (doe::Outcome& outcome : outcomes) {
     outcome = doe::detail::checked(std::move(outcome), problem_);
     first_values.take(outcome, "pareto::Search");
   }
-  first_values_ = first_values;
   for (const doe::Outcome& outcome : outcomes)
     if (outcome.failed() && failed_++ == 0) first_reason_ = outcome.reason();
 }

@@ -226,7 +226,7 @@ TEST(Fit, RaisesTheNuggetOfASingularMatrixAndSaysSo) {
   EXPECT_LT((model.mean(x) - VectorXd(x.array().sin())).cwiseAbs().maxCoeff(), 1e-2);
 }
 
-// The bounds leave one input free: what one number for all would find there is found with the others fixed to it.
+// Equal bounds fix each input's θ to its own number; an input whose best θ lies outside of its bounds stays in them.
 TEST(Fit, KeepsThetaWithinTheBoundsOfEachInput) {
   const Runs runs = hilly(60, 0.05);
   const Model whole = fit(runs.X, runs.y);

@@ -124,6 +124,10 @@ TEST_P(DrivenSearches, FirstValuesOfAWrongCountAreRefusedAndChangeNothing) {
   const int failed = later->front().failed, told = static_cast<int>(later->seeds().size());
   later->tell(std::vector<doe::Outcome>(later->seeds().size(), doe::Outcome{1.0, 2.0}));
   EXPECT_EQ(later->front().failed, failed + told);
+  later->save(path_);
+  const auto restored = made();
+  restored->restore(path_);
+  EXPECT_NO_THROW(restored->tell(std::vector<doe::Outcome>(told, doe::Outcome{1.0, 2.0})));
 }
 
 TEST_P(DrivenSearches, DrivenFromOutsideGiveTheSameFront) {
@@ -316,7 +320,9 @@ TEST_P(DrivenSearches, RefuseOutcomesThatDoNotFit) {
 
 TEST_P(DrivenSearches, TakeFaultyOutcomesForFailures) {
   const auto search = made();
-  search->tell(std::vector<doe::Outcome>(20, doe::Outcome({1.0, NAN, 0.0})));
+  std::vector<doe::Outcome> outcomes(20, doe::Outcome({1.0, NAN, 0.0}));
+  outcomes.back() = doe::Outcome(1.0);
+  search->tell(outcomes);
   EXPECT_EQ(search->front().failed, 20);
   EXPECT_EQ(search->front().message, "all 20 evaluations failed; the first: response \"yield\" is nan");
 }
