@@ -169,7 +169,8 @@ function(drawpoint_deb component summary)
 endfunction()
 
 set(same_version "(= ${PROJECT_VERSION})")
-set(toolkit "libdrawpoint-doe-dev ${same_version}" coinor-libipopt-dev pkg-config)
+# Debian's coinor-libipopt-dev links BLAS and LAPACK and does not bring them.
+set(toolkit "libdrawpoint-doe-dev ${same_version}" coinor-libipopt-dev libblas-dev liblapack-dev pkg-config)
 drawpoint_deb(common "Drawpoint: CMake package files" cmake)
 drawpoint_deb(doe "Drawpoint: designed experiments over any black box (headers)" "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)")
 drawpoint_deb(kriging "Drawpoint: regression Kriging (headers)" ${toolkit})

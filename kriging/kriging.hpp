@@ -14,6 +14,7 @@
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/count_model.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/error_correlation.hpp>
 #include <drawpoint/kriging/fidelity_model.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_fidelities.hpp>
@@ -60,6 +61,7 @@
 ///   append.hpp                     more runs without a new fit
 ///   reinterpolation.hpp            a model that interpolates what a noisy one predicts at its runs
 ///   sample_paths.hpp               draws of the function at many points at once
+///   error_correlation.hpp          responses whose models err together, and draws that do
 ///   surrogate.hpp                  what all kinds have in common, as concepts
 ///   any_surrogate.hpp              any kind behind one type
 ///   surrogates.hpp                 several surrogates as one black box, for searches and polishing

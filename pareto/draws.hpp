@@ -9,7 +9,8 @@
 ///   then drawn as unrelated, which makes a smooth surrogate's front look more ragged than it is;
 /// * a function that draws sample paths jointly (concept PathFunction): keeps the relation of near points,
 ///   and is the better choice where a surrogate has it;
-/// * matrices of paths, n x draws for each response, as kriging::sample_paths gives them (draws_of_paths).
+/// * matrices of paths, n x draws for each response, as kriging::sample_paths gives them (draws_of_paths);
+///   kriging/error_correlation.hpp makes those of responses that err together.
 /// Normals come by quasi Monte Carlo: scrambled Sobol points (doe/sobol.hpp) for blocks of as many points as
 /// fit into 37 dimensions, each block in its own random order: Latin supercube sampling (Owen 1998, "Latin
 /// supercube sampling for very high-dimensional simulations"). Each draw alone is a plain one, so means over

@@ -20,6 +20,7 @@
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/validate.hpp>
+#include <drawpoint/tests/kriging/bumpy_functions.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <map>
 #include <memory>
@@ -29,18 +30,6 @@
 using namespace drawpoint;
 
 namespace {
-
-double peaks(const Eigen::VectorXd& v) {
-  const double x = v[0], y = v[1];
-  return 3 * (1 - x) * (1 - x) * std::exp(-x * x - (y + 1) * (y + 1)) -
-         10 * (x / 5 - x * x * x - std::pow(y, 5)) * std::exp(-x * x - y * y) -
-         std::exp(-(x + 1) * (x + 1) - y * y) / 3;
-}
-
-double ring(const Eigen::VectorXd& x) {
-  const double r2 = x.squaredNorm();
-  return -4 * std::exp(-25.0 / 8 * r2) + 7 * std::exp(-125.0 / 4 * r2);
-}
 
 struct Case {
   std::string name;
@@ -57,8 +46,8 @@ doe::Problem box(int d, double lower, double upper) {
 }
 
 std::vector<Case> cases() {
-  return {{"peaks", box(2, -5, 5), peaks, 10, {25, 50, 100}},
-          {"ring", box(2, -2, 2), ring, 10, {25, 50, 100}},
+  return {{"peaks", box(2, -5, 5), kriging::reference::peaks, 10, {25, 50, 100}},
+          {"ring", box(2, -2, 2), kriging::reference::ring, 10, {25, 50, 100}},
           {"branin4", box(4, 0, 1), kriging::reference::branin4, 32, {50, 80, 120}}};
 }
 

@@ -148,7 +148,7 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
           "who chooses them: NAME=WEIGHT,... of lola_voronoi, voronoi, distance, error, "
           "cross_validation, variance, feasibility, improvement; for one objective predicted and, "
           "without limits, joint_improvement, knowledge_gradient; repeat: runs made again where noise "
-          "limits the models (default lola_voronoi=0.7,error=0.3)")
+          "limits the models (default lola_voronoi=0.4,voronoi=0.4,error=0.2)")
       ->check(criteria_complaint)
       ->group(group);
   command
@@ -262,7 +262,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_sampling_options(*run, parsed.settings, study.defaults);
   add_hours_option(*run, parsed.settings);
   add_study_options(*run, study, parsed.settings.options, true);
-  show_example(*run, app, study, " run --runs 24 --adaptive 40 --out results/adaptive");
+  show_example(*run, app, study, " run --runs 40 --adaptive 24 --out results/adaptive");
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
   auto* confirm = app.add_subcommand(
       "confirm",

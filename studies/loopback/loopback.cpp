@@ -84,7 +84,8 @@ void give(httplib::Response& response, int status, const std::string& type, std:
 }
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
-  give(response, status, "text/plain; charset=utf-8", why + "\n");
+  response.status = status;
+  response.set_content(why + "\n", "text/plain; charset=utf-8");
 }
 
 std::string random_word() {

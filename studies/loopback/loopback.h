@@ -27,6 +27,7 @@ bool refused_by_host(const httplib::Request& request, httplib::Response& respons
 
 /// By its length, so that nothing is compressed: a page of megabytes would take seconds.
 void give(httplib::Response& response, int status, const std::string& type, std::string body);
+/// In one piece with its head, so that a server that ends because of it still says why.
 void refuse(httplib::Response& response, int status, const std::string& why);
 
 /// 128 random bits as letters and digits: a nonce, or a name that nobody can guess.

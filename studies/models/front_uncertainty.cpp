@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/front_uncertainty.h>
+#include <drawpoint/kriging/error_correlation.hpp>
 #include <drawpoint/kriging/sample_paths.hpp>
 #include <drawpoint/pareto/attainment.hpp>
 #include <drawpoint/pareto/non_domination.hpp>
@@ -19,15 +20,33 @@ bool counts_on_front(const doe::Response& response) {
   return doe::is_objective(response.goal) || doe::is_constraint(response.goal);
 }
 
-/// n x draws, unit of the response.
+/// n x draws, unit of the response. normals: as many, of which it is made.
 Eigen::MatrixXd paths_of(const kriging::TransformedModel& model, const doe::Response& response,
-                         const Eigen::MatrixXd& X, doe::Seed seed) {
-  Eigen::MatrixXd paths = kriging::sample_paths(model.model(), X, draws_of_a_front, {.seed = seed});
+                         const Eigen::MatrixXd& X, const Eigen::MatrixXd& normals) {
+  Eigen::MatrixXd paths = kriging::sample_paths(model.model(), X, normals);
   const bool linear = model.transform().scale == kriging::Scale::linear;
   for (double& y : paths.reshaped()) {
     if (!linear) y = kriging::mean_response(model.transform(), y, model.noise_variance());
     y = doe::within_range(response, y);
   }
+  return paths;
+}
+
+/// Of the responses that count, in order; n x draws each, and 0 for the others.
+std::vector<Eigen::MatrixXd> paths_of_responses(const pareto::Front& front,
+                                                const std::vector<kriging::TransformedModel>& models,
+                                                const doe::Problem& problem, doe::Seed seed) {
+  std::vector<kriging::Validation> left_out;
+  for (std::size_t j = 0; j < models.size(); ++j)
+    if (counts_on_front(problem.responses[j])) left_out.push_back(leave_one_out(models[j]));
+  const std::vector<Eigen::MatrixXd> normals = kriging::correlated_normals(
+      kriging::error_correlation(left_out), front.X.rows(), draws_of_a_front, seed);
+  std::vector<Eigen::MatrixXd> paths;
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < models.size(); ++j)
+    paths.push_back(counts_on_front(problem.responses[j])
+                        ? paths_of(models[j], problem.responses[j], front.X, normals[next++])
+                        : Eigen::MatrixXd::Zero(front.X.rows(), draws_of_a_front));
   return paths;
 }
 
@@ -71,15 +90,7 @@ FrontUncertainty uncertainty_of(const pareto::Front& front,
                                 const std::vector<kriging::TransformedModel>& models,
                                 const doe::Problem& problem, doe::Seed seed) {
   if (front.X.rows() == 0 || models.empty() || !variances_are_known(models, front.X)) return {};
-  std::vector<Eigen::MatrixXd> paths;
-  for (std::size_t j = 0; j < models.size(); ++j) {
-    const doe::Response& response = problem.responses[j];
-    if (counts_on_front(response))
-      paths.push_back(paths_of(models[j], response, front.X, doe::run_seed(seed, j, 0)));
-    else
-      paths.push_back(Eigen::MatrixXd::Zero(front.X.rows(), draws_of_a_front));
-  }
-  const pareto::Draws draws = pareto::draws_of_paths(paths);
+  const pareto::Draws draws = pareto::draws_of_paths(paths_of_responses(front, models, problem, seed));
   FrontUncertainty result{.non_dominated = pareto::probability_non_dominated(problem, draws).probability};
   const auto columns = static_cast<std::size_t>(front.Y.cols());
   for (std::size_t a = 0; a < columns; ++a)

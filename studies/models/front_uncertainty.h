@@ -5,7 +5,8 @@
 /// models (pareto/non_domination.hpp, pareto/attainment.hpp).
 ///
 /// Each response is drawn at all points of the front together (kriging/sample_paths.hpp), so that points near
-/// each other err alike; draws of different responses are unrelated. They are of the mean of many runs: the
+/// each other err alike, and the responses err together as far as the runs that are left out show it
+/// (kriging/error_correlation.hpp). They are of the mean of many runs: the
 /// noise of single runs is not in them. A response on another scale is drawn there and taken back, and values
 /// are kept within the response's range.
 ///

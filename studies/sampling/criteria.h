@@ -28,7 +28,7 @@ struct CriterionShare {
   double weight;  ///< above 0; only the ratios matter
 };
 
-/// From "lola_voronoi=0.7,error=0.3"; a name alone has weight 1. Throws UsageError, saying what is allowed.
+/// From "lola_voronoi=0.7,error=0.3", say; a name alone has weight 1. Throws UsageError, saying what is allowed.
 std::vector<CriterionShare> criteria_from(const std::string& text);
 
 /// How the next points are dealt out.

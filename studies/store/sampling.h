@@ -20,7 +20,7 @@ struct Sampling {
   int points = 0;  ///< adaptive points in all, 0 or more
   int batch = 8;   ///< points that are chosen together, 1 or more
   /// Who chooses and how often, as "name=weight" with commas between; sampling/criteria.h has the names.
-  std::string criteria = "lola_voronoi=0.7,error=0.3";
+  std::string criteria = "lola_voronoi=0.4,voronoi=0.4,error=0.2";
   std::vector<ConfirmationRound> rounds = {};  ///< in rising order
   double target = 0.0;  ///< NRMSE of every response but standard errors, at which to stop; 0: none
 };

@@ -78,6 +78,19 @@ TEST(FrontUncertainty, IsThatOfTwoJointNormals) {
   EXPECT_NEAR(found.non_dominated[1], 1 - a_better, four_errors);
 }
 
+// A response and itself: what is better in one is better in both, so of two points one is on the front. Were
+// the draws unrelated, both would be in most of them.
+TEST(FrontUncertainty, ResponsesErrTogetherAsTheirLeftOutRunsDo) {
+  const doe::Problem problem = problem_of({doe::Goal::maximize, doe::Goal::maximize});
+  const std::vector models{unsure_model(1), unsure_model(1)};
+  const Eigen::Vector2d X(0.45, 0.6);
+  const double a_better = higher(models[0].model(), X, 0, 1);
+  ASSERT_GT(std::min(a_better, 1 - a_better), 0.05) << "or the check says little";
+  const auto found = uncertainty_of(front_at(models, X), models, problem, 7);
+  EXPECT_NEAR(found.non_dominated[0], a_better, four_errors);
+  EXPECT_NEAR(found.non_dominated.sum(), 1.0, four_errors);
+}
+
 // A point alone is on the front where it keeps the limit, here half a standard deviation above its mean; on a
 // scale of its own the response keeps it as often.
 TEST(FrontUncertainty, CountsTheLimits) {

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of fit_quality for scikit-learn and OpenTURNS: fit_quality_peers.py FOLDER [sklearn] [isotropic] [openturns]
+"""The table of fit_quality for scikit-learn and OpenTURNS: fit_quality_peers.py FOLDER [sklearn] [isotropic] [openturns] [linear]
 
 FOLDER: what `fit_quality --write FOLDER` wrote. scikit-learn: constant times squared exponential plus white noise, no
-restarts (its default) and five; isotropic the same with one length for all inputs, where asked for. OpenTURNS: squared exponential, constant trend, the best of nine nuggets by its own
+restarts (its default) and five; isotropic the same with one length for all inputs, where asked for. OpenTURNS: squared exponential, constant trend or a linear one, the best of nine nuggets by its own
 likelihood, since it does not estimate one. Medians over the seeds; columns as in fit_quality, but the
 noise is in the unit of the response."""
 import itertools
@@ -33,22 +33,23 @@ def sklearn_fits(isotropic=False):
     return {f"{name}{r}": lambda X, y, Z, r=r: predict(r, X, y, Z) for r in (0, 5)}
 
 
-def openturns_fits():
+def openturns_fits(linear=False):
     import openturns
     openturns.Log.Show(openturns.Log.NONE)
     openturns.TBB.Disable()  # one thread
     sys.path.insert(0, str(Path(__file__).resolve().parent))
     from kriging_openturns import NUGGETS, fitted
+    trend = openturns.LinearBasisFactory if linear else openturns.ConstantBasisFactory
 
     def predict(X, y, Z):
         sample, response, points = openturns.Sample(X), openturns.Sample(y[:, None]), openturns.Sample(Z)
-        _, nugget, result = max((fitted(sample, response, n) for n in NUGGETS), key=lambda fit: fit[0])
+        _, nugget, result = max((fitted(sample, response, n, trend) for n in NUGGETS), key=lambda fit: fit[0])
         noise = nugget * result.getCovarianceModel().getAmplitude()[0] ** 2
         mean = numpy.array(result.getMetaModel()(points))[:, 0]
         variance = numpy.maximum(numpy.array(result.getConditionalMarginalVariance(points)).ravel(), 0.0)
         return mean, numpy.sqrt(variance + noise), numpy.sqrt(noise)
 
-    return {"openturns": predict}
+    return {"ot_linear" if linear else "openturns": predict}
 
 
 def measured(predict, stem):
@@ -65,11 +66,12 @@ def measured(predict, stem):
 
 
 def main():
-    folder, wanted = Path(sys.argv[1]), sys.argv[2:] or ["sklearn", "openturns"]
+    folder, wanted = Path(sys.argv[1]), sys.argv[2:] or ["sklearn", "openturns", "linear"]
     warnings.simplefilter("ignore")  # of lengths at their bounds, which are expected here
     fits = {}
     for name in wanted:
-        fits.update({"sklearn": sklearn_fits, "isotropic": lambda: sklearn_fits(True), "openturns": openturns_fits}[name]())
+        fits.update({"sklearn": sklearn_fits, "isotropic": lambda: sklearn_fits(True), "openturns": openturns_fits,
+                     "linear": lambda: openturns_fits(True)}[name]())
     stems = sorted(str(path)[:-len("-train.csv")] for path in folder.glob("*-train.csv"))
     print(f"{'function':12} {'design':8} {'runs':>4} {'way':9} {'NRMSE':>9} {'worst':>9}  {'50 %':>5} {'80 %':>5} {'95 %':>5}"
           f"  {'noise':>9} {'CPU s':>7} {'not':>4}")

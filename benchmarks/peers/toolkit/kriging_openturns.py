@@ -16,10 +16,10 @@ import openturns
 NUGGETS = [10.0**k for k in range(-8, 1)]
 
 
-def fitted(X, y, nugget):
+def fitted(X, y, nugget, trend=openturns.ConstantBasisFactory):
     covariance = openturns.SquaredExponential([0.5] * X.getDimension())
     covariance.setNuggetFactor(nugget)
-    algorithm = openturns.KrigingAlgorithm(X, y, covariance, openturns.ConstantBasisFactory(X.getDimension()).build())
+    algorithm = openturns.KrigingAlgorithm(X, y, covariance, trend(X.getDimension()).build())
     algorithm.setOptimizationBounds(openturns.Interval([0.01] * X.getDimension(), [100.0] * X.getDimension()))
     algorithm.run()
     likelihood = algorithm.getReducedLogLikelihoodFunction()
