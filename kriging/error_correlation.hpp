@@ -87,7 +87,7 @@ inline Eigen::MatrixXd error_correlation(const std::vector<Validation>& response
     const double norm = errors.col(j).norm();
     if (norm > 0) errors.col(j) /= norm;
   }
-  Eigen::MatrixXd R = errors.transpose() * errors;
+  Eigen::MatrixXd R = (errors.transpose() * errors).cwiseMax(-1.0).cwiseMin(1.0);  // but for round-off it is
   R *= 1.0 - detail::share_of_chance(R, n);
   R.diagonal().setOnes();
   return R;

@@ -17,12 +17,11 @@
 /// Nothing is printed and no option file is read.
 
 #include <Eigen/Core>
-#include <IpIpoptApplication.hpp>
-#include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/doe/detail/ipopt_mutex.hpp>
 #include <drawpoint/kriging/detail/climb.hpp>
+#include <drawpoint/kriging/detail/ipopt.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
 #include <functional>
 #include <limits>

@@ -12,10 +12,9 @@
 /// read.
 
 #include <Eigen/Core>
-#include <IpIpoptApplication.hpp>
-#include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/pareto/detail/ipopt.hpp>
 #include <limits>
 #include <mutex>
 #include <utility>

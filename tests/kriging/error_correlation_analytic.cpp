@@ -198,6 +198,19 @@ TEST(ErrorCorrelation, IsACorrelationWhateverTheErrors) {
   }
 }
 
+// The norms' round-off may put the correlation of equal errors above 1; draws still take it.
+TEST(ErrorCorrelation, OfEqualErrorsIsOneAtMost) {
+  doe::RandomStream random(9);
+  for (int i = 0; i < 200; ++i) {
+    VectorXd errors(6);
+    for (double& e : errors) e = random.normal();
+    const MatrixXd R = error_correlation({with_errors(errors), with_errors(3 * errors)});
+    EXPECT_LE(R(0, 1), 1.0);
+    EXPECT_GT(R(0, 1), 1 - 1e-14);
+    EXPECT_NO_THROW(correlated_normals(R, 2, 3, 1));
+  }
+}
+
 TEST(ErrorCorrelation, RefusesWhatIsNone) {
   EXPECT_EQ(error_correlation({}).size(), 0);
   EXPECT_THROW(error_correlation({with_errors(VectorXd(0))}), std::invalid_argument);
