@@ -195,6 +195,9 @@ TEST(ErrorCorrelation, IsACorrelationWhateverTheErrors) {
     EXPECT_TRUE((R.diagonal().array() == 1.0).all());
     EXPECT_GT(R.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-12) << n;
     EXPECT_NO_THROW(correlated_normals(R, 2, 3, 1));
+    if (n < 3) {
+      EXPECT_EQ(R, MatrixXd::Identity(6, 6)) << "two runs tell nothing";
+    }
   }
 }
 
@@ -222,7 +225,12 @@ TEST(ErrorCorrelation, RefusesWhatIsNone) {
   R(0, 1) = R(1, 0) = 1.5;
   EXPECT_THROW(correlated_normals(R, 2, 3, 1), std::invalid_argument);
   R(0, 1) = 0.5;
-  EXPECT_THROW(correlated_normals(R, 2, 3, 1), std::invalid_argument);
+  EXPECT_THROW(correlated_normals(R, 2, 3, 1), std::invalid_argument) << "not symmetric";
+  MatrixXd none = MatrixXd::Constant(3, 3, 0.9);  // of no three responses: an eigenvalue is -0.8
+  none.diagonal().setOnes();
+  none(1, 2) = none(2, 1) = -0.9;
+  EXPECT_THROW(correlated_normals(none, 2, 3, 1), std::invalid_argument);
+  EXPECT_TRUE(correlated_normals({}, 2, 3, 1).empty());
   const Model model = fit(reference::design(20, 2, 3), VectorXd::LinSpaced(20, 0, 1), fixed_parameters());
   EXPECT_THROW(sample_paths(model, MatrixXd::Zero(3, 2), MatrixXd::Zero(2, 10)), std::invalid_argument);
 }
