@@ -6,6 +6,7 @@
 #include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
+#include <drawpoint/benchmarks/toolkit/table_options.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/kriging/fit.hpp>
@@ -27,6 +28,7 @@
 namespace {
 
 using namespace drawpoint;
+using benchmarks::median;
 using kriging::reference::TestFunction;
 
 constexpr const char* help =
@@ -137,11 +139,6 @@ std::map<int, double> errors_of_study(const Simulator& simulator, const studies:
   return errors;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void compare(const TestFunction& f, const Settings& settings) {
   std::map<int, std::map<std::string, std::vector<double>>> errors;
   for (int s = 1; s <= settings.seeds; ++s) {
@@ -175,9 +172,7 @@ Settings settings_of(int argc, char** argv) {
   std::vector<std::string> names;
   for (const TestFunction& f : functions()) names.push_back(f.name);
   CLI::App app(help);
-  app.add_option("--functions", settings.functions, "of the list, with commas between (default: all)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(names));
+  benchmarks::add_functions(app, settings.functions, names);
   app.add_option("--runs", settings.runs, "in all, rising")
       ->delimiter(',')
       ->check(CLI::Range(20, 1000))
@@ -189,11 +184,7 @@ Settings settings_of(int argc, char** argv) {
   app.add_option("--seeds", settings.seeds, "studies and designs of each kind")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  benchmarks::parse_or_exit(app, argc, argv);
   if (settings.functions.empty()) settings.functions = names;
   std::sort(settings.runs.begin(), settings.runs.end());
   if (settings.first >= settings.runs.front()) {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
+#include <drawpoint/benchmarks/toolkit/table_options.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/kriging/validate.hpp>
@@ -21,6 +21,7 @@
 namespace {
 
 using namespace drawpoint;
+using benchmarks::median;
 using namespace drawpoint::kriging;
 
 constexpr const char* help =
@@ -80,11 +81,6 @@ Eigen::VectorXd noisy(Eigen::VectorXd y, double deviation, doe::Seed seed) {
 }
 
 double deviation(const Eigen::VectorXd& y) { return std::sqrt((y.array() - y.mean()).square().mean()); }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? std::nan("") : values[values.size() / 2];
-}
 
 struct Row {
   std::vector<double> nrmse, coverage50, coverage95, seconds, rho;
@@ -176,9 +172,7 @@ Settings settings_of(int argc, char** argv) {
   std::vector<std::string> names;
   for (const reference::FidelityPair& pair : reference::fidelity_pairs()) names.push_back(pair.name);
   CLI::App app(help);
-  app.add_option("--functions", settings.functions, "of the list, with commas between (default: all)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(names));
+  benchmarks::add_functions(app, settings.functions, names);
   app.add_option("--designs", settings.designs, "with commas between")
       ->delimiter(',')
       ->check(CLI::IsMember({"nested", "apart"}))
@@ -195,11 +189,7 @@ Settings settings_of(int argc, char** argv) {
   app.add_option("--nugget-power", settings.power, "of all fits (FitOptions)")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  benchmarks::parse_or_exit(app, argc, argv);
   if (settings.functions.empty()) settings.functions = names;
   return settings;
 }

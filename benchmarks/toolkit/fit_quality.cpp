@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
+#include <drawpoint/benchmarks/toolkit/table_options.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
@@ -28,6 +28,7 @@ namespace {
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
+using benchmarks::median;
 
 constexpr const char* help =
     R"(Fits the functions of tests/kriging/test_functions.hpp, and those of wide_functions.hpp that are
@@ -150,11 +151,6 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// What the seeds gave.
 struct Row {
   std::vector<double> nrmse, noise, seconds, coverage[3];
@@ -258,11 +254,7 @@ Settings settings_of(int argc, char** argv) {
   app.add_option("--noise", settings.noise, "of functions that have none, over their standard deviation")
       ->check(CLI::Range(0.0, 10.0));
   app.add_option("--write", settings.folder, "write the cases to FOLDER as CSV instead of fitting them");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  benchmarks::parse_or_exit(app, argc, argv);
   if (settings.functions.empty()) settings.functions = usual;
   return settings;
 }
