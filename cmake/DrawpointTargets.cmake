@@ -13,6 +13,24 @@ function(drawpoint_header_module name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
 endfunction()
 
+# drawpoint_compile_once(NAME): two more targets of the header-only module NAME, whose <NAME>/compiled.cpp holds what is no
+# template. Drawpoint::<NAME>_compiled compiles that once per target that links it instead of in each file;
+# drawpoint_<NAME>_once compiles it once for all programs of this tree that take it.
+function(drawpoint_compile_once name)
+  string(TOUPPER DRAWPOINT_${name}_COMPILED definition)
+  add_library(drawpoint_${name}_compiled INTERFACE)
+  add_library(Drawpoint::${name}_compiled ALIAS drawpoint_${name}_compiled)
+  set_target_properties(drawpoint_${name}_compiled PROPERTIES EXPORT_NAME ${name}_compiled)
+  target_link_libraries(drawpoint_${name}_compiled INTERFACE drawpoint_${name})
+  target_compile_definitions(drawpoint_${name}_compiled INTERFACE ${definition})
+  target_sources(drawpoint_${name}_compiled INTERFACE
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/compiled.cpp> $<INSTALL_INTERFACE:include/drawpoint/${name}/compiled.cpp>)
+
+  add_library(drawpoint_${name}_once STATIC EXCLUDE_FROM_ALL compiled.cpp)
+  target_link_libraries(drawpoint_${name}_once PUBLIC drawpoint_${name} PRIVATE drawpoint_build_flags)
+  target_compile_definitions(drawpoint_${name}_once PUBLIC ${definition})
+endfunction()
+
 # drawpoint_precompile(TARGET HEADER...): compiles the headers once for all files of the target, which include them all the
 # same. Worth its five seconds from five files on.
 function(drawpoint_precompile target)

@@ -13,14 +13,11 @@
 /// function gets it in one call. Same (black box, problem, options), same result. Cost per generation
 /// O(m N log N) for m <= 3, and N evaluations.
 
-#include <Eigen/Core>
-#include <cstddef>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include <drawpoint/pareto/detail/elitism.hpp>
-#include <drawpoint/pareto/detail/evolution.hpp>
+#include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/pareto/ask_and_tell.hpp>
+#include <drawpoint/pareto/search.hpp>
 
 namespace drawpoint::pareto {
 
@@ -53,84 +50,11 @@ inline std::string_view to_string(Elitism elitism) {
   return "unknown";
 }
 
-namespace detail {
-
-class FrontSurvival {
- public:
-  FrontSurvival(int population, const Nsga2Options& options)
-      : population_(population),
-        elitism_(options.elitism),
-        ratio_(options.elitism_ratio),
-        fraction_(options.pareto_fraction) {}
-
-  /// Feasible fronts share the places by the kind of elitism, others fill what is left in order.
-  Survivors operator()(const Population& pool, const Ranking& ranking, doe::RandomStream&) const {
-    std::vector<int> sizes;
-    for (std::size_t i = 0; i < ranking.feasible; ++i)
-      sizes.push_back(static_cast<int>(ranking.fronts[i].size()));
-    std::vector<int> taken = places(sizes);
-    int left = population_;
-    for (const int count : taken) left -= count;
-    for (std::size_t i = ranking.feasible; i < ranking.fronts.size(); ++i) {
-      taken.push_back(std::min(left, static_cast<int>(ranking.fronts[i].size())));
-      left -= taken.back();
-    }
-    Survivors survivors;
-    for (std::size_t i = 0; i < taken.size(); ++i)
-      take(pool, ranking.fronts[i], taken[i], static_cast<int>(i), i < ranking.feasible, survivors);
-    return survivors;
-  }
-
- private:
-  std::vector<int> places(const std::vector<int>& sizes) const {
-    if (elitism_ == Elitism::geometric) return elitist_places(sizes, population_, ratio_);
-    if (elitism_ == Elitism::pareto_fraction) return fraction_places(sizes, population_, fraction_);
-    return elitist_places(sizes, population_, 0.0);
-  }
-
-  /// Up to `places` rows of one front, the least crowded first choice, appended to the survivors.
-  static void take(const Population& pool, const std::vector<int>& front, int places, int rank,
-                   bool by_crowding, Survivors& survivors) {
-    if (places == 0) return;
-    Eigen::VectorXd distance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(front.size()));
-    if (by_crowding) distance = crowding_distance(pool.Y(front, Eigen::all));
-    for (const int i : least_crowded(distance, places)) {
-      survivors.rows.push_back(front[i]);
-      survivors.rank.push_back(rank);
-      survivors.distance.push_back(distance[i]);
-    }
-  }
-
-  int population_;
-  Elitism elitism_;
-  double ratio_, fraction_;
-};
-
-inline Setting setting_of(const doe::Problem& problem, const Nsga2Options& o) {
-  Setting setting = setting_for("pareto::nsga2: ", problem, o.search, {.population = 200});
-  check_range(setting.place, "elitism_ratio", o.elitism_ratio,
-              o.elitism_ratio >= 0.0 && o.elitism_ratio < 1.0, "0 (plain) to below 1");
-  check_range(setting.place, "pareto_fraction", o.pareto_fraction,
-              o.pareto_fraction > 0.0 && o.pareto_fraction <= 1.0, "above 0 to 1");
-  setting.archive = setting.population;
-  setting.own = {{"elitism", std::string(to_string(o.elitism))},
-                 {"elitism_ratio", doe::detail::number_text(o.elitism_ratio)},
-                 {"pareto_fraction", doe::detail::number_text(o.pareto_fraction)}};
-  return setting;
-}
-
-}  // namespace detail
-
 /// Searches the box of the problem, driven from outside (ask_and_tell.hpp). Throws std::invalid_argument on a
 /// faulty problem or option, or without an objective.
-class Nsga2 : public detail::Evolution<detail::FrontSurvival> {
+class Nsga2 : public Search {
  public:
-  explicit Nsga2(const doe::Problem& problem, const Nsga2Options& options = {})
-      : Nsga2(problem, options, detail::setting_of(problem, options)) {}
-
- private:
-  Nsga2(const doe::Problem& problem, const Nsga2Options& options, const detail::Setting& setting)
-      : Evolution(problem, setting, detail::FrontSurvival(setting.population, options)) {}
+  explicit Nsga2(const doe::Problem& problem, const Nsga2Options& options = {});
 };
 
 /// The same on a black box, to the end. Evaluations that fail are ranked last and counted.
@@ -146,3 +70,7 @@ Front nsga2(const F& black_box, const doe::Problem& problem, const Nsga2Options&
 }
 
 }  // namespace drawpoint::pareto
+
+#ifndef DRAWPOINT_PARETO_COMPILED
+#include <drawpoint/pareto/detail/nsga2_definition.hpp>
+#endif

@@ -7,6 +7,7 @@
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/benchmarks/toolkit/table_options.hpp>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/kriging/fit.hpp>
@@ -29,6 +30,7 @@ namespace {
 
 using namespace drawpoint;
 using benchmarks::median;
+using benchmarks::unit_box;
 using kriging::reference::TestFunction;
 
 constexpr const char* help =
@@ -63,12 +65,6 @@ std::vector<TestFunction> functions() {
                    return kriging::reference::ring((4 * u.array() - 2).matrix());
                  }});
   return all;
-}
-
-doe::Problem unit_box(int variables) {
-  doe::Problem problem{.variables = {}, .responses = {{"y", "1", doe::Goal::minimize}}};
-  for (int k = 0; k < variables; ++k) problem.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
-  return problem;
 }
 
 /// A function as a simulator: the same place with the same seed gives the same value.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
 #include <functional>
@@ -16,6 +17,7 @@
 namespace {
 
 using namespace drawpoint;
+using benchmarks::unit_box;
 using Eigen::VectorXd;
 
 constexpr int designs = 20;
@@ -80,12 +82,6 @@ std::vector<Response> responses() {
            none},
           {"noise grows with an input", 4, [](const VectorXd& x) { return 0.5 * wave(x); },
            [](const VectorXd& x) { return 0.02 + 0.5 * x[1]; }}};
-}
-
-doe::Problem unit_box(int inputs) {
-  doe::Problem problem{{}, {{"y", "1"}}};
-  for (int k = 0; k < inputs; ++k) problem.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
-  return problem;
 }
 
 void print(const Response& response, int runs) {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
@@ -24,6 +25,7 @@
 namespace {
 
 using namespace drawpoint;
+using benchmarks::unit_box;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -80,15 +82,8 @@ struct Scale {
   double mean, deviation;
 };
 
-doe::Problem box_of(const Function& function) {
-  doe::Problem problem{.responses = {{"y", "1", doe::Goal::record}}};
-  for (int k = 0; k < function.inputs; ++k)
-    problem.variables.push_back({"u" + std::to_string(k), "1", 0.0, 1.0});
-  return problem;
-}
-
 Scale scale_of(const Function& function) {
-  const MatrixXd X = doe::latin_hypercube(box_of(function), 2000, {.seed = 1});
+  const MatrixXd X = doe::latin_hypercube(unit_box(function.inputs), 2000, {.seed = 1});
   VectorXd y(X.rows());
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = function.f(X.row(i));
   const double deviation = std::sqrt((y.array() - y.mean()).square().mean());
@@ -102,7 +97,8 @@ double truth(const Function& function, const Scale& scale, const VectorXd& u) {
 Runs runs_of(const Function& function, const Noise& noise, int n, int samples, doe::Seed seed) {
   const Scale scale = scale_of(function);
   doe::RandomStream random(seed);
-  Runs r{doe::latin_hypercube(box_of(function), n, {.seed = seed}), VectorXd(n), VectorXd(n), VectorXd(n)};
+  Runs r{doe::latin_hypercube(unit_box(function.inputs), n, {.seed = seed}), VectorXd(n), VectorXd(n),
+         VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     const VectorXd u = r.X.row(i);
     r.deviation[i] = noise.deviation(u, i);

@@ -11,13 +11,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <concepts>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include <drawpoint/pareto/ask_and_tell.hpp>
 #include <drawpoint/pareto/detail/archive.hpp>
 #include <drawpoint/pareto/detail/newcomer.hpp>
+#include <drawpoint/pareto/detail/search_process.hpp>
 
 namespace drawpoint::pareto::detail {
 
@@ -34,10 +35,12 @@ concept Survival = requires(S& survive, const Population& pool, const Ranking& r
 };
 
 template <Survival S>
-class Evolution : public Search {
- protected:
+class Evolution : public SearchProcess {
+ public:
   Evolution(const doe::Problem& problem, const Setting& setting, S survive)
-      : Search(problem, setting), survive_(std::move(survive)), archive_(setting.archive) {}
+      : SearchProcess(problem, setting), survive_(std::move(survive)), archive_(setting.archive) {}
+
+  std::unique_ptr<SearchProcess> copy() const override { return std::make_unique<Evolution>(*this); }
 
  private:
   Eigen::MatrixXd next(Population told) override {

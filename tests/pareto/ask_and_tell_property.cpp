@@ -143,6 +143,23 @@ TEST_P(DrivenSearches, DrivenFromOutsideGiveTheSameFront) {
   EXPECT_EQ(outside->ask().rows(), 0);
 }
 
+// Without its own archive, members or scaling a copy would follow the original, or stand still.
+TEST_P(DrivenSearches, CopiesGoTheirOwnWay) {
+  const auto search = made();
+  for (int i = 0; i < 3; ++i) advance(*search);
+  const Search kept = *search;
+  const Front then = kept.front();
+  const Front end = finish(*search, noisy);
+  expect_equal(kept.front(), then);
+  Search copy = kept, assigned = *made(quick(2));
+  expect_equal(finish(copy, noisy), end);
+  assigned = kept;
+  assigned = *&assigned;
+  expect_equal(finish(assigned, noisy), end);
+  const Search moved = std::move(assigned);
+  expect_equal(moved.front(), end);
+}
+
 TEST_P(DrivenSearches, GiveTheSameBitsOnAnyNumberOfThreads) {
   const Front front = finish(*made(), noisy);
   for (const int threads : {2, 3, 8, 0}) expect_equal(finish(*made(quick(threads)), noisy), front);
