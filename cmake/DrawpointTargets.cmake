@@ -13,6 +13,13 @@ function(drawpoint_header_module name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
 endfunction()
 
+# drawpoint_compiled_apart(TARGET DEFINITION ON|OFF): whether the target and all that it is linked with have the definition; CMake
+# refuses to link it with one that says otherwise, where some functions would have two bodies.
+function(drawpoint_compiled_apart target definition value)
+  set_property(TARGET ${target} PROPERTY INTERFACE_${definition} ${value})
+  set_property(TARGET ${target} APPEND PROPERTY COMPATIBLE_INTERFACE_BOOL ${definition})
+endfunction()
+
 # drawpoint_compile_once(NAME): two more targets of the header-only module NAME, whose <NAME>/compiled.cpp holds what is no
 # template. Drawpoint::<NAME>_compiled compiles that once per target that links it instead of in each file;
 # drawpoint_<NAME>_once compiles it once for all programs of this tree that take it.
@@ -23,6 +30,7 @@ function(drawpoint_compile_once name)
   set_target_properties(drawpoint_${name}_compiled PROPERTIES EXPORT_NAME ${name}_compiled)
   target_link_libraries(drawpoint_${name}_compiled INTERFACE drawpoint_${name})
   target_compile_definitions(drawpoint_${name}_compiled INTERFACE ${definition})
+  drawpoint_compiled_apart(drawpoint_${name}_compiled ${definition} ON)
   target_sources(drawpoint_${name}_compiled INTERFACE
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/compiled.cpp> $<INSTALL_INTERFACE:include/drawpoint/${name}/compiled.cpp>)
 

@@ -38,11 +38,13 @@ class SearchProcess;
 }
 
 /// One of the methods above, wherever its kind plays no part. A copy goes its own way from where the search
-/// stands.
+/// stands, but for `stop` and `progress`, which both listen to and tell. A search takes on the kind of what is
+/// assigned to it, and may only be assigned to or destroyed once it was moved from. What problem() and
+/// options() refer to lasts until the search is assigned to or restored.
 class Search {
  public:
   Search(const Search& other);
-  Search(Search&& other) noexcept;  ///< the other may only be assigned to or destroyed
+  Search(Search&& other) noexcept;
   Search& operator=(const Search& other);
   Search& operator=(Search&& other) noexcept;
   virtual ~Search();

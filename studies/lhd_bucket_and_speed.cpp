@@ -11,7 +11,6 @@
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/libraries.hpp>
-#include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
@@ -93,7 +92,7 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
   set_design(scenario, x);
   scenario.seed = seed;
   scenario.log_file = run.log;
-  return responses_of(engine::loading::simulate(scenario), run.options);
+  return responses_of(studies::simulate_run(scenario, run), run.options);
 }
 
 std::vector<studies::StudyOption> options() {

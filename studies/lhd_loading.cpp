@@ -9,7 +9,6 @@
 #include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/libraries.hpp>
-#include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/studies/study.hpp>
 
@@ -90,7 +89,7 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
   scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
   scenario.seed = seed;
   scenario.log_file = run.log;
-  return responses_of(engine::loading::simulate(scenario), run.options);
+  return responses_of(studies::simulate_run(scenario, run), run.options);
 }
 
 int main(int argc, char** argv) {

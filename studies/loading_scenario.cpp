@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/engine/loading/loading_cycle.hpp>
 
 #include <array>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -171,6 +173,19 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.precision = std::stod(chosen(run, "precision")) / 100;
   scenario.pile_file = run.shared / "pile.h5";
   return scenario;
+}
+
+engine::loading::LoadingLog simulate_run(const engine::loading::Scenario& scenario, const RunContext& run) {
+  engine::loading::SimulationHooks hooks;
+  if (run.progress) {
+    hooks.on_cycle = [&](const engine::loading::CycleRecord& cycle) {
+      char text[80];
+      std::snprintf(text, sizeof text, "cycle %d of %d: %.1f t in %.1f s", cycle.number, scenario.cycles,
+                    cycle.loaded_mass / 1e3, cycle.t_end - cycle.t_start);
+      run.progress(text);
+    };
+  }
+  return engine::loading::simulate(scenario, hooks);
 }
 
 engine::loading::ProductionOptions production_options(const OptionValues& options) {

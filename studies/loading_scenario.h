@@ -4,8 +4,9 @@
 /// What the options of the loading study choose: materials, solver, scene, mass and sizes of the rocks,
 /// speeds, operator, laws of the operation, number of cycles and when to stop before it, and the scenario that
 /// they make. The scene has a number of cycles of its own (thirty at the scale of Lindmark, 2016), which the
-/// study's option overrides: two, unless told.
+/// study's option overrides: two, unless told. And the run that simulates it.
 
+#include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <drawpoint/studies/study.hpp>
@@ -24,6 +25,9 @@ std::string loading_options_complaint(const OptionValues& options);
 /// The scenario of all runs of a study, but for strategy, seed and log. Throws std::invalid_argument if an
 /// option has no value or one that it cannot have.
 engine::loading::Scenario loading_scenario(const RunContext& run);
+
+/// As engine::loading::simulate; tells run.progress of each cycle.
+engine::loading::LoadingLog simulate_run(const engine::loading::Scenario& scenario, const RunContext& run);
 
 /// How production is taken from a log: with the haul that the options give, or none.
 engine::loading::ProductionOptions production_options(const OptionValues& options);

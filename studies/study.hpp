@@ -58,6 +58,8 @@ struct RunContext {
   std::filesystem::path
       shared;                 ///< folder common to all runs of the study, filled by Study::prepare; read only
   OptionValues options = {};  ///< a value of every Study::options
+  /// Takes where a long run is, in a few words for people. Empty where nobody listens.
+  std::function<void(const std::string&)> progress = {};
 };
 
 /// How many runs a study makes when the command line does not say.

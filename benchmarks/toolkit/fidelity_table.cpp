@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/benchmarks/toolkit/table_options.hpp>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/kriging/validate.hpp>
@@ -22,6 +23,7 @@ namespace {
 
 using namespace drawpoint;
 using benchmarks::median;
+using benchmarks::unit_box;
 using namespace drawpoint::kriging;
 
 constexpr const char* help =
@@ -50,9 +52,7 @@ struct Settings {
 };
 
 Eigen::MatrixXd latin(int variables, int runs, doe::Seed seed) {
-  doe::Problem problem{.variables = {}, .responses = {{"y", "1", doe::Goal::minimize}}};
-  for (int k = 0; k < variables; ++k) problem.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
-  return doe::optimized_latin_hypercube(problem, runs, {.seed = seed});
+  return doe::optimized_latin_hypercube(unit_box(variables), runs, {.seed = seed});
 }
 
 /// For each row of `wanted` the nearest row of `all` that is not taken yet.

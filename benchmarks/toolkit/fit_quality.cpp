@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/benchmarks/toolkit/table_options.hpp>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/sobol.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
@@ -29,6 +30,7 @@ namespace {
 using namespace drawpoint;
 using namespace drawpoint::kriging;
 using benchmarks::median;
+using benchmarks::unit_box;
 
 constexpr const char* help =
     R"(Fits the functions of tests/kriging/test_functions.hpp, and those of wide_functions.hpp that are
@@ -44,8 +46,8 @@ hold 500 new observations.
 One row per function, design, number of runs and way to fit; medians over the seeds. NRMSE is the error of the
 mean against the function without noise, over the range of it (over the noise where the function is 0), `worst`
 its largest. Then the per cent of new observations, noise included, within the central 50, 80 and 95 %
-intervals, the noise that was found over the true one (without noise: over the range), CPU seconds per fit, and
-how many fits did not converge.
+intervals, the noise that was found over the true one (without noise: over the range), CPU seconds per fit, how
+many fits did not converge, and how many took half of the variance of the noise or more for signal.
 
 Ways: `default`; `plug-in`, the same with its parameters taken as known; `likeliest`, plain maximum likelihood
 with its parameters taken as known; `expect-none`, the default with nugget_power 0, which expects no noise;
@@ -103,8 +105,7 @@ std::vector<reference::TestFunction> functions() {
 
 Eigen::MatrixXd design(const std::string& kind, int variables, int runs, doe::Seed seed) {
   if (kind == "latin") return reference::design(runs, variables, seed);
-  doe::Problem problem{.variables = {}, .responses = {{"y", "1", doe::Goal::minimize}}};
-  for (int k = 0; k < variables; ++k) problem.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
+  const doe::Problem problem = unit_box(variables);
   if (kind == "sobol") return doe::scrambled_sobol(problem, runs, {.seed = seed});
   doe::OptimizedLatinOptions options{.seed = seed, .corners = kind == "corners"};
   if (kind == "lattice") options.start = doe::LatinStart::best;
@@ -154,7 +155,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 /// What the seeds gave.
 struct Row {
   std::vector<double> nrmse, noise, seconds, coverage[3];
-  int unsettled = 0;
+  int unsettled = 0, misled = 0;  ///< misled: by noise, half of which or more they follow
 };
 
 void add(Row& row, const Case& c, const Way& way) {
@@ -167,15 +168,16 @@ void add(Row& row, const Case& c, const Way& way) {
   row.nrmse.push_back(std::sqrt((v.predicted - c.truth).squaredNorm() / static_cast<double>(c.truth.size())) /
                       unit);
   row.noise.push_back(std::sqrt(model.noise_variance()) / (c.noise > 0 ? c.noise : unit));
+  if (model.noise_variance() < 0.5 * c.noise * c.noise) ++row.misled;
   const double levels[] = {0.5, 0.8, 0.95};
   for (int k = 0; k < 3; ++k) row.coverage[k].push_back(100.0 * score(v, ErrorFunction::coverage, levels[k]));
 }
 
 void print(const std::string& place, const std::string& way, const Row& row) {
-  std::printf("%s %-11s %9.5f %9.5f  %5.1f %5.1f %5.1f  %7.4f %7.3f %4d\n", place.c_str(), way.c_str(),
+  std::printf("%s %-11s %9.5f %9.5f  %5.1f %5.1f %5.1f  %7.4f %7.3f %4d %6d\n", place.c_str(), way.c_str(),
               median(row.nrmse), *std::max_element(row.nrmse.begin(), row.nrmse.end()),
               median(row.coverage[0]), median(row.coverage[1]), median(row.coverage[2]), median(row.noise),
-              median(row.seconds), row.unsettled);
+              median(row.seconds), row.unsettled, row.misled);
   std::fflush(stdout);
 }
 
@@ -267,8 +269,8 @@ int main(int argc, char** argv) {
     if (!settings.folder.empty())
       std::filesystem::create_directories(settings.folder);
     else
-      std::printf("%-12s %-8s %4s %-11s %9s %9s  %5s %5s %5s  %7s %7s %4s\n", "function", "design", "runs",
-                  "way", "NRMSE", "worst", "50 %", "80 %", "95 %", "noise", "CPU s", "not");
+      std::printf("%-12s %-8s %4s %-11s %9s %9s  %5s %5s %5s  %7s %7s %4s %6s\n", "function", "design",
+                  "runs", "way", "NRMSE", "worst", "50 %", "80 %", "95 %", "noise", "CPU s", "not", "misled");
     for (const reference::TestFunction& f : functions())
       if (contains(settings.functions, f.name))
         for (const std::string& kind : settings.designs)

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/options.hpp>
@@ -87,9 +88,8 @@ inline constexpr std::array cases = {
     Case{"Hartmann 3", 3, 15, 40, 3.86, hartmann3}, Case{"Hartmann 6", 6, 30, 80, 3.32, hartmann6}};
 
 inline doe::Problem problem_of(const Case& c) {
-  doe::Problem problem;
-  for (int k = 0; k < c.inputs; ++k) problem.variables.push_back({"u" + std::to_string(k), "1", 0.0, 1.0});
-  problem.responses = {{"gap", "1", doe::Goal::minimize}};
+  doe::Problem problem = unit_box(c.inputs);
+  problem.responses.front().name = "gap";
   return problem;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/outliers.hpp>
 #include <exception>
@@ -17,6 +18,7 @@
 namespace {
 
 using namespace drawpoint;
+using benchmarks::unit_box;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -66,11 +68,7 @@ struct Count {
 
 /// Every second one with the corners, where they are two fifths of the runs or less.
 MatrixXd design_of(const Function& function, int runs, int seed) {
-  doe::Problem problem;
-  for (int k = 0; k < function.inputs; ++k)
-    problem.variables.push_back({"u" + std::to_string(k), "1", 0.0, 1.0});
-  problem.responses = {{"y", "1", doe::Goal::record}};
-  MatrixXd X = doe::latin_hypercube(problem, runs, {.seed = static_cast<doe::Seed>(seed)});
+  MatrixXd X = doe::latin_hypercube(unit_box(function.inputs), runs, {.seed = static_cast<doe::Seed>(seed)});
   const int corners = 1 << function.inputs;
   if (5 * corners <= 2 * runs && seed % 2 == 0)
     for (int corner = 0; corner < corners; ++corner)

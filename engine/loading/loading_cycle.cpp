@@ -337,6 +337,7 @@ bool LoadingRun::run_cycle(CycleRecord& record) {
   record.t_end = site_.world().time();
   if (!weigh(record)) return false;
   log_.cycles.push_back(record);
+  if (hooks_.on_cycle) call([&] { hooks_.on_cycle(record); });
   return true;
 }
 

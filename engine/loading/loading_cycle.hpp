@@ -31,10 +31,11 @@
 namespace drawpoint::engine::loading {
 
 struct SimulationHooks {
-  /// After each step, with where its time went. What it or `look_ahead` throws ends the run, with its
-  /// message.
+  /// After each step, with where its time went. What it, `on_cycle` or `look_ahead` throws ends the run, with
+  /// its message.
   std::function<void(const engine::StepReport&)> on_step;
-  engine::World::Observer before_solve;  ///< in each step of the cycles, as World::before_solve
+  std::function<void(const CycleRecord&)> on_cycle;  ///< after each cycle that is not lost
+  engine::World::Observer before_solve;              ///< in each step of the cycles, as World::before_solve
   /// Before each step in which the strategy drives the machine. It may step the world, to look ahead with the
   /// speeds that are set, but must restore it.
   std::function<void(engine::World&)> look_ahead;

@@ -228,9 +228,13 @@ class Decomposition : public SearchProcess {
   doe::RandomStream random_;
 };
 
+inline std::unique_ptr<SearchProcess> process_of(const doe::Problem& problem, const MoeadOptions& options) {
+  return std::make_unique<Decomposition>(problem, options, directed(problem, options));
+}
+
 }  // namespace detail
 
 DRAWPOINT_PARETO_INLINE Moead::Moead(const doe::Problem& problem, const MoeadOptions& options)
-    : Search(std::make_unique<detail::Decomposition>(problem, options, detail::directed(problem, options))) {}
+    : Search(detail::process_of(problem, options)) {}
 
 }  // namespace drawpoint::pareto

@@ -36,6 +36,10 @@ DRAWPOINT_PARETO_INLINE void Search::tell(std::vector<doe::Outcome> outcomes) {
 }
 DRAWPOINT_PARETO_INLINE Front Search::front() const { return process_->front(); }
 DRAWPOINT_PARETO_INLINE void Search::save(const std::filesystem::path& path) const { process_->save(path); }
-DRAWPOINT_PARETO_INLINE void Search::restore(const std::filesystem::path& path) { process_->restore(path); }
+DRAWPOINT_PARETO_INLINE void Search::restore(const std::filesystem::path& path) {
+  std::unique_ptr<detail::SearchProcess> restored = process_->copy();
+  restored->restore(path);
+  process_ = std::move(restored);
+}
 
 }  // namespace drawpoint::pareto

@@ -22,7 +22,10 @@
 #include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/pareto/detail/checkpoint.hpp>
 #include <drawpoint/pareto/detail/course.hpp>
+#include <drawpoint/pareto/detail/ordered_points.hpp>
 #include <drawpoint/pareto/detail/population.hpp>
+#include <drawpoint/pareto/detail/roles.hpp>
+#include <drawpoint/pareto/detail/setting.hpp>
 #include <drawpoint/pareto/detail/variation.hpp>
 #include <drawpoint/pareto/search.hpp>
 

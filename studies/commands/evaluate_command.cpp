@@ -185,11 +185,14 @@ int evaluate_command(const Study& study, const PointSettings& given) {
   keep_private(settings.result_descriptor);
   std::optional<TemporaryFolder> temporary;
   if (settings.log.empty()) temporary.emplace();
-  const RunContext context =
+  RunContext context =
       context_of(study, settings, settings.log.empty() ? temporary->path() / "run.h5" : settings.log,
                  shared_folder(study, settings, temporary));
   if (context.log.has_parent_path()) fs::create_directories(context.log.parent_path());
-  if (settings.result_descriptor >= 0) fs::remove(context.log);  // what an attempt that was killed has left
+  if (settings.result_descriptor >= 0)
+    fs::remove(context.log);  // what an attempt that was killed has left
+  else
+    context.progress = [](const std::string& where) { std::fprintf(stderr, "%s\n", where.c_str()); };
   const auto black_box = [&](const Eigen::VectorXd& point, doe::Seed seed) {
     return study.black_box(point, seed, context);
   };

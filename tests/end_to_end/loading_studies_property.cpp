@@ -45,6 +45,7 @@ TEST_F(LoadingStudies, TheStrategyOfALoader) {
   const Ended again = run(LHD_LOADING " evaluate --run 2 --json" + out());
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_TRUE(again.json()["as_stored"].get<bool>()) << again.out;
+  EXPECT_NE(again.err.find("cycle 1 of 1: "), std::string::npos) << again.err;
   const Ended replay = run(LHD_LOADING " replay --run 2" + out());
   EXPECT_EQ(replay.code, 0) << replay.err;
   EXPECT_TRUE(std::filesystem::exists(dir() / "replay_0002.html"));

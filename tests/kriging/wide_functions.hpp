@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Functions of ten and twenty inputs on [0, 1]^d by which the structures of a correlation are judged.
+/// Functions of ten and twenty inputs on [0, 1]^d, most of them to judge the structures of a correlation by.
 ///
 ///   sum     Σ aₖ sin((2 + k mod 4) xₖ + k), aₖ = 1, ½ and ¼ in turn: each input alone
 ///   mixed   the sum and 0.3 Σ sin(2π xₖxₖ₊₁) of neighbouring pairs: nearly alone
@@ -11,6 +11,7 @@
 ///   friedman10  friedman5 with five inputs that do nothing
 ///   welch20     a few inputs do much, most nearly nothing, two pairs interact: Welch et al. 1992,
 ///               Technometrics 34(1), "Screening, predicting, and computer experiments", example 2
+///   nothing10   0, with noise of deviation 1
 
 #include <Eigen/Core>
 #include <cmath>
@@ -59,7 +60,8 @@ inline std::vector<TestFunction> wide_functions() {
           {"radial10", 10, 0, plain(radial)},
           {"radial20", 20, 0, plain(radial)},
           {"friedman10", 10, 0, plain(friedman10)},
-          {"welch20", 20, 0, plain(welch20)}};
+          {"welch20", 20, 0, plain(welch20)},
+          {"nothing10", 10, 1, [](const Eigen::VectorXd&, doe::Seed) { return 0.0; }}};
 }
 
 }  // namespace drawpoint::kriging::reference
