@@ -37,6 +37,7 @@ function(drawpoint_compile_once name)
   add_library(drawpoint_${name}_once STATIC EXCLUDE_FROM_ALL compiled.cpp)
   target_link_libraries(drawpoint_${name}_once PUBLIC drawpoint_${name} PRIVATE drawpoint_build_flags)
   target_compile_definitions(drawpoint_${name}_once PUBLIC ${definition})
+  drawpoint_compiled_apart(drawpoint_${name}_once ${definition} ON)
 endfunction()
 
 # drawpoint_precompile(TARGET HEADER...): compiles the headers once for all files of the target, which include them all the

@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
+#include <drawpoint/benchmarks/toolkit/median.hpp>
+#include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/halton.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/orthogonal_array.hpp>
@@ -28,28 +30,13 @@
 #include <vector>
 
 using namespace drawpoint::doe;
+using drawpoint::benchmarks::cpu_seconds;
+using drawpoint::benchmarks::median;
+using drawpoint::benchmarks::unit_box;
 
 namespace {
 
 using Design = std::function<Eigen::MatrixXd(const Problem&, int, Seed)>;
-
-Problem unit_problem(Eigen::Index d) {
-  Problem problem{{}, {{"f", "1"}}};
-  for (Eigen::Index j = 0; j < d; ++j)
-    problem.variables.push_back({std::string("x").append(std::to_string(j)), "1", 0.0, 1.0});
-  return problem;
-}
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// CPU seconds, smallest distance, phi_10, phi_50, CD2, correlation.
 std::vector<double> measures(const Problem& problem, const Eigen::MatrixXd& X, double seconds, bool& latin) {
@@ -69,7 +56,7 @@ void print_line(const std::string& name, const std::vector<double>& m, bool lati
 }
 
 void measure(const std::string& name, const Design& design, int runs) {
-  const Problem problem = unit_problem(4);
+  const Problem problem = unit_box(4);
   std::vector<std::vector<double>> columns(6);
   bool latin = true;
   for (Seed seed = 1; seed <= 11; ++seed) {
@@ -141,7 +128,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     bool latin = true;
-    print_line(argv[k], measures(unit_problem(X.cols()), X, 0.0, latin), latin);
+    print_line(argv[k], measures(unit_box(static_cast<int>(X.cols())), X, 0.0, latin), latin);
   }
   return 0;
 }

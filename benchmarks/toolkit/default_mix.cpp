@@ -6,6 +6,7 @@
 #include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
+#include <drawpoint/benchmarks/toolkit/median.hpp>
 #include <drawpoint/benchmarks/toolkit/table_options.hpp>
 #include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>

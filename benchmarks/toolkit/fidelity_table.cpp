@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
+#include <drawpoint/benchmarks/toolkit/median.hpp>
 #include <drawpoint/benchmarks/toolkit/table_options.hpp>
 #include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>

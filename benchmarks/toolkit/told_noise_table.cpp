@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <drawpoint/benchmarks/toolkit/median.hpp>
 #include <drawpoint/benchmarks/toolkit/unit_box.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
@@ -25,6 +26,7 @@
 namespace {
 
 using namespace drawpoint;
+using benchmarks::median;
 using benchmarks::unit_box;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -146,11 +148,6 @@ Result judged(const kriging::WayToFit& way, const Function& function, const Runs
   const auto share = [&](int side) { return all[side] > 0 ? 1.0 * held[side] / all[side] : std::nan(""); };
   return {std::sqrt(sum / static_cast<double>(r.y.size())), share(0), share(1),
           1.0 * (held[0] + held[1]) / static_cast<double>(r.y.size())};
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 std::string text(double share) {

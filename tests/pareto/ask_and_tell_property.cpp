@@ -90,6 +90,12 @@ void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
+/// Of a checkpoint that was altered.
+void fit_checksum(std::string& text) {
+  text.resize(text.rfind("checksum "));
+  text += "checksum " + doe::detail::checksum(text) + "\n";
+}
+
 class DrivenSearches : public testing::TestWithParam<Named> {
  protected:
   ~DrivenSearches() override { std::filesystem::remove(path_); }
@@ -273,8 +279,7 @@ TEST_P(DrivenSearches, SayWhenAnEndedSearchCannotGoOn) {
   std::string text = content(path_);
   const std::size_t asked = text.find("\nasked ") + 1;
   text.replace(asked, text.find('\n', asked) - asked, "asked 0 0");
-  text.resize(text.rfind("checksum "));
-  text += "checksum " + doe::detail::checksum(text) + "\n";
+  fit_checksum(text);
   SearchOptions longer = quick();
   longer.stopping.generations = 17;
   const auto resumed = made(longer);
@@ -375,8 +380,7 @@ TEST_P(DrivenSearches, StayAsTheyWereWhereACheckpointLacksAnItem) {
   const std::size_t line = text.find("\nasked ");
   ASSERT_NE(line, std::string::npos);
   text.erase(line, text.find('\n', line + 1) - line);
-  text.resize(text.rfind("checksum "));
-  text += "checksum " + doe::detail::checksum(text) + "\n";
+  fit_checksum(text);
   advance(*search);
   EXPECT_NE(refusal(*search, text).find("is damaged at \"asked\""), std::string::npos);
   expect_equal(finish(*search, noisy), finish(*made(), noisy));
