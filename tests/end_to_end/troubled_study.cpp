@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 /// A study that misbehaves on demand, for the tests: the environment variable TROUBLE says how. Runs with x >
-/// 0.5 are the bad ones.
+/// 0.5 are the bad ones; with "held", those from number HELD_FROM on, which do not end by themselves.
 
 #include <drawpoint/studies/study.hpp>
 
@@ -48,6 +48,11 @@ void write_log(const std::filesystem::path& file, std::size_t bytes) {
   if (!log) throw std::runtime_error("cannot write the run log");
 }
 
+bool is_held(const std::filesystem::path& log) {
+  const std::string name = log.stem().string();  // run_0007
+  return std::stoi(name.substr(name.find('_') + 1)) >= std::stoi(std::getenv("HELD_FROM"));
+}
+
 doe::Outcome good(double x, double y) { return {x * x + y, (x - 1.0) * (x - 1.0) + 0.5 * y}; }
 
 doe::Outcome misbehave(const std::string& how, double x, double y) {
@@ -69,6 +74,7 @@ doe::Outcome simulate(const Eigen::VectorXd& x, doe::Seed, const studies::RunCon
   std::cout << (how == "print" ? "a black box that prints\n" : "");
   if (how == "options" && context.options.at("rock") == "waste") return doe::Failure{"only waste"};
   if (how == "slow") std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  if (how == "held" && is_held(context.log)) std::this_thread::sleep_for(std::chrono::seconds(300));
   if (how == "logged") {
     if (x[0] > 0.9) return doe::Failure{"jammed"};
     write_measures(context.log, x[0], x[1]);
