@@ -10,10 +10,12 @@
 /// error of the mean it sees error bars that are too narrow, where noise was taken for signal, and those that
 /// are equally wide where the response is not equally certain. The best way is taken where its mean score is
 /// better than the first one's by more than one standard error of the difference, paired by runs; else the
-/// first: a gain below that is mostly chance. Source: Gneiting, Raftery 2007, JASA 102(477), "Strictly proper
-/// scoring rules, prediction, and estimation".
+/// first: a gain below that is mostly chance. It has to be so twice, with each run counted by its share of the
+/// box (detail/box_shares.hpp), since that is where predictions are asked for and the corners of a design would
+/// choose otherwise, and with runs counted alike, since few of large share gain by chance. Source: Gneiting,
+/// Raftery 2007, JASA 102(477), "Strictly proper scoring rules, prediction, and estimation".
 ///
-/// Cost: a fit and a leave-one-out per way. Deterministic.
+/// Cost: a fit and a leave-one-out per way, and 50 n² d for the shares. Deterministic.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -21,6 +23,7 @@
 #include <concepts>
 #include <cstddef>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/detail/box_shares.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
@@ -36,9 +39,11 @@ namespace drawpoint::kriging {
 
 struct FitStanding {
   std::string name;
-  double log_score = 0;       ///< −ln of the predicted density, mean over the runs, unit ln(unit of y)
+  double log_score = 0;       ///< −ln of the predicted density, mean over the box, unit ln(unit of y)
   double gain = 0;            ///< the first way's less this
   double standard_error = 0;  ///< of the gain
+  double gain_alike = 0;      ///< with each run counted alike
+  double standard_error_alike = 0;
   /// The gain where both are fitted anew to runs that they do not score; NaN where that was not asked.
   double refitted_gain = std::numeric_limits<double>::quiet_NaN();
 };
@@ -126,23 +131,39 @@ inline Eigen::VectorXd left_out_scores(const TransformedModel& model, const Resp
   return scores;
 }
 
+struct Gain {
+  double mean = 0, standard_error = 0;
+};
+
+/// share: what each run stands for, Σ = 1.
+inline Gain gain_of(const Eigen::VectorXd& gains, const Eigen::VectorXd& share) {
+  const double n = static_cast<double>(gains.size()), mean = mean_by_share(share, gains);
+  if (std::isinf(mean)) return {mean, 0.0};  // of what the first way holds impossible
+  const Eigen::VectorXd spread = entry_products(share, affine(gains, 1.0, -mean));
+  return {mean, n > 1 ? std::sqrt(square(spread) * n / (n - 1)) : std::numeric_limits<double>::infinity()};
+}
+
 inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& scores,
-                               const Eigen::VectorXd& first) {
-  const double n = static_cast<double>(scores.size());
+                               const Eigen::VectorXd& first, const Eigen::VectorXd& share) {
   const Eigen::VectorXd gains = difference(first, scores);
-  const double gain = mean_of(gains);
-  if (std::isinf(gain)) return {name, mean_of(scores), gain, 0.0};  // of what the first way holds impossible
-  return {name, mean_of(scores), gain,
-          n > 1 ? std::sqrt(square(affine(gains, 1.0, -gain)) / (n - 1) / n)
-                : std::numeric_limits<double>::infinity()};
+  const Gain gain = gain_of(gains, share), alike = gain_of(gains, equal_shares(gains.size()));
+  return {name,       mean_by_share(share, scores), gain.mean, gain.standard_error,
+          alike.mean, alike.standard_error};
+}
+
+/// Of the box of the model; alike where it is a constant.
+inline Eigen::VectorXd shares_of_runs(const TransformedModel& model) {
+  const ModelState& s = model.model().state();
+  return s.X.rows() == 0 ? equal_shares(model.runs()) : shares_of_box(s.X, s.correlation.levels);
 }
 
 /// One per way, by its scores.
 inline std::vector<FitStanding> standings_of(const std::vector<WayToFit>& ways,
-                                             const std::vector<Eigen::VectorXd>& scores) {
+                                             const std::vector<Eigen::VectorXd>& scores,
+                                             const Eigen::VectorXd& share) {
   std::vector<FitStanding> table;
   for (std::size_t k = 0; k < ways.size(); ++k)
-    table.push_back(standing_of(ways[k].name, scores[k], scores.front()));
+    table.push_back(standing_of(ways[k].name, scores[k], scores.front(), share));
   return table;
 }
 
@@ -184,12 +205,16 @@ inline Eigen::VectorXd refitted_scores(const ComparedRuns& runs, const WayToFit&
   return scores;
 }
 
-/// The places of those that beat the first by more than chance, best first. NaN, which constant models score,
-/// is no gain.
+/// By more than chance. NaN, which constant models score, is no gain.
+inline bool beats_first(const FitStanding& standing) {
+  return standing.gain > standing.standard_error && standing.gain_alike > standing.standard_error_alike;
+}
+
+/// The places of those that do, best first.
 inline std::vector<std::size_t> better_standings(const std::vector<FitStanding>& table) {
   std::vector<std::size_t> better;
   for (std::size_t k = 1; k < table.size(); ++k)
-    if (table[k].gain > table[k].standard_error) better.push_back(k);
+    if (beats_first(table[k])) better.push_back(k);
   std::stable_sort(better.begin(), better.end(),
                    [&](std::size_t a, std::size_t b) { return table[a].gain > table[b].gain; });
   return better;
@@ -197,11 +222,11 @@ inline std::vector<std::size_t> better_standings(const std::vector<FitStanding>&
 
 /// The best that also wins on runs that it has not seen, else the first. Writes the gains that it looks at.
 inline std::size_t best_standing(const ComparedRuns& runs, const std::vector<WayToFit>& ways,
-                                 std::vector<FitStanding>& table) {
+                                 const Eigen::VectorXd& share, std::vector<FitStanding>& table) {
   Eigen::VectorXd first;
   for (const std::size_t k : better_standings(table)) {
     if (first.size() == 0) first = refitted_scores(runs, ways.front());
-    table[k].refitted_gain = mean_of(difference(first, refitted_scores(runs, ways[k])));
+    table[k].refitted_gain = mean_by_share(share, difference(first, refitted_scores(runs, ways[k])));
     if (table[k].refitted_gain > 0) return k;
   }
   return 0;
@@ -231,8 +256,9 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
     models.push_back(way.fitter(X, y, noise.variance));
     scores.push_back(detail::left_out_scores(models.back(), range));
   }
-  std::vector<FitStanding> table = detail::standings_of(ways, scores);
-  const std::size_t best = detail::best_standing({X, y, range, noise}, ways, table);
+  const Eigen::VectorXd share = detail::shares_of_runs(models.front());
+  std::vector<FitStanding> table = detail::standings_of(ways, scores, share);
+  const std::size_t best = detail::best_standing({X, y, range, noise}, ways, share, table);
   return {std::move(table), best, std::move(models[best])};
 }
 
@@ -240,7 +266,7 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
 /// against the noise that this run tells, by chance next to none. Every way is fitted anew to four fifths of
 /// the runs, five times, and judged on the rest by the noise that it expects there (WayToFit::noise). The best
 /// is taken where its score is better than the first one's by more than one standard error, the first of a
-/// single run. FitStanding has these scores and gains. Cost: five fits per way and one.
+/// single run; runs count alike. FitStanding has these scores and gains. Cost: five fits per way and one.
 inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                                  const ResponseRange& range, const std::vector<WayToFit>& ways,
                                  const RunNoise& noise = {}) {
@@ -248,7 +274,7 @@ inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd
   if (X.rows() < 2) return {{{.name = ways[0].name}}, 0, ways[0].fitter(X, y, noise.variance)};
   std::vector<Eigen::VectorXd> scores;
   for (const WayToFit& way : ways) scores.push_back(detail::refitted_scores({X, y, range, noise}, way));
-  std::vector<FitStanding> table = detail::standings_of(ways, scores);
+  std::vector<FitStanding> table = detail::standings_of(ways, scores, detail::equal_shares(X.rows()));
   const std::vector<std::size_t> better = detail::better_standings(table);
   const std::size_t best = better.empty() ? 0 : better.front();
   return {std::move(table), best, ways[best].fitter(X, y, noise.variance)};

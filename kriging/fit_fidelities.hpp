@@ -215,7 +215,8 @@ inline Eigen::VectorXd scores_of(const Validation& v) {
 
 inline FidelityComparison compared(const FidelityModel& model, const Model& alone) {
   const Validation with = leave_one_out(model), without = leave_one_out(alone);
-  const FitStanding standing = standing_of("co-Kriging", scores_of(with), scores_of(without));
+  const FitStanding standing =
+      standing_of("co-Kriging", scores_of(with), scores_of(without), equal_shares(with.observed.size()));
   return {with.rmse, without.rmse, standing.gain, standing.standard_error};
 }
 

@@ -6,9 +6,8 @@
 ///
 /// The highest maximum may be a poor predictor. In a Latin hypercube with its corners half of the runs see
 /// the edge of the box alone; a model that fits these very well and the rest badly is likelier than one that
-/// predicts well everywhere. The error that counts is that at a new point of the box, so each run's squared
-/// leave-one-out error is weighted by the share of the box that lies nearer to it than to other runs (as
-/// geostatistics declusters its data). From the highest maximum down, another one is taken when its error is
+/// predicts well everywhere. Squared leave-one-out errors therefore count by the run's share of the box
+/// (box_shares.hpp). From the highest maximum down, another one is taken when its error is
 /// below half of the error taken so far: between fits that explain noise more or less closely the ratio is
 /// above 0.8, so noise does not decide. Cost: n³/3 a maximum, and 50 n² d for the shares.
 
@@ -16,11 +15,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <drawpoint/doe/seed.hpp>
+#include <drawpoint/kriging/detail/box_shares.hpp>
 #include <drawpoint/kriging/detail/climb.hpp>
 #include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
-#include <drawpoint/kriging/detail/nearest_rows.hpp>
 #include <limits>
 #include <vector>
 
@@ -28,24 +26,6 @@ namespace drawpoint::kriging::detail {
 
 /// A maximum's mean square error below this share of the other's speaks for it.
 inline constexpr double clearly_better = 0.5;
-
-/// Share of [-1, 1]^d, with the levels of categories, that is nearest to each row of X, by 50 random points
-/// per row; runs that are as near share alike.
-inline Eigen::VectorXd shares_of_box(const Eigen::MatrixXd& X, const std::vector<int>& levels) {
-  doe::RandomStream random(1);
-  const Eigen::Index points = 50 * X.rows();
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(X.rows()), x(X.cols());
-  for (Eigen::Index i = 0; i < points; ++i) {
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const double u = random.uniform();
-      x[k] = is_category(levels, k) ? std::floor(u * levels[static_cast<std::size_t>(k)]) : 2.0 * u - 1.0;
-    }
-    const std::vector<Eigen::Index> nearest = nearest_rows(X, x, levels);
-    for (const Eigen::Index row : nearest)
-      share[row] += 1.0 / static_cast<double>(points * static_cast<Eigen::Index>(nearest.size()));
-  }
-  return share;
-}
 
 /// Σ shareᵢ eᵢ² at p, standardised; +∞ where R is singular.
 inline double predictive_error(Likelihood& likelihood, const Eigen::VectorXd& p,
