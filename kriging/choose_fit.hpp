@@ -8,14 +8,19 @@
 /// without it (cross_validation.hpp). A prediction outside of the range counts as the bound, so a run on a
 /// bound is scored by the probability of reaching that. The score is proper and compares scales; unlike an
 /// error of the mean it sees error bars that are too narrow, where noise was taken for signal, and those that
-/// are equally wide where the response is not equally certain. The best way is taken where its mean score is
-/// better than the first one's by more than one standard error of the difference, paired by runs; else the
-/// first: a gain below that is mostly chance. It has to be so twice, with each run counted by its share of the
-/// box (detail/box_shares.hpp), since that is where predictions are asked for and the corners of a design would
-/// choose otherwise, and with runs counted alike, since few of large share gain by chance. Source: Gneiting,
-/// Raftery 2007, JASA 102(477), "Strictly proper scoring rules, prediction, and estimation".
+/// are equally wide where the response is not equally certain. Source: Gneiting, Raftery 2007, JASA 102(477),
+/// "Strictly proper scoring rules, prediction, and estimation".
 ///
-/// Cost: a fit and a leave-one-out per way, and 50 n² d for the shares. Deterministic.
+/// A way is taken in the place of the first where
+/// * its mean score over the runs is better by more than one standard error of the difference, paired by runs;
+///   a gain below that is mostly chance;
+/// * so is the mean over the box, each run counted by its share of it (detail/box_shares.hpp): where half of the
+///   runs are corners, the mean over the runs asks who predicts corners;
+/// * it is better, by these shares, when both are fitted to runs that they do not score.
+/// Of several the one that gains most over the box is taken.
+///
+/// Cost: a fit and a leave-one-out per way, five fits per way that passes leave-one-out and five of the first
+/// then, and 50 n² d for the shares. Deterministic.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -39,12 +44,13 @@ namespace drawpoint::kriging {
 
 struct FitStanding {
   std::string name;
-  double log_score = 0;       ///< −ln of the predicted density, mean over the box, unit ln(unit of y)
+  double log_score = 0;       ///< −ln of the predicted density, mean over the runs, unit ln(unit of y)
   double gain = 0;            ///< the first way's less this
   double standard_error = 0;  ///< of the gain
-  double gain_alike = 0;      ///< with each run counted alike
-  double standard_error_alike = 0;
-  /// The gain where both are fitted anew to runs that they do not score; NaN where that was not asked.
+  double box_gain = 0;        ///< the gain with each run counted by its share of the box
+  double box_standard_error = 0;
+  /// The gain over the box where both are fitted anew to runs that they do not score; NaN where that was not
+  /// asked.
   double refitted_gain = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -135,26 +141,41 @@ struct Gain {
   double mean = 0, standard_error = 0;
 };
 
-/// share: what each run stands for, Σ = 1.
+/// The mean of independent gains gᵢ by shares wᵢ, Σ wᵢ = 1, and its standard error. With S = Σ wᵢ² the mean's
+/// variance is S times that of a gain, and E[Σ wᵢ² (gᵢ − mean)²] is S − 2 Σ wᵢ³ + S² times it; alike shares
+/// make it the usual one. Infinite for one run.
 inline Gain gain_of(const Eigen::VectorXd& gains, const Eigen::VectorXd& share) {
-  const double n = static_cast<double>(gains.size()), mean = mean_by_share(share, gains);
+  const double mean = mean_by_share(share, gains);
   if (std::isinf(mean)) return {mean, 0.0};  // of what the first way holds impossible
-  const Eigen::VectorXd spread = entry_products(share, affine(gains, 1.0, -mean));
-  return {mean, n > 1 ? std::sqrt(square(spread) * n / (n - 1)) : std::numeric_limits<double>::infinity()};
+  double squares = 0, cubes = 0, spread = 0;
+  for (Eigen::Index i = 0; i < share.size(); ++i) {
+    if (!(share[i] > 0)) continue;
+    const double square = share[i] * share[i], off = gains[i] - mean;
+    squares += square;
+    cubes += square * share[i];
+    spread += square * off * off;
+  }
+  const double seen = squares - 2 * cubes + squares * squares;
+  return {mean, seen > 0 ? std::sqrt(spread * squares / seen) : std::numeric_limits<double>::infinity()};
 }
 
+/// share: what each run stands for, Σ = 1.
 inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& scores,
                                const Eigen::VectorXd& first, const Eigen::VectorXd& share) {
   const Eigen::VectorXd gains = difference(first, scores);
-  const Gain gain = gain_of(gains, share), alike = gain_of(gains, equal_shares(gains.size()));
-  return {name,       mean_by_share(share, scores), gain.mean, gain.standard_error,
-          alike.mean, alike.standard_error};
+  const Gain by_run = gain_of(gains, equal_shares(gains.size())), by_share = gain_of(gains, share);
+  FitStanding standing{.name = name, .log_score = mean_of(scores)};
+  standing.gain = by_run.mean;
+  standing.standard_error = by_run.standard_error;
+  standing.box_gain = by_share.mean;
+  standing.box_standard_error = by_share.standard_error;
+  return standing;
 }
 
-/// Of the box of the model; alike where it is a constant.
-inline Eigen::VectorXd shares_of_runs(const TransformedModel& model) {
+/// Of the box of the model, for each row of X; alike where it is a constant.
+inline Eigen::VectorXd shares_of_runs(const TransformedModel& model, const Eigen::MatrixXd& X) {
   const ModelState& s = model.model().state();
-  return s.X.rows() == 0 ? equal_shares(model.runs()) : shares_of_box(s.X, s.correlation.levels);
+  return s.X.rows() == 0 ? equal_shares(X.rows()) : shares_of_box(s.input.apply(X), s.correlation.levels);
 }
 
 /// One per way, by its scores.
@@ -205,18 +226,18 @@ inline Eigen::VectorXd refitted_scores(const ComparedRuns& runs, const WayToFit&
   return scores;
 }
 
-/// By more than chance. NaN, which constant models score, is no gain.
+/// Whether leave-one-out speaks for a way by more than chance. NaN, which constant models score, is no gain.
 inline bool beats_first(const FitStanding& standing) {
-  return standing.gain > standing.standard_error && standing.gain_alike > standing.standard_error_alike;
+  return standing.gain > standing.standard_error && standing.box_gain > standing.box_standard_error;
 }
 
-/// The places of those that do, best first.
+/// The places of the ways that beat the first, best first.
 inline std::vector<std::size_t> better_standings(const std::vector<FitStanding>& table) {
   std::vector<std::size_t> better;
   for (std::size_t k = 1; k < table.size(); ++k)
     if (beats_first(table[k])) better.push_back(k);
   std::stable_sort(better.begin(), better.end(),
-                   [&](std::size_t a, std::size_t b) { return table[a].gain > table[b].gain; });
+                   [&](std::size_t a, std::size_t b) { return table[a].box_gain > table[b].box_gain; });
   return better;
 }
 
@@ -256,7 +277,7 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
     models.push_back(way.fitter(X, y, noise.variance));
     scores.push_back(detail::left_out_scores(models.back(), range));
   }
-  const Eigen::VectorXd share = detail::shares_of_runs(models.front());
+  const Eigen::VectorXd share = detail::shares_of_runs(models.front(), X);
   std::vector<FitStanding> table = detail::standings_of(ways, scores, share);
   const std::size_t best = detail::best_standing({X, y, range, noise}, ways, share, table);
   return {std::move(table), best, std::move(models[best])};
@@ -266,7 +287,7 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
 /// against the noise that this run tells, by chance next to none. Every way is fitted anew to four fifths of
 /// the runs, five times, and judged on the rest by the noise that it expects there (WayToFit::noise). The best
 /// is taken where its score is better than the first one's by more than one standard error, the first of a
-/// single run; runs count alike. FitStanding has these scores and gains. Cost: five fits per way and one.
+/// single run; all runs count alike. FitStanding has these scores and gains. Cost: five fits per way and one.
 inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                                  const ResponseRange& range, const std::vector<WayToFit>& ways,
                                  const RunNoise& noise = {}) {

@@ -8,8 +8,8 @@
 /// validation runs, with the per cent of these that lie within their 95 % interval. Beside them the noise of
 /// a run as the fit estimates it, over the range of the validation runs: no model gets below it there.
 /// A second table has the scales on which the response may be fitted (kriging/choose_fit.hpp): the mean
-/// logarithmic score of leave-one-out, its gain over the linear scale (standard error), and of the validation
-/// runs the ranked probability score in the response's unit, NRMSE and the per cent within their 95 %
+/// logarithmic score of leave-one-out, its gain over the linear scale by runs and by shares of the box, each
+/// with its standard error, and of the validation runs the ranked probability score in the response's unit, NRMSE and the per cent within their 95 %
 /// interval. "likeliest" is plain maximum likelihood with its parameters taken as known. With replicates in
 /// the store, the same noise from their scatter, √(Σ(y - mean)²/(n - points)), which no model has a part in.
 /// Times are CPU seconds of one fit.
@@ -164,10 +164,11 @@ void scales(const Box& box, const doe::Response& response, const Table& training
   const kriging::ResponseRange range{response.lower, response.upper};
   const Eigen::VectorXd y = training.Y.col(j);
   const kriging::FitChoice choice = kriging::choose_scale(training.X, y, range, options);
-  std::printf("| scale | leave-one-out | gain | validation, crps | NRMSE | within |\n");
+  std::printf("| scale | leave-one-out | gain | over the box | validation, crps | NRMSE | within |\n");
   for (const kriging::FitStanding& s : choice.table) {
-    std::printf("| %s%s | %.4g | %.3g ± %.3g |", s.name.c_str(), s.name == choice.name() ? " (chosen)" : "",
-                s.log_score, s.gain, s.standard_error);
+    std::printf("| %s%s | %.4g | %.3g ± %.3g | %.3g ± %.3g |", s.name.c_str(),
+                s.name == choice.name() ? " (chosen)" : "", s.log_score, s.gain, s.standard_error, s.box_gain,
+                s.box_standard_error);
     if (validation.X.rows() > 0) {
       const auto scale = *doe::detail::enumerator_of<kriging::Scale>(s.name);
       const auto model = kriging::fit_transformed(training.X, y, scale, range, options);

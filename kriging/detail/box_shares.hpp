@@ -3,8 +3,11 @@
 #pragma once
 
 /// What a run stands for when leave-one-out is asked how a model predicts at a new point: the share of the
-/// box that lies nearer to it than to other runs, as geostatistics declusters its data. Where half of the runs
-/// are corners, each of these is far from the others and from most of the box.
+/// box that lies nearer to it than to other runs, as geostatistics declusters its data. Runs that are crowded,
+/// or lie at corners from which most of the box is far, then count for little.
+///
+/// By 50 random points per run, always the same: a share of 1/n is known to 1/√50 = 14 % of itself, and that
+/// of a run crowded in may be 0. Cost: 50 n² d.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -16,8 +19,8 @@
 
 namespace drawpoint::kriging::detail {
 
-/// Share of [-1, 1]^d, with the levels of categories, that is nearest to each row of X, by 50 random points
-/// per row; runs that are as near share alike.
+/// Share of [-1, 1]^d, with the levels of categories, that is nearest to each row of X; runs that are as near
+/// share alike.
 inline Eigen::VectorXd shares_of_box(const Eigen::MatrixXd& X, const std::vector<int>& levels) {
   doe::RandomStream random(1);
   const Eigen::Index points = 50 * X.rows();

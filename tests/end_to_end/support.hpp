@@ -40,7 +40,7 @@ struct Ended {
   }
 };
 
-/// A command that runs in the background until it ends or is awaited.
+/// A command that runs in the background until it ends, is awaited, or nobody holds it any more.
 class Command {
  public:
   Command(const std::string& line, const std::filesystem::path& folder) {
@@ -57,7 +57,9 @@ class Command {
     if (pid_ < 0) throw std::runtime_error("cannot fork");
   }
   ~Command() {
-    if (pid_ > 0) wait();
+    if (pid_ <= 0) return;
+    send(SIGKILL);
+    wait();
   }
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 /// A study that misbehaves on demand, for the tests: the environment variable TROUBLE says how. Runs with x >
-/// 0.5 are the bad ones; with "held", those from number HELD_FROM on, which do not end by themselves.
+/// 0.5 are the bad ones; with "held", those from number HELD_FROM on, which take five minutes.
 
 #include <drawpoint/studies/study.hpp>
 
@@ -50,7 +50,9 @@ void write_log(const std::filesystem::path& file, std::size_t bytes) {
 
 bool is_held(const std::filesystem::path& log) {
   const std::string name = log.stem().string();  // run_0007
-  return std::stoi(name.substr(name.find('_') + 1)) >= std::stoi(std::getenv("HELD_FROM"));
+  const char* from = std::getenv("HELD_FROM");
+  if (from == nullptr) throw std::runtime_error("TROUBLE=held needs HELD_FROM, the number of a run");
+  return std::stoi(name.substr(name.find('_') + 1)) >= std::stoi(from);
 }
 
 doe::Outcome good(double x, double y) { return {x * x + y, (x - 1.0) * (x - 1.0) + 0.5 * y}; }
