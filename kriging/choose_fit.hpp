@@ -172,9 +172,16 @@ inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& s
   return standing;
 }
 
-/// Of the box of the model, for each row of X; alike where it is a constant.
-inline Eigen::VectorXd shares_of_runs(const TransformedModel& model, const Eigen::MatrixXd& X) {
+/// Of the box of the model, for each of its runs; alike where it is a constant.
+inline Eigen::VectorXd shares_of_runs(const TransformedModel& model) {
   const ModelState& s = model.model().state();
+  return s.X.rows() == 0 ? equal_shares(model.runs()) : shares_of_box(s.X, s.correlation.levels);
+}
+
+/// The same for each row of X: n x d, natural units, which a way may have averaged to fewer runs.
+inline Eigen::VectorXd shares_of_rows(const TransformedModel& model, const Eigen::MatrixXd& X) {
+  const ModelState& s = model.model().state();
+  if (model.runs() == X.rows()) return shares_of_runs(model);
   return s.X.rows() == 0 ? equal_shares(X.rows()) : shares_of_box(s.input.apply(X), s.correlation.levels);
 }
 
@@ -261,13 +268,25 @@ inline void check_ways(const std::string& place, const Eigen::MatrixXd& X, const
     check_run_noise(noise.variance, X.rows(), place);
 }
 
+/// Leave-one-out pairs ways by the runs of their models.
+inline void check_same_runs(const std::vector<WayToFit>& ways, const std::vector<TransformedModel>& models) {
+  for (std::size_t k = 1; k < ways.size(); ++k)
+    if (models[k].runs() != models[0].runs())
+      throw std::invalid_argument(
+          "kriging::choose_fit: the model of way \"" + ways[k].name + "\" has " +
+          std::to_string(models[k].runs()) + " runs but that of \"" + ways[0].name + "\" has " +
+          std::to_string(models[0].runs()) +
+          "; allowed are models of the same runs; average replicates in all ways or none");
+}
+
 }  // namespace detail
 
 /// X: n x d, natural units; y: n, within the range. The first way is the one to keep without a reason. A way
 /// is a function of the runs that it is given, which are fewer than all now and then. Noise that is known is
 /// given to the ways that take it, and runs that a way was not fitted to are judged by the noise that it
 /// expects of them (WayToFit::noise).
-/// Throws std::invalid_argument without ways, for variances that are not one per run, and as the ways do.
+/// Throws std::invalid_argument without ways, for variances that are not one per run, for models of different
+/// numbers of runs, and as the ways do.
 inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const ResponseRange& range,
                             const std::vector<WayToFit>& ways, const RunNoise& noise = {}) {
   detail::check_ways("kriging::choose_fit: ", X, ways, noise);
@@ -277,9 +296,10 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
     models.push_back(way.fitter(X, y, noise.variance));
     scores.push_back(detail::left_out_scores(models.back(), range));
   }
-  const Eigen::VectorXd share = detail::shares_of_runs(models.front(), X);
-  std::vector<FitStanding> table = detail::standings_of(ways, scores, share);
-  const std::size_t best = detail::best_standing({X, y, range, noise}, ways, share, table);
+  detail::check_same_runs(ways, models);
+  std::vector<FitStanding> table = detail::standings_of(ways, scores, detail::shares_of_runs(models.front()));
+  const std::size_t best =
+      detail::best_standing({X, y, range, noise}, ways, detail::shares_of_rows(models.front(), X), table);
   return {std::move(table), best, std::move(models[best])};
 }
 

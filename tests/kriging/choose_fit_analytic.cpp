@@ -7,7 +7,10 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <drawpoint/kriging/choose_fit.hpp>
+#include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/replicates.hpp>
 #include <limits>
+#include <stdexcept>
 
 using namespace drawpoint::kriging;
 using Eigen::MatrixXd;
@@ -20,6 +23,14 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 FitStanding standing(const VectorXd& gains, const VectorXd& share) {
   return detail::standing_of("other", VectorXd::Zero(gains.size()), gains, share);
+}
+
+TransformedModel fit_all(const MatrixXd& X, const VectorXd& y) { return fit(X, y); }
+
+/// As a way does that averages repeated runs first.
+TransformedModel fit_means(const MatrixXd& X, const VectorXd& y) {
+  const Replicates means = replicates(X, y);
+  return fit(means.X, means.y);
 }
 
 }  // namespace
@@ -70,4 +81,27 @@ TEST(GainOfAWay, HasToBeMoreThanChanceBothWays) {
       detail::beats_first(standing(Vector3d(1, -1, -1), one_run)));  // by the run of most share alone
   EXPECT_FALSE(detail::beats_first(standing(Vector3d(-1, 2, 2.5), one_run)));  // by the others alone
   EXPECT_FALSE(detail::beats_first(standing(VectorXd::Ones(1), detail::equal_shares(1))));
+}
+
+// Twelve points run twice. Ways of 12 means are paired with each other, not with ways of 24 runs.
+TEST(ChooseFit, PairsTheRunsOfTheModels) {
+  MatrixXd X(24, 1);
+  VectorXd y(24);
+  for (Eigen::Index i = 0; i < 24; ++i) {
+    X(i, 0) = static_cast<double>(i / 2);
+    y[i] = std::sin(X(i, 0)) + (i % 2 == 0 ? 0.1 : -0.1);
+  }
+  const FitChoice choice = choose_fit(X, y, {}, {{"means", fit_means}, {"again", fit_means}});
+  EXPECT_EQ(choice.model.runs(), 12);
+  EXPECT_EQ(choice.table[1].gain, 0);
+  EXPECT_EQ(choice.table[1].box_gain, 0);
+  try {
+    choose_fit(X, y, {}, {{"all", fit_all}, {"means", fit_means}});
+    FAIL() << "ways of 24 and of 12 runs were compared";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(
+        e.what(),
+        "kriging::choose_fit: the model of way \"means\" has 12 runs but that of \"all\" has 24; allowed "
+        "are models of the same runs; average replicates in all ways or none");
+  }
 }
