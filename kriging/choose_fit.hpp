@@ -14,8 +14,8 @@
 /// A way is taken in the place of the first where
 /// * its mean score over the runs is better by more than one standard error of the difference, paired by runs;
 ///   a gain below that is mostly chance;
-/// * so is the mean over the box, each run counted by its share of it (detail/box_shares.hpp): where half of the
-///   runs are corners, the mean over the runs asks who predicts corners;
+/// * so is the mean over the box, each run counted by its share of it (detail/box_shares.hpp): where half of
+///   the runs are corners, the mean over the runs asks who predicts corners;
 /// * it is better, by these shares, when both are fitted to runs that they do not score.
 /// Of several the one that gains most over the box is taken.
 ///
@@ -107,6 +107,20 @@ struct WayToFit {
   ExpectedNoise noise = {};
 };
 
+/// These options with the Gaussian correlation and with Matérn 5/2, each with a constant and with a linear
+/// trend: smooth and less smooth, without and with a slope. The first is the one to keep without a reason.
+inline std::vector<FitOptions> usual_kinds(FitOptions options = {}) {
+  std::vector<FitOptions> kinds;
+  for (const Correlation correlation : {Correlation::gaussian, Correlation::matern52}) {
+    for (const Trend trend : {Trend::constant, Trend::linear}) {
+      options.correlation = correlation;
+      options.trend = trend;
+      kinds.push_back(options);
+    }
+  }
+  return kinds;
+}
+
 /// A fit on this scale with noise from this source, judged by what such a fit expects (noise_model.hpp).
 /// options: with Noise::nugget.
 inline WayToFit way_with_noise(std::string name, Scale scale, const ResponseRange& range,
@@ -178,10 +192,9 @@ inline Eigen::VectorXd shares_of_runs(const TransformedModel& model) {
   return s.X.rows() == 0 ? equal_shares(model.runs()) : shares_of_box(s.X, s.correlation.levels);
 }
 
-/// The same for each row of X: n x d, natural units, which a way may have averaged to fewer runs.
+/// The same for each row of X: n x d, natural units, where a way has averaged them to fewer runs.
 inline Eigen::VectorXd shares_of_rows(const TransformedModel& model, const Eigen::MatrixXd& X) {
   const ModelState& s = model.model().state();
-  if (model.runs() == X.rows()) return shares_of_runs(model);
   return s.X.rows() == 0 ? equal_shares(X.rows()) : shares_of_box(s.input.apply(X), s.correlation.levels);
 }
 
@@ -297,9 +310,11 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
     scores.push_back(detail::left_out_scores(models.back(), range));
   }
   detail::check_same_runs(ways, models);
-  std::vector<FitStanding> table = detail::standings_of(ways, scores, detail::shares_of_runs(models.front()));
-  const std::size_t best =
-      detail::best_standing({X, y, range, noise}, ways, detail::shares_of_rows(models.front(), X), table);
+  const TransformedModel& first = models.front();
+  const Eigen::VectorXd of_runs = detail::shares_of_runs(first);
+  const Eigen::VectorXd of_rows = first.runs() == X.rows() ? of_runs : detail::shares_of_rows(first, X);
+  std::vector<FitStanding> table = detail::standings_of(ways, scores, of_runs);
+  const std::size_t best = detail::best_standing({X, y, range, noise}, ways, of_rows, table);
   return {std::move(table), best, std::move(models[best])};
 }
 

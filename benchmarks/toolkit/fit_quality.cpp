@@ -72,14 +72,8 @@ Way fit_with(std::string name, const FitOptions& options) {
 /// As a study fits a response without a range.
 TransformedModel chosen_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   std::vector<WayToFit> all;
-  for (const Correlation correlation : {Correlation::gaussian, Correlation::matern52})
-    for (const Trend trend : {Trend::constant, Trend::linear}) {
-      FitOptions options;
-      options.correlation = correlation;
-      options.trend = trend;
-      all.push_back(way_with_noise(std::string(to_string(correlation)), Scale::linear, {}, options,
-                                   NoiseSource::estimated));
-    }
+  for (const FitOptions& options : usual_kinds())
+    all.push_back(way_with_noise("", Scale::linear, {}, options, NoiseSource::estimated));
   return choose_fit(X, y, {}, all).model;
 }
 

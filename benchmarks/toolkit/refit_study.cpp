@@ -9,10 +9,10 @@
 /// a run as the fit estimates it, over the range of the validation runs: no model gets below it there.
 /// A second table has the scales on which the response may be fitted (kriging/choose_fit.hpp): the mean
 /// logarithmic score of leave-one-out, its gain over the linear scale by runs and by shares of the box, each
-/// with its standard error, and of the validation runs the ranked probability score in the response's unit, NRMSE and the per cent within their 95 %
-/// interval. "likeliest" is plain maximum likelihood with its parameters taken as known. With replicates in
-/// the store, the same noise from their scatter, √(Σ(y - mean)²/(n - points)), which no model has a part in.
-/// Times are CPU seconds of one fit.
+/// with its standard error, and of the validation runs the ranked probability score in the response's unit,
+/// NRMSE and the per cent within their 95 % interval. "likeliest" is plain maximum likelihood with its
+/// parameters taken as known. With replicates in the store, the same noise from their scatter,
+/// √(Σ(y - mean)²/(n - points)), which no model has a part in. Times are CPU seconds of one fit.
 
 #include <cmath>
 #include <cstdio>

@@ -181,16 +181,10 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
   std::fflush(stdout);
 }
 
-/// Smooth or less smooth, without or with a slope, all with noise from this source.
+/// All with noise from this source.
 std::vector<kriging::WayToFit> kinds(NoiseSource source) {
   std::vector<kriging::WayToFit> all;
-  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52})
-    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
-      kriging::FitOptions options;
-      options.correlation = correlation;
-      options.trend = trend;
-      all.push_back(way(source, options));
-    }
+  for (const kriging::FitOptions& options : kriging::usual_kinds()) all.push_back(way(source, options));
   return all;
 }
 

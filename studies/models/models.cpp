@@ -95,14 +95,8 @@ kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& 
 std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
                                   kriging::Scale scale, kriging::NoiseSource source) {
   std::vector<StudyWay> ways;
-  for (const auto correlation : {kriging::Correlation::gaussian, kriging::Correlation::matern52}) {
-    for (const auto trend : {kriging::Trend::constant, kriging::Trend::linear}) {
-      kriging::FitOptions options = default_fit(problem);
-      options.correlation = correlation;
-      options.trend = trend;
-      ways.push_back(way_to_fit(options, range_of(response), scale, source));
-    }
-  }
+  for (const kriging::FitOptions& options : kriging::usual_kinds(default_fit(problem)))
+    ways.push_back(way_to_fit(options, range_of(response), scale, source));
   return ways;
 }
 

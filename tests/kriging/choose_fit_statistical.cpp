@@ -10,10 +10,8 @@
 #include <cmath>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
-#include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/tests/kriging/corner_design.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
-#include <string>
 #include <vector>
 
 using namespace drawpoint;
@@ -85,17 +83,10 @@ TransformedModel fit_on(const std::vector<int>& chosen, const MatrixXd& X, const
   return fit_transformed(X, y, Scale::linear, {}, options);
 }
 
-/// Smooth and less smooth, without and with a slope.
 std::vector<WayToFit> usual_ways() {
   std::vector<WayToFit> all;
-  for (const Correlation correlation : {Correlation::gaussian, Correlation::matern52})
-    for (const Trend trend : {Trend::constant, Trend::linear}) {
-      FitOptions options;
-      options.correlation = correlation;
-      options.trend = trend;
-      all.push_back(way_with_noise(std::string(to_string(correlation)), Scale::linear, {}, options,
-                                   NoiseSource::estimated));
-    }
+  for (const FitOptions& options : usual_kinds())
+    all.push_back(way_with_noise("", Scale::linear, {}, options, NoiseSource::estimated));
   return all;
 }
 
