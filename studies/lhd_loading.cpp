@@ -10,11 +10,17 @@
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/libraries.hpp>
 #include <drawpoint/engine/loading/log/log_stream.hpp>
+#include <drawpoint/engine/loading/log/rock_left.hpp>
+#include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/studies/study.hpp>
 
 #include <string>
 
 using namespace drawpoint;
+
+doe::Response recorded(const char* name, const char* unit, const char* description) {
+  return {.name = name, .unit = unit, .goal = doe::Goal::record, .lower = 0, .description = description};
+}
 
 doe::Response standard_error(const char* name, const char* unit, const std::string& of) {
   return {.name = name,
@@ -58,30 +64,55 @@ const doe::Problem problem{
          .unit = "s",
          .goal = doe::Goal::minimize,
          .lower = 0,
-         .description = "torque in the bucket's hinge above the yield torque, over that and summed over the "
-                        "time of a run of --cycles cycles",
+         .description =
+             "whole torque in the bucket's hinge, the tilt drive's moment included, above the yield "
+             "torque, over that and summed over the time of a run of --cycles cycles",
          .standard_error = "joint_damage_error"},
         {.name = "rock_spill",
          .unit = "1",
          .goal = doe::Goal::minimize,
          .lower = 0,
-         .description = "mass that the run has left before the pile, after a cycle, over the 10 t that would "
-                        "stop the work",
+         .description =
+             "rock that the bucket took and lost before the end of a cycle, over the 10 t that would "
+             "stop the work",
          .standard_error = "rock_spill_error"},
         standard_error("production_error", "kg/s", "production"),
         standard_error("joint_damage_error", "s", "joint damage"),
-        standard_error("rock_spill_error", "1", "rock spill")}};
+        standard_error("rock_spill_error", "1", "rock spill"),
+        recorded(
+            "joint_twist", "s",
+            "joint damage by what twists the bucket alone: bent pins and cracked lugs of an uneven load"),
+        recorded(
+            "peak_pin_force", "kN",
+            "in the bucket's hinge, low-passed at 20 Hz, mean of the cycles' peaks: what its pins must bear"),
+        recorded("pin_load_range", "kN",
+                 "of the worse of the two pins, the range that does its fatigue damage once per cycle: "
+                 "cracks by hours"),
+        recorded("rock_in_lane", "kg",
+                 "on the floor before the pile in the bucket's lane, after a cycle: what tyres run over, to "
+                 "be cleared"),
+        recorded("rock_before_front", "1",
+                 "spill as in Lindmark (2016): rock before the first gap in the pile, counted from the wall, "
+                 "over 10 t; "
+                 "it measures how ragged the toe is")}};
 
 doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
   if (!log.completed) return doe::Failure{log.message};
   const auto producing = studies::production_options(options);
   const auto damaging = studies::damage_options(options);
+  auto twisting = damaging;
+  twisting.component = engine::loading::TorqueComponent::twisting;
   return {production(log, producing),
           joint_damage(log, damaging),
           rock_spill(log),
           production_standard_error(log, producing),
           joint_damage_standard_error(log, damaging),
-          rock_spill_standard_error(log)};
+          rock_spill_standard_error(log),
+          joint_damage(log, twisting),
+          peak_pin_force(log),
+          pin_load_range(log),
+          rock_in_lane(log),
+          rock_before_front(log) / engine::loading::SpillOptions{}.m_max};
 }
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
@@ -112,8 +143,7 @@ int main(int argc, char** argv) {
        .contrast = studies::loading_contrasts,
        .responses =
            [](const std::filesystem::path& log, const studies::OptionValues& options) {
-             return responses_of(engine::loading::read_log(log, engine::loading::LogContent::without_scene),
-                                 options);
+             return responses_of(engine::loading::read_log(log), options);
            },
        .headlines = studies::loading_headlines,
        .findings = studies::loading_findings});

@@ -98,7 +98,7 @@ nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, 
   const std::string who = cycle_of(chosen, cycle) + ", the " + (high ? "highest" : "lowest") +
                           " production of " + std::to_string(all.cycles) +
                           " cycles: " + fixed(1e-3 * cycle.loaded_mass, 1) + " t in " +
-                          fixed(cycle.t_end - cycle.t_start, 1) + " s, " + fixed(chosen.value, 0) + " kg/s" +
+                          fixed(cycle.seconds(), 1) + " s, " + fixed(chosen.value, 0) + " kg/s" +
                           (haul > 0 ? " with a haul of " + fixed(haul, 0) + " s" : "");
   return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production",
                      damage_options(options));

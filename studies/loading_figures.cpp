@@ -91,7 +91,7 @@ json cycles_panel(const LoadingLog& log) {
     for (const auto& stage : c.stages)
       ends += (ends.empty() ? "" : ", ") + std::string(name(stage.stage)) + ": " +
               std::string(name(stage.reason));
-    rows.push_back({std::to_string(c.number), fixed(c.t_end - c.t_start, 1), fixed(c.loaded_mass, 0),
+    rows.push_back({std::to_string(c.number), fixed(c.seconds(), 1), fixed(c.loaded_mass, 0),
                     fixed(c.spilled_mass, 0), fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
   }
   return {

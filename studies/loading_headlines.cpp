@@ -180,9 +180,11 @@ std::vector<RunMean> measures() {
   };
   return {{{"cycle_time", "s", 0, "from the start of stage 1 to the end of stage 4"},
            mean_of(loading::cycle_time)},
-          {{"struck_fill", "1", 0,
-            "of the bucket's struck volume, voids included; loaders in well blasted ore fill 0.8 to 1.1"},
-           mean_of(loading::struck_fill)},
+          {{"heaped_fill", "1", 0,
+            "of the bucket's heaped volume, voids included; a handbook has 0.60 to 0.75 in poorly blasted "
+            "rock, 0.80 "
+            "to 0.95 in well blasted"},
+           mean_of(loading::heaped_fill)},
           {{"energy_per_tonne", "kJ/t", 0, "positive work of drive, lift and tilt over what was loaded"},
            energy_and_tonnes},
           {{"tracking_error", "m", 0,

@@ -30,14 +30,17 @@ bool solved_loosely(const std::string& solver) {
   return solver == "lindmark2016";
 }
 
-constexpr std::array<std::string_view, 2> motion_names = {"pictures", "full"};
+constexpr std::array<std::string_view, 2> motion_names = {"pictures", "full"}, yes_or_no = {"no", "yes"};
 
-/// One of two ways that the program has, of which folders of before the option have the first.
+/// One of two ways that the program has, the first by default; folders of before the option have the one that `before`
+/// is the place of.
 StudyOption choice(const std::string& name, const std::string& help,
-                   const std::array<std::string_view, 2>& names) {
-  const std::string usual(names.front());
-  return {
-      .name = name, .help = help, .value = usual, .choices = {names.begin(), names.end()}, .before = usual};
+                   const std::array<std::string_view, 2>& names, std::size_t before = 0) {
+  return {.name = name,
+          .help = help,
+          .value = std::string(names.front()),
+          .choices = {names.begin(), names.end()},
+          .before = std::string(names[before])};
 }
 
 }  // namespace
@@ -69,7 +72,8 @@ std::vector<StudyOption> loading_options() {
        "lindmark2016",
        {engine::loading::speed_names.begin(), engine::loading::speed_names.end()}},
       {"operator",
-       "what is done beside the plan: nothing, or pulses, pressing and crowding of a skilled operator",
+       "what is done beside the plan: nothing, or the moves of a skilled operator, who drops the edge back "
+       "into the rock",
        "plan",
        {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
       {.name = "pile-mass",
@@ -88,6 +92,15 @@ std::vector<StudyOption> loading_options() {
              "aims behind the pile's surface, from wherever the drive-in ended; or goes by what was planned "
              "from there, as in Lindmark (2016)",
              engine::loading::lift_names),
+      choice("lift-end",
+             "a slow drive ends a lift only where the arm stands too; or any slow actuator does, as in "
+             "Lindmark (2016)",
+             engine::loading::lift_end_names, 1),
+      choice("whole-cycle",
+             "approach, way back and standing counted by the machine's own law; or simulated too, for films: "
+             "half as "
+             "much time again and more",
+             yes_or_no, 1),
       choice("progress",
              "of a stage: along its goal; or as Lindmark (2016) prints it, with which stages end by their "
              "time limit",
@@ -100,7 +113,7 @@ std::vector<StudyOption> loading_options() {
           "hinge; or full: every step as it was, and the load of every joint of the tree, 6 MB per cycle of "
           "120 t in place of 0.6",
           motion_names),
-      {.name = "cycles", .help = "loading cycles per run", .value = "2", .least = 1, .most = 1000},
+      {.name = "cycles", .help = "loading cycles per run", .value = "3", .least = 1, .most = 1000},
       {.name = "precision",
        .help = "per cent: a run ends after five cycles or more once the standard error of its mean "
                "production, haul left out, is at most this; --cycles is then the most, 6 or more, and joint "
@@ -117,8 +130,9 @@ std::vector<StudyOption> loading_options() {
        .most = 1'000'000,
        .of_responses = true},
       {.name = "damage",
-       .help =
-           "by the whole torque in the bucket's hinge, as in Lindmark (2016), or by what twists the bucket",
+       .help = "by the whole torque in the bucket's hinge, the tilt drive's moment included, as in Lindmark "
+               "(2016), or by "
+               "what twists the bucket alone",
        .value = "all",
        .choices = {engine::loading::torque_component_names.begin(),
                    engine::loading::torque_component_names.end()},
@@ -162,6 +176,8 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
   scenario.curl = engine::loading::curl_named(chosen(run, "curl"));
   scenario.lift = engine::loading::lift_named(chosen(run, "lift"));
+  scenario.executor.lift_end = engine::loading::lift_end_named(chosen(run, "lift-end"));
+  scenario.whole_cycle = chosen(run, "whole-cycle") == yes_or_no[1];
   scenario.executor.progress = engine::loading::progress_named(chosen(run, "progress"));
   scenario.machine.arm_drive = engine::loading::arm_drive_named(chosen(run, "arm"));
   if (chosen(run, "motion") == motion_names[1]) {
@@ -181,7 +197,7 @@ engine::loading::LoadingLog simulate_run(const engine::loading::Scenario& scenar
     hooks.on_cycle = [&](const engine::loading::CycleRecord& cycle) {
       char text[80];
       std::snprintf(text, sizeof text, "cycle %d of %d: %.1f t in %.1f s", cycle.number, scenario.cycles,
-                    cycle.loaded_mass / 1e3, cycle.t_end - cycle.t_start);
+                    cycle.loaded_mass / 1e3, cycle.seconds());
       run.progress(text);
     };
   }

@@ -96,7 +96,7 @@ Result result_of(const LoadingLog& log) {
     result.cycles.push_back({.loaded = c.loaded_mass,
                              .depth = c.stages.front().end.x - c.plan.toe,
                              .wanted_depth = c.plan.depth,
-                             .time = c.t_end - c.t_start,
+                             .time = c.seconds(),
                              .rocks = static_cast<int>(c.loaded_rock_masses.size()),
                              .drive_in_done = reached_goal(c, Stage::drive_in),
                              .lift_done = reached_goal(c, Stage::lift)});

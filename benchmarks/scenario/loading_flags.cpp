@@ -4,16 +4,38 @@
 
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 namespace drawpoint::benchmarks {
+
+std::vector<engine::loading::Move> round_of(const std::string& text) {
+  std::vector<engine::loading::Move> round;
+  std::istringstream moves(text);
+  for (std::string move; std::getline(moves, move, ',');) {
+    engine::loading::Move read;
+    char after_boom = 0, after_tilt = 0;
+    std::istringstream numbers(move);
+    if (!(numbers >> read.boom >> after_boom >> read.tilt >> after_tilt >> read.time) || after_boom != '/' ||
+        after_tilt != '/' || !(numbers >> std::ws).eof())
+      throw std::invalid_argument("\"" + move +
+                                  "\" is no move; give BOOM/TILT/SECONDS, as 0.1/-0.4/0.5, in rad/s and s");
+    round.push_back(read);
+  }
+  engine::loading::check(engine::loading::OperatorMoves{.round = round});
+  return round;
+}
 
 void OperationFlags::apply(engine::loading::Scenario& scenario) const {
   scenario = engine::loading::with_speeds(scenario, speeds);
   scenario.executor.moves = engine::loading::operator_named(operated);
   if (curl_hold) scenario.executor.moves.curl_hold = *curl_hold;
   if (crowd) scenario.executor.moves.crowd = *crowd;
-  if (pulses) scenario.executor.moves.most_pulses = *pulses;
+  if (rounds) scenario.executor.moves.rounds = *rounds;
+  if (slip) scenario.executor.moves.most_slip = *slip;
+  if (!moves.empty()) scenario.executor.moves.round = round_of(moves);
+  scenario.executor.lift_end = engine::loading::lift_end_named(lift_end);
+  scenario.whole_cycle = whole_cycle;
   scenario.curl = engine::loading::curl_named(curl);
   scenario.lift = engine::loading::lift_named(lift);
   scenario.executor.progress = engine::loading::progress_named(progress);
@@ -25,11 +47,15 @@ std::string in_words(const OperationFlags& flags) {
   words << flags.operated;
   if (flags.curl_hold) words << ", curl held by " << *flags.curl_hold;
   if (flags.crowd) words << ", crowding at " << *flags.crowd << " m/s";
-  if (flags.pulses) words << ", " << *flags.pulses << " pulses";
+  if (flags.rounds) words << ", " << *flags.rounds << " rounds";
+  if (flags.slip) words << ", slip of at most " << *flags.slip << " m/s";
+  if (!flags.moves.empty()) words << ", moves " << flags.moves;
+  if (flags.whole_cycle) words << ", whole cycles";
   const OperationFlags usual;
   if (flags.curl != usual.curl) words << ", --curl " << flags.curl;
   if (flags.lift != usual.lift) words << ", --lift " << flags.lift;
   if (flags.progress != usual.progress) words << ", --progress " << flags.progress;
+  if (flags.lift_end != usual.lift_end) words << ", --lift-end " << flags.lift_end;
   if (flags.arm != usual.arm) words << ", --arm " << flags.arm;
   return words.str();
 }
@@ -41,10 +67,10 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
                  "machine can do, with its engine")
       ->check(one_of(speed_names))
       ->capture_default_str();
-  app.add_option("--operator", flags.operated,
-                 "what is done beside the plan: nothing, or skilled: pulses of lift and curl when the drive "
-                 "is held up, "
-                 "pressing in the lift, thrust while the bucket curls")
+  app.add_option(
+         "--operator", flags.operated,
+         "what is done beside the plan: nothing, or skilled: lifts, curls and dumps when the drive is "
+         "held up, the throttle eased where wheels spin, thrust while the bucket curls")
       ->check(one_of(operator_names))
       ->capture_default_str();
   app.add_option("--curl-hold", flags.curl_hold,
@@ -55,8 +81,24 @@ void add_operation_flags(CLI::App& app, OperationFlags& flags) {
          "speed that the drive is set to while the bucket curls, which falls as the curl does [m/s]; skilled "
          "has 0.5, 0 stands")
       ->check(between(0, 4, "m/s", "leave it out for the operator's"));
-  app.add_option("--pulses", flags.pulses, "most pulses of lift and curl in a drive-in; skilled has 4")
-      ->check(between(0, 100, "", "leave it out for the operator's"));
+  app.add_option("--moves", flags.moves,
+                 "round of moves of a drive-in that is held up, each BOOM/TILT/SECONDS in rad/s, with commas "
+                 "between: "
+                 "0.1/0.1/0.5,0/0.25/0.5 is a lift and a curl; a negative tilt dumps")
+      ->check(taken_by(round_of));
+  app.add_option("--rounds", flags.rounds, "how often these are gone through in a cycle, at most")
+      ->check(between(1, 100, "", "leave it out for the operator's"));
+  app.add_option("--slip", flags.slip,
+                 "of the wheels [m/s], beyond which the throttle is eased; leave it out for the operator's")
+      ->check(between(0.01, 10, "m/s", "leave it out for the operator's"));
+  app.add_option(
+         "--lift-end", flags.lift_end,
+         "a slow drive ends a lift only where the arm stands too, or any slow actuator does, as in Lindmark "
+         "(2016)")
+      ->check(one_of(engine::loading::lift_end_names))
+      ->capture_default_str();
+  app.add_flag("--whole-cycle", flags.whole_cycle,
+               "simulate approach, way back, standing and all of the wait for rest too");
   app.add_option("--curl", flags.curl,
                  "the bucket breaks out about its hinge, or about its tip as in Lindmark (2016)")
       ->check(one_of(engine::loading::curl_names))

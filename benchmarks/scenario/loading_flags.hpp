@@ -5,18 +5,23 @@
 #include <drawpoint/engine/loading/scenario.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 
 /// Flags that the commands of the loading case share, beside those of command.hpp.
 namespace drawpoint::benchmarks {
 
+/// Moves as BOOM/TILT/SECONDS with commas between. Throws std::invalid_argument with the form.
+std::vector<engine::loading::Move> round_of(const std::string& text);
+
 /// How the loader is driven, by the names of engine/loading/strategy.
 struct OperationFlags {
   std::string speeds = "lindmark2016", operated = "plan", curl = "hinge", lift = "surface",
-              progress = "projected", arm = "cylinders";
-  std::optional<double> curl_hold, crowd;
-  std::optional<int> pulses;
+              progress = "projected", arm = "cylinders", lift_end = "arm", moves;
+  std::optional<double> curl_hold, crowd, slip;
+  std::optional<int> rounds;
+  bool whole_cycle = false;
 
   void apply(engine::loading::Scenario& scenario) const;
 };
@@ -25,8 +30,8 @@ struct OperationFlags {
 /// --arm hinges".
 std::string in_words(const OperationFlags& flags);
 
-/// --speeds, --operator, --curl-hold, --crowd, --pulses, and the laws of the operation: --curl, --lift, --progress
-/// and --arm.
+/// --speeds, --operator and its numbers, and the laws of the operation: --curl, --lift, --lift-end, --progress, --arm and
+/// --whole-cycle.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
 /// The drift and what lies in it; what is not given is the scene's.

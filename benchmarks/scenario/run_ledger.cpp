@@ -74,7 +74,7 @@ nlohmann::json cycles_of(const LoadingLog& log) {
     const CycleRecord& cycle = log.cycles[k];
     nlohmann::json row = energy_of(balances[k]);
     row.update({{"cycle", cycle.number},
-                {"seconds", cycle.t_end - cycle.t_start},
+                {"seconds", cycle.seconds()},
                 {"loaded_kg", cycle.loaded_mass},
                 {"spilled_kg", cycle.spilled_mass}});
     cycles.push_back(row);

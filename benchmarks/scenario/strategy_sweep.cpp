@@ -58,7 +58,7 @@ const std::vector<Measure>& measures() {
        [](const LoadingLog& log) { return joint_damage(log, {.sum = DamageSum::per_cycle}); }},
       {"rock_spill", "spill", 3, [](const LoadingLog& log) { return rock_spill(log); }},
       {"fill_factor", "fill", 3, fill_factor},
-      {"struck_fill", "struck", 2, struck_fill},
+      {"heaped_fill", "heaped", 2, heaped_fill},
       {"stall_share", "stalls", 2, stall_share},
       {"tracking_error_m", "tracking", 2, tracking_error},
       {"energy_kj_t", "energy", 0, energy_per_tonne},

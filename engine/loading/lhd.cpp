@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <drawpoint/engine/loading/arm_linkage.hpp>
 #include <drawpoint/engine/loading/lhd.hpp>
 #include <stdexcept>
 
@@ -19,11 +20,12 @@ constexpr double wheelbase = 4.9, half_track = 1.1, tyre_half_width = 0.445;
 constexpr double lift_side = 0.45;        // lateral place of the lift cylinders [m]
 constexpr double rear_axle_share = 0.56;  // of the empty weight
 
-// Reference-pose points (x, z) of the linkage, all in the machine's middle plane.
 Vector3d at(double x, double z, double y = 0) { return {x, y, z}; }
-const Vector3d F = at(-0.60, 1.80), G = at(2.05, 0.50), H = at(1.94, 1.07), E = at(1.31, 1.42),
-               Q = at(1.12, 2.32), P = at(1.18, 0.63), T = at(0.10, 1.68), B = at(-0.65, 0.60),
-               D = at(1.108, 0.628);
+Vector3d at(const Vector2d& p) { return at(p.x(), p.y()); }
+const ArmLinkage pins;
+const Vector3d F = at(pins.F), G = at(pins.G), H = at(pins.H), E = at(pins.E), Q = at(pins.Q), P = at(pins.P),
+               T = at(pins.T);
+const Vector3d B = at(-0.65, 0.60), D = at(1.108, 0.628);  // of the lift cylinders, on frame and boom
 
 // Solid box with its length along `along` (in the x-z plane), width along y.
 Matrix3d box_inertia(double mass, double length, double width, double height,

@@ -24,13 +24,38 @@ void add_machine(engine::World& world, const Lhd& lhd, machine::Machine& machine
 }
 
 LhdDriver::LhdDriver(const Lhd& lhd, machine::Machine& machine)
-    : lhd_(lhd), machine_(machine), arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {}
+    : lhd_(lhd), machine_(machine), arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {
+  arm_.floor = lhd.K.x() - lhd.bucket_profile.back().x();
+}
 
 void LhdDriver::place(double x, double y) {
   // Axles 2 cm above their reference height: the tyres sink to about it under the weight, and the bucket
   // clears the floor.
   machine_.place(Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.02)));
   command({});
+}
+
+void LhdDriver::settle_alone(const engine::WorldOptions& options, const MineMaterials& materials) {
+  engine::World world(options, material_table(materials));
+  world.add_static(std::make_shared<const engine::Shape>(engine::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
+                   Eigen::Isometry3d::Identity(), static_cast<int>(SurfaceKind::terrain));
+  add_machine(world, lhd_, machine_);
+  place(0, 0);
+  while (world.time() < stand_time) {
+    lower_to_floor();
+    world.step();
+  }
+  standing_ = machine_.state();
+}
+
+void LhdDriver::place_standing(double tip_x, double y, double speed) {
+  machine_.set_state(standing_);
+  const Eigen::Vector3d tip = machine_.point(lhd_.bucket, lhd_.K);
+  machine_.translate({tip_x - tip.x(), y - tip.y(), 0});
+  std::vector<std::pair<int, double>> turning;
+  for (int wheel : lhd_.wheels) turning.emplace_back(wheel, speed / rolling_radius(wheel));
+  machine_.set_velocity({speed, 0, 0}, turning);
+  command({.drive = speed});
 }
 
 MachineReading LhdDriver::read() const {
@@ -108,6 +133,15 @@ double LhdDriver::wheel_speed() const {
   double sum = 0;
   for (int wheel : lhd_.wheels) sum += machine_.speed(wheel) * rolling_radius(wheel);
   return sum / static_cast<double>(lhd_.wheels.size());
+}
+
+double LhdDriver::moving_mass() const {
+  double mass = 0;
+  for (const machine::BodySpec& body : lhd_.spec.bodies) mass += body.mass;
+  for (int wheel : lhd_.wheels)
+    mass +=
+        lhd_.spec.bodies[static_cast<std::size_t>(wheel)].inertia(1, 1) / std::pow(rolling_radius(wheel), 2);
+  return mass;
 }
 
 double LhdDriver::lift_speed() const {

@@ -39,6 +39,12 @@ class LhdDriver {
   /// Stands the machine at rest in its reference pose with the front axle line at (x, y), heading +x, on its
   /// tyres.
   void place(double x, double y);
+  /// Finds how the machine stands on a level floor by itself, bucket down, from a world of its own with these options
+  /// and materials; place_standing() needs it. Call before the machine is attached to another world.
+  void settle_alone(const engine::WorldOptions& options, const MineMaterials& materials);
+  /// Puts the machine as it stands by itself, its tyres loaded and its bucket flat on the floor, with the middle of the
+  /// cutting edge at (tip_x, y), driving forward at `speed` [m/s].
+  void place_standing(double tip_x, double y, double speed = 0);
   MachineReading read() const;
   /// Set speeds for the next step, and what the engine has for the wheels: by their turning now and what the
   /// arm took in the last step, so call it before each.
@@ -53,7 +59,9 @@ class LhdDriver {
   double wheel_torque() const;  ///< sum over the wheels [N m]
   double wheel_power() const;   ///< what their motors give, turning or spinning [W]
   double wheel_speed() const;   ///< of the tyres' rims, mean over the wheels, forward positive [m/s]
-  double lift_speed() const;    ///< of the first lift motor's joint [m/s] or [rad/s]
+  double moving_mass()
+      const;                  ///< the machine's, with what turning wheels add at the speed of their rims [kg]
+  double lift_speed() const;  ///< of the first lift motor's joint [m/s] or [rad/s]
   double tilt_speed() const;
 
   const ArmGeometry& arm() const { return arm_; }
@@ -68,6 +76,7 @@ class LhdDriver {
   const Lhd& lhd_;
   machine::Machine& machine_;
   ArmGeometry arm_;
+  std::vector<double> standing_;  // Machine::state()
 };
 
 }  // namespace drawpoint::engine::loading

@@ -9,6 +9,7 @@
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/log_stream.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
+#include <drawpoint/engine/loading/strategy/left_out.hpp>
 #include <exception>
 #include <iterator>
 
@@ -19,8 +20,14 @@ constexpr double room_under_roof =
     0.3;  // over the heaped bucket: rocks stand out of it, tyres run over rocks [m]
 constexpr int trouble_interval = 50;  // steps between checks of the whole state
 constexpr int parts_of_broken_step = 10;
-constexpr double most_escaped = 0.01;   // of the pile's mass; more than that is no stray rock
-constexpr double weighing_time = 1.0;   // that the machine stands before its load is weighed [s]
+constexpr double most_escaped = 0.01;  // of the pile's mass; more than that is no stray rock
+constexpr double weighing_time = 1.0;  // that the machine stands before its load is weighed [s]
+constexpr double room_behind_A = 4.0;  // in which a rock in the way moves the start back [m]
+constexpr double before_toe = 0.1;     // tip to toe where the approach is left out [m]
+constexpr int clearance_interval = 5;  // steps between looks whether the bucket is clear
+// Between cycles, where whole ones are not simulated: a rock may still roll, nothing falls.
+constexpr granular::RestOptions short_rest{.mean_energy = 3e-4, .fastest = 0.5, .hold = 0.1};
+constexpr double blocked_raise = 1.0;   // it has let no rock go for so long: what is missing comes later [s]
 constexpr int cycles_per_lost_one = 5;  // a run that loses more cycles than one in five has failed
 
 class LoadingRun {
@@ -62,9 +69,10 @@ class LoadingRun {
   std::string time() const { return "t = " + std::to_string(site_.world().time()) + " s"; }
   void call(const std::function<void()>& hook);
   Plan plan(CycleRecord& record) const;
-  void place_machine(const Plan& plan);
-  bool stand();
-  bool execute(CycleRecord& record);
+  Approached place_machine(const Plan& plan, CycleRecord& record);
+  bool execute(CycleRecord& record, const Approached& approached);
+  bool leaves_off(const Executor& executor);
+  void leave_out_way_back(const Executor& executor, const MachineReading& reading, CycleRecord& record);
   bool weigh(CycleRecord& record);
   bool step(const std::function<void(const engine::StepReport&)>& record = {});
   engine::StepReport advance();
@@ -89,6 +97,7 @@ class LoadingRun {
   double cleared_ = 0, escaped_ = 0;  // mass [kg]
   Spill spill_;
   long steps_ = 0, repeated_ = 0;
+  int clear_looks_ = 0;          // one after another in which the bucket was clear
   int lost_ = 0, left_out_ = 0;  // cycles
   bool caller_failed_ = false;
   std::size_t most_points_ = 0;
@@ -142,6 +151,7 @@ PlannerOptions LoadingRun::planner_options() const {
   options.roof = scenario_.drift.height - room_under_roof;
   for (const Eigen::Vector2d& point : heaped_profile(site_.lhd()))
     options.outline.emplace_back(point.x() - site_.lhd().G.x(), point.y() - site_.lhd().G.z());
+  options.tyre_reach = site_.lhd().tyre_radius;
   options.x_limit = scenario_.drift.length - scenario_.drift.wall_roughness;
   options.curl = scenario_.curl;
   options.lift = scenario_.lift;
@@ -209,8 +219,9 @@ bool LoadingRun::step(const std::function<void(const engine::StepReport&)>& reco
 }
 
 bool LoadingRun::refill() {
+  const double blocked = scenario_.whole_cycle ? granular::blocked_after : blocked_raise;
   double last_birth = site_.world().time();
-  while (site_.missing_mass() > 0 && site_.world().time() - last_birth < granular::blocked_after) {
+  while (site_.missing_mass() > 0 && site_.world().time() - last_birth < blocked) {
     if (site_.refill()) last_birth = site_.world().time();
     if (!step()) return false;
   }
@@ -218,37 +229,62 @@ bool LoadingRun::refill() {
 }
 
 bool LoadingRun::wait_for_rest() {
-  granular::RestWatch watch(scenario_.pile.rest);
+  granular::RestWatch watch(scenario_.whole_cycle ? scenario_.pile.rest : short_rest);
   do {
     if (!step()) return false;
   } while (!watch.at_rest(site_.world()));
   return true;
 }
 
-void LoadingRun::place_machine(const Plan& plan) {
+// At A, or at the toe with the speed that the machine has there.
+Approached LoadingRun::place_machine(const Plan& plan, CycleRecord& record) {
   const std::vector<bool> in_front = rocks_in_front(site_, columns(true));
-  const std::vector<int> rocks = site_.place_machine(plan.corners[0].x, plan.y);
+  const double A = plan.corners[0].x, toe = plan.toe - before_toe, farthest_back = A - room_behind_A;
+  const double x = site_.free_tip_x(scenario_.whole_cycle ? A : std::max(A, toe), plan.y, farthest_back);
+  const double distance = scenario_.whole_cycle ? 0 : std::max(x - A, 0.0);
+  const LeftOut way = approach(distance, scenario_.executor.speeds);
+  const std::vector<int> rocks = site_.place_machine(x, plan.y, way.speed);
+  record.left_out_time += way.time;
+  record.left_out_energy += 0.5 * site_.driver().moving_mass() * way.speed * way.speed;
   spill_.clear(site_, in_front, rocks);
   cleared_ += site_.mass_of(rocks);
+  return {distance, way.speed};
 }
 
-bool LoadingRun::stand() {
-  for (double t = 0; t < LhdDriver::stand_time; t += site_.world().options().step) {
-    site_.driver().lower_to_floor();
-    if (!step()) return false;
-  }
-  return true;
+// Whether the rest of the way back is not simulated: in two looks in a row the bucket was clear.
+bool LoadingRun::leaves_off(const Executor& executor) {
+  if (scenario_.whole_cycle || executor.stage() != Stage::back_out) return false;
+  if (steps_ % clearance_interval != 0) return false;
+  clear_looks_ = site_.bucket_is_clear() ? clear_looks_ + 1 : 0;
+  return clear_looks_ >= 2;
 }
 
-bool LoadingRun::execute(CycleRecord& record) {
-  Executor executor(record.plan, site_.driver().arm(), scenario_.executor);
+void LoadingRun::leave_out_way_back(const Executor& executor, const MachineReading& reading,
+                                    CycleRecord& record) {
+  const double whole = -executor.goal().x, done = executor.progress() * whole,
+               speed = std::max(-reading.actual.drive, 0.0);
+  if (!(whole > 0)) return;
+  const LeftOut way = way_back(whole, done, speed, executor.stage_time(), scenario_.executor);
+  const double mass = site_.driver().moving_mass() + site_.mass_in_bucket();
+  record.left_out_time += way.time;
+  record.left_out_energy += 0.5 * mass * (way.speed * way.speed - speed * speed);
+}
+
+bool LoadingRun::execute(CycleRecord& record, const Approached& approached) {
+  Executor executor(record.plan, site_.driver().arm(), scenario_.executor, approached);
   double next_frame = site_.world().time();
+  clear_looks_ = 0;
   while (!executor.finished()) {
     const MachineReading reading = site_.driver().read();
-    const ActuatorRates set = executor.step({site_.world().time(), reading.tip, reading.actual});
+    const Observation now{site_.world().time(), reading.tip, reading.actual};
+    const ActuatorRates set = executor.step(now);
     if (site_.world().time() >= next_frame) {
       scene_.frame(site_, record.number, std::string(name(executor.stage())));
       next_frame += scenario_.frame_interval;
+    }
+    if (leaves_off(executor)) {
+      leave_out_way_back(executor, reading, record);
+      executor.end_backing_out(now);
     }
     if (executor.finished()) break;
     site_.driver().command(set, executor.drive_share());
@@ -257,7 +293,9 @@ bool LoadingRun::execute(CycleRecord& record) {
       largest_overlap_ = std::max(largest_overlap_, report.max_overlap);
       largest_loop_error_ = std::max(largest_loop_error_, site_.machine().loop_error());
     };
-    site_.refill();
+    // Rock follows what the bucket takes away once that leaves: before, it would fall into the bucket.
+    const bool leaving = !scenario_.whole_cycle && executor.stage() == Stage::back_out;
+    site_.refill(leaving ? site_.mass_in_bucket() : 0);
     if (hooks_.look_ahead) call([&] { hooks_.look_ahead(site_.world()); });
     if (!step(log_signals)) return false;
   }
@@ -276,9 +314,9 @@ void LoadingRun::look_at_pile() {
   log_.numbers["pile_crest"] = surface.crest;
 }
 
-// Once it stands, so that what falls off it, or hopped in it, lies still.
+// Once it stands, so that what falls off it, or hopped in it, lies still; or as it was when its bucket was clear.
 bool LoadingRun::weigh(CycleRecord& record) {
-  for (double t = 0; t < weighing_time; t += site_.world().options().step)
+  for (double t = 0; scenario_.whole_cycle && t < weighing_time; t += site_.world().options().step)
     if (!step()) return false;
   scene_.frame(site_, record.number, "end of cycle");
   cleared_ += book_load(site_, columns(false), spill_, record);
@@ -308,7 +346,8 @@ bool LoadingRun::give_up(const CycleRecord& record, const std::string& message) 
     const Site::Load load = site_.load(in_front);
     spill_.clear(site_, in_front, load.elsewhere);
     cleared_ += site_.remove(load.in_bucket) + site_.remove(load.elsewhere);
-    place_machine(record.plan);
+    CycleRecord lost;
+    place_machine(record.plan, lost);
     return true;
   } catch (const std::exception& error) {
     return fail(message + "; the machine could not be put back: " + error.what());
@@ -330,10 +369,9 @@ bool LoadingRun::run_cycle(CycleRecord& record) {
   record.plan = plan(record);
   if (!record.plan.feasible)
     return fail("cycle " + std::to_string(record.number) + ": " + record.plan.message);
-  place_machine(record.plan);
-  if (!stand()) return false;
+  const Approached approached = place_machine(record.plan, record);
   record.t_start = site_.world().time();
-  if (!execute(record)) return false;
+  if (!execute(record, approached)) return false;
   record.t_end = site_.world().time();
   if (!weigh(record)) return false;
   log_.cycles.push_back(record);

@@ -32,7 +32,12 @@ MineMaterials calibrated_materials() {
   MineMaterials m = with_resistance(lindmark2016_materials(), 0, 0);
   m.rock_rock.stiffness = soft_stiffness;
   m.rock_rock.friction = 0.7;
-  m.rock_steel.friction = 0.5;
+  m.rock_terrain.friction = 0.6;
+  m.rock_steel.friction = 0.35;
+  m.rock_tyre.friction = 0.7;
+  m.steel_terrain.friction = 0.35;
+  m.steel_terrain.rolling = 0;
+  m.tyre_terrain.friction = 0.65;
   return m;
 }
 

@@ -24,10 +24,17 @@ struct MineMaterials {
   engine::Material rock_rock, rock_terrain, rock_steel, rock_tyre, steel_terrain, tyre_terrain;
 };
 
-/// The default. No rolling and no spinning resistance, friction 0.7 between rocks: within the bounds that tests of soil
-/// mechanics set for blasted iron ore (docs/decisions/0025, 0026). The study's piles lie at 36 degrees in the mean, where 35
-/// to 42 are quoted. Friction 1.0 on floor and tyre, 0.5 on steel: with 1.0 there buckets load a seventh less and scatter more. Stiffness 1e8 N/m, what the substeps resolve (material.hpp):
-/// a rock that carries 100 kN of the bucket's edge is pressed in by 1 mm. Tyre as below.
+/// The default. No rolling and no spinning resistance. Friction, pair by pair (docs/measurements/materials.md has the
+/// sources and the tests):
+///   rock on rock   0.7   calibrated: bulk density, angle of repose and direct shear of blasted ore (docs/decisions/0025,
+///                        0026); piles lie at 36 degrees in the mean, where 35 to 42 are quoted
+///   rock on floor  0.6   hard rock on hard rock, 0.55 to 0.70 (Barton and Choubey 1977)
+///   rock on steel  0.35  rock fill on steel, 0.30 single-sized to 0.40 well graded (NAVFAC DM-7.02, 1986, table 1)
+///   steel on floor 0.35  the same: a bucket slides on broken rock
+///   rock on tyre   0.7   rubber on hard surfaces, 0.60 to 0.85
+///   tyre on floor  0.65  coefficient of traction in a quarry pit (Caterpillar Performance Handbook)
+/// The source's 1.0 of steel on floor took 121 to 139 of 300 to 330 kN of thrust. Stiffness 1e8 N/m, what the substeps
+/// resolve (material.hpp): a rock that carries 100 kN of the bucket's edge is pressed in by 1 mm. Tyre as below.
 MineMaterials calibrated_materials();
 
 /// Tables 8 to 13 of Lindmark (2016): rolling resistance 0.5 between rocks and 0.9 against floor, steel and

@@ -19,6 +19,18 @@ std::string in_words(const granular::SizeDistribution& sizes) {
   return words;
 }
 
+// "boom 0.1, tilt 0.1 rad/s for 0.5 s; ...": the moves of a round.
+std::string in_words(const OperatorMoves& moves) {
+  std::string words;
+  for (const Move& move : moves.round) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%sboom %g, tilt %g rad/s for %g s", words.empty() ? "" : "; ",
+                  move.boom, move.tilt, move.time);
+    words += text;
+  }
+  return words.empty() ? "none" : words;
+}
+
 }  // namespace
 
 void describe(const Scenario& s, const Site& site, LoadingLog& log) {
@@ -47,6 +59,11 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"rock_spinning", s.materials.rock_rock.spinning},
                  {"steel_friction", s.materials.rock_steel.friction},
                  {"steel_rolling", s.materials.rock_steel.rolling},
+                 {"floor_friction", s.materials.rock_terrain.friction},
+                 {"rock_tyre_friction", s.materials.rock_tyre.friction},
+                 {"steel_floor_friction", s.materials.steel_terrain.friction},
+                 {"tyre_floor_friction", s.materials.tyre_terrain.friction},
+                 {"whole_cycle", s.whole_cycle ? 1.0 : 0.0},
                  {"step", s.world.step},
                  {"substeps", s.world.solver.substeps},
                  {"iterations", s.world.solver.iterations},
@@ -66,12 +83,9 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"longest_back_out", s.executor.speeds.stage_limit[3]},
                  {"slow_share", s.executor.slow_share},
                  {"slow_window", s.executor.slow_window},
-                 {"most_pulses", s.executor.moves.most_pulses},
+                 {"move_rounds", s.executor.moves.rounds},
                  {"held_up", s.executor.moves.held_up},
-                 {"pulse", s.executor.moves.pulse},
-                 {"pulse_boom", s.executor.moves.pulse_rates.boom},
-                 {"pulse_tilt", s.executor.moves.pulse_rates.tilt},
-                 {"press", s.executor.moves.press ? 1.0 : 0.0},
+                 {"most_slip", s.executor.moves.most_slip},
                  {"crowd", s.executor.moves.crowd},
                  {"curl_hold", s.executor.moves.curl_hold},
                  {"wheel_torque_limit", s.machine.wheel_torque},
@@ -86,6 +100,8 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                {"curl", s.curl == CurlMode::hinge_G ? "hinge G" : "tip fixed"},
                {"arm_drive", s.machine.arm_drive == ArmDrive::cylinders ? "cylinders" : "hinges"},
                {"progress", s.executor.progress.mode == ProgressMode::projected ? "projected" : "faithful"},
+               {"lift_end", s.executor.lift_end == LiftEnd::arm ? "arm" : "any actuator"},
+               {"moves", in_words(s.executor.moves)},
                {"after_stuck", s.executor.stuck == StuckPolicy::next_stage ? "next stage" : "back out"},
                {"rock_sizes", in_words(s.pile.sizes)},
                {"rock_shapes", std::to_string(granular::rock_shapes_checksum())},

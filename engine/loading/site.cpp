@@ -14,6 +14,7 @@ using engine::ConvexPolyhedron;
 // The box that the machine fills behind its cutting edge, with 10 cm of room: rocks may not lie there at the
 // start.
 constexpr double machine_length = 12.2, least_half_width = 1.7, machine_top = 2.0, room = 0.1;
+constexpr double calm = 0.25;  // of a load against its bucket [m/s]
 
 const ConvexPolyhedron& polyhedron(const engine::Rock& rock) {
   return std::get<ConvexPolyhedron>(*rock.body.shape);
@@ -30,7 +31,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
       library_(scenario.pile.density, static_cast<int>(SurfaceKind::rock)),
       emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed, scenario.pile.sizes) {
   add_drift(world_, drift_);
-  driver_.place(0, 0);
+  driver_.settle_alone(scenario.world, scenario.materials);
   add_machine(world_, lhd_, machine_);
   for (const granular::PlacedRock& rock : pile.rocks) {
     world_.add_rock(library_.body(rock.spec), rock.pose);
@@ -90,28 +91,50 @@ double Site::mass_of(const std::vector<int>& rocks) const {
   return mass;
 }
 
-std::vector<int> Site::place_machine(double tip_x, double y, double back) {
-  const double half_width = std::max(least_half_width, 0.5 * lhd_.bucket_width + room);
-  const auto in_lane = [&](const engine::Rock& rock) {
-    return rock.present &&
-           std::abs(rock.pose.translation().y() - y) < half_width + polyhedron(rock).radius() &&
-           rock.pose.translation().z() < machine_top;
+bool Site::bucket_is_clear() const {
+  const Load load = this->load(std::vector<bool>(world_.rocks().size(), true));
+  std::vector<bool> carried(world_.rocks().size());
+  const Eigen::Vector3d velocity = machine_.point_velocity(lhd_.bucket, lhd_.G);
+  for (const std::vector<int>* rocks : {&load.in_bucket, &load.elsewhere})
+    for (int rock : *rocks) {
+      carried[static_cast<std::size_t>(rock)] = true;
+      if ((world_.rocks()[static_cast<std::size_t>(rock)].velocity - velocity).norm() > calm) return false;
+    }
+  const std::array<int, 4> arm = {lhd_.bucket, lhd_.boom, lhd_.bell_crank, lhd_.link};
+  const auto leaves = [&](const engine::SurfaceOwner& side) {
+    if (side.owner == engine::Owner::part) return std::find(arm.begin(), arm.end(), side.index) != arm.end();
+    return side.owner == engine::Owner::rock && carried[static_cast<std::size_t>(side.index)];
   };
-  const double nearest = tip_x - back;
+  for (const engine::PairForce& pair : world_.pair_forces())
+    if (!pair.force.isZero() && leaves(pair.a) != leaves(pair.b)) return false;
+  return true;
+}
+
+double Site::free_tip_x(double tip_x, double y, double farthest_back) const {
   double x = tip_x;
   for (const engine::Rock& rock : world_.rocks()) {
     const double left = rock.pose.translation().x() - polyhedron(rock).radius() - room;
-    if (in_lane(rock) && left < x && left >= nearest) x = left;  // farther rocks are taken away below
+    if (in_lane(rock, y) && left < x && left >= farthest_back) x = left;
   }
+  return x;
+}
+
+bool Site::in_lane(const engine::Rock& rock, double y) const {
+  const double half_width = std::max(least_half_width, 0.5 * lhd_.bucket_width + room);
+  const Eigen::Vector3d& p = rock.pose.translation();
+  return rock.present && std::abs(p.y() - y) < half_width + polyhedron(rock).radius() && p.z() < machine_top;
+}
+
+std::vector<int> Site::place_machine(double tip_x, double y, double speed) {
   std::vector<int> cleared;
   for (std::size_t k = 0; k < world_.rocks().size(); ++k) {
     const engine::Rock& rock = world_.rocks()[k];
     const double centre = rock.pose.translation().x(), reach = polyhedron(rock).radius() + room;
-    if (!in_lane(rock) || centre - reach >= x || centre + reach <= x - machine_length) continue;
-    cleared.push_back(static_cast<int>(k));
+    if (in_lane(rock, y) && centre - reach < tip_x && centre + reach > tip_x - machine_length)
+      cleared.push_back(static_cast<int>(k));
   }
   remove(cleared);
-  driver_.place(x - lhd_.K.x(), y);
+  driver_.place_standing(tip_x, y, speed);
   return cleared;
 }
 
@@ -134,7 +157,9 @@ double Site::rock_energy() const {
   return energy;
 }
 
-bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_mass()).empty(); }
+bool Site::refill(double more) {
+  return !emitter_.emit(world_, library_, specs_, missing_mass() + more).empty();
+}
 
 double Site::remove_escaped() {
   double escaped = 0;

@@ -41,14 +41,20 @@ class Site {
   double remove(const std::vector<int>& rocks);         ///< returns their mass [kg]
   double mass_of(const std::vector<int>& rocks) const;  ///< present or not [kg]
 
-  /// Stands the machine at lateral place y with the cutting edge at tip_x, or as far back as keeps its bucket
-  /// clear of rocks lying in its way (at most `back` [m]). Rocks that would still lie inside the machine are
-  /// taken away; returns them.
-  std::vector<int> place_machine(double tip_x, double y, double back = 4.0);
+  /// Whether the bucket has left the pile with what it carries: neither it, nor the arm, nor its load touches the ground
+  /// or a rock that is not load, and the load moves with it, to 0.25 m/s.
+  bool bucket_is_clear() const;
 
-  /// Lets rocks come down the raise when it is time, toward the mass at the start; whether any came. Call
-  /// once per step while mass is missing.
-  bool refill();
+  /// tip_x, or as far back as keeps the bucket at lateral place y clear of rocks lying in its way, but not behind
+  /// `farthest_back` [m].
+  double free_tip_x(double tip_x, double y, double farthest_back) const;
+  /// Puts the machine, standing on its tyres with its bucket on the floor, at lateral place y with the cutting edge at
+  /// tip_x, driving at `speed` [m/s]. Rocks that would lie inside it are taken away; returns them.
+  std::vector<int> place_machine(double tip_x, double y, double speed = 0);
+
+  /// Lets rocks come down the raise when it is time, toward the mass at the start, or beyond it by `more` [kg], which are
+  /// to leave; whether any came. Call once per step while mass is missing.
+  bool refill(double more = 0);
   double missing_mass() const;  ///< [kg]; at most 0 when the drift holds what it held at the start
 
   double initial_mass() const { return initial_mass_; }
@@ -62,6 +68,8 @@ class Site {
   std::string trouble() const;
 
  private:
+  bool in_lane(const engine::Rock& rock, double y) const;
+
   Drift drift_;
   Lhd lhd_;
   machine::Machine machine_;

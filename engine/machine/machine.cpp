@@ -151,6 +151,29 @@ void Machine::set_coordinate(int body, double value) {
   simbody_->tree.set_coordinate(body, value);
 }
 
+void Machine::translate(const Eigen::Vector3d& by) {
+  if (!by.allFinite() || by.norm() > farthest_coordinate)
+    throw std::invalid_argument("machine::Machine::translate: the way is " + std::to_string(by.norm()) +
+                                " m; allowed: up to " + std::to_string(farthest_coordinate) + " m");
+  simbody_->tree.translate(by);
+}
+
+void Machine::set_velocity(const Eigen::Vector3d& velocity,
+                           const std::vector<std::pair<int, double>>& joint_speeds) {
+  const auto require_speed = [](double speed) {
+    if (!(std::abs(speed) <= fastest_motor))
+      throw std::invalid_argument("machine::Machine::set_velocity: a speed is " + std::to_string(speed) +
+                                  " m/s or rad/s; allowed: at most " + std::to_string(fastest_motor) +
+                                  " either way");
+  };
+  require_speed(velocity.norm());
+  for (const auto& [body, speed] : joint_speeds) {
+    check_joint(spec(), body, "machine::Machine::set_velocity");
+    require_speed(speed);
+  }
+  simbody_->tree.set_velocity(velocity, joint_speeds);
+}
+
 double Machine::coordinate(int body) const { return simbody_->tree.coordinate(body); }
 double Machine::speed(int body) const { return simbody_->tree.bodies[body].getOneU(simbody_->tree.state, 0); }
 

@@ -6,6 +6,8 @@
 #include <drawpoint/engine/machine/machine_spec.hpp>
 #include <drawpoint/engine/world/articulated_body.hpp>
 #include <memory>
+#include <utility>
+#include <vector>
 
 /// An articulated machine on Simbody, stepped as a super-body of the contact solver.
 ///
@@ -39,6 +41,12 @@ class Machine final : public engine::ArticulatedBody {
   /// Throws std::invalid_argument for a body without one and for other values, std::runtime_error for a
   /// coordinate that the loops do not reach; the machine has not moved then.
   void set_coordinate(int body, double value);
+
+  /// Moves the machine as it is, speeds and joints kept, by a world vector [m].
+  void translate(const Eigen::Vector3d& by);
+  /// Gives the free bases this velocity without turning (world) [m/s] and the hinges or sliders `bodies` the speeds
+  /// [rad/s] or [m/s]; other joints keep theirs. Loops must allow it: the next step projects what they do not.
+  void set_velocity(const Eigen::Vector3d& velocity, const std::vector<std::pair<int, double>>& joint_speeds);
 
   double coordinate(int body) const;  ///< joint coordinate [rad] or [m]; hinge or slider only
   double speed(int body) const;       ///< [rad/s] or [m/s]

@@ -64,10 +64,14 @@ void SimbodyTree::close_loops() {
   system.realize(state, SimTK::Stage::Velocity);
 }
 
+bool SimbodyTree::is_base(std::size_t body) const {
+  return spec.bodies[body].joint == JointKind::free && spec.bodies[body].parent < 0;
+}
+
 void SimbodyTree::place(const Eigen::Isometry3d& X_WM) {
   state = system.getDefaultState();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (spec.bodies[b].joint != JointKind::free || spec.bodies[b].parent >= 0) continue;
+    if (!is_base(b)) continue;
     // At zero coordinates the body stands at its centre in the machine frame; the joint's frame is there too.
     Eigen::Isometry3d X_FM = X_WM;
     X_FM.translation() = X_WM * spec.bodies[b].centre - spec.bodies[b].centre;
@@ -92,6 +96,25 @@ void SimbodyTree::set_coordinate(int body, double value) {
     throw;
   }
   bodies[body].unlock(state);
+  system.realize(state, SimTK::Stage::Velocity);
+}
+
+void SimbodyTree::translate(const Eigen::Vector3d& by) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!is_base(b)) continue;
+    SimTK::Transform X_FM = bodies[b].getMobilizerTransform(state);
+    X_FM.updP() += SimTK::Vec3(by.x(), by.y(), by.z());
+    bodies[b].setQToFitTransform(state, X_FM);
+  }
+  system.realize(state, SimTK::Stage::Velocity);
+}
+
+void SimbodyTree::set_velocity(const Eigen::Vector3d& velocity,
+                               const std::vector<std::pair<int, double>>& joint_speeds) {
+  const SimTK::SpatialVec V_FM(SimTK::Vec3(0), SimTK::Vec3(velocity.x(), velocity.y(), velocity.z()));
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (is_base(b)) bodies[b].setUToFitVelocity(state, V_FM);
+  for (const auto& [body, speed] : joint_speeds) bodies[body].setOneU(state, 0, speed);
   system.realize(state, SimTK::Stage::Velocity);
 }
 

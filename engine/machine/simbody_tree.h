@@ -21,6 +21,10 @@ struct SimbodyTree {
 
   /// At rest in the reference pose, the machine frame at X_WM.
   void place(const Eigen::Isometry3d& X_WM);
+  /// As it is, by a world vector [m].
+  void translate(const Eigen::Vector3d& by);
+  /// The bases move so, without turning, and these joints turn or slide so.
+  void set_velocity(const Eigen::Vector3d& velocity, const std::vector<std::pair<int, double>>& joint_speeds);
   /// One joint's coordinate; the others of its loops follow. Not moved if this throws.
   void set_coordinate(int body, double value);
   /// One step of h: `u` at its end, `mean` over it, both speeds of all joints. Not moved if this throws.
@@ -42,6 +46,7 @@ struct SimbodyTree {
   SimTK::State state;                        ///< realised to velocities
 
  private:
+  bool is_base(std::size_t body) const;
   void add_body(const BodySpec& body);
   void add_loop(const LoopPinSpec& loop);
   void close_loops();

@@ -43,6 +43,13 @@ void visit_cycle_numbers(CycleOrConst& cycle, Visit&& visit) {
         cycle.spilled_mass);
 }
 
+// Since version 8.
+template <class CycleOrConst, class Visit>
+void visit_left_out(CycleOrConst& cycle, Visit&& visit) {
+  visit({"left_out_time_s", {"s", "of approach and way back that were not simulated"}}, cycle.left_out_time);
+  visit({"left_out_energy_J", {"J", "of the wheel motors in these"}}, cycle.left_out_energy);
+}
+
 struct ArrayName {
   const char *name, *unit, *description;
 };
@@ -139,9 +146,11 @@ void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycl
     contradiction(group + " has " + std::to_string(cycle.column_heights.size()) + " column heights for " +
                   std::to_string(nx) + " x " + std::to_string(ny) + " columns");
   file.integer(group, "number", cycle.number);
-  visit_cycle_numbers(cycle, [&](const NumberName& number, double value) {
+  const auto write = [&](const NumberName& number, double value) {
     write_number(file, group + "/" + number.name, value, &number.meaning);
-  });
+  };
+  visit_cycle_numbers(cycle, write);
+  visit_left_out(cycle, write);
   visit_arrays(cycle, [&](const ArrayName& data, const std::vector<double>& values) {
     const std::string path = group + "/" + data.name;
     file.array(path, std::span(values));
@@ -161,8 +170,11 @@ void write_cycle(Writer& file, const std::string& group, const CycleRecord& cycl
 CycleRecord read_cycle(const Reader& file, const std::string& group) {
   CycleRecord cycle;
   cycle.number = static_cast<int>(file.integer(group, "number"));
-  visit_cycle_numbers(
-      cycle, [&](const NumberName& number, double& value) { value = read_number(file, group, number.name); });
+  const auto read = [&](const NumberName& number, double& value) {
+    value = read_number(file, group, number.name);
+  };
+  visit_cycle_numbers(cycle, read);
+  if (file.version() >= 8) visit_left_out(cycle, read);
   visit_arrays(cycle, [&](const ArrayName& data, std::vector<double>& values) {
     values = file.doubles(group + "/" + data.name).values;
   });

@@ -33,16 +33,20 @@ std::optional<std::size_t> CycleSamples::cycle(std::size_t row) const {
 }
 
 LowPassedVector::LowPassedVector(const LoadingLog& log, const std::string& name, double corner)
-    : signals_(log.signals),
-      columns_{signals_.index(name + "_x"), signals_.index(name + "_y"), signals_.index(name + "_z")},
-      corner_(corner) {}
+    : corner_(corner) {
+  const record::Table& signals = log.signals;
+  const std::array<std::size_t, 3> columns = {signals.index(name + "_x"), signals.index(name + "_y"),
+                                              signals.index(name + "_z")};
+  vector_ = [&signals, columns](std::size_t row) {
+    return Eigen::Vector3d(signals.at(row, columns[0]), signals.at(row, columns[1]),
+                           signals.at(row, columns[2]));
+  };
+}
 
 const Eigen::Vector3d& LowPassedVector::next(const CycleSamples& samples) {
   const bool direct = samples.begins(row_) || corner_ == 0;
   const double share = direct ? 1.0 : -std::expm1(-2 * std::numbers::pi * corner_ * samples.weight(row_));
-  const Eigen::Vector3d raw(signals_.at(row_, columns_[0]), signals_.at(row_, columns_[1]),
-                            signals_.at(row_, columns_[2]));
-  value_ += share * (raw - value_);
+  value_ += share * (vector_(row_) - value_);
   ++row_;
   return value_;
 }

@@ -5,8 +5,10 @@
 #include <array>
 #include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 /// How the signals of a run log belong to its cycles, and a low-pass over them.
 ///
@@ -36,17 +38,19 @@ class CycleSamples {
   bool has_cycle_;
 };
 
-/// Three signals, NAME_x, NAME_y, NAME_z, low-passed.
+/// A vector of every row, low-passed.
 class LowPassedVector {
  public:
-  /// corner [Hz]; 0: no filter. Throws std::invalid_argument if a column is missing.
+  /// corner [Hz]; 0: no filter.
+  LowPassedVector(std::function<Eigen::Vector3d(std::size_t row)> vector, double corner)
+      : vector_(std::move(vector)), corner_(corner) {}
+  /// Of three signals, NAME_x, NAME_y, NAME_z. Throws std::invalid_argument if a column is missing.
   LowPassedVector(const LoadingLog& log, const std::string& name, double corner);
   /// The next row's value; rows are taken in order, from the first.
   const Eigen::Vector3d& next(const CycleSamples& samples);
 
  private:
-  const record::Table& signals_;
-  std::array<std::size_t, 3> columns_;
+  std::function<Eigen::Vector3d(std::size_t row)> vector_;
   double corner_;
   std::size_t row_ = 0;
   Eigen::Vector3d value_ = Eigen::Vector3d::Zero();

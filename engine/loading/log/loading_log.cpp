@@ -10,8 +10,8 @@ namespace {
 
 // Version 5 added the descriptions of signals, the masses of bodies and the mass in the bucket; from version
 // 6 on single numbers and texts are data, with units, where they were attributes; from version 7 on bodies
-// have poses where they move, and not in every frame.
-const record::FileKind kind{"drawpoint loading log", 7, 4};
+// have poses where they move, and not in every frame; version 8 added what of a cycle was left out.
+const record::FileKind kind{"drawpoint loading log", 8, 4};
 
 }  // namespace
 
@@ -91,7 +91,7 @@ LoadingLog read_one(const record::Reader& file, LogContent content) {
   log.signals = file.table("signals");
   const std::size_t cycles = file.children("cycles").size();
   for (std::size_t k = 0; k < cycles; ++k) log.cycles.push_back(read_cycle(file, numbered("cycles", k)));
-  if (content == LogContent::all) log.scene = read_scene(file);
+  log.scene = read_scene(file, content);
   return log;
 }
 

@@ -22,9 +22,12 @@ namespace drawpoint::engine::loading {
 
 struct CycleRecord {
   int number = 0;                 ///< from 1; the signals' `cycle`
-  double t_start = 0, t_end = 0;  ///< start of stage 1, end of stage 4 [s]
-  double loaded_mass = 0;         ///< that the bucket carries once it stands, in its heap or on it [kg]
-  double front_mass = 0;          ///< in front of the pile at the end of the cycle [kg]
+  double t_start = 0, t_end = 0;  ///< of what was simulated of stages 1 to 4 [s]
+  /// What the machine takes to the parts of stages 1 and 4 that were not simulated (strategy/left_out.hpp).
+  double left_out_time = 0;    ///< [s]
+  double left_out_energy = 0;  ///< of its wheel motors [J]
+  double loaded_mass = 0;      ///< that the bucket carries once it stands, in its heap or on it [kg]
+  double front_mass = 0;       ///< in front of the pile at the end of the cycle [kg]
   /// Of that, rocks that did not lie there before the run, and such as were cleared out of its way since [kg].
   double spilled_mass = 0;
   std::vector<double> loaded_rock_masses;  ///< [kg]
@@ -34,6 +37,8 @@ struct CycleRecord {
   std::vector<double> contour_x, contour_z;  ///< pile along the attacked row, at the start [m]
   int columns_x = 0, columns_y = 0;          ///< nx, ny of the column model
   std::vector<double> column_heights;        ///< at the start, value of (i, j) at j * nx + i [m]
+
+  double seconds() const { return t_end - t_start + left_out_time; }  ///< stages 1 to 4, all of them [s]
 };
 
 struct SceneBody {
@@ -92,10 +97,10 @@ struct LoadingLog {
 /// std::invalid_argument if the log contradicts itself.
 void write_log(const std::filesystem::path& path, const LoadingLog& log);
 
-/// What of a log is read: motion and shapes of a scene are most of it.
+/// What of a log is read: motion and shapes of a scene are most of it. Without, the scene has its frames alone.
 enum class LogContent { all, without_scene };
 
-/// Of this version and of versions 4 to 6; of a run that was killed, all cycles that it had done: those after
+/// Of this version and of versions 4 to 7; of a run that was killed, all cycles that it had done: those after
 /// the first are in files beside it, FILE.part0002 and so on. Throws std::runtime_error if a file is missing,
 /// truncated, damaged or no loading log, or if a part is of another run.
 LoadingLog read_log(const std::filesystem::path& path, LogContent content = LogContent::all);

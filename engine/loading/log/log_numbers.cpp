@@ -31,7 +31,12 @@ const Meanings& of_the_scene() {
       {"rock_rolling", {"1", "rolling resistance of rock on rock"}},
       {"rock_spinning", {"1", "spinning resistance of rock on rock"}},
       {"steel_friction", {"1", "friction of rock on steel"}},
-      {"steel_rolling", {"1", "rolling resistance of rock on steel"}}};
+      {"steel_rolling", {"1", "rolling resistance of rock on steel"}},
+      {"floor_friction", {"1", "friction of rock on floor"}},
+      {"rock_tyre_friction", {"1", "friction of rock on tyre"}},
+      {"steel_floor_friction", {"1", "friction of steel on floor"}},
+      {"tyre_floor_friction", {"1", "friction of tyre on floor"}},
+      {"whole_cycle", {"1", "1: approach, way back and standing are simulated too"}}};
   return meanings;
 }
 
@@ -62,12 +67,9 @@ const Meanings& of_the_machine() {
       {"longest_back_out", {"s", "time limit of backing out"}},
       {"slow_share", {"1", "of its set speed, below which a drive is stuck"}},
       {"slow_window", {"s", "how long it is that slow"}},
-      {"most_pulses", {"1", "pulses of boom and bucket per cycle, at most"}},
-      {"held_up", {"s", "how long the drive is slow before a pulse"}},
-      {"pulse", {"s", "length of a pulse"}},
-      {"pulse_boom", {"rad/s", "rate of the boom in a pulse"}},
-      {"pulse_tilt", {"rad/s", "rate of the bucket in a pulse"}},
-      {"press", {"1", "1: a drive that is held up in the lift while the arm moves is not stuck"}},
+      {"move_rounds", {"1", "how often the operator's moves are gone through"}},
+      {"held_up", {"s", "how long the drive is slow before a move"}},
+      {"most_slip", {"m/s", "of the wheels before the throttle is eased; infinite: never"}},
       {"crowd", {"m/s", "speed of the drive in the curl"}},
       {"curl_hold", {"1", "share of the wheels' torque that holds the drive in the curl"}}};
   return meanings;

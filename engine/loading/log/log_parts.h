@@ -35,6 +35,6 @@ double read_number(const record::Reader& file, const std::string& group, const s
 
 /// Below "scene".
 void write_scene(record::Writer& file, const SceneRecord& scene);
-SceneRecord read_scene(const record::Reader& file);
+SceneRecord read_scene(const record::Reader& file, LogContent content);
 
 }  // namespace drawpoint::engine::loading

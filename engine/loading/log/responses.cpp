@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/loading/log/cycle_samples.hpp>
+#include <drawpoint/engine/loading/log/hinge_torque.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <limits>
 #include <numeric>
@@ -26,7 +27,7 @@ void require_positive(const char* name, double value) {
 }
 
 double duration(const CycleRecord& cycle) {
-  const double seconds = cycle.t_end - cycle.t_start;
+  const double seconds = cycle.seconds();
   if (!(seconds > 0))
     throw std::invalid_argument("loading::production: a cycle lasts " + std::to_string(seconds) +
                                 " s; a cycle's t_end [s] must be after its t_start [s]");
@@ -50,9 +51,12 @@ double error_of_mean(const std::vector<double>& values) {
   return std::sqrt(squares / (k - 1) / k);
 }
 
-/// The same where there may be one value, of as many as were wanted.
+/// The same where there may be one value, of as many as were wanted. The first cycle meets a fresh pile and loads more
+/// than those after it in every run: that is no scatter, so from three cycles on the later ones alone tell it.
 double error_of_cycles(const std::vector<double>& by_cycle, double wanted) {
-  if (by_cycle.size() > 1) return error_of_mean(by_cycle);
+  const double n = static_cast<double>(by_cycle.size());
+  if (n >= 3) return error_of_mean({by_cycle.begin() + 1, by_cycle.end()}) * std::sqrt((n - 1) / n);
+  if (n == 2) return error_of_mean(by_cycle);
   return wanted > 1 ? std::abs(by_cycle.front()) : 0.0;
 }
 
@@ -112,7 +116,8 @@ std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOpt
     throw std::invalid_argument("loading::DamageOptions: lowpass_hz [Hz] is " +
                                 std::to_string(options.lowpass_hz) + "; give 0 (none) or more");
   const CycleSamples samples(log);
-  LowPassedVector torque(log, "hinge_G_torque", options.lowpass_hz);
+  const HingeTorque whole(log);
+  LowPassedVector torque([&](std::size_t row) { return whole.at(row); }, options.lowpass_hz);
   std::vector<double> damage(log.cycles.size());
   for (std::size_t row = 0; row < samples.rows(); ++row) {
     const double excess = magnitude(torque.next(samples), options.component) / options.tau_y - 1;
@@ -142,11 +147,29 @@ double counted_cycles(const LoadingLog& log) {
          number_or_0(log, "left_out_cycles");
 }
 
-std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options) {
+std::vector<double> lost_mass_by_cycle(const LoadingLog& log) {
   require_cycles(log, "rock_spill");
+  std::vector<double> lost;
+  for (const CycleRecord& cycle : log.cycles) {
+    double most = 0, last = std::numeric_limits<double>::quiet_NaN();
+    for (const SceneFrame& frame : log.scene.frames) {
+      if (frame.cycle != cycle.number) continue;
+      last = frame.bucket_mass;
+      most = std::max(most, last);
+    }
+    if (std::isnan(last))
+      throw std::invalid_argument("loading::rock_spill: the log does not say what the bucket held in cycle " +
+                                  std::to_string(cycle.number) +
+                                  "; give a log of version 5 or later, read with its frames");
+    lost.push_back(most - last);
+  }
+  return lost;
+}
+
+std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options) {
   require_positive("SpillOptions: m_max [kg]", options.m_max);
-  std::vector<double> shares;
-  for (const CycleRecord& cycle : log.cycles) shares.push_back(cycle.spilled_mass / options.m_max);
+  std::vector<double> shares = lost_mass_by_cycle(log);
+  for (double& share : shares) share /= options.m_max;
   return shares;
 }
 

@@ -14,18 +14,19 @@
 /// the start of stage 1 to the end of stage 4, h the time of a cycle away from the pile, 0 in the source:
 /// there a quick small load counts as much as a slow large one. The other aggregation is ΣM / Σ(T + h).
 ///
-/// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the torque in bucket hinge G,
-/// or of its two components across the pin (those twist the bucket; the third is the tilt's own load). Summed
-/// over the cycles of the run; one that broke down, or was left out because the mean was known
-/// (Scenario::precision), counts with the mean of the others. A sample stands for the time since the one
-/// before it in the same cycle, a cycle's first sample for the time to the next.
+/// joint_damage: c₂ = (1/τ_y) Σ max(T_i − τ_y, 0) Δt [s]; T_i the magnitude of the whole torque in bucket hinge G, the
+/// tilt drive's moment about the pin included (hinge_torque.hpp), or of its two components across the pin alone, which
+/// twist the bucket. Summed over the cycles of the run; one that broke down, or was left out because the mean was known
+/// (Scenario::precision), counts with the mean of the others. A sample stands for the time since the one before it in
+/// the same cycle, a cycle's first sample for the time to the next.
 /// Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each component, started anew with each cycle: a rigid
 /// impact's peak grows as 1/Δt, and unfiltered it would make the response a function of the time step.
 ///
-/// rock_spill: c₃ = mean over cycles of m_spill / m_max [1], m_spill the rocks in front of the pile after the
-/// cycle that this run left there: what lay there before the machine first came does not count. Rocks that
-/// stay count again after each cycle, and so do those that are cleared out of the machine's way. Source:
-/// Lindmark 2016, equations 54-56; aggregation and filter are ours, Lindmark (2016) is silent.
+/// rock_spill: c₃ = mean over cycles of m_lost / m_max [1], m_lost the rock that the bucket held when it held most and no
+/// longer holds at the end of the cycle, by the rocks whose centre is in its heap. The source's own, rock that lies before
+/// the pile's front, is rock_left.hpp: it measures the scatter of the toe, not the strategy.
+///
+/// Source: Lindmark 2016, equations 54-56; aggregation, filter and what was lost are ours.
 namespace drawpoint::engine::loading {
 
 enum class ProductionMean { of_ratios, ratio_of_sums };
@@ -58,6 +59,8 @@ struct SpillOptions {
 std::vector<double> production_by_cycle(const LoadingLog& log, const ProductionOptions& options = {});
 std::vector<double> joint_damage_by_cycle(const LoadingLog& log, const DamageOptions& options = {});
 std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options = {});
+/// m_lost [kg].
+std::vector<double> lost_mass_by_cycle(const LoadingLog& log);
 
 /// Loaded mass over the rated payload, mean over the cycles [1].
 double fill_factor(const LoadingLog& log);
@@ -74,11 +77,9 @@ double joint_damage(const LoadingLog& log, const DamageOptions& options = {});
 double rock_spill(const LoadingLog& log, const SpillOptions& options = {});
 
 /// Standard errors of the three, in their units, by the scatter of the run's cycles alone: of k cycles known to
-/// 1/√(2(k − 1)) of themselves. They take cycles as independent. In thirty-cycle runs the damage of one cycle
-/// and the next go against each other (correlation −0.2 to −0.3): the error is a fifth to a third too large.
-/// Spill goes together in three of five runs (0.5 to 0.6), since what lies is counted again, and production in
-/// two (0.4): their errors are up to a half too small. One cycle of one that was wanted tells none: 0; one that
-/// is left of several tells as little: the response itself.
+/// 1/√(2(k − 2)) of themselves, as the first, which meets a fresh pile and loads a fifth more in every run, tells nothing
+/// of scatter; two cycles tell theirs with that in it. They take cycles as independent. One cycle of one that was wanted
+/// tells none: 0; one that is left of several tells as little: the response itself.
 double production_standard_error(const LoadingLog& log, const ProductionOptions& options = {});  // of_ratios
 double joint_damage_standard_error(const LoadingLog& log, const DamageOptions& options = {});
 double rock_spill_standard_error(const LoadingLog& log);

@@ -145,7 +145,7 @@ void require_plans(const LoadingLog& log) {
 std::vector<double> cycle_time_by_cycle(const LoadingLog& log) {
   require_measured_cycles(log);
   std::vector<double> times;
-  for (const CycleRecord& cycle : log.cycles) times.push_back(cycle.t_end - cycle.t_start);
+  for (const CycleRecord& cycle : log.cycles) times.push_back(cycle.seconds());
   return times;
 }
 
@@ -173,7 +173,8 @@ std::vector<double> energy_by_cycle(const LoadingLog& log) {
             0};
   };
   std::vector<double> energy;
-  for (const auto& [joules, unused] : integrals(log, power)) energy.push_back(joules / 1000);
+  for (const auto& [joules, unused] : integrals(log, power))
+    energy.push_back((joules + log.cycles[energy.size()].left_out_energy) / 1000);
   return energy;
 }
 
@@ -242,6 +243,10 @@ double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options) {
 double cycle_time(const LoadingLog& log) { return mean_over_cycles(cycle_time_by_cycle(log)); }
 double solid_fill(const LoadingLog& log) { return mean_over_cycles(solid_fill_by_cycle(log)); }
 double struck_fill(const LoadingLog& log) { return solid_fill(log) / (1 - loose_ore_porosity); }
+double heaped_fill(const LoadingLog& log) {
+  return struck_fill(log) * positive_number(log, "bucket_struck_volume", "m3") /
+         positive_number(log, "bucket_heaped_volume", "m3");
+}
 double tracking_error(const LoadingLog& log) { return mean_over_cycles(tracking_error_by_cycle(log)); }
 double wheel_slip(const LoadingLog& log) { return mean_over_cycles(wheel_slip_by_cycle(log)); }
 double drive_lag(const LoadingLog& log) { return mean_over_cycles(drive_lag_by_cycle(log)); }

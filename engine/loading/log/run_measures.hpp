@@ -26,9 +26,9 @@
 /// 15° apart, is counted over all cycles by rainflow.hpp and summed by Miner's rule; given is the range that
 /// does the same damage once per loading cycle, in the worse pin and its worst direction. solid fill: volume
 /// of the loaded rocks, without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with
-/// porosity n. struck fill: solid fill over that, with the porosity of loose_ore_porosity: what a miner calls
-/// the fill factor,
-/// 0.8 to 1.1 for loaders in well blasted ore.
+/// porosity n. struck fill: solid fill over that, with the porosity of loose_ore_porosity. heaped fill: the same over the
+/// heaped volume, which is what a handbook's fill factor counts (Caterpillar Performance Handbook, 47th edition, of rated
+/// bucket capacity): 0.80 to 0.95 in well blasted rock, 0.75 to 0.90 in average, 0.60 to 0.75 in poorly blasted rock.
 namespace drawpoint::engine::loading {
 
 /// Of the default rock in its mine's sizes, poured loosely (docs/decisions/0026-rock-within-its-bounds.md)
@@ -57,6 +57,7 @@ double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options = 
 double cycle_time(const LoadingLog& log);
 double solid_fill(const LoadingLog& log);
 double struck_fill(const LoadingLog& log);
+double heaped_fill(const LoadingLog& log);
 double tracking_error(const LoadingLog& log);
 double drive_lag(const LoadingLog& log);
 double wheel_slip(const LoadingLog& log);

@@ -229,8 +229,12 @@ void write_scene(Writer& file, const SceneRecord& scene) {
   write_knots(file, scene);
 }
 
-SceneRecord read_scene(const Reader& file) {
+SceneRecord read_scene(const Reader& file, LogContent content) {
   SceneRecord scene;
+  if (content == LogContent::without_scene) {
+    read_frames(file, scene);
+    return scene;
+  }
   file.version() < 7 ? read_shapes_one_by_one(file, scene) : read_shapes(file, scene);
   read_bodies(file, scene);
   read_frames(file, scene);

@@ -9,6 +9,8 @@
 namespace drawpoint::engine::loading {
 namespace {
 
+constexpr double least_heel = 0.05;  // height over the floor at which a lift may still lower the boom [m]
+
 int number(Stage stage) { return static_cast<int>(stage); }
 
 void require(bool good, const char* name, double value, const char* allowed) {
@@ -40,8 +42,9 @@ void check(const ExecutorOptions& options) {
   require(floor >= 0 && floor <= 1, "progress.velocity_floor [1]", floor, "0 to 1");
   require(tolerance >= 0 && tolerance < 1, "progress.tolerance [1]", tolerance, "0 to below 1");
   check(options.moves);
-  require(options.moves.pulse < options.slow_window, "moves.pulse [s]", options.moves.pulse,
-          "a pulse shorter than slow_window, or an arm that is held up in it counts as stuck");
+  for (const Move& move : options.moves.round)
+    require(move.time < options.slow_window, "moves.round.time [s]", move.time,
+            "a move shorter than slow_window, or an arm that is held up in it counts as stuck");
 }
 
 // Time that an actuator has been slow, after a step of dt.
@@ -70,6 +73,13 @@ std::string_view name(StageEnd reason) {
   return names[static_cast<int>(reason)];
 }
 
+LiftEnd lift_end_named(const std::string& name) {
+  if (name == "arm") return LiftEnd::arm;
+  if (name == "any") return LiftEnd::any_actuator;
+  throw std::invalid_argument("loading::lift_end_named: there is no end of a lift \"" + name +
+                              "\"; choose arm or any");
+}
+
 SpeedPreset machine_speeds() {
   return {.drive_in = 1.2,
           .lift = 0.4,
@@ -95,8 +105,9 @@ SpeedPreset speeds_named(const std::string& name) {
                               "\"; choose lindmark2016 or machine");
 }
 
-Executor::Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options)
-    : plan_(plan), arm_(arm), options_(options), pulses_(options.moves) {
+Executor::Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options,
+                   const Approached& approached)
+    : plan_(plan), arm_(arm), options_(options), approached_(approached), moves_(options.moves) {
   if (!plan.feasible)
     throw std::invalid_argument("loading::Executor: the plan is not feasible (" + plan.message +
                                 "); end the run or plan anew");
@@ -118,18 +129,18 @@ void Executor::watch_actuators(const Observation& now, double dt) {
   slow_time_.tilt = slow_for(slow_time_.tilt, dt, set_.tilt, now.actual.tilt, options_, least.tilt);
 }
 
-// A drive that has pulses left, or that presses while the arm moves, is not stuck.
+// A drive that has moves left, or that pushes while the arm moves by more than a tenth of what it can, is not stuck.
 bool Executor::drive_may_be_stuck() const {
-  const OperatorMoves& moves = options_.moves;
-  const bool arm_moves =
-      std::abs(set_.boom) > options_.least_set.boom || std::abs(set_.tilt) > options_.least_set.tilt;
+  const RateLimits& most = options_.speeds.limits;
+  const bool arm_moves = std::abs(set_.boom) > options_.slow_share * most.boom ||
+                         std::abs(set_.tilt) > options_.slow_share * most.tilt;
   switch (stage_) {
     case Stage::drive_in:
-      return !pulses_.left();
+      return !moves_.left();
     case Stage::lift:
-      return !(moves.press && arm_moves);
+      return options_.lift_end == LiftEnd::any_actuator || !arm_moves;
     case Stage::curl:
-      return !(moves.crowd > 0);
+      return !(options_.moves.crowd > 0);
     default:
       return true;
   }
@@ -171,10 +182,22 @@ TipRates Executor::lift_rates(const TipPose& tip) const {
 
 ActuatorRates Executor::drive_in_speeds() const {
   ActuatorRates rates{.drive = options_.speeds.drive_in};
-  if (pulses_.under_way()) {
-    rates.boom = options_.moves.pulse_rates.boom;
-    rates.tilt = options_.moves.pulse_rates.tilt;
+  if (const Move* move = moves_.current()) {
+    rates.boom = move->boom;
+    rates.tilt = move->tilt;
   }
+  return rates;
+}
+
+// Where its heel is near the floor, a bucket that is to turn about its edge turns about its hinge: the boom stands.
+ActuatorRates Executor::lift_speeds(const TipPose& tip) const {
+  const TipRates wanted = lift_rates(tip);
+  const ArmPose pose = arm_pose(arm_, tip);
+  ActuatorRates rates = actuator_rates(arm_, pose, wanted);
+  const double heel = tip.z - arm_.floor * std::sin(tip.phi);
+  if (rates.boom < 0 && heel < least_heel)
+    rates = {
+        .drive = wanted.v_x + arm_.GK * std::sin(pose.b) * wanted.omega, .boom = 0, .tilt = wanted.omega};
   return rates;
 }
 
@@ -193,7 +216,7 @@ ActuatorRates Executor::set_speeds(const TipPose& tip) const {
     case Stage::drive_in:
       return within_limits(drive_in_speeds(), speeds.limits);
     case Stage::lift:
-      return within_limits(actuator_rates(arm_, arm_pose(arm_, tip), lift_rates(tip)), speeds.limits);
+      return within_limits(lift_speeds(tip), speeds.limits);
     case Stage::curl:
       return within_limits(curl_speeds(tip), speeds.limits);
     case Stage::back_out:
@@ -208,6 +231,8 @@ ActuatorRates Executor::step(const Observation& now) {
   if (!started_) {
     started_ = true;
     cycle_start_ = now.tip;
+    cycle_start_.x -= approached_.distance;
+    set_.drive = approached_.speed;
     last_time_ = now.time;
     start(Stage::drive_in, now);
   }
@@ -221,12 +246,20 @@ ActuatorRates Executor::step(const Observation& now) {
     results_.push_back({stage_, reason, stage_time_, now.time, progress_, stage_start_, now.tip});
     start(after(reason), now);
   }
-  if (stage_ == Stage::drive_in) pulses_.step(now.time, slow_time_.drive);
+  if (stage_ == Stage::drive_in) moves_.step(now.time, slow_time_.drive);
   const double drive_before = set_.drive;
   set_ = set_speeds(now.tip);
   if (const double most = options_.speeds.limits.drive_acceleration; std::isfinite(most))
     set_.drive = eased(drive_before, set_.drive, most * dt);
+  // The throttle is eased where wheels would spin.
+  set_.drive = std::min(set_.drive, std::max(now.actual.drive, 0.0) + options_.moves.most_slip);
   return set_;
+}
+
+void Executor::end_backing_out(const Observation& now) {
+  results_.push_back({stage_, StageEnd::goal, stage_time_, now.time, progress_, stage_start_, now.tip});
+  stage_ = Stage::finished;
+  set_ = {};
 }
 
 }  // namespace drawpoint::engine::loading

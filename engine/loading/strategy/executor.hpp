@@ -19,7 +19,10 @@
 /// made good, and no direction goes beyond its goal (LiftGoal::along_slope: as aimed at its start); stage 3
 /// ω; stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose
 /// set speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`. (b) and (c)
-/// are being stuck; the policy says what follows. Stage 2 is left out if h = 0.
+/// are being stuck; the policy says what follows. In stage 2 a slow drive alone ends nothing while the arm moves:
+/// cylinders that have force left go on while the wheels push (LiftEnd::any_actuator: it ends, as in the source).
+/// Where the wanted tilt would turn the bucket about its low edge and press its heel into the floor, stage 2 turns it about
+/// its hinge. Stage 2 is left out if h = 0.
 ///
 /// A value type on plain data: knows no simulator, deterministic. World frame, SI units. Source: Lindmark
 /// 2016, section 3.4, algorithm 1.
@@ -28,6 +31,14 @@ namespace drawpoint::engine::loading {
 enum class Stage : int { drive_in = 1, lift = 2, curl = 3, back_out = 4, finished = 5 };
 enum class StageEnd : int { goal = 0, timeout = 1, slow_actuator = 2 };
 enum class StuckPolicy { next_stage, abort_to_stage_4 };
+enum class LiftEnd {
+  arm,          ///< a slow drive ends a lift only where the arm stands too (default)
+  any_actuator  ///< one that is slow ends it, as in Lindmark (2016)
+};
+
+/// By name. Throws std::invalid_argument with the names.
+LiftEnd lift_end_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> lift_end_names = {"arm", "any"};
 
 std::string_view name(Stage stage);
 std::string_view name(StageEnd reason);
@@ -53,6 +64,7 @@ struct ExecutorOptions {
   SpeedPreset speeds = machine_speeds();
   ProgressOptions progress;
   StuckPolicy stuck = StuckPolicy::next_stage;
+  LiftEnd lift_end = LiftEnd::arm;
   OperatorMoves moves;
   double slow_share = 0.10;                       ///< [1]
   double slow_window = 1.0;                       ///< [s]
@@ -63,6 +75,11 @@ struct Observation {
   double time = 0;       ///< [s], never falls
   TipPose tip;           ///< odometry from the bucket's pose, not from the wheels
   ActuatorRates actual;  ///< speeds in the step just done
+};
+
+/// What of stage 1 was driven before the first observation: from rest over `distance` [m], to `speed` [m/s].
+struct Approached {
+  double distance = 0, speed = 0;
 };
 
 struct StageResult {
@@ -76,10 +93,13 @@ struct StageResult {
 class Executor {
  public:
   /// Throws std::invalid_argument if the plan is not feasible or an option makes no sense.
-  Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options = {});
+  Executor(const Plan& plan, const ArmGeometry& arm, const ExecutorOptions& options = {},
+           const Approached& approached = {});
 
   /// Set speeds until the next observation; all zero once finished. The first call starts stage 1.
   ActuatorRates step(const Observation& now);
+  /// Ends stage 4 where the machine is: the rest of the way is not to be driven.
+  void end_backing_out(const Observation& now);
 
   /// Of the wheels' torque, what may keep the drive at its set speed [1].
   double drive_share() const { return stage_ == Stage::curl ? options_.moves.curl_hold : 1; }
@@ -88,6 +108,7 @@ class Executor {
   bool finished() const { return stage_ == Stage::finished; }
   double progress() const { return progress_; }                         ///< s of the present stage [1]
   const StageGoal& goal() const { return goal_; }                       ///< of the present stage
+  double stage_time() const { return last_time_ - stage_time_; }        ///< since it began [s]
   const std::vector<StageResult>& results() const { return results_; }  ///< stages done, in order
 
  private:
@@ -98,19 +119,21 @@ class Executor {
   Stage after(StageEnd reason) const;
   ActuatorRates drive_in_speeds() const;
   ActuatorRates curl_speeds(const TipPose& tip) const;
+  ActuatorRates lift_speeds(const TipPose& tip) const;
   ActuatorRates set_speeds(const TipPose& tip) const;
   TipRates lift_rates(const TipPose& tip) const;
 
   Plan plan_;
   ArmGeometry arm_;
   ExecutorOptions options_;
+  Approached approached_;
   Stage stage_ = Stage::drive_in;
   bool started_ = false;
   TipPose cycle_start_, stage_start_;
   double stage_time_ = 0, last_time_ = 0, progress_ = 0;
   StageGoal goal_;
   ActuatorRates set_, slow_time_;
-  Pulses pulses_;
+  MoveSequence moves_;
   std::vector<StageResult> results_;
 };
 

@@ -4,36 +4,45 @@
 
 #include <array>
 #include <drawpoint/engine/loading/strategy/kinematics.hpp>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What an operator does at the pile beside following a plan.
 ///
-/// Pulses: when the drive-in has been held up for `held_up`, boom and bucket move for `pulse` while the drive goes
-/// on pushing. The lift loads the front tyres and loosens the rock over the edge, the curl turns it into the
-/// bucket. Pressing: in the lift a drive that is held up while the arm moves is not stuck, it presses. Crowding: in
-/// the curl the drive pushes at `crowd`, which falls as the curl does, instead of standing still; so rock is pressed
-/// into the bucket while its mouth turns up. Releasing: with less than all of `curl_hold` the bucket, which swings
-/// forward as it turns up, can push the machine back. Held, with the thrust of the lift still in the wheels, it may
-/// jam, nose down and full, and lose its load in backing out. Lindmark (2016) has none of these. Source: how
-/// loading is described by Hemami and Hassani (2009) and Dobson, Marshall and Larsson (2017); the numbers are chosen
-/// here (docs/measurements/loading.md). World frame of kinematics.hpp, SI units.
+/// Moves: when the drive-in has been held up for `held_up`, boom and bucket make the next move of `round` while the drive
+/// goes on pushing; after the last move the round begins again, `rounds` times in all. A lift loads the front tyres and
+/// loosens the rock over the edge, a curl turns it into the bucket, a dump (a negative tilt) drops the edge back into the
+/// rock, so that the next push slides under what the curl has lifted. Easing: wheels that turn faster than the machine
+/// moves by more than `most_slip` are set slower, so that they pull and do not spin. Crowding: in the curl the drive pushes
+/// at `crowd`, which falls as the curl does, instead of standing still; so rock is pressed into the bucket while its mouth
+/// turns up. Releasing: with less than all of `curl_hold` the bucket, which swings forward as it turns up, can push the
+/// machine back. Lindmark (2016) has none of these. Sources: how loading is taught (domain literature in
+/// docs/measurements/loading.md), Hemami and Hassani (2009), Dobson, Marshall and Larsson (2017); the numbers are chosen
+/// here. World frame of kinematics.hpp, SI units.
 namespace drawpoint::engine::loading {
 
+/// Of boom and bucket, while the drive keeps the drive-in's speed.
+struct Move {
+  double boom = 0;  ///< [rad/s], up positive
+  double tilt = 0;  ///< [rad/s], curling back positive; negative: dumping
+  double time = 0;  ///< [s] > 0
+};
+
 struct OperatorMoves {
-  int most_pulses = 0;   ///< per cycle; 0: none (default)
-  double held_up = 0.3;  ///< [s] > 0; the drive has been slow for so long before a pulse
-  double pulse = 0.5;    ///< [s] > 0
-  ActuatorRates pulse_rates = {0, 0.10,
-                               0.25};  ///< of boom and tilt in a pulse [rad/s] ≥ 0; the drive keeps its own
-  bool press = false;  ///< in the lift, a drive that is held up while the arm moves is not stuck
-  double crowd = 0;    ///< [m/s] ≥ 0; of the drive in the curl; 0: it stands (default)
+  std::vector<Move> round = {};  ///< in order; none (default)
+  int rounds = 1;                ///< [1] ≥ 1
+  double held_up = 0.3;          ///< [s] > 0; the drive has been slow for so long before a move
+  double crowd = 0;              ///< [m/s] ≥ 0; of the drive in the curl; 0: it stands (default)
   /// Of the wheels' torque, what keeps the drive at its speed in the curl [1]. 1: they hold as brakes do (default);
   /// 0: the pedal is released and they roll.
   double curl_hold = 1;
+  double most_slip =
+      std::numeric_limits<double>::infinity();  ///< [m/s] > 0; infinity: the throttle is not eased
 };
 
-/// All three: four pulses, pressing, crowding at 0.5 m/s.
+/// Three rounds of lift, curl, curl, dump, curl; crowding at 0.5 m/s; slip of at most 0.4 m/s.
 OperatorMoves skilled_operator();
 /// "plan": none; "skilled": skilled_operator(). Throws std::invalid_argument with the names.
 OperatorMoves operator_named(const std::string& name);
@@ -42,21 +51,25 @@ inline constexpr std::array<std::string_view, 2> operator_names = {"plan", "skil
 /// Throws std::invalid_argument naming the value and what is allowed.
 void check(const OperatorMoves& moves);
 
-/// When to pulse, step by step in one drive-in. A value type, deterministic.
-class Pulses {
+/// When to make which move, step by step in one drive-in. A value type, deterministic.
+class MoveSequence {
  public:
-  explicit Pulses(const OperatorMoves& moves = {}) : moves_(moves) {}
-  /// `slow_for`: how long the drive has been slow [s]. Returns whether the moves are due until the next call.
-  bool step(double time, double slow_for);
-  bool under_way() const { return pulsing_; }
-  /// Whether more pulses may come, one is under way, or the last one's time to show is not over: the drive is then not
-  /// stuck.
-  bool left() const { return done_ < moves_.most_pulses || pulsing_ || time_ < next_; }
+  explicit MoveSequence(const OperatorMoves& moves = {}) : moves_(moves) {}
+  /// `slow_for`: how long the drive has been slow [s]. Decides what is made until the next call.
+  void step(double time, double slow_for);
+  /// Nothing while none is made.
+  const Move* current() const { return making_ ? &moves_.round[number_ % moves_.round.size()] : nullptr; }
+  /// Whether more moves may come, one is made, or the last one's time to show is not over: the drive is then not stuck.
+  bool left() const { return made_before_end() || making_ || time_ < next_; }
 
  private:
+  bool made_before_end() const {
+    return number_ + (making_ ? 1 : 0) < moves_.round.size() * static_cast<std::size_t>(moves_.rounds);
+  }
+
   OperatorMoves moves_;
-  int done_ = 0;
-  bool pulsing_ = false;
+  std::size_t number_ = 0;  // of the move that is made or comes next
+  bool making_ = false;
   double time_ = 0, until_ = 0, next_ = 0;  // [s]
 };
 

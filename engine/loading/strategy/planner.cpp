@@ -61,6 +61,23 @@ double room_over_tip(double tilt, const PlannerOptions& options) {
   return about_tip ? room : room - arm.GK * std::sin(tilt + arm.psi_b);
 }
 
+// How far the tip at C, so high, is ahead of the front tyres.
+double tip_before_tyres(double height, double tilt, const PlannerOptions& options) {
+  const ArmPose pose = arm_pose(options.arm, {.x = 0, .z = height, .phi = tilt});
+  return -pose.q_d - options.tyre_reach;
+}
+
+// The greatest height at which the tyres have not followed the tip beyond B: bisection, as the room falls with height.
+double height_for_tyres(double slope, double tilt, const PlannerOptions& options) {
+  const auto fits = [&](double h) {
+    return h / std::tan(slope) + options.tyre_room <= tip_before_tyres(h, tilt, options);
+  };
+  double low = 0, high = 10;
+  if (!(slope > 0) || fits(high)) return high;
+  for (int k = 0; k < 40; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
 double reachable_height(double crest, double tilt, const PlannerOptions& options) {
   const double tip = tip_pose(options.arm, {.a = options.boom_max, .b = tilt + options.arm.psi_b}).z;
   return std::max(0.0, std::min({crest, tip, options.roof - room_over_tip(tilt, options)}));
@@ -116,7 +133,8 @@ Plan plan_trajectory(const Strategy& strategy, const ColumnModel& model, const P
   plan.volume_centre = row.volume_centre;
   plan.crest = row.crest;
   plan.tilt = strategy.kappa * row.slope;
-  plan.height_limit = reachable_height(row.crest, plan.tilt, options);
+  plan.height_limit = std::min(reachable_height(row.crest, plan.tilt, options),
+                               height_for_tyres(row.slope, plan.tilt, options));
   plan.height = strategy.beta * plan.height_limit;
   plan.area = strategy.alpha * options.bucket_volume / options.bucket_width;
   plan.depth = planned_depth(plan.height, plan.slope, plan.area);

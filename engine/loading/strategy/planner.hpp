@@ -14,7 +14,8 @@
 /// without cancellation, A = α V_b / w_b:
 ///   d = 2A / (h + √(h² + 2 θ A)),   finite for θ → 0 (d → A/h) and for h = 0 (d = √(2A/θ)).
 /// h = β h_max, h_max = least of: the crest of the row's contour, the tip height with the boom at its upper
-/// end and the bucket at κθ, and that from which the bucket curls below the roof. Row: rows sorted by volume
+/// end and the bucket at κθ, that from which the bucket curls below the roof, and that to which the front tyres follow
+/// the tip along the slope, h / tan θ, on the floor that the drive-in has cleared. Row: rows sorted by volume
 /// centre, nearest to the back wall first, entry round(γ (n − 1)); they lie a centimetre apart, so the volume
 /// centre follows γ continuously, while the place may jump from one side to the other. φ = κθ. Source: Lindmark
 /// 2016, equations 48-51; (50) corrected, Lindmark (2016) prints h²/θ under the root.
@@ -43,6 +44,9 @@ struct PlannerOptions {
   std::vector<Eigen::Vector2d> outline;
   /// Of the tip's x at C, e.g. before the back wall [m]; d gives way first, then h.
   double x_limit = std::numeric_limits<double>::infinity();
+  /// Front tyres' foremost points ahead of the axle [m]; minus infinity: tyres limit nothing.
+  double tyre_reach = -std::numeric_limits<double>::infinity();
+  double tyre_room = 0.3;  ///< from those to the rock that the drive-in left standing [m]
   CurlMode curl = CurlMode::hinge_G;
   LiftGoal lift = LiftGoal::behind_surface;
   ArmGeometry arm;

@@ -36,6 +36,16 @@ const LoadingLog& cycle_log() {
   return log;
 }
 
+// The same, with approach, way back and standing simulated too.
+const LoadingLog& whole_cycle_log() {
+  static const LoadingLog log = [] {
+    Scenario scenario = small_case();
+    scenario.whole_cycle = true;
+    return simulate(scenario);
+  }();
+  return log;
+}
+
 }  // namespace
 
 TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
@@ -52,14 +62,40 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
   EXPECT_EQ(log.numbers.at("most_iterations_per_substep"),
             most_iterations(small_case().world.solver, log.numbers.at("most_contact_points")));
   EXPECT_EQ(cycle.stages.size(), 4u);
-  EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / (cycle.t_end - cycle.t_start));
+  EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / cycle.seconds());
+}
+
+// What is counted for the parts that are left out is what they take: the machine follows its set speeds on a level floor to
+// a few per cent, so that a tenth of the 5 s of both is room enough. The cycle that is simulated ends with a clear bucket
+// on its way back. What the whole one simulates is longer by these parts, the digging being another (rocks part at once).
+TEST(LoadingCycle, LeavesOutWhatTheMachineDrivesAlone) {
+  const CycleRecord &part = cycle_log().cycles[0], &whole = whole_cycle_log().cycles[0];
+  EXPECT_EQ(whole.left_out_time, 0);
+  EXPECT_EQ(whole.left_out_energy, 0);
+  EXPECT_GT(part.left_out_time, 2);
+  const auto seconds = [](const CycleRecord& cycle, Stage stage) {
+    for (const StageResult& result : cycle.stages)
+      if (result.stage == stage) return result.t_end - result.t_start;
+    return 0.0;
+  };
+  double drive = part.left_out_time, drive_whole = 0;
+  for (const Stage stage : {Stage::drive_in, Stage::back_out}) {
+    drive += seconds(part, stage);
+    drive_whole += seconds(whole, stage);
+  }
+  EXPECT_NEAR(drive, drive_whole, 0.5);
+  EXPECT_LT(seconds(part, Stage::back_out), seconds(whole, Stage::back_out));
+  EXPECT_EQ(part.stages.back().reason, StageEnd::goal);
+  // 57 t and the wheels at 1.5 m/s are 66 kJ and more; the way back adds at most that at 3.8 m/s with the load.
+  EXPECT_GT(part.left_out_energy, 0.5 * 57e3 * 1.5 * 1.5);
+  EXPECT_LT(part.left_out_energy, 0.5 * 80e3 * (1.5 * 1.5 + 3.8 * 3.8));
 }
 
 // Who opens the file in another program finds the unit of every number, and what it is.
 TEST(LoadingCycle, EveryNumberOfTheLogSaysWhatItIs) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "drawpoint_cycle_log.h5";
   write_log(path, cycle_log());
-  const record::Reader file(path, {"drawpoint loading log", 7});
+  const record::Reader file(path, {"drawpoint loading log", 8});
   const std::vector<std::string> names = file.children("numbers");
   EXPECT_EQ(names.size(), cycle_log().numbers.size());
   for (const std::string& name : names) {
@@ -99,7 +135,7 @@ TEST(LoadingCycle, LogHasWhatItsMeasuresTake) {
 // the edge, 3.85 m before the axle, by 20 mm: a tenth of the thinnest rock. A bucket that stands higher rides
 // over rubble.
 TEST(LoadingCycle, TheBucketComesAlongTheFloor) {
-  const LoadingLog& log = cycle_log();
+  const LoadingLog& log = whole_cycle_log();
   ASSERT_EQ(log.numbers.at("drive_acceleration"), 2);
   const record::Table& s = log.signals;
   const std::size_t x = s.index("tip_x"), z = s.index("tip_z"), angle = s.index("bucket_angle");
@@ -122,7 +158,7 @@ TEST(LoadingCycle, TheBucketComesAlongTheFloor) {
 // GN/m: the machine's whole weight presses it in by 6 mm, and 57 t stopped at 1.6 m/s by a single contact by
 // v √(m/k) = 38 mm.
 TEST(LoadingCycle, EnergyDoesNotComeFromNothing) {
-  const LoadingLog& log = cycle_log();
+  const LoadingLog& log = whole_cycle_log();
   ASSERT_TRUE(log.completed) << log.message;
   ASSERT_EQ(log.numbers.at("emitted_mass"), 0);
   const std::vector<EnergyBalance> balance = energy_balances(log).at(0);
@@ -166,7 +202,7 @@ TEST(LoadingCycle, LooksAheadWithoutATrace) {
 // same times, and the same bits up to there.
 TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
   int solves = 0;
-  constexpr int broken = 300;
+  constexpr int broken = 200;
   SimulationHooks hooks;
   hooks.before_solve = [&](const ContactProblem&) {
     if (++solves == broken) throw SolutionBroken("a velocity is not finite");
@@ -178,7 +214,7 @@ TEST(LoadingCycle, OutlivesAStepThatBreaksDown) {
   const std::vector<double> time = log.signals.column("time"), usual = cycle_log().signals.column("time");
   const std::vector<double> tip = log.signals.column("tip_x"),
                             usual_tip = cycle_log().signals.column("tip_x");
-  constexpr std::size_t before = broken - 100;  // steps of standing are not logged
+  constexpr std::size_t before = broken - 2;
   ASSERT_GT(time.size(), before);
   for (std::size_t k = 0; k < before; ++k) {
     EXPECT_NEAR(time[k], usual[k], 1e-9);
@@ -316,11 +352,9 @@ TEST(LoadingCycle, RockThatLeftTheDriftIsCounted) {
 TEST(LoadingCycle, LogNamesTheMoves) {
   const LoadingLog& log = cycle_log();
   const OperatorMoves moves = small_case().executor.moves;
-  EXPECT_EQ(log.numbers.at("most_pulses"), moves.most_pulses);
-  EXPECT_EQ(log.numbers.at("pulse"), moves.pulse);
-  EXPECT_EQ(log.numbers.at("pulse_boom"), moves.pulse_rates.boom);
-  EXPECT_EQ(log.numbers.at("pulse_tilt"), moves.pulse_rates.tilt);
-  EXPECT_EQ(log.numbers.at("press"), moves.press);
+  EXPECT_EQ(log.numbers.at("move_rounds"), moves.rounds);
+  EXPECT_EQ(log.numbers.at("most_slip"), moves.most_slip);
+  EXPECT_EQ(log.texts.at("moves"), "none");
   EXPECT_EQ(log.numbers.at("crowd"), moves.crowd);
   EXPECT_EQ(log.numbers.at("curl_hold"), moves.curl_hold);
 }
@@ -374,7 +408,7 @@ TEST(LoadingCycle, RefillsBetweenCyclesBySeed) {
   ASSERT_TRUE(log.completed) << log.message;
   ASSERT_EQ(log.cycles.size(), 2u);
   EXPECT_EQ(log.cycles[0].loaded_rock_masses, cycle_log().cycles[0].loaded_rock_masses);
-  EXPECT_GT(log.cycles[1].t_start, log.cycles[0].t_end + scenario.pile.rest.hold - 1e-9);
+  EXPECT_GT(log.cycles[1].t_start, log.cycles[0].t_end + 0.1 - 1e-9);
   EXPECT_GT(log.scene.bodies.size(), cycle_log().scene.bodies.size());
   scenario.seed = 2;
   const LoadingLog other = simulate(scenario);
@@ -385,7 +419,7 @@ TEST(LoadingCycle, RefillsBetweenCyclesBySeed) {
 
 // Rocks that lay in front before the machine came, by both side walls so that one at least is out of its way,
 // are in front after the cycle and still no spill: what the run left is the rest.
-TEST(LoadingCycle, SpillIsWhatTheRunLeft) {
+TEST(LoadingCycle, RockInFrontBeforeTheRunIsNotLeftByIt) {
   Scenario scenario = small_case();
   SettledPile pile = prepared_pile(scenario);
   granular::PlacedRock stray{{0, 0.4}, Eigen::Isometry3d::Identity()};
@@ -399,7 +433,6 @@ TEST(LoadingCycle, SpillIsWhatTheRunLeft) {
   const CycleRecord& cycle = log.cycles[0];
   EXPECT_GE(cycle.front_mass, cycle.spilled_mass + mass - 1e-9);
   EXPECT_GE(cycle.spilled_mass, 0);
-  EXPECT_DOUBLE_EQ(rock_spill(log), cycle.spilled_mass / 10e3);
   EXPECT_EQ(log.texts.at("pile_provenance"), pile.provenance);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// When an operator pulses, presses and crowds: counted steps of a clock, and the executor on plants that hold
-// the drive up. All numbers are exact up to one step of the clock, h.
+// When an operator makes which move, eases the throttle and crowds: counted steps of a clock, and the executor on plants
+// that hold the drive up. All numbers are exact up to one step of the clock, h.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ namespace {
 constexpr double h = 1.0 / 128;  // sums of it are exact
 
 OperatorMoves moves_of_the_clock() {
-  return {.most_pulses = 2, .held_up = 32 * h, .pulse = 64 * h, .pulse_rates = {0, 0.1, 0.2}};
+  return {.round = {{.boom = 0.1, .tilt = 0.2, .time = 64 * h}, {.boom = 0, .tilt = -0.3, .time = 64 * h}},
+          .held_up = 32 * h};
 }
 
 Plan a_plan(double height) {
@@ -63,9 +64,11 @@ struct Cycle {
 
 using Plant = std::function<ActuatorRates(const ActuatorRates& set, const TipPose& tip, Stage stage)>;
 
-Cycle cycle_on(const Plan& plan, const OperatorMoves& moves, const Plant& plant) {
+Cycle cycle_on(const Plan& plan, const OperatorMoves& moves, const Plant& plant,
+               LiftEnd lift_end = LiftEnd::arm) {
   ExecutorOptions options;
   options.moves = moves;
+  options.lift_end = lift_end;
   const ArmGeometry arm;
   Executor executor(plan, arm, options);
   ArmPose pose = arm_pose(arm, {.x = plan.toe - 2.0});
@@ -91,20 +94,33 @@ ActuatorRates pile_that_holds(const ActuatorRates& set, const TipPose& tip, Stag
 
 }  // namespace
 
-// Slow from the clock's zero on: pulses from 32 h to 96 h and, 32 h after, from 128 h to 192 h, with 32 h after the last one.
-TEST(Pulses, ComeWhenTheDriveIsHeldUpAndLeaveItTimeBetween) {
-  Pulses pulses(moves_of_the_clock());
-  for (int k = 0; k < 400; ++k) {
-    const bool due = (k >= 32 && k < 96) || (k >= 128 && k < 192);
-    EXPECT_EQ(pulses.step(k * h, k * h), due) << k;
-    EXPECT_EQ(pulses.left(), k < 224) << k;
+// Slow from the clock's zero on: the first move from 32 h to 96 h and, 32 h after, the second from 128 h to 192 h, with 32 h
+// after the last one; a second round goes on so.
+TEST(MoveSequence, ComesWhenTheDriveIsHeldUpAndLeavesItTimeBetween) {
+  for (const int rounds : {1, 2}) {
+    OperatorMoves moves = moves_of_the_clock();
+    moves.rounds = rounds;
+    MoveSequence sequence(moves);
+    for (int k = 0; k < 600; ++k) {
+      sequence.step(k * h, k * h);
+      const int number = k < 32 ? -1 : (k - 32) / 96;  // 64 of a move, 32 after it
+      const bool due = number >= 0 && number < 2 * rounds && (k - 32) % 96 < 64;
+      ASSERT_EQ(sequence.current() != nullptr, due) << k;
+      if (due) {
+        EXPECT_EQ(sequence.current()->tilt, number % 2 == 0 ? 0.2 : -0.3) << k;
+      }
+      EXPECT_EQ(sequence.left(), k < 32 + 96 * 2 * rounds) << k;
+    }
   }
 }
 
-TEST(Pulses, DoNotComeToADriveThatMoves) {
-  Pulses pulses(moves_of_the_clock());
-  for (int k = 0; k < 400; ++k) EXPECT_FALSE(pulses.step(k * h, 31 * h)) << k;
-  EXPECT_TRUE(pulses.left());
+TEST(MoveSequence, DoesNotComeToADriveThatMoves) {
+  MoveSequence sequence(moves_of_the_clock());
+  for (int k = 0; k < 400; ++k) {
+    sequence.step(k * h, 31 * h);
+    EXPECT_EQ(sequence.current(), nullptr) << k;
+  }
+  EXPECT_TRUE(sequence.left());
 }
 
 TEST(OperatorMoves, NoneAreMadeByDefault) {
@@ -113,41 +129,71 @@ TEST(OperatorMoves, NoneAreMadeByDefault) {
   for (const Step& step : cycle.of(Stage::curl)) EXPECT_EQ(step.set.drive, 0);
 }
 
-// Without pulses the drive-in ends when the drive has been slow for 1 s; with them they come first: two of 64
-// steps, at the arm's rates, and the drive pushes all along.
-TEST(OperatorMoves, PulsesComeBeforeADriveInIsStuck) {
+// Without moves the drive-in ends when the drive has been slow for 1 s; with them they come first: a lift and a dump of 64
+// steps each, at the arm's rates, and the drive pushes all along.
+TEST(OperatorMoves, ComeBeforeADriveInIsStuck) {
   const OperatorMoves moves = moves_of_the_clock();
   const Cycle cycle = cycle_on(a_plan(1), moves, pile_that_holds);
-  int pulsed = 0, steps = 0;
+  int lifted = 0, dumped = 0, steps = 0;
   for (const Step& step : cycle.of(Stage::drive_in)) {
     const SpeedPreset speeds = machine_speeds();
     EXPECT_NEAR(step.set.drive, std::min(speeds.drive_in, steps++ * h * speeds.limits.drive_acceleration),
                 1e-12);
     EXPECT_EQ(step.set.boom > 0, step.set.tilt > 0);
-    if (step.set.boom == 0) continue;
-    EXPECT_EQ(step.set.boom, moves.pulse_rates.boom);
-    EXPECT_EQ(step.set.tilt, moves.pulse_rates.tilt);
-    ++pulsed;
+    lifted += step.set.tilt == 0.2 && step.set.boom == 0.1;
+    dumped += step.set.tilt == -0.3;
   }
-  EXPECT_EQ(pulsed, 2 * 64);
+  EXPECT_EQ(lifted, 64);
+  EXPECT_EQ(dumped, 64);
   EXPECT_EQ(cycle.result(Stage::drive_in).reason, StageEnd::slow_actuator);
-  // Slow since it is held up, at t; pulses as above from there, and one step for each of the two that see it.
+  // Slow since it is held up, at t; moves as above from there, and one step for each of the two that see it.
   const auto held_up = std::find_if(cycle.steps.begin(), cycle.steps.end(),
                                     [](const Step& step) { return step.set.boom > 0; });
   EXPECT_NEAR(cycle.result(Stage::drive_in).t_end - held_up->time, (224 - 32) * h, 2 * h);
 }
 
-// The drive is held up from the start of the lift: the plan's rule ends it after 1 s, pressing lets the arm come to its height.
-TEST(OperatorMoves, APressingDriveLetsTheLiftComeToItsHeight) {
-  OperatorMoves moves;
+// The drive is held up from the start of the lift: the source's rule ends it after 1 s; while the arm moves it goes on.
+TEST(OperatorMoves, ADriveThatIsHeldUpLetsTheLiftComeToItsHeight) {
   const Plan plan = a_plan(1.5);
-  const Cycle before = cycle_on(plan, moves, pile_that_holds);
-  moves.press = true;
-  const Cycle with = cycle_on(plan, moves, pile_that_holds);
-  EXPECT_EQ(before.result(Stage::lift).reason, StageEnd::slow_actuator);
-  EXPECT_LT(before.result(Stage::lift).end.z, 0.6 * plan.height);
-  // It slows down to the floor of the speeds (5 %) and ends when no set speed of the arm is above the least one.
-  EXPECT_GT(with.result(Stage::lift).end.z, 0.9 * plan.height);
+  const Cycle source = cycle_on(plan, {}, pile_that_holds, LiftEnd::any_actuator);
+  const Cycle usual = cycle_on(plan, {}, pile_that_holds);
+  EXPECT_EQ(source.result(Stage::lift).reason, StageEnd::slow_actuator);
+  EXPECT_LT(source.result(Stage::lift).end.z, 0.6 * plan.height);
+  // It goes up as a share of what is left, and ends when the arm is set to less than a tenth of its limits: 0.02 of
+  // 0.2 rad/s, 0.06 m/s of the tip, where the first speed is 0.4 m/s.
+  EXPECT_GT(usual.result(Stage::lift).end.z, (1 - 0.06 / 0.4) * plan.height - 0.05);
+}
+
+// Turning the bucket up about an edge that stays low would take the boom down, and its heel into the floor.
+TEST(OperatorMoves, NoLiftPressesTheHeelIntoTheFloor) {
+  Plan plan = a_plan(0.1);
+  plan.tilt = plan.slope;
+  plan.corners = corner_points(plan, 2.0, ArmGeometry());
+  const Cycle cycle = cycle_on(plan, {}, pile_that_holds);
+  const std::vector<Step> lift = cycle.of(Stage::lift);
+  ASSERT_FALSE(lift.empty());
+  EXPECT_GT(lift.front().set.tilt, 0);
+  const TipPose end = cycle.result(Stage::lift).end;
+  EXPECT_GT(end.phi, 0.8 * plan.tilt) << "it turns all the same";
+  EXPECT_GT(end.z - ArmGeometry().floor * std::sin(end.phi), 0);
+}
+
+// Wheels are set no faster than the machine moves and `most_slip` beyond.
+TEST(OperatorMoves, TheThrottleIsEasedWhereWheelsWouldSpin) {
+  OperatorMoves moves;
+  moves.most_slip = 0.25;
+  bool eased = false;
+  double before = 0;
+  for (const Step& step :
+       cycle_on(a_plan(1), moves, [&](const ActuatorRates&set, const TipPose&tip, Stage stage) {
+         EXPECT_LE(set.drive, before + 0.25);
+         eased = eased || (stage == Stage::drive_in && set.drive == before + 0.25);
+         const ActuatorRates actual = pile_that_holds(set, tip, stage);
+         before = std::max(actual.drive, 0.0);
+         return actual;
+       }).steps)
+    EXPECT_TRUE(std::isfinite(step.set.drive));
+  EXPECT_TRUE(eased);
 }
 
 // The drive's set speed falls as the curl does, from `crowd` to the floor of the speeds; a drive that does not move then
@@ -188,16 +234,21 @@ TEST(OperatorMoves, RefuseWhatMakesNoSense) {
     }
     return std::string();
   };
-  EXPECT_EQ(message({.most_pulses = -1}),
-            "loading::OperatorMoves: most_pulses [1] is -1.000000; give 0 to 100");
-  EXPECT_EQ(message({.pulse = 0}),
-            "loading::OperatorMoves: pulse [s] is 0.000000; give a finite value above 0");
+  EXPECT_EQ(message({.rounds = 0}), "loading::OperatorMoves: rounds [1] is 0.000000; give 1 to 100");
+  EXPECT_EQ(message({.round = {{.tilt = -0.4, .time = 0}}}),
+            "loading::OperatorMoves: round.time [s] is 0.000000; give a finite value above 0");
+  EXPECT_EQ(message({.round = {{.tilt = std::nan(""), .time = 0.5}}}),
+            "loading::OperatorMoves: round.tilt [rad/s] is nan; give a finite value");
+  EXPECT_EQ(message({.round = {{.time = 2}}}),
+            "loading::ExecutorOptions: moves.round.time [s] is 2.000000; give a move shorter than "
+            "slow_window, or an arm "
+            "that is held up in it counts as stuck");
   EXPECT_EQ(message({.crowd = std::nan("")}),
             "loading::OperatorMoves: crowd [m/s] is nan; give a finite value of at least 0");
-  EXPECT_EQ(
-      message({.pulse_rates = {.drive = 1}}),
-      "loading::OperatorMoves: pulse_rates.drive [m/s] is 1.000000; give 0; the drive keeps the speed of the "
-      "drive-in");
+  EXPECT_EQ(message({.most_slip = 0}),
+            "loading::OperatorMoves: most_slip [m/s] is 0.000000; give a value above 0; infinity: the "
+            "throttle is not "
+            "eased");
   EXPECT_EQ(message({.curl_hold = 1.5}), "loading::OperatorMoves: curl_hold [1] is 1.500000; give 0 to 1");
   EXPECT_EQ(message({.crowd = 0.5, .curl_hold = 0}),
             "loading::OperatorMoves: curl_hold [1] is 0.000000; give a value above 0, or no crowd: released "
