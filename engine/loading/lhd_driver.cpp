@@ -24,9 +24,7 @@ void add_machine(engine::World& world, const Lhd& lhd, machine::Machine& machine
 }
 
 LhdDriver::LhdDriver(const Lhd& lhd, machine::Machine& machine)
-    : lhd_(lhd), machine_(machine), arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {
-  arm_.floor = lhd.K.x() - lhd.bucket_profile.back().x();
-}
+    : lhd_(lhd), machine_(machine), arm_(arm_geometry(lhd.F, lhd.G, lhd.K)) {}
 
 void LhdDriver::place(double x, double y) {
   // Axles 2 cm above their reference height: the tyres sink to about it under the weight, and the bucket

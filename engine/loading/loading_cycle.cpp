@@ -293,9 +293,7 @@ bool LoadingRun::execute(CycleRecord& record, const Approached& approached) {
       largest_overlap_ = std::max(largest_overlap_, report.max_overlap);
       largest_loop_error_ = std::max(largest_loop_error_, site_.machine().loop_error());
     };
-    // Rock follows what the bucket takes away once that leaves: before, it would fall into the bucket.
-    const bool leaving = !scenario_.whole_cycle && executor.stage() == Stage::back_out;
-    site_.refill(leaving ? site_.mass_in_bucket() : 0);
+    site_.refill();
     if (hooks_.look_ahead) call([&] { hooks_.look_ahead(site_.world()); });
     if (!step(log_signals)) return false;
   }

@@ -42,7 +42,7 @@ struct Scenario {
   double standoff = 2.0;  ///< tip to toe at the start [m]
   /// Also simulated are: the approach over the standoff, the way back once the bucket is clear, standing before it is
   /// weighed, and the wait until nothing moves. Otherwise these take the time and energy that the machine's own law gives
-  /// them (strategy/left_out.hpp), and rock comes down the raise while the machine backs out.
+  /// them (strategy/left_out.hpp).
   bool whole_cycle = false;
   Drift drift;
   PileOptions pile;

@@ -157,9 +157,7 @@ double Site::rock_energy() const {
   return energy;
 }
 
-bool Site::refill(double more) {
-  return !emitter_.emit(world_, library_, specs_, missing_mass() + more).empty();
-}
+bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_mass()).empty(); }
 
 double Site::remove_escaped() {
   double escaped = 0;

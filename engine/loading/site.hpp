@@ -52,9 +52,9 @@ class Site {
   /// tip_x, driving at `speed` [m/s]. Rocks that would lie inside it are taken away; returns them.
   std::vector<int> place_machine(double tip_x, double y, double speed = 0);
 
-  /// Lets rocks come down the raise when it is time, toward the mass at the start, or beyond it by `more` [kg], which are
-  /// to leave; whether any came. Call once per step while mass is missing.
-  bool refill(double more = 0);
+  /// Lets rocks come down the raise when it is time, toward the mass at the start; whether any came. Call
+  /// once per step while mass is missing.
+  bool refill();
   double missing_mass() const;  ///< [kg]; at most 0 when the drift holds what it held at the start
 
   double initial_mass() const { return initial_mass_; }

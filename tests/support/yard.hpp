@@ -11,10 +11,12 @@
 namespace drawpoint::support {
 
 struct Yard {
-  explicit Yard(const engine::loading::LhdOptions& options = {}, const engine::WorldOptions& solved = {})
+  explicit Yard(
+      const engine::loading::LhdOptions& options = {}, const engine::WorldOptions& solved = {},
+      const engine::loading::MineMaterials& materials = engine::loading::calibrated_materials())
       : lhd(engine::loading::sandvik_lh621(options)),
         machine(lhd.spec),
-        world(solved, engine::loading::material_table(engine::loading::calibrated_materials())),
+        world(solved, engine::loading::material_table(materials)),
         driver(lhd, machine) {
     world.add_static(std::make_shared<const engine::Shape>(engine::HalfSpace{Eigen::Vector3d::UnitZ(), 0}),
                      Eigen::Isometry3d::Identity(), static_cast<int>(engine::loading::SurfaceKind::terrain));

@@ -9,8 +9,6 @@
 namespace drawpoint::engine::loading {
 namespace {
 
-constexpr double least_heel = 0.05;  // height over the floor at which a lift may still lower the boom [m]
-
 int number(Stage stage) { return static_cast<int>(stage); }
 
 void require(bool good, const char* name, double value, const char* allowed) {
@@ -146,12 +144,18 @@ bool Executor::drive_may_be_stuck() const {
   }
 }
 
+// Moves take their time beside that of the drive-in.
+double Executor::stage_limit() const {
+  const double limit = options_.speeds.stage_limit[static_cast<std::size_t>(number(stage_)) - 1];
+  return stage_ == Stage::drive_in ? limit + longest_time(options_.moves) : limit;
+}
+
 bool Executor::stage_ends(const Observation& now, StageEnd& reason) const {
   const double slowest =
       std::max({drive_may_be_stuck() ? slow_time_.drive : 0.0, slow_time_.boom, slow_time_.tilt});
   if (goal_reached(progress_, options_.progress)) {
     reason = StageEnd::goal;
-  } else if (now.time - stage_time_ >= options_.speeds.stage_limit[number(stage_) - 1]) {
+  } else if (now.time - stage_time_ >= stage_limit()) {
     reason = StageEnd::timeout;
   } else if (slowest > options_.slow_window) {
     reason = StageEnd::slow_actuator;
@@ -189,13 +193,12 @@ ActuatorRates Executor::drive_in_speeds() const {
   return rates;
 }
 
-// Where its heel is near the floor, a bucket that is to turn about its edge turns about its hinge: the boom stands.
+// A bucket that is to turn about its edge, whose boom would have to sink, turns about its hinge: rock or floor is under it.
 ActuatorRates Executor::lift_speeds(const TipPose& tip) const {
   const TipRates wanted = lift_rates(tip);
   const ArmPose pose = arm_pose(arm_, tip);
   ActuatorRates rates = actuator_rates(arm_, pose, wanted);
-  const double heel = tip.z - arm_.floor * std::sin(tip.phi);
-  if (rates.boom < 0 && heel < least_heel)
+  if (rates.boom < 0)
     rates = {
         .drive = wanted.v_x + arm_.GK * std::sin(pose.b) * wanted.omega, .boom = 0, .tilt = wanted.omega};
   return rates;

@@ -21,8 +21,8 @@
 /// set speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`. (b) and (c)
 /// are being stuck; the policy says what follows. In stage 2 a slow drive alone ends nothing while the arm moves:
 /// cylinders that have force left go on while the wheels push (LiftEnd::any_actuator: it ends, as in the source).
-/// Where the wanted tilt would turn the bucket about its low edge and press its heel into the floor, stage 2 turns it about
-/// its hinge. Stage 2 is left out if h = 0.
+/// Stage 2 never lowers the boom: where the wanted tilt would turn the bucket about its edge and press its heel into floor or
+/// rock, it turns about its hinge. Stage 2 is left out if h = 0.
 ///
 /// A value type on plain data: knows no simulator, deterministic. World frame, SI units. Source: Lindmark
 /// 2016, section 3.4, algorithm 1.
@@ -115,6 +115,7 @@ class Executor {
   void start(Stage stage, const Observation& now);
   void watch_actuators(const Observation& now, double dt);
   bool drive_may_be_stuck() const;
+  double stage_limit() const;
   bool stage_ends(const Observation& now, StageEnd& reason) const;
   Stage after(StageEnd reason) const;
   ActuatorRates drive_in_speeds() const;

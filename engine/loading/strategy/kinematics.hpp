@@ -22,7 +22,6 @@ struct ArmGeometry {
   double x_F = -0.60;       ///< F ahead of the point whose x is q_d (front axle line) [m]
   double z_F = 1.80;        ///< F above the floor [m]
   double psi_b = -0.27087;  ///< elevation of GK when the bucket floor is level, −15.52° [rad]
-  double floor = 1.45;      ///< of the bucket, from the cutting edge to the heel [m]
 };
 
 /// The geometry of hinge points given in the reference pose (bucket flat on the floor, z = 0, x from the

@@ -14,13 +14,13 @@ void require_move(bool good, const char* name, double value, const char* allowed
                                 std::to_string(value) + "; give " + allowed);
 }
 
-constexpr Move lift{.boom = 0.10, .tilt = 0.10, .time = 0.5}, curl{.boom = 0, .tilt = 0.25, .time = 0.5},
-    dump{.boom = 0, .tilt = -0.40, .time = 0.6};
+constexpr Move lift{.boom = 0.10, .tilt = 0, .time = 0.4}, curl{.boom = 0, .tilt = 0.30, .time = 0.4},
+    dump{.boom = 0, .tilt = -0.30, .time = 0.4};
 
 }  // namespace
 
 OperatorMoves skilled_operator() {
-  return {.round = {lift, curl, curl, dump, curl}, .rounds = 3, .crowd = 0.5, .most_slip = 0.4};
+  return {.round = {lift, curl, dump, curl}, .rounds = 3, .crowd = 2.0, .most_slip = 0.4};
 }
 
 OperatorMoves operator_named(const std::string& name) {
@@ -48,6 +48,12 @@ void check(const OperatorMoves& m) {
                "a value above 0, or no crowd: released wheels do not push");
   require_move(m.most_slip > 0, "most_slip [m/s]", m.most_slip,
                "a value above 0; infinity: the throttle is not eased");
+}
+
+double longest_time(const OperatorMoves& moves) {
+  double round = 0;
+  for (const Move& move : moves.round) round += move.time + moves.held_up;
+  return moves.rounds * round;
 }
 
 // After a move the drive gets `held_up` to show that it moves again.

@@ -42,7 +42,7 @@ struct OperatorMoves {
       std::numeric_limits<double>::infinity();  ///< [m/s] > 0; infinity: the throttle is not eased
 };
 
-/// Three rounds of lift, curl, curl, dump, curl; crowding at 0.5 m/s; slip of at most 0.4 m/s.
+/// Three rounds of lift, curl, dump, curl of 0.4 s each; crowding at 2 m/s; slip of at most 0.4 m/s.
 OperatorMoves skilled_operator();
 /// "plan": none; "skilled": skilled_operator(). Throws std::invalid_argument with the names.
 OperatorMoves operator_named(const std::string& name);
@@ -50,6 +50,9 @@ inline constexpr std::array<std::string_view, 2> operator_names = {"plan", "skil
 
 /// Throws std::invalid_argument naming the value and what is allowed.
 void check(const OperatorMoves& moves);
+
+/// What all rounds take at most, with the time to show after each move [s].
+double longest_time(const OperatorMoves& moves);
 
 /// When to make which move, step by step in one drive-in. A value type, deterministic.
 class MoveSequence {

@@ -189,8 +189,9 @@ TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
   EXPECT_NEAR(fastest, options.speeds.drive_in, 0.02 * options.speeds.drive_in);
 }
 
-// A pile that lets the machine drive at three tenths of the set speed only: the tip rises to its height and no further, while
-// the drive goes on to C. (A boom that follows its set speed goes at most one step too far.)
+// A pile that lets the machine drive at three tenths of the set speed only: the boom takes the tip to its height and no
+// further, while the drive goes on to C. (A boom that follows its set speed goes at most one step too far; the tilt that is
+// left then turns the bucket about its hinge, which stands.)
 TEST(Executor, ALiftWhoseDriveLagsBehindKeepsItsHeight) {
   const Plan plan = example_plan();
   bool lifting = false;
@@ -208,11 +209,13 @@ TEST(Executor, ALiftWhoseDriveLagsBehindKeepsItsHeight) {
   const TipPose &end = run.results[1].end, &C = plan.corners[2];
   for (std::size_t k = 0; k < run.path.size(); ++k)
     if (run.stage[k] == Stage::lift) {
-      EXPECT_LT(run.path[k].z, C.z + options.speeds.lift * h);
+      EXPECT_GE(run.set[k].boom, 0);
+      if (run.path[k].z > C.z + options.speeds.lift * h) EXPECT_EQ(run.set[k].boom, 0);
       EXPECT_LT(run.path[k].phi, C.phi + options.speeds.curl * h);
     }
   const double length = std::hypot(run.results[1].start.x - C.x, C.z) + arm.GK * plan.tilt;
-  EXPECT_NEAR(end.z, C.z, options.progress.tolerance * length + options.speeds.lift * h + drift_bound);
+  EXPECT_GT(end.z, C.z - (options.progress.tolerance * length + options.speeds.lift * h + drift_bound));
+  EXPECT_LT(end.z, C.z + arm.GK * plan.tilt);
 }
 
 // As Lindmark (2016) has it: by (h / tan θ, h) from where the drive-in ended, short of C by what that fell

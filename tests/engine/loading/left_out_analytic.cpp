@@ -113,5 +113,7 @@ TEST(LeftOut, ACycleBegunAtTheToeEndsAboveA) {
   ASSERT_EQ(executor.results().size(), 4u);
   // Stage 4 ends within its tolerance, 2 % of a way of some 6 m.
   EXPECT_NEAR(tip_pose(arm, pose).x, plan.corners[0].x, 0.02 * 6 + 0.01);
-  EXPECT_NEAR(t + way.time, driven(plan, options, h).back().time, 0.02);
+  // Both runs end within that tolerance of A, where they back at the floor of the speeds, 5 % of 3.8 m/s: what their ends
+  // lie apart, by steps of 2 ms at up to 1.5 m/s in each of four stages, takes at most 0.06 s there.
+  EXPECT_NEAR(t + way.time, driven(plan, options, h).back().time, 4 * 1.5 * h / (0.05 * 3.8));
 }

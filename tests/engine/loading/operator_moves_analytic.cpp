@@ -165,7 +165,7 @@ TEST(OperatorMoves, ADriveThatIsHeldUpLetsTheLiftComeToItsHeight) {
 }
 
 // Turning the bucket up about an edge that stays low would take the boom down, and its heel into the floor.
-TEST(OperatorMoves, NoLiftPressesTheHeelIntoTheFloor) {
+TEST(OperatorMoves, NoLiftLowersTheBoom) {
   Plan plan = a_plan(0.1);
   plan.tilt = plan.slope;
   plan.corners = corner_points(plan, 2.0, ArmGeometry());
@@ -173,9 +173,8 @@ TEST(OperatorMoves, NoLiftPressesTheHeelIntoTheFloor) {
   const std::vector<Step> lift = cycle.of(Stage::lift);
   ASSERT_FALSE(lift.empty());
   EXPECT_GT(lift.front().set.tilt, 0);
-  const TipPose end = cycle.result(Stage::lift).end;
-  EXPECT_GT(end.phi, 0.8 * plan.tilt) << "it turns all the same";
-  EXPECT_GT(end.z - ArmGeometry().floor * std::sin(end.phi), 0);
+  for (const Step& step : lift) EXPECT_GE(step.set.boom, 0);
+  EXPECT_GT(cycle.result(Stage::lift).end.phi, 0.8 * plan.tilt) << "it turns all the same";
 }
 
 // Wheels are set no faster than the machine moves and `most_slip` beyond.
