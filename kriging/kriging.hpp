@@ -19,6 +19,7 @@
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
+#include <drawpoint/kriging/mean_error.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
@@ -30,6 +31,7 @@
 #include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/kriging/sample_paths.hpp>
 #include <drawpoint/kriging/score.hpp>
+#include <drawpoint/kriging/signal.hpp>
 #include <drawpoint/kriging/success_model.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
@@ -71,7 +73,9 @@
 ///   cross_validation.hpp           leave-one-out, k-fold, hold-out
 ///   outliers.hpp                   runs that do not belong to the others
 ///   nonstationarity.hpp            responses that jump, or are rougher or noisier in one part of the box
-///   score.hpp                      RMSE, NRMSE, Q2 and their kin; the error without the noise of runs
+///   score.hpp                      RMSE, NRMSE, Q2 and their kin
+///   mean_error.hpp                 the error of the mean response from noisy runs, with its interval
+///   signal.hpp                     whether a model says anything, or is flat within its own error
 ///   compare.hpp                    several ways to fit, scored alike, and the best of them
 ///
 /// The next run:

@@ -172,31 +172,6 @@ inline double score(const Validation& v, ErrorFunction error, double level = 0.9
   return none;
 }
 
-/// What of rmse is the noise of single runs and what the model's own error, all in the unit of y.
-struct ErrorWithoutNoise {
-  double noise;  ///< √(1/n Σ (σᵢ² − sᵢ²)), sᵢ² the variance of the latent function, as the model has it
-  double rmse;          ///< √max(0, rmse² − noise²): by how much the model misses the mean of many runs
-  double lower, upper;  ///< one standard error below and above, of n runs with normal noise
-};
-
-/// Of runs that scatter no model gets an rmse below `noise`. The standard error is that of rmse²,
-/// √((2/n) (noise⁴ + 2 noise² rmse²)), and takes the model's noise as known. Predictions on another scale
-/// than that of y have noise that differs from run to run; it then holds roughly. NaN where a variance is not
-/// finite, as of a model of one run. Throws as score().
-inline ErrorWithoutNoise error_without_noise(const Validation& v) {
-  const double all = score(v, ErrorFunction::rmse), n = static_cast<double>(v.observed.size());
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!detail::all_finite(v.variance) || !detail::all_finite(v.observation_variance))
-    return {none, none, none, none};
-  const double noise = std::max(detail::mean_of(detail::difference(v.observation_variance, v.variance)), 0.0);
-  const double rest = std::max(all * all - noise, 0.0);
-  const double deviation = std::sqrt(2.0 / n * noise * (noise + 2.0 * rest));
-  return {.noise = std::sqrt(noise),
-          .rmse = std::sqrt(rest),
-          .lower = std::sqrt(std::max(rest - deviation, 0.0)),
-          .upper = std::sqrt(rest + deviation)};
-}
-
 /// Whether higher numbers are better ones.
 inline bool higher_is_better(ErrorFunction error) {
   return error == ErrorFunction::q2 || error == ErrorFunction::coverage;

@@ -39,7 +39,7 @@ void print(const std::string& name, const char* noise, const Tables& tables, con
     const kriging::Validation& v = fitted.validations[j];
     std::printf(
         "| %s | %s | %s | %s | %.4g | %.3f | %ld of %ld |\n", name.c_str(), problem.responses[j].name.c_str(),
-        noise, fitted.ways[j].c_str(), kriging::error_without_noise(v).noise, v.nrmse,
+        noise, fitted.ways[j].c_str(), std::sqrt(kriging::modelled_noise(v, 1).variance), v.nrmse,
         static_cast<long>(count_within(v, problem.responses[j])), static_cast<long>(v.observed.size()));
   }
   std::fflush(stdout);

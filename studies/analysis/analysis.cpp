@@ -84,7 +84,11 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
 void tell_of_models(Summary& summary, const ReportInput& input) {
   auto said = summary.nrmse.begin();
   for (std::size_t j = 0; j < input.validations.size(); ++j)
-    if (!doe::is_standard_error(input.problem, j)) (said++)->second = input.validations[j].nrmse;
+    if (!doe::is_standard_error(input.problem, j)) {
+      summary.mean_errors[said->first] = input.mean_errors[j];
+      (said++)->second = input.validations[j].nrmse;
+    }
+  summary.flat = texts_of(input.flat, input.problem);
   summary.no_front = input.no_front;
   summary.front = static_cast<int>(input.front.X.rows());
   summary.polishing = input.polishing;

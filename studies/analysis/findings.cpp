@@ -32,7 +32,7 @@ StudyResults results_of(const ReportInput& input, const std::vector<const Run*>&
   std::set<std::int64_t> with_log;
   for (const Run* run : logged) with_log.insert(run->id);
   const doe::Evaluations training = first_design_of(input);
-  StudyResults results{.problem = input.problem,
+  StudyResults results{.problem = as_asked(input.problem, input.flat),
                        .X = training.X(),
                        .Y = responses_of(training),
                        .X_new = input.validation.X(),

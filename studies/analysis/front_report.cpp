@@ -236,6 +236,8 @@ std::string front_points_text(const ReportInput& input, int most, bool every_poi
                      (every_point ? ".\n\n" : " (--limit, --all).\n\n");
   text += text_table(table);
   text += "\nIn brackets: the interval that should hold 95 of 100 runs there, noise included.\n";
+  for (const auto& [response, why] : texts_of(input.flat, input.problem))
+    text += response + ": " + why + ".\n";
   text += non_dominated_text(input);
   text += places_text(view, shown);
   text += confirmation_text(input);
@@ -249,6 +251,7 @@ nlohmann::ordered_json front_points_json(const ReportInput& input, int most) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (const int row : every_row(input)) points.push_back(point_json(view, row, shown));
   return {{"points", std::move(points)},
+          {"flat", flat_json(texts_of(input.flat, input.problem))},
           {"confirmed", confirmed_json(input.confirmations)},
           {"cautions", detail::cautions(input)}};
 }

@@ -18,7 +18,7 @@ std::string front_points_text(const ReportInput& input, int most, bool every_poi
 
 /// Every point: {"points": [{"point", "x": {}, "predicted": {response: {"mean", "lower", "upper"}},
 /// "non_dominated": probability or null, "success", "best": [objectives], "balanced", "knee", "chosen":
-/// whether the text shows it, "simulated": [runs]}], "confirmed": as in the summary, "cautions": []}.
+/// whether the text shows it, "simulated": [runs]}], "flat" and "confirmed": as in the summary, "cautions": []}.
 nlohmann::ordered_json front_points_json(const ReportInput& input, int most);
 
 }  // namespace drawpoint::studies

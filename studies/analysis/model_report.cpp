@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/analysis/number_or_null.h>
+#include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/studies/report/stated_interval.h>
@@ -27,29 +28,30 @@ std::string with_unit(double value, const std::string& unit) {
   return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
-std::string noise_part_text(const kriging::Validation& v, const doe::Response& response) {
-  const auto parts = telling_noise(v);
-  if (!parts) return "";
-  return " (noise of a run " + with_unit(parts->noise, response.unit) + ", without it " +
-         with_unit(parts->rmse, response.unit) + ", " + number(parts->lower) + " to " + number(parts->upper) +
-         ")";
+/// Of the mean response first, where single runs are noisy.
+std::string mean_error_text(const kriging::MeanError& error, const std::string& unit) {
+  if (!(error.noise > 0)) return "";
+  return "error of the mean " + with_unit(error.rmse, unit) + " (" + number(error.lower) + " to " +
+         number(error.upper) + "), " + number(error.nrmse()) +
+         " of the range; of single runs, whose noise is " + with_unit(error.noise, unit) + ": ";
 }
 
 /// Errors of predictions against runs that the model did not know.
-std::string errors_text(const kriging::Validation& v, const doe::Response& response) {
-  const auto n = v.observed.size();
-  return "RMSE " + with_unit(v.rmse, response.unit) + noise_part_text(v, response) + ", NRMSE " +
+std::string errors_text(const kriging::Validation& v, const kriging::MeanError& error,
+                        const doe::Response& response) {
+  return mean_error_text(error, response.unit) + "RMSE " + with_unit(v.rmse, response.unit) + ", NRMSE " +
          (std::isfinite(v.nrmse) ? number(v.nrmse) : "unknown") + ", " +
-         std::to_string(count_within(v, response)) + " of " + std::to_string(n) +
+         std::to_string(count_within(v, response)) + " of " + std::to_string(v.observed.size()) +
          " within their 95 % interval";
 }
 
-Json errors_json(const kriging::Validation& v, const doe::Response& response) {
-  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
+Json errors_json(const kriging::Validation& v, const kriging::MeanError& error,
+                 const doe::Response& response) {
   return {{"runs", v.observed.size()},
+          {"mean_error", mean_error_json(error)},
           {"rmse", number_or_null(v.rmse)},
-          {"noise", number_or_null(parts.noise)},
-          {"rmse_without_noise", number_or_null(parts.rmse)},
+          {"noise", number_or_null(std::sqrt(kriging::modelled_noise(v, 1).variance))},
+          {"rmse_without_noise", number_or_null(error.rmse)},
           {"nrmse", number_or_null(v.nrmse)},
           {"q2", number_or_null(kriging::score(v, kriging::ErrorFunction::q2))},
           {"within", count_within(v, response)}};
@@ -75,7 +77,9 @@ std::string fit_text(const Models& fitted, const doe::Problem& problem) {
     text += detail::labelled(response.name, response.unit) + ": " + fitted.ways[j] + ", " +
             std::to_string(model.runs()) + " runs\n";
     text += "  " + std::string(to_string(model.status())) + ": " + model.message() + "\n";
-    text += "  runs predicted without themselves: " + errors_text(leave_one_out(model), response) + "\n";
+    const kriging::Validation left_out = leave_one_out(model);
+    text += "  runs predicted without themselves: " +
+            errors_text(left_out, mean_error_of(left_out, model, problem), response) + "\n";
     text += "  noise of a run: " + noise_text(model, response.unit) + "\n  theta:";
     for (std::size_t k = 0; k < problem.variables.size(); ++k)
       text += (k ? ", " : " ") + problem.variables[k].name + " " +
@@ -90,6 +94,7 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
   for (std::size_t j = 0; j < fitted.models.size(); ++j) {
     if (doe::is_standard_error(problem, j)) continue;
     const kriging::TransformedModel& model = fitted.models[j];
+    const kriging::Validation left_out = leave_one_out(model);
     Json theta = Json::object();
     for (std::size_t k = 0; k < problem.variables.size(); ++k)
       theta[problem.variables[k].name] = model.model().theta()[static_cast<Eigen::Index>(k)];
@@ -102,7 +107,8 @@ Json fit_json(const Models& fitted, const doe::Problem& problem) {
         {"theta", theta},
         {"noise_deviation", number_or_null(std::sqrt(model.noise_variance()))},
         {"noise_source", to_string(fitted.noise[j])},
-        {"leave_one_out", errors_json(leave_one_out(model), problem.responses[j])}};
+        {"leave_one_out",
+         errors_json(left_out, mean_error_of(left_out, model, problem), problem.responses[j])}};
   }
   return all;
 }
@@ -139,8 +145,8 @@ std::string validation_text(const Models& fitted, const Tables& tables) {
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
     if (doe::is_standard_error(tables.training.problem, j)) continue;
     const kriging::Validation& v = fitted.validations[j];
-    text +=
-        detail::labelled(responses[j].name, responses[j].unit) + ": " + errors_text(v, responses[j]) + "\n";
+    text += detail::labelled(responses[j].name, responses[j].unit) + ": " +
+            errors_text(v, fitted.mean_errors[j], responses[j]) + "\n";
     for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
       const Interval interval = stated_interval(v, i, responses[j]);
       const bool outside = !interval.holds(v.observed[i]);
@@ -159,7 +165,7 @@ Json validation_json(const Models& fitted, const Tables& tables) {
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
     if (doe::is_standard_error(tables.training.problem, j)) continue;
     const kriging::Validation& v = fitted.validations[j];
-    Json entry = errors_json(v, responses[j]);
+    Json entry = errors_json(v, fitted.mean_errors[j], responses[j]);
     entry["rows"] = Json::array();
     for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
       const Interval interval = stated_interval(v, i, responses[j]);

@@ -68,10 +68,13 @@ void add_models(ReportInput& input, doe::Seed seed) {
   for (std::string& sentence : unevenness(fitted, tables)) input.warnings.push_back(std::move(sentence));
   input.models = std::move(fitted.models);
   input.validations = std::move(fitted.validations);
+  input.mean_errors = std::move(fitted.mean_errors);
   for (std::size_t j = 0; j < fitted.ways.size(); ++j)
     if (!doe::is_standard_error(input.problem, j))
       input.facts.emplace_back("Model of " + input.problem.responses[j].name, fitted.ways[j]);
   PredictedFront predicted = predicted_front(input.models, tables, seed);
+  input.problem = std::move(predicted.problem);
+  input.flat = std::move(predicted.flat);
   input.front = std::move(predicted.found.front);
   input.uncertainty = uncertainty_of(input.front, input.models, input.problem, seed);
   if (!predicted.failures.none()) tell_of_failures(input, predicted.failures);
@@ -92,7 +95,7 @@ void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
     input.warnings.push_back("Model of " + input.problem.responses[j].name + ": " +
                              input.models[j].message() + ".");
   }
-  if (!input.no_front.empty() && has_objective(input.problem))
+  if (!input.no_front.empty() && has_objective(as_asked(input.problem, input.flat)))
     input.warnings.push_back("There is no front: " + input.no_front + ".");
   if (input.validation.X().rows() == 0) {
     input.warnings.push_back("Without a validation run, nothing tells how good the models are.");

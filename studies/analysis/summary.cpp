@@ -46,7 +46,37 @@ std::string front_text(const Summary& summary) {
   return line + "; simulated: " + text(summary.confirmations);
 }
 
+/// The error against the mean response stands first, where single runs are noisy.
+std::string error_text(const Summary& summary, const std::string& response, double nrmse) {
+  const auto share = [](double value) {
+    return !std::isfinite(value) ? "unknown" : formatted(value < 1e-3 && value != 0 ? "%.1e" : "%.4f", value);
+  };
+  const std::string of_runs = "NRMSE of " + response + ": " + share(nrmse);
+  const auto found = summary.mean_errors.find(response);
+  if (found == summary.mean_errors.end() || !(found->second.noise > 0)) return "  " + of_runs + "\n";
+  const kriging::MeanError& error = found->second;
+  return "  error of the mean of " + response + ": " + share(error.nrmse()) + " of the range, " +
+         share(error.share(error.lower)) + " to " + share(error.share(error.upper)) +
+         " with 95 %; of single runs: " + share(nrmse) + " (NRMSE)\n";
+}
+
 }  // namespace
+
+nlohmann::ordered_json mean_error_json(const kriging::MeanError& error) {
+  return {{"rmse", number_or_null(error.rmse)},
+          {"lower", number_or_null(error.lower)},
+          {"upper", number_or_null(error.upper)},
+          {"nrmse", number_or_null(error.nrmse())},
+          {"nrmse_lower", number_or_null(error.share(error.lower))},
+          {"nrmse_upper", number_or_null(error.share(error.upper))},
+          {"noise", number_or_null(error.noise)}};
+}
+
+nlohmann::ordered_json flat_json(const std::vector<std::pair<std::string, std::string>>& flat) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const auto& [response, text] : flat) all.push_back({{"response", response}, {"text", text}});
+  return all;
+}
 
 nlohmann::ordered_json confirmed_json(const CheckedRuns& checked) {
   return {{"points", checked.runs.size()},
@@ -78,6 +108,10 @@ std::string json_line(const Summary& summary) {
   for (const auto& [response, value] : summary.nrmse) {
     line["nrmse"][response] = number_or_null(value);
   }
+  line["mean_error"] = nlohmann::ordered_json::object();
+  for (const auto& [response, error] : summary.mean_errors)
+    line["mean_error"][response] = mean_error_json(error);
+  line["flat"] = flat_json(summary.flat);
   line["front"] = summary.front;
   line["confirmed"] = confirmed_json(summary.confirmations);
   const pareto::Polishing& polishing = summary.polishing;
@@ -103,11 +137,8 @@ std::string text(const Summary& summary) {
               " adaptive points wanted";
   result += "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
-  for (const auto& [response, value] : summary.nrmse) {
-    const std::string number =
-        !std::isfinite(value) ? "unknown" : formatted(value < 1e-3 ? "%.1e" : "%.4f", value);
-    result += "  NRMSE of " + response + ": " + number + "\n";
-  }
+  for (const auto& [response, value] : summary.nrmse) result += error_text(summary, response, value);
+  for (const auto& [response, why] : summary.flat) result += "  " + response + ": " + why + "\n";
   for (const Finding& f : summary.findings)
     result += "  " + f.id + " " + to_string(f.verdict) + ": " + f.claim + " (" + f.grounds + ")\n";
   if (!summary.report.empty()) {

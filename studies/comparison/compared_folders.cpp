@@ -21,6 +21,7 @@ void add_front(ComparedSide& side, const std::vector<Run>& runs, const Identity&
   try {
     PredictedFront predicted = predicted_front(fit_models(tables).models, tables, identity.seed);
     side.no_front = std::move(predicted.missing);
+    side.flat = std::move(predicted.flat);
     if (side.no_front.empty()) side.front = std::move(predicted.found.front);
   } catch (const std::invalid_argument& e) {
     side.no_front = tables.training.X().rows() == 0 ? "no training run has given values"
@@ -39,6 +40,15 @@ ComparedSide side_of(const Study& study, const ComparedFolder& compared, const s
   side.headlines = headlines_of(study, logged, identity.options, compared.folder, side.warnings);
   add_front(side, runs, identity);
   return side;
+}
+
+/// The front with the values of these objectives alone.
+pareto::Front seen_in(const doe::Problem& problem, pareto::Front front) {
+  std::vector<int> columns;
+  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+    if (doe::is_objective(problem.responses[j].goal)) columns.push_back(static_cast<int>(j));
+  front.Y = front.responses(Eigen::all, columns).eval();
+  return front;
 }
 
 std::string value_or_none(const OptionValues& values, const std::string& name) {
@@ -72,8 +82,10 @@ ComparedFolders compare_folders(const Study& study, const ComparedFolder& a, con
                            .b = side_of(study, b, runs_b),
                            .choices = other_choices(a.store.identity(), b.store.identity()),
                            .runs = compare_runs(runs_a, runs_b)};
-  if (compared.a.front && compared.b.front)
-    compared.fronts = compare_fronts(study.problem, *compared.a.front, *compared.b.front);
+  compared.common = without_flat(without_flat(study.problem, compared.a.flat), compared.b.flat);
+  if (compared.a.front && compared.b.front && has_objective(compared.common))
+    compared.fronts = compare_fronts(compared.common, seen_in(compared.common, *compared.a.front),
+                                     seen_in(compared.common, *compared.b.front));
   return compared;
 }
 

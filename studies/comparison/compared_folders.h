@@ -5,6 +5,7 @@
 
 #include <drawpoint/studies/comparison/comparison.h>
 #include <drawpoint/studies/comparison/front_comparison.h>
+#include <drawpoint/studies/report/flat_responses.h>
 #include <drawpoint/studies/store/folder.h>
 #include <drawpoint/studies/store/store.h>
 #include <drawpoint/studies/study.hpp>
@@ -28,6 +29,7 @@ struct ComparedSide {
   std::vector<std::string> warnings = {};
   std::optional<pareto::Front> front = {};  ///< predicted
   std::string no_front = {};                ///< why there is none
+  std::vector<FlatResponse> flat = {};
 };
 
 /// Something that was decided otherwise on the two sides.
@@ -41,7 +43,8 @@ struct ComparedFolders {
   ComparedSide a = {}, b = {};
   std::vector<OtherChoice> choices = {};  ///< options, then simulator, seed and replicates
   Comparison runs = {};
-  std::optional<FrontComparison> fronts = {};  ///< where both sides have one
+  std::optional<FrontComparison> fronts = {};  ///< where both sides have one, in a common objective
+  doe::Problem common = {};                    ///< objectives of both fronts; others are recorded only
 };
 
 /// Requires stores of the study's problem. Fits the models of both.

@@ -153,9 +153,22 @@ std::string shares_text(const FrontComparison& fronts) {
   return text + "Predicted by models, without an interval; confirm both before relying on it.\n";
 }
 
+/// The objectives that were left out of a front, and why.
+std::string left_out_text(const char* name, const ComparedFolders& compared, const ComparedSide& side) {
+  std::string text;
+  for (const FlatResponse& flat : side.flat)
+    if (doe::is_objective(flat.asked))
+      text += std::string("\nNot in the front of ") + name + ": " +
+              compared.problem.responses[flat.response].name + ": " + flat_text(flat, compared.problem) +
+              ".\n";
+  return text;
+}
+
 std::string fronts_text(const ComparedFolders& compared) {
-  if (!compared.fronts) return no_front_text("A", compared.a) + no_front_text("B", compared.b);
-  const auto objectives = detail::objectives(compared.problem);
+  const std::string left_out =
+      left_out_text("A", compared, compared.a) + left_out_text("B", compared, compared.b);
+  if (!compared.fronts) return no_front_text("A", compared.a) + no_front_text("B", compared.b) + left_out;
+  const auto objectives = detail::objectives(compared.common);
   Lines table = {{"best on the predicted front", "A", "B"}};
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const doe::Response& response = compared.problem.responses[objectives[k]];
@@ -164,7 +177,7 @@ std::string fronts_text(const ComparedFolders& compared) {
                      detail::number(compared.fronts->best_a[column]),
                      detail::number(compared.fronts->best_b[column])});
   }
-  return "\n" + text_table(table) + shares_text(*compared.fronts);
+  return "\n" + text_table(table) + shares_text(*compared.fronts) + left_out;
 }
 
 using ComparisonJson = nlohmann::ordered_json;
@@ -212,7 +225,7 @@ ComparisonJson fronts_json(const ComparedFolders& compared) {
   if (!compared.fronts) return {};
   const FrontComparison& fronts = *compared.fronts;
   ComparisonJson reference = ComparisonJson::object(), best = ComparisonJson::object();
-  const auto objectives = detail::objectives(compared.problem);
+  const auto objectives = detail::objectives(compared.common);
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const std::string& name = compared.problem.responses[objectives[k]].name;
     const auto column = static_cast<Eigen::Index>(k);

@@ -89,15 +89,25 @@ bool has_objective(const doe::Problem& problem) {
                      [](const doe::Response& response) { return doe::is_objective(response.goal); });
 }
 
+namespace {
+
+/// Why there is nothing to search for; empty where there is.
+std::string no_objective(const doe::Problem& asked, const std::vector<FlatResponse>& flat) {
+  if (!has_objective(asked)) return "no response is to be minimized or maximized";
+  if (has_objective(without_flat(asked, flat))) return "";
+  return "no model of an objective (" + flat_objectives(flat, asked) +
+         ") differs between strategies by more than its own error";
+}
+
+}  // namespace
+
 PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& models, const Tables& tables,
                                doe::Seed seed) {
-  const doe::Problem& problem = tables.training.problem;
-  PredictedFront predicted{.found = {}, .failures = Failures(tables)};
-  if (!has_objective(problem)) {
-    predicted.missing = "no response is to be minimized or maximized";
-    return predicted;
-  }
-  predicted.found = front_of(models, problem, seed, predicted.failures);
+  const doe::Problem& asked = tables.training.problem;
+  PredictedFront predicted{.found = {}, .failures = Failures(tables), .flat = flat_responses(models, asked)};
+  predicted.problem = without_flat(asked, predicted.flat);
+  if (predicted.missing = no_objective(asked, predicted.flat); !predicted.missing.empty()) return predicted;
+  predicted.found = front_of(models, predicted.problem, seed, predicted.failures);
   if (predicted.found.front.X.rows() > 0) return predicted;
   predicted.missing = predicted.found.front.message;
   if (fails_everywhere(predicted.failures, tables))

@@ -4,10 +4,12 @@
 /// The trade-offs that a study's models predict: NSGA-II searches the means of the models, and
 /// pareto/polished_front.hpp finishes what it finds with their exact gradients. What a model predicts outside
 /// of a response's range counts as the bound there; points that are then dominated are left out. Where runs
-/// fail (failures.h) points count as failed in the search, and are left out where polishing leads there.
+/// fail (failures.h) points count as failed in the search, and are left out where polishing leads there. An
+/// objective whose model is flat within its own error is no objective (report/flat_responses.h).
 
 #include <drawpoint/studies/models/failures.h>
 #include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/report/flat_responses.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/pareto/polished_front.hpp>
@@ -30,6 +32,8 @@ struct PredictedFront {
   pareto::PolishedFront found;
   Failures failures = {};
   std::string missing = {};  ///< empty where there is a front
+  std::vector<FlatResponse> flat = {};
+  doe::Problem problem = {};  ///< that was searched: the study's, its flat objectives recorded only
 };
 PredictedFront predicted_front(const std::vector<kriging::TransformedModel>& models, const Tables& tables,
                                doe::Seed seed);

@@ -142,8 +142,11 @@ Models fit_models(const Tables& tables) {
     fitted.models.push_back(std::move(best.model));
   }
   if (tables.validation.X().rows() == 0) return fitted;
-  for (std::size_t j = 0; j < problem.responses.size(); ++j)
+  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
     fitted.validations.push_back(validation_of(fitted, tables.validation, j));
+    fitted.mean_errors.push_back(
+        mean_error_of(fitted.validations[j], fitted.models[j], tables.validation, problem.responses[j]));
+  }
   return fitted;
 }
 
@@ -156,13 +159,25 @@ Models models_or_reason(const Tables& tables) {
   }
 }
 
+namespace {
+
+std::string share_text(const kriging::Validation& v, const kriging::MeanError& error) {
+  char text[96];
+  if (error.noise > 0)
+    std::snprintf(text, sizeof text, "%.3g of the mean (%.3g of runs)", error.nrmse(), v.nrmse);
+  else
+    std::snprintf(text, sizeof text, "%.3g", v.nrmse);
+  return text;
+}
+
+}  // namespace
+
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem) {
   std::string text;
   for (std::size_t j = 0; j < fitted.validations.size(); ++j) {
     if (doe::is_standard_error(problem, j)) continue;
-    char number[32];
-    std::snprintf(number, sizeof number, "%.3g", fitted.validations[j].nrmse);
-    text += (text.empty() ? "NRMSE " : ", ") + problem.responses[j].name + " " + number;
+    text += (text.empty() ? "NRMSE " : ", ") + problem.responses[j].name + " " +
+            share_text(fitted.validations[j], fitted.mean_errors[j]);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 /// leave-one-out, and validated on the validation runs. Failed runs are left out. Deterministic.
 
 #include <drawpoint/studies/models/tables.h>
+#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/choose_fit.hpp>
@@ -15,9 +16,6 @@
 #include <vector>
 
 namespace drawpoint::studies {
-
-/// What runs may tell of their noise, unit of the response squared: it is squared again.
-inline constexpr double most_told_variance = 1e150;
 
 /// What the runs that succeeded tell of the noise of a response (doe::Response::standard_error); nothing
 /// where they do not, tell none but 0, or one tells what cannot be.
@@ -42,6 +40,7 @@ struct Models {
   std::vector<std::string> ways;                  ///< how each was fitted: a name of ways_to_fit
   std::vector<kriging::NoiseSource> noise;        ///< where each has the noise of a run from
   std::vector<kriging::Validation> validations;   ///< one per response; empty without validation runs
+  std::vector<kriging::MeanError> mean_errors;    ///< one per validation
 };
 
 /// The scale is that of kriging::choose_scale among those that the response's range allows, the way to fit on
@@ -52,7 +51,8 @@ Models fit_models(const Tables& tables);
 /// The same, for who cannot go on without: std::runtime_error says what to do.
 Models models_or_reason(const Tables& tables);
 
-/// "NRMSE production 0.21, spill 0.09", but for standard errors; empty without validation runs.
+/// "NRMSE production 0.03 of the mean (0.21 of runs), spill 0.09", but for standard errors; empty without
+/// validation runs.
 std::string nrmse_text(const Models& fitted, const doe::Problem& problem);
 
 /// The points (n x d) with what the models expect of one run there, its noise included, within the ranges of

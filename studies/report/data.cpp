@@ -105,7 +105,7 @@ json to_json(const kriging::TransformedModel& fitted, const std::optional<Surfac
           {"surface", std::move(formula)}};
 }
 
-json to_json(const kriging::Validation& v, const doe::Response& response) {
+json to_json(const kriging::Validation& v, const kriging::MeanError& error, const doe::Response& response) {
   if (v.observed.size() == 0) return json();
   json predicted = json::array(), lower = json::array(), upper = json::array();
   for (Eigen::Index i = 0; i < v.observed.size(); ++i) {
@@ -114,15 +114,13 @@ json to_json(const kriging::Validation& v, const doe::Response& response) {
     lower.push_back(interval.lower);
     upper.push_back(interval.upper);
   }
-  json noise, rest;
-  if (const auto parts = telling_noise(v)) {
-    noise = parts->noise;
-    rest = {parts->rmse, parts->lower, parts->upper};
-  }
+  json noise;
+  if (error.noise > 0) noise = error.noise;
   return {{"rmse", v.rmse},
           {"noise", std::move(noise)},
-          {"rmse_without_noise", std::move(rest)},
+          {"rmse_without_noise", {error.rmse, error.lower, error.upper}},
           {"nrmse", v.nrmse},
+          {"mean_nrmse", {error.nrmse(), error.share(error.lower), error.share(error.upper)}},
           {"range", v.observed.maxCoeff() - v.observed.minCoeff()},
           {"observed", to_json(v.observed)},
           {"predicted", std::move(predicted)},
@@ -207,14 +205,15 @@ json front_json(const ReportInput& input) {
 
 /// The two variables with the largest total effect on any response, in the problem's order; twice the only
 /// one.
-json main_pair(const doe::Problem& problem, const std::vector<Eigen::VectorXd>& influence) {
+json main_pair(const doe::Problem& problem, const std::vector<FlatResponse>& flat,
+               const std::vector<Eigen::VectorXd>& influence) {
   const std::size_t variables = problem.variables.size();
   std::vector<std::size_t> order(variables);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto weight = [&](std::size_t k) {
     double most = 0.0;
     for (std::size_t j = 0; j < influence.size(); ++j)
-      if (!doe::is_standard_error(problem, j))
+      if (!doe::is_standard_error(problem, j) && !is_flat(flat, j))
         most = std::max(most, influence[j][static_cast<Eigen::Index>(k)]);
     return most;
   };
@@ -272,6 +271,22 @@ void check_results(const ReportInput& input) {
            " points of the front; give one each or none");
 }
 
+std::vector<kriging::MeanError> mean_errors_of(const ReportInput& input) {
+  std::vector<kriging::MeanError> errors;
+  for (std::size_t j = 0; j < input.validations.size(); ++j)
+    errors.push_back(
+        mean_error_of(input.validations[j], input.models[j], input.validation, input.problem.responses[j]));
+  return errors;
+}
+
+/// Per response null, or what is said of one that is flat.
+json flat_json(const ReportInput& input) {
+  json all = json::array();
+  for (std::size_t j = 0; j < input.problem.responses.size(); ++j) all.push_back(json());
+  for (const FlatResponse& flat : input.flat) all[flat.response] = flat_text(flat, input.problem);
+  return all;
+}
+
 }  // namespace
 
 json described(const doe::Problem& problem) {
@@ -291,6 +306,7 @@ json report_data(const ReportInput& input) {
   check_results(input);
   ReportInput known = input;
   known.training.problem = known.validation.problem = input.problem;
+  if (known.mean_errors.size() != known.validations.size()) known.mean_errors = mean_errors_of(known);
   json models = json::array(), validations = json::array(), shares = json::array();
   const std::vector<Eigen::VectorXd> effects = influence(input.models, input.problem);
   for (std::size_t j = 0; j < input.models.size(); ++j) {
@@ -302,9 +318,10 @@ json report_data(const ReportInput& input) {
           "The response surface of " + pretty(input.problem.responses[j].name) +
           " is not drawn: its model has a trend or a correlation that this page does not know.");
     models.push_back(to_json(model, formula));
-    validations.push_back(
-        j < input.validations.size() ? to_json(input.validations[j], input.problem.responses[j]) : json());
-    shares.push_back(own ? to_json(effects[j]) : json());
+    validations.push_back(j < known.validations.size() ? to_json(known.validations[j], known.mean_errors[j],
+                                                                 input.problem.responses[j])
+                                                       : json());
+    shares.push_back(own && !is_flat(input.flat, j) ? to_json(effects[j]) : json());
   }
   json panels = without_repeated(checked_panels(input.illustrations, known.warnings));
   json contrasts = checked_panels(input.contrasts, known.warnings);
@@ -312,17 +329,18 @@ json report_data(const ReportInput& input) {
           {"about", input.about},
           {"command", input.command},
           {"confirming", input.confirming},
-          {"problem", described(input.problem)},
+          {"problem", described(as_asked(input.problem, input.flat))},
           {"training", to_json(input.training, input)},
           {"validation", to_json(input.validation, input)},
           {"models", std::move(models)},
           {"validations", std::move(validations)},
           {"front", front_json(input)},
           {"no_front", input.no_front},
+          {"flat", flat_json(input)},
           {"confirmations", to_json(input.confirmations)},
           {"polishing", to_json(input.polishing, input.not_polished)},
           {"influence", std::move(shares)},
-          {"main_pair", main_pair(input.problem, effects)},
+          {"main_pair", main_pair(input.problem, input.flat, effects)},
           {"findings", to_json(input.findings)},
           {"illustrations", std::move(panels)},
           {"contrasts", std::move(contrasts)},

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/report/next_steps.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
+#include <drawpoint/studies/report/trust.h>
 
 #include <algorithm>
 
@@ -22,7 +23,7 @@ std::string command(const ReportInput& input, const std::string& options) {
 std::string poor_names(const ReportInput& input, bool noisy) {
   std::string names;
   for (std::size_t j = 0; j < input.validations.size(); ++j)
-    if (is_poor(input, j) && is_noisy(input, j) == noisy)
+    if (is_poor(input, j) && is_noisy(input, j) == noisy && !is_flat(input.flat, j))
       names += (names.empty() ? "" : ", ") + pretty(input.problem.responses[j].name);
   return names;
 }
@@ -59,6 +60,11 @@ Steps steps_for_errors(const ReportInput& input) {
 
 Steps steps_for_models(const ReportInput& input) {
   Steps steps;
+  if (const std::string flat = flat_objectives(input.flat, input.problem); !flat.empty())
+    steps.push_back({"Decide what to do about " + flat +
+                         ", which shows no difference between strategies: more "
+                         "cycles or samples per run in a study begun anew, or another response.",
+                     ""});
   if (const std::string noisy = poor_names(input, true); !noisy.empty())
     steps.push_back(
         {"Make runs quieter before more of them: single runs scatter more in " + noisy +
@@ -92,7 +98,7 @@ void append(Steps& all, const Steps& more) { all.insert(all.end(), more.begin(),
 }  // namespace
 
 std::vector<NextStep> next_steps(const ReportInput& input) {
-  if (objectives(input.problem).empty()) return {};
+  if (objectives(as_asked(input.problem, input.flat)).empty()) return {};
   if (!input.going_on.possible)
     return {
         {"Begin a study with today's simulator in another folder: another, or one with fewer responses, made "

@@ -11,7 +11,9 @@
 /// validation runs, one response, no objective, no successful run.
 
 #include <drawpoint/studies/report/checked_runs.h>
+#include <drawpoint/studies/report/flat_responses.h>
 #include <drawpoint/studies/report/front_uncertainty.h>
+#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
@@ -43,14 +45,16 @@ struct ReportInput {
   std::string study, about, command;     ///< any text; the page shows it as it is
   std::vector<Headline> headlines = {};  ///< said first
   std::vector<Finding> findings = {};    ///< said next
-  doe::Problem problem;
+  doe::Problem problem;                  ///< what was searched: flat objectives are recorded only
+  std::vector<FlatResponse> flat = {};   ///< with the goals that the study has for them
   doe::Evaluations training, validation;
   std::map<std::int64_t, std::string> kinds = {};  ///< of runs: what the table of runs calls them
   std::vector<kriging::TransformedModel>
       models;  ///< one per response, in order; empty when none could be fitted
-  std::vector<kriging::Validation> validations;  ///< one per response; empty without validation runs
-  pareto::Front front;                           ///< found on the models; no rows when there is none
-  std::string no_front = {};                     ///< why there is none; empty where there is one
+  std::vector<kriging::Validation> validations;      ///< one per response; empty without validation runs
+  std::vector<kriging::MeanError> mean_errors = {};  ///< one per validation; empty: as the page finds them
+  pareto::Front front;                               ///< found on the models; no rows when there is none
+  std::string no_front = {};                         ///< why there is none; empty where there is one
   Eigen::VectorXd success = {};        ///< of a run at each point of the front; empty: no run failed
   FrontUncertainty uncertainty = {};   ///< of the front
   CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated

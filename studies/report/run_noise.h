@@ -1,27 +1,33 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What single runs scatter by in the error of a model, where that is worth a word.
+/// By how much a model misses the mean response, and what single runs scatter by beside it.
 
-#include <drawpoint/kriging/score.hpp>
+#include <drawpoint/doe/evaluations.hpp>
+#include <drawpoint/kriging/mean_error.hpp>
+#include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/studies/headline.hpp>
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace drawpoint::studies {
 
-/// Nothing where the noise is unknown, below a tenth of the error, or so small beside the range of the runs
-/// that it is the least that a fit can have.
-inline std::optional<kriging::ErrorWithoutNoise> telling_noise(const kriging::Validation& v) {
-  const kriging::ErrorWithoutNoise parts = kriging::error_without_noise(v);
-  const double range = v.observed.maxCoeff() - v.observed.minCoeff();
-  if (!(parts.noise >= 0.1 * v.rmse && parts.noise >= 1e-4 * range)) return {};
-  return parts;
-}
+/// What runs may report of their noise, unit of the response squared: it is squared again.
+inline constexpr double most_told_variance = 1e150;
+
+/// By the noise that the validation runs report of the response (doe::Response::standard_error), or else by
+/// the noise of the model. Noise below a tenth of the error, or as small beside the range of the runs as the
+/// least that a fit can have, counts as none, and so does what a flat model takes for noise where no run
+/// reports any: it holds the signal that the model did not find. NaN without validation runs.
+kriging::MeanError mean_error_of(const kriging::Validation& v, const kriging::TransformedModel& model,
+                                 const doe::Evaluations& validation, const doe::Response& response);
+
+/// The same by the noise of the model alone.
+kriging::MeanError mean_error_of(const kriging::Validation& v, const kriging::TransformedModel& model,
+                                 const doe::Problem& problem);
 
 /// What the study itself says that single runs of a response scatter by: its headline noise_of_RESPONSE, in
 /// the response's unit; not a number where it has none.
@@ -32,11 +38,10 @@ inline double told_noise(const std::vector<Headline>& headlines, const std::stri
 }
 
 /// Whether single runs scatter by more than the model misses the mean of many, so that more runs of the kind
-/// do not help; by what the study tells, or else by the model.
-inline bool noise_leads(const kriging::Validation& v, double told) {
+/// do not help; by what the study says of its noise (`told`), or else by that of the mean error.
+inline bool noise_leads(const kriging::Validation& v, const kriging::MeanError& error, double told) {
   if (std::isfinite(told)) return 2 * told * told > v.rmse * v.rmse;
-  const auto parts = telling_noise(v);
-  return parts && parts->noise > parts->rmse;
+  return error.noise > error.rmse;
 }
 
 }  // namespace drawpoint::studies

@@ -6,6 +6,7 @@
 #include <drawpoint/studies/report/stated_interval.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
+#include <drawpoint/studies/report/trust.h>
 #include <drawpoint/pareto/filter.hpp>
 #include <drawpoint/pareto/minimised.hpp>
 
@@ -21,7 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double good_nrmse = 0.1, fair_nrmse = 0.2;
 constexpr double enough_coverage = 0.75;
 
 bool maximized(const doe::Response& r) { return r.goal == doe::Goal::maximize; }
@@ -199,12 +199,19 @@ std::string certainty_sentence(const ReportInput& input) {
          " are non-dominated with a chance of one half or more.";
 }
 
+/// The responses that say nothing, each in a sentence.
+void append_flat(const ReportInput& input, json& all) {
+  for (const auto& [response, why] : texts_of(input.flat, input.problem))
+    all.push_back(capital(pretty(response)) + ": " + why + ".");
+}
+
 /// "alpha for production, beta for spill", of the responses whose surrogates are good enough to say so.
 std::string drivers(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
   std::string text;
   for (std::size_t j = 0; j < influence.size(); ++j) {
     Eigen::Index k = 0;
-    if (doe::is_standard_error(input.problem, j) || is_poor(input, j) || influence[j].maxCoeff(&k) <= 0.0)
+    if (doe::is_standard_error(input.problem, j) || is_poor(input, j) || is_flat(input.flat, j) ||
+        influence[j].maxCoeff(&k) <= 0.0)
       continue;
     text += (text.empty() ? "" : ", ") + pretty(input.problem.variables[static_cast<std::size_t>(k)].name) +
             " for " + pretty(input.problem.responses[j].name);
@@ -217,7 +224,8 @@ std::string driver_sentence(const ReportInput& input, const std::vector<Eigen::V
   const std::string told = drivers(input, influence);
   std::string poor;
   for (std::size_t j = 0; j < influence.size(); ++j)
-    if (is_poor(input, j)) poor += (poor.empty() ? "" : ", ") + pretty(input.problem.responses[j].name);
+    if (is_poor(input, j) && !is_flat(input.flat, j))
+      poor += (poor.empty() ? "" : ", ") + pretty(input.problem.responses[j].name);
   std::string text = told.empty() ? "" : "The variable that matters most is " + told + ".";
   if (!poor.empty())
     text += (text.empty() ? "" : " ") + ("Which variable matters most is not said for " + poor +
@@ -238,46 +246,18 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
       all.push_back(sure);
     all.push_back(confirmation_sentence(input));
   }
+  append_flat(input, all);
   const std::string driving = driver_sentence(input, influence);
   if (input.problem.variables.size() > 1 && !driving.empty()) all.push_back(driving);
   return all;
 }
 
-/// Of the typical error, what single runs scatter by: more cycles or replicates help against that, more runs
-/// against the rest. Nothing where it does not count.
-std::string noise_clause(const kriging::Validation& v, const doe::Response& r) {
-  const auto parts = telling_noise(v);
-  if (!parts) return "";
-  const std::string rest = parts->lower > 0.0 ? "some " + number_with_unit(parts->rmse, r.unit)
-                                              : number_with_unit(parts->upper, r.unit) + " at most";
-  return " (one run scatters by " + number_with_unit(parts->noise, r.unit) +
-         "; the mean of many is missed by " + rest + ")";
-}
-
-json grade(const ReportInput& input, std::size_t j) {
-  const doe::Response& r = input.problem.responses[j];
-  json verdict{{"response", pretty(r.name)}, {"grade", "unknown"}};
-  if (j >= input.models.size()) {
-    verdict["text"] = "no surrogate could be fitted";
-  } else if (j >= input.validations.size() || !std::isfinite(input.validations[j].nrmse)) {
-    verdict["text"] = "was not checked on independent runs that differ";
-  } else {
-    const kriging::Validation& v = input.validations[j];
-    verdict["grade"] = v.nrmse <= good_nrmse ? "good" : v.nrmse <= fair_nrmse ? "fair" : "poor";
-    verdict["text"] = "is predicted with a typical error of " + number_with_unit(v.rmse, r.unit) + ", " +
-                      percent(v.nrmse) + " of the range seen" + noise_clause(v, r) +
-                      (v.nrmse > fair_nrmse ? ": read trends, not values" : "");
-  }
-  return verdict;
-}
-
-/// Against a large error: it is the model's, or what single runs scatter by, which more runs of the kind do
-/// not change.
+/// Against a large error of the mean: runs whose noise hides it, or too few of them.
 std::string remedy(const ReportInput& input, std::size_t response) {
-  return is_noisy(input, response) ? "most of that is the scatter of single runs; make them "
-                                     "longer, if they can be, or begin a study with more "
-                                     "--replicates"
-                                   : "add runs";
+  return is_noisy(input, response)
+             ? "single runs scatter by more than that; make them longer, if they can be, "
+               "or begin a study with more --replicates"
+             : "add runs";
 }
 
 void caution_about_models(const ReportInput& input, std::vector<std::string>& all) {
@@ -285,9 +265,10 @@ void caution_about_models(const ReportInput& input, std::vector<std::string>& al
     const kriging::Validation& v = input.validations[j];
     const std::string name = pretty(input.problem.responses[j].name);
     if (v.observed.size() == 0 || doe::is_standard_error(input.problem, j)) continue;
-    if (is_poor(input, j))
-      all.push_back("The surrogate of " + name + " is poor (NRMSE " + percent(v.nrmse) +
-                    "): " + remedy(input, j) + ", or read only its trends.");
+    if (is_poor(input, j) && !is_flat(input.flat, j))
+      all.push_back("The surrogate of " + name + " is poor: it misses the mean by " +
+                    share_text(input.mean_errors[j]) + "; " + remedy(input, j) +
+                    ", or read only its trends.");
     const double within =
         count_within(v, input.problem.responses[j]) / static_cast<double>(v.observed.size());
     if (v.observed.size() >= enough_points && within < enough_coverage)
@@ -302,7 +283,7 @@ void caution_about_noise(const ReportInput& input, std::vector<std::string>& all
     const doe::Response& r = input.problem.responses[j];
     const double told = told_noise(input.headlines, r.name);
     if (input.validations[j].observed.size() == 0 || !std::isfinite(told)) continue;
-    const double taken = kriging::error_without_noise(input.validations[j]).noise;
+    const double taken = std::sqrt(kriging::modelled_noise(input.validations[j], 1).variance);
     if (taken < 0.5 * told)
       all.push_back("The surrogate of " + pretty(r.name) + " takes a run to scatter by " +
                     number_with_unit(taken, r.unit) + ", the runs themselves say " +
@@ -368,16 +349,6 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
   return apart;
 }
 
-bool is_poor(const ReportInput& input, std::size_t response) {
-  return !doe::is_standard_error(input.problem, response) && response < input.validations.size() &&
-         input.validations[response].nrmse > fair_nrmse;
-}
-
-bool is_noisy(const ReportInput& input, std::size_t response) {
-  return noise_leads(input.validations[response],
-                     told_noise(input.headlines, input.problem.responses[response].name));
-}
-
 Eigen::Index balanced_point(const doe::Problem& problem, const pareto::Front& front) {
   if (front.Y.rows() == 0) return -1;
   const Eigen::MatrixXd Y = pareto::minimised(problem, front.Y);
@@ -413,12 +384,9 @@ std::vector<std::string> cautions(const ReportInput& input) {
 }
 
 json summary(const ReportInput& input, const std::vector<Eigen::VectorXd>& influence) {
-  json trust = json::array();
-  for (std::size_t j = 0; j < input.problem.responses.size(); ++j)
-    if (!doe::is_standard_error(input.problem, j)) trust.push_back(grade(input, j));
   return {{"cards", cards(input)},
           {"sentences", sentences(input, influence)},
-          {"trust", std::move(trust)},
+          {"trust", trust(input)},
           {"cautions", cautions(input)},
           {"next", next_json(input)}};
 }

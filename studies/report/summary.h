@@ -3,10 +3,9 @@
 #pragma once
 /// The report in words: the figures that matter, sentences, how far to trust each surrogate, and cautions.
 ///
-/// Grades: NRMSE up to 0.1 good, up to 0.2 fair, above poor, without validation runs unknown. Cautions are
-/// raised for failed runs, a poor NRMSE, fewer than 10 validation points, error bars that are too narrow
-/// (fewer than 3 in 4 validation points within their 95 % interval), and a predicted best beyond
-/// everything simulated.
+/// Cautions are raised for failed runs, a poor surrogate (trust.h), fewer than 10 validation points, error bars
+/// that are too narrow (fewer than 3 in 4 validation points within their 95 % interval), and a predicted best
+/// beyond everything simulated.
 
 #include <drawpoint/studies/report/report.h>
 
@@ -28,13 +27,6 @@ double largest_difference(const doe::Problem& problem, const Eigen::VectorXd& a,
 
 /// Places in Problem::responses of the objectives, the order of the front's columns.
 std::vector<std::size_t> objectives(const doe::Problem& problem);
-
-/// Whether the model of a response has an NRMSE above 0.2.
-bool is_poor(const ReportInput& input, std::size_t response);
-
-/// Whether single runs of a response scatter by more than its model misses the mean of many, by what the study
-/// tells of its noise, or else by the model: more runs of the kind do not help then.
-bool is_noisy(const ReportInput& input, std::size_t response);
 
 /// Why to be careful, in sentences, the warnings first.
 std::vector<std::string> cautions(const ReportInput& input);

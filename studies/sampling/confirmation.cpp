@@ -37,7 +37,7 @@ RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, con
   }
   RoundPlan plan{.round = {.first = static_cast<std::int64_t>(runs.size()) + 1,
                            .named = static_cast<int>(X.rows() - before)}};
-  for (const int row : points_to_confirm(predicted.found.front, problem, X, points))
+  for (const int row : points_to_confirm(predicted.found.front, predicted.problem, X, points))
     append_place(X, predicted.found.front.X.row(row));
   if (X.rows() == before) {
     plan.nothing = predicted.missing.empty() ? "every point of the front that matters has been simulated"

@@ -39,52 +39,6 @@ TEST(Score, FollowsItsDefinitions) {
   EXPECT_EQ(score(v, ErrorFunction::coverage, 0.99), 1.0) << "2.576·2 > 4";
 }
 
-// Noise of 4 − 3 in the variance; rest 6.5 − 1 with the standard error √((2/4)·1·(1 + 11)).
-TEST(Score, TakesTheNoiseOfRunsOutOfTheError) {
-  const ErrorWithoutNoise parts = error_without_noise(example());
-  EXPECT_DOUBLE_EQ(parts.noise, 1);
-  EXPECT_DOUBLE_EQ(parts.rmse, std::sqrt(5.5));
-  EXPECT_DOUBLE_EQ(parts.lower, std::sqrt(5.5 - std::sqrt(6.0)));
-  EXPECT_DOUBLE_EQ(parts.upper, std::sqrt(5.5 + std::sqrt(6.0)));
-}
-
-TEST(Score, KnowsNoErrorBelowTheNoise) {
-  Validation v = example();
-  v.observation_variance.setConstant(3.0 + 6.5);
-  EXPECT_EQ(error_without_noise(v).rmse, 0);
-  EXPECT_DOUBLE_EQ(error_without_noise(v).upper, std::sqrt(6.5 / std::sqrt(2.0)));
-}
-
-TEST(Score, DoesNotKnowTheNoiseOfOneRun) {
-  Validation v = example();
-  v.variance[1] = v.observation_variance[1] = std::numeric_limits<double>::infinity();
-  EXPECT_TRUE(std::isnan(error_without_noise(v).noise));
-  EXPECT_TRUE(std::isnan(error_without_noise(v).rmse));
-}
-
-// Of 4000 sets of 25 runs with errors b = 1.5 and noise 2 the square of the rest is b² = 2.25 in the mean,
-// within four standard errors of such a mean, 4·√((2/25)·4·(4 + 4.5)/4000) = 0.104. The stated interval holds
-// b in 0.670 of 400 000 sets of another program (nearly the 0.683 of one standard error, which is estimated
-// here and cut at 0), within 4·√(0.67·0.33/4000) = 0.030.
-TEST(Score, MeasuresTheErrorOfTheMean) {
-  Eigen::VectorXd none = Eigen::VectorXd::Zero(25);
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  double squares = 0;
-  int held = 0;
-  for (int set = 0; set < 4000; ++set) {
-    Validation v{.observed = none, .predicted = none, .variance = none, .observation_variance = none};
-    v.observation_variance.setConstant(4.0);
-    for (double& y : v.observed) y = 1.5 + 2.0 * normal(random);
-    const double all = score(v, ErrorFunction::rmse);
-    squares += all * all - 4.0;
-    const ErrorWithoutNoise parts = error_without_noise(v);
-    held += parts.lower <= 1.5 && 1.5 <= parts.upper;
-  }
-  EXPECT_NEAR(squares / 4000, 2.25, 0.104);
-  EXPECT_NEAR(held / 4000.0, 0.670, 0.030);
-}
-
 // Gneiting, Raftery 2007, eq. 21: a standard normal prediction scores 2φ(0) − 1/√π = 0.2337 of its deviation
 // at its own mean, and |t| − 1/√π far away.
 TEST(Score, RanksANormalPrediction) {

@@ -86,6 +86,22 @@ TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {
   EXPECT_FALSE(data.contains("error"));
 }
 
+// The error of the mean leads where single runs are noisy; where they are not it is that of runs.
+TEST(Text, SaysTheErrorOfTheMeanFirst) {
+  Summary summary{.study = "s", .nrmse = {{"production", 0.2}, {"spill", 0.05}}};
+  summary.mean_errors["production"] = {.rmse = 3, .lower = 0, .upper = 9, .noise = 19, .range = 100};
+  summary.mean_errors["spill"] = {.rmse = 5, .lower = 4, .upper = 7, .noise = 0, .range = 100};
+  const std::string all = text(summary);
+  EXPECT_NE(all.find("  error of the mean of production: 0.0300 of the range, 0.0000 to 0.0900 with 95 %; of "
+                     "single runs: 0.2000 (NRMSE)\n  NRMSE of spill: 0.0500\n"),
+            std::string::npos)
+      << all;
+  const auto data = nlohmann::json::parse(json_line(summary));
+  EXPECT_EQ(data["mean_error"]["production"]["nrmse"], 0.03);
+  EXPECT_EQ(data["mean_error"]["production"]["nrmse_upper"], 0.09);
+  EXPECT_EQ(data["nrmse"]["production"], 0.2);
+}
+
 TEST(Text, SaysWhetherTheFrontWasSimulated) {
   Summary summary{.study = "s", .front = 2, .report = "/r.html"};
   const auto line = [&] {

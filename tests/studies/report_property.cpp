@@ -57,6 +57,13 @@ bool mentions(const nlohmann::json& texts, const std::string& part) {
   return false;
 }
 
+/// Predictions off by this share of the range.
+void miss_by(kriging::Validation& v, double share) {
+  v.rmse = share * (v.observed.maxCoeff() - v.observed.minCoeff());
+  v.nrmse = share;
+  v.predicted = v.observed.array() + v.rmse;
+}
+
 }  // namespace
 
 TEST_F(Report, LoadsNothing) {
@@ -303,12 +310,19 @@ TEST_F(Report, TellsNoiseFromErrorsOfTheSurrogate) {
   v.observed.tail(25).setConstant(10);
   const auto data = written(in);
   const std::string grade = data.at("summary").at("trust").at(0).at("text");
-  EXPECT_NE(grade.find("one run scatters by 4.00 s; the mean of many is missed by some 3.00 s"),
+  EXPECT_EQ(grade.find("is predicted in the mean of many runs with a typical error of 3.00 s, 30 % of the "
+                       "range seen ("),
+            0u)
+      << grade;
+  EXPECT_NE(grade.find("; single runs scatter by 4.00 s and are missed by 5.00 s (NRMSE 31 %)"),
             std::string::npos)
       << grade;
+  const auto& ends = data.at("validations").at(0).at("mean_nrmse");
+  EXPECT_LT(ends.at(1), ends.at(0));
+  EXPECT_GT(ends.at(2), ends.at(0));
   EXPECT_EQ(data.at("validations").at(0).at("noise"), 4.0);
   EXPECT_EQ(data.at("validations").at(0).at("rmse_without_noise").at(0), 3.0);
-  EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "most of that is the scatter of single runs"));
+  EXPECT_TRUE(mentions(data.at("summary").at("cautions"), "single runs scatter by more than that"));
 }
 
 // Of exact responses a fit has the least noise that it can have; of one run none is known.
@@ -333,16 +347,14 @@ TEST_F(Report, SaysNothingOfNoiseThatIsNone) {
 TEST_F(Report, FlagsWhatCannotBeTrusted) {
   ReportInput in = input(2, 1, 8, 6);
   in.validation.rows[3].outcome = doe::Failure{"stuck"};
-  kriging::Validation& v = in.validations[0];
-  v.rmse = 1.0;
-  v.nrmse = 0.31;
+  miss_by(in.validations[0], 0.31);
   in.front.Y(0, 0) = 1e3;
   in.warnings = {"mind this"};
   const auto data = written(in);
   const auto& cautions = data.at("summary").at("cautions");
   EXPECT_EQ(cautions.at(0), "mind this");
   EXPECT_TRUE(mentions(cautions, "1 of 14 runs failed (7.1 %)"));
-  EXPECT_TRUE(mentions(cautions, "y0 is poor (NRMSE 31 %)"));
+  EXPECT_TRUE(mentions(cautions, "y0 is poor: it misses the mean by 31 % of the range seen ("));
   EXPECT_TRUE(mentions(cautions, "Only 5 validation points"));
   EXPECT_TRUE(mentions(cautions, "simulate it before believing it"));
   EXPECT_EQ(data.at("summary").at("trust").at(0).at("grade"), "poor");
@@ -374,7 +386,7 @@ TEST_F(Report, SaysWhatToDoNext) {
   in.confirmations.add(checked);
   EXPECT_EQ(next_commands(written(in)).back(), "confirm --out here") << "half of the intervals do not hold";
   in.going_on = {.making = "ask", .training = 16, .validation = 12, .adaptive = 40};
-  in.validations[0].nrmse = 0.3;
+  miss_by(in.validations[0], 0.3);
   EXPECT_EQ(next_commands(written(in)), (Commands{"ask --retry-failed", "ask --adaptive 54", "confirm"}));
   in.validation.rows.resize(4);
   EXPECT_EQ(next_commands(written(in)), (Commands{"ask --retry-failed", "ask --adaptive 54", "confirm"}))
@@ -389,11 +401,10 @@ TEST_F(Report, SaysWhatToDoNext) {
   EXPECT_EQ(next_commands(written(in)), Commands{""});
 }
 
-/// An error of 5 in a range of 10, poor by its NRMSE; the model takes single runs to scatter by `noise`.
+/// An error of 5 in a range of 10, poor whatever of it is noise; the model takes single runs to scatter by `noise`.
 void make_poor(kriging::Validation& v, double noise) {
-  v.rmse = 5;
-  v.nrmse = 0.3;
   v.observed = Eigen::VectorXd::LinSpaced(v.observed.size(), 0, 10);
+  miss_by(v, 0.5);
   v.variance.setOnes();
   v.observation_variance = v.variance.array() + noise * noise;
 }
@@ -403,7 +414,7 @@ TEST_F(Report, AdvisesQuieterRunsWhereNoiseLeads) {
   in.going_on.training = 8;
   make_poor(in.validations[0], 4.0);
   EXPECT_EQ(next_commands(written(in)), (Commands{"", "confirm"}));
-  in.validations[1].nrmse = 0.3;
+  miss_by(in.validations[1], 0.3);
   const auto data = written(in);
   EXPECT_EQ(next_commands(data), (Commands{"", "run --runs 16", "confirm"}))
       << "not where noise would choose";
@@ -430,8 +441,8 @@ TEST_F(Report, BelievesTheStudyOfItsNoiseBeforeTheSurrogate) {
 // A surrogate that is poor leads nobody: what it has learned of its variables may be noise.
 TEST_F(Report, SaysWhatMattersMostOnlyWhereTheSurrogateCanTell) {
   ReportInput in = input(2, 2, 8, 6);
-  in.validations[0].nrmse = 0.05;
-  in.validations[1].nrmse = 0.31;
+  miss_by(in.validations[0], 0.05);
+  miss_by(in.validations[1], 0.31);
   const auto sentences = written(in).at("summary").at("sentences");
   EXPECT_TRUE(mentions(sentences, "matters most is x0 for y0") ||
               mentions(sentences, "matters most is x1 for y0"))

@@ -19,7 +19,7 @@ const many = 200;  // runs of a model from which on bands have fewer places
 
 export function profiles(data, fitted, shared) {
   const {variables} = data.problem, {chosen, selection} = shared;
-  const weight = (k) => Math.max(...data.influence.filter(Boolean).map((row) => row[k]));
+  const weight = (k) => Math.max(0, ...data.influence.filter(Boolean).map((row) => row[k]));
   const shown = variables.map((_, k) => k).sort((p, q) => weight(q) - weight(p)).slice(0, mostProfiles).sort((p, q) => p - q);
   const box = plotBox(60 + 190 * fitted.length, 'Profiles along each variable');
   let near = null;

@@ -24,8 +24,10 @@ const dots = 200;  // runs drawn on a surface
 
 export function surfaces(data, shared) {
   const {chosen} = shared;
-  const fitted = own(data.problem.responses).map((f) => ({...f, model: data.models[f.j]})).filter((f) => f.model?.surface);
+  const known = own(data.problem.responses).map((f) => ({...f, model: data.models[f.j]})).filter((f) => f.model?.surface);
+  const fitted = known.filter(({j}) => !data.flat[j]), flat = known.filter(({j}) => data.flat[j]);
   const node = section('surfaces', 'Response surfaces', fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.');
+  node.append(...flat.map(({response, j}) => el('p', {class: 'note'}, `Of ${pretty(response.name)} nothing is drawn: ${data.flat[j]}.`)));
   if (!fitted.length) return node;
   for (const f of fitted) {
     const mean = predictor(f.model.surface), ends = meanInterval(f.model.surface);

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// How far to trust each surrogate, by the error of the mean over the range (kriging/mean_error.hpp): up to 0.1
+/// good where its interval ends at 0.2 at most, up to 0.2 fair, above poor, without validation runs unknown;
+/// flat where the surrogate shows no difference. All are of an input with mean errors.
+
+#include <drawpoint/studies/report/report.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace drawpoint::studies::detail {
+
+/// [{response, grade, text}] of the responses that are no standard errors.
+nlohmann::json trust(const ReportInput& input);
+
+/// "12 % of the range seen (8 % to 19 %)".
+std::string share_text(const kriging::MeanError& error);
+
+bool is_poor(const ReportInput& input, std::size_t response);
+
+/// Whether single runs of a response scatter by more than its model misses the mean of many, by what the study
+/// says of its noise, or else by the noise of the mean error: more runs of the kind do not help then.
+bool is_noisy(const ReportInput& input, std::size_t response);
+
+}  // namespace drawpoint::studies::detail
