@@ -5,6 +5,7 @@
 /// it knows when its runs are made and its models fitted, and says what decided.
 
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/options.hpp>
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -35,6 +36,8 @@ struct StudyResults {
   Eigen::MatrixXd X_new, Y_new;             ///< validation
   std::vector<std::filesystem::path> logs;  ///< of the training runs, row by row; empty where there is none
   std::vector<double> nrmse;                ///< of the models on the validation runs; empty without those
+  std::vector<std::filesystem::path> logs_new = {};  ///< of the validation runs
+  OptionValues options = {};                         ///< of the study
 };
 
 }  // namespace drawpoint::studies

@@ -4,7 +4,6 @@
 #include <drawpoint/studies/finding_statistics.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -35,30 +34,13 @@ VectorXd ranks_of(const VectorXd& x) {
 
 double sum_of_squares(const VectorXd& y) { return y.size() == 0 ? 0 : (y.array() - y.mean()).square().sum(); }
 
-/// y of the runs in each third.
-std::array<VectorXd, 3> thirds_of(const VectorXd& x, const VectorXd& y, double lower, double upper) {
-  std::array<std::vector<double>, 3> parts;
-  for (Index i = 0; i < x.size(); ++i)
-    parts[static_cast<std::size_t>(std::clamp(std::floor(3 * (x[i] - lower) / (upper - lower)), 0.0, 2.0))]
-        .push_back(y[i]);
-  std::array<VectorXd, 3> thirds;
-  for (std::size_t k = 0; k < 3; ++k)
-    thirds[k] = Eigen::Map<const VectorXd>(parts[k].data(), static_cast<Index>(parts[k].size()));
-  return thirds;
-}
-
-double within(const std::array<VectorXd, 3>& thirds) {
-  double sum = 0;
-  for (const VectorXd& third : thirds) sum += sum_of_squares(third);
-  return sum;
-}
-
-bool large_enough(const std::array<VectorXd, 3>& thirds) {
-  return std::all_of(thirds.begin(), thirds.end(), [](const VectorXd& t) { return t.size() >= least_group; });
+Index third_of(double x, double lower, double upper) {
+  return static_cast<Index>(std::clamp(std::floor(3 * (x - lower) / (upper - lower)), 0.0, 2.0));
 }
 
 std::string grounds_of(const Criterion& c) {
-  if (!std::isfinite(c.estimate.value)) return c.effect + ": too few runs, or nothing to compare with";
+  if (!std::isfinite(c.estimate.value))
+    return c.effect + ": " + (c.unknown.empty() ? "too few runs, or nothing to compare with" : c.unknown);
   char text[96];
   std::snprintf(text, sizeof text, ": %.2g ± %.2g, ", c.estimate.value, 2 * c.estimate.error);
   return c.effect + text + to_string(verdict_of(c));
@@ -97,44 +79,38 @@ Estimate difference(const Estimate& a, const Estimate& b) {
   return {a.value - b.value, std::hypot(a.error, b.error)};
 }
 
-Estimate mean_difference(const VectorXd& a, const VectorXd& b) {
-  if (std::min(a.size(), b.size()) < least_group) return {};
-  const double na = static_cast<double>(a.size()), nb = static_cast<double>(b.size());
-  const double va = sum_of_squares(a) / (na - 1), vb = sum_of_squares(b) / (nb - 1);
-  const double s = std::sqrt((sum_of_squares(a) + sum_of_squares(b)) / (na + nb - 2));
-  if (!(s > 0)) return {};
-  return {(a.mean() - b.mean()) / s, std::sqrt(va / na + vb / nb) / s};
+Estimate estimate_of(std::vector<double> draws) {
+  const std::size_t all = draws.size();
+  draws.erase(std::remove_if(draws.begin(), draws.end(), [](double x) { return !std::isfinite(x); }),
+              draws.end());
+  if (draws.size() * 20 <= all * 19) return {};
+  std::sort(draws.begin(), draws.end());
+  const auto quantile = [&](double p) {
+    return draws[static_cast<std::size_t>(p * static_cast<double>(draws.size() - 1) + 0.5)];
+  };
+  const double median = quantile(0.5);
+  return {median, 0.5 * std::max(median - quantile(0.023), quantile(0.977) - median)};
 }
 
-Estimate share(int k, int n) {
-  const double p = (k + 2.0) / (n + 4.0);
-  return {p, std::sqrt(p * (1 - p) / (n + 4.0))};
+double deviation_of(const VectorXd& y) {
+  return y.size() == 0 ? 0 : std::sqrt(sum_of_squares(y) / static_cast<double>(y.size()));
 }
 
-Estimate share_difference(int k, int m, int l, int n) {
-  if (std::min(m, n) < least_group) return {};
-  const double p = share(k + l, m + n).value;
-  return {static_cast<double>(k) / m - static_cast<double>(l) / n,
-          std::sqrt(p * (1 - p) * (1.0 / m + 1.0 / n))};
+Eigen::Vector3d means_of_thirds(const VectorXd& x, const VectorXd& y, double lower, double upper) {
+  Eigen::Vector3d sums = Eigen::Vector3d::Zero(), counts = sums;
+  for (Index i = 0; i < x.size(); ++i) {
+    const Index third = third_of(x[i], lower, upper);
+    sums[third] += y[i];
+    counts[third] += 1;
+  }
+  return sums.cwiseQuotient(counts);
 }
 
-Estimate explained_share(const VectorXd& x, const VectorXd& y, double lower, double upper) {
-  const auto thirds = thirds_of(x, y, lower, upper);
-  const double all = sum_of_squares(y), n = static_cast<double>(y.size());
-  if (!large_enough(thirds) || !(all > 0)) return {};
-  const double chance = 2 / (n - 1), eta = std::max(1 - within(thirds) / all - chance, 0.0);
-  return {eta, std::hypot(2 * std::sqrt(eta / n) * (1 - eta), chance)};
-}
-
-Estimate profile_range(const VectorXd& x, const VectorXd& y, double lower, double upper) {
-  const auto thirds = thirds_of(x, y, lower, upper);
-  const double n = static_cast<double>(y.size());
-  if (!large_enough(thirds)) return {};
-  const double s = std::sqrt(within(thirds) / (n - 3));
-  if (!(s > 0)) return {};
-  const auto [least, most] = std::minmax({thirds[0].mean(), thirds[1].mean(), thirds[2].mean()});
-  const double range = (most - least) / s;
-  return {std::sqrt(std::max(range * range - 3.65 * 3 / n, 0.0)), std::sqrt(6 / n)};
+double explained_share(const VectorXd& x, const VectorXd& y, double lower, double upper) {
+  const Eigen::Vector3d means = means_of_thirds(x, y, lower, upper);
+  VectorXd by_third(y.size());
+  for (Index i = 0; i < y.size(); ++i) by_third[i] = means[third_of(x[i], lower, upper)];
+  return sum_of_squares(by_third) / sum_of_squares(y);
 }
 
 // Pool adjacent violators.

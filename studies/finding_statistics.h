@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Figures with their standard errors, from the runs of a study, and how they decide a claim.
+/// Figures with their standard errors, and how they decide a claim.
 ///
 /// A claim is that an effect is above 0. It is not reproduced when the effect is below `least`, the smallest
 /// that would matter (0 or more), by more than two standard errors; else reproduced when it is above 0 by
 /// more than two; else unclear. Two standard errors: a claim without truth is called reproduced in 2.3 % of
-/// studies. Groups of fewer than five runs tell nothing: their standard error is then itself off by a third
+/// studies. Groups of fewer than five runs decide nothing: their standard error is then itself off by a third
 /// (1/√8).
 
 #include <drawpoint/studies/finding.hpp>
@@ -31,6 +31,7 @@ struct Criterion {
   std::string effect;  ///< in a few words
   Estimate estimate;
   double least = 0;
+  std::string unknown = {};  ///< why nothing is known of it; empty where that is plain
 };
 
 Verdict verdict_of(const Criterion& criterion);
@@ -39,30 +40,26 @@ Verdict verdict_of(const Criterion& criterion);
 /// errors.
 Finding decided(const std::string& id, const std::string& claim, const std::vector<Criterion>& criteria);
 
+/// Of an effect in draws of what is unknown: the median, and half of what reaches from it to the farther of the
+/// quantiles 2.3 % and 97.7 %, the deviation of normal draws. Unknown where it is not a number in one of twenty
+/// draws or more.
+Estimate estimate_of(std::vector<double> draws);
+
 /// Spearman's; ties have the mean of their ranks. Standard error 1/√(n − 1), that of unrelated values.
 Estimate rank_correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// a.value − b.value of independent estimates.
 Estimate difference(const Estimate& a, const Estimate& b);
 
-/// Mean of a less mean of b in standard deviations s within the two; error √(s_a²/n_a + s_b²/n_b)/s (Welch).
-Estimate mean_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+/// Standard deviation, divided by n.
+double deviation_of(const Eigen::VectorXd& y);
 
-/// Share k/n as (k + 2)/(n + 4), whose error √(p (1 − p)/(n + 4)) is not 0 at k = 0 (Agresti and Coull,
-/// 1998).
-Estimate share(int k, int n);
+/// Means of y over the thirds of [lower, upper] that x falls into.
+Eigen::Vector3d means_of_thirds(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double lower,
+                                double upper);
 
-/// k/m less l/n; by chance they differ by √(p (1 − p) (1/m + 1/n)), p that of both together.
-Estimate share_difference(int k, int m, int l, int n);
-
-/// Share of y's variance between the thirds of [lower, upper] that x falls into: η², less what chance puts
-/// there, 2/(n − 1). Error √(4 η² (1 − η²)²/n + (2/(n − 1))²): that of R² for large n, and of chance alone.
-Estimate explained_share(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double lower, double upper);
-
-/// Range of y's means over those thirds, in standard deviations within the thirds, less what chance makes of
-/// it: √(max(r² − 3.65 · 3/n, 0)), 3.65 the mean square of the range of three standard normal values. Error
-/// √(6/n), that of the difference of two thirds.
-Estimate profile_range(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double lower, double upper);
+/// Share of y's variance between the points' thirds of x: η².
+double explained_share(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double lower, double upper);
 
 /// Residual sum of squares of the best rising function of x, over that of the mean: 0 to 1.
 double rising_residual(const Eigen::VectorXd& x, const Eigen::VectorXd& y);

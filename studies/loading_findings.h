@@ -4,11 +4,10 @@
 /// The sixteen findings of Lindmark (2016) on loading strategies, F1 to F16, held against the runs of a
 /// study.
 ///
-/// Each is turned into effects that must be above 0, estimated from the runs with standard errors
-/// (finding_statistics.h), (but for F15, the models' errors): differences of group means, rank correlations,
-/// shares of variance. What is said of the Pareto front is held against the runs that no other run dominates;
-/// noise puts some there by luck, which blurs these findings. Of sixteen findings that were all decided by
-/// chance, every third study would call one reproduced: 1 − (1 − 0.023)¹⁶.
+/// Each is turned into effects that must be above 0. F1 to F13 are about the mean responses, and their effects
+/// are read off draws of these over the box (loading_surfaces.h), which all cycles of all runs share in;
+/// F14 to F16 are about the runs themselves and the models' errors (loading_run_findings.h). Of sixteen findings
+/// that were all decided by chance, every third study would call one reproduced: 1 − (1 − 0.023)¹⁶.
 
 #include <drawpoint/studies/finding.hpp>
 
@@ -21,10 +20,5 @@ namespace drawpoint::studies {
 /// versions), and its grounds say how many and why the first; with fewer than five left it is unclear. Throws
 /// std::invalid_argument for another number of variables or responses.
 std::vector<Finding> loading_findings(const StudyResults& results);
-
-/// F14 alone, from what the logs say of each run: root mean square distance of the tip from its plan [m],
-/// planned depth [m], and beta.
-Finding tracking_finding(const Eigen::VectorXd& error, const Eigen::VectorXd& depth,
-                         const Eigen::VectorXd& beta);
 
 }  // namespace drawpoint::studies

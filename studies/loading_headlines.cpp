@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/cycle_scatter.h>
 #include <drawpoint/studies/loading_headlines.h>
+#include <drawpoint/studies/loading_noise.h>
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
@@ -28,28 +30,20 @@ std::string percent(double share) {
   return text;
 }
 
-/// What the runs tell of one response.
-struct Scatter {
-  double squares = 0;  ///< sum of the squared deviations from each run's own mean
-  double of_means = 0,
-         of_sums =
-             0;  ///< variance of a run's mean, and of its sum, over that of a cycle; summed over the runs
-  long freedoms = 0, runs = 0;
+/// What the runs show of one response's noise.
+struct Noise {
+  CycleScatter scatter;
+  double relative_variances = 0;  ///< of a run over that of a cycle, summed over the runs
+  long runs = 0;
   std::size_t fewest = std::numeric_limits<std::size_t>::max(), most_cycles = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
-  /// `counted`: cycles whose sum the run gives; those that it lacks count with the mean of the others.
-  void add(const std::vector<double>& by_cycle, double counted, double response) {
-    const double n = static_cast<double>(by_cycle.size());
-    fewest = std::min(fewest, by_cycle.size());
-    most_cycles = std::max(most_cycles, by_cycle.size());
-    of_means += 1 / n;
-    of_sums += counted * counted / n;
-    double mean = 0;
-    for (const double value : by_cycle) mean += value / n;
-    for (const double value : by_cycle) squares += (value - mean) * (value - mean);
-    freedoms += static_cast<long>(by_cycle.size()) - 1;
+  void add(const std::vector<int>& numbers, const ResponseCycles& cycles, double response) {
+    scatter.add(numbers, cycles.by_cycle);
+    relative_variances += cycles.relative_variance();
     ++runs;
+    fewest = std::min(fewest, numbers.size());
+    most_cycles = std::max(most_cycles, numbers.size());
     least = std::min(least, response);
     most = std::max(most, response);
   }
@@ -59,8 +53,6 @@ struct Scatter {
     return few == many ? few : few + " to " + many;
   }
 };
-
-enum class Over { mean, sum };
 
 /// Older logs lack some.
 double number_or(double otherwise, const LoadingLog& log, const char* name) {
@@ -117,17 +109,18 @@ std::string fill_note(double most, const OptionValues& options) {
              "with --materials calibrated");
 }
 
-Headline noise_of(const std::string& response, const std::string& unit, const Scatter& s, Over over) {
+Headline noise_of(const std::string& response, const std::string& unit, const Noise& noise) {
   const std::string name = "noise_of_" + response;
-  if (s.freedoms == 0)
-    return {name, unit, std::nan(""), "runs of one cycle tell no noise; take --cycles 2 or more"};
-  const double of_cycle = s.squares / static_cast<double>(s.freedoms),
-               of_run = (over == Over::mean ? s.of_means : s.of_sums) / static_cast<double>(s.runs),
-               value = std::sqrt(of_cycle * of_run);
-  const std::string share =
-      s.most > s.least ? ", " + percent(value / (s.most - s.least)) + " of the range of the runs" : "";
+  if (noise.scatter.degrees() < 1)
+    return {name, unit, std::nan(""), "it takes two runs of two cycles; take --cycles 2 or more"};
+  const double value =
+      std::sqrt(noise.scatter.variance() * noise.relative_variances / static_cast<double>(noise.runs));
+  const std::string share = noise.most > noise.least ? ", " + percent(value / (noise.most - noise.least)) +
+                                                           " of the range of the runs"
+                                                     : "";
   return {name, unit, value,
-          "standard error of a run, from the scatter of its " + s.cycles() + " cycles" + share};
+          "standard error of a run, from the scatter of its " + noise.cycles() +
+              " cycles about what their number has in the mean" + share};
 }
 
 /// Of a run: what is summed over the runs, and what that is shared among.
@@ -212,7 +205,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   const engine::loading::ProductionOptions producing = production_options(options);
   const engine::loading::DamageOptions damaging = damage_options(options);
   double fill = 0, most_fill = 0, stalls = 0;
-  Scatter production, damage, spill;
+  Noise production, damage, spill;
   Headline pile;
   Breakdowns breakdowns;
   std::vector<RunMean> others = measures();
@@ -223,19 +216,20 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     fill += of_run / static_cast<double>(logs.size());
     most_fill = std::max(most_fill, of_run);
     stalls += stall_share(log) / static_cast<double>(logs.size());
-    const double counted = counted_cycles(log);
-    production.add(production_by_cycle(log, producing), counted, engine::loading::production(log, producing));
-    damage.add(joint_damage_by_cycle(log, damaging), counted, joint_damage(log, damaging));
-    spill.add(rock_spill_by_cycle(log), counted, rock_spill(log));
+    const std::vector<int> numbers = cycle_numbers(log);
+    const auto [producing_cycles, damaging_cycles, spilling_cycles] = cycles_of(log, options);
+    production.add(numbers, producing_cycles, engine::loading::production(log, producing));
+    damage.add(numbers, damaging_cycles, joint_damage(log, damaging));
+    spill.add(numbers, spilling_cycles, rock_spill(log));
     breakdowns.add(log);
     for (RunMean& measure : others) measure.add(log);
   }
   std::vector<Headline> said = {
       {"fill_factor", "1", fill, fill_note(most_fill, options)},
       {"stall_share", "1", stalls, "drive-ins that ended before their goal, by time or a slow actuator"},
-      noise_of("production", "kg/s", production, Over::mean),
-      noise_of("joint_damage", "s", damage, Over::sum),
-      noise_of("rock_spill", "1", spill, Over::mean),
+      noise_of("production", "kg/s", production),
+      noise_of("joint_damage", "s", damage),
+      noise_of("rock_spill", "1", spill),
       pile};
   for (const RunMean& measure : others) said.push_back(measure.headline());
   if (breakdowns.runs > 0) said.push_back(breakdowns.headline());

@@ -15,9 +15,9 @@ namespace drawpoint::studies {
 /// From the run logs: fill factor and share of stalled drive-ins, means over all cycles; the noise of each
 /// response; the angle at which the pile lies at the start; and the measures of run_measures.hpp, means over
 /// the runs, unknown where a log lacks what they take. Noise is by the scatter s of the n cycles within a
-/// run: s/√n for a mean over the cycles, s·√n for a sum, pooled over the runs. That is the noise of a run if
-/// its cycles are independent draws. They are not quite: all runs share the first pile, the second cycle
-/// finds another (more scatter), and spilled rock stays (less). Runs of one cycle tell none. Damage is over
+/// run, the mean effect of their number taken out (cycle_scatter.h): s/√n for a mean over the cycles, s·√n for a
+/// sum, pooled over the runs. That is the noise of a run if its cycles are independent draws. They are not quite:
+/// spilled rock stays (less scatter). Without two runs of two cycles none is known. Damage is over
 /// the yield torque of the options (loading_scenario.h). Throws std::runtime_error if a log cannot be read.
 std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>& logs,
                                         const OptionValues& options = {});

@@ -121,7 +121,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   add_warnings(input, runs);
   illustrate(input, study, logged, store.identity().options, folder);
   contrast(input, study, logged, store.identity().options, folder);
-  summary.findings = hold_findings(input, study, logged, folder);
+  summary.findings = hold_findings(input, study, logged, store.identity().options, folder);
   write_report(folder.report(), input);
   summary.report = std::filesystem::absolute(folder.report()).lexically_normal();
   return summary;

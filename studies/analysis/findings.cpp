@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/findings.h>
+#include <drawpoint/studies/models/tables.h>
 
 #include <cstdint>
 #include <set>
@@ -27,22 +28,29 @@ doe::Evaluations first_design_of(const ReportInput& input) {
   return table;
 }
 
-StudyResults results_of(const ReportInput& input, const std::vector<const Run*>& logged,
-                        const Folder& folder) {
+/// Row by row of X().
+std::vector<std::filesystem::path> logs_of(const doe::Evaluations& table,
+                                           const std::vector<const Run*>& logged, const Folder& folder) {
   std::set<std::int64_t> with_log;
   for (const Run* run : logged) with_log.insert(run->id);
+  std::vector<std::filesystem::path> logs;
+  for (const std::int64_t run : runs_with_values(table))
+    logs.push_back(with_log.contains(run) ? folder.log(run) : std::filesystem::path());
+  return logs;
+}
+
+StudyResults results_of(const ReportInput& input, const std::vector<const Run*>& logged,
+                        const OptionValues& options, const Folder& folder) {
   const doe::Evaluations training = first_design_of(input);
   StudyResults results{.problem = as_asked(input.problem, input.flat),
                        .X = training.X(),
                        .Y = responses_of(training),
                        .X_new = input.validation.X(),
                        .Y_new = responses_of(input.validation),
-                       .logs = {},
-                       .nrmse = {}};
-  for (const auto& row : training.rows) {
-    if (row.outcome.failed()) continue;
-    results.logs.push_back(with_log.contains(row.run) ? folder.log(row.run) : std::filesystem::path());
-  }
+                       .logs = logs_of(training, logged, folder),
+                       .nrmse = {},
+                       .logs_new = logs_of(input.validation, logged, folder),
+                       .options = options};
   for (const auto& validation : input.validations) results.nrmse.push_back(validation.nrmse);
   return results;
 }
@@ -50,10 +58,11 @@ StudyResults results_of(const ReportInput& input, const std::vector<const Run*>&
 }  // namespace
 
 std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
-                                   const std::vector<const Run*>& logged, const Folder& folder) {
+                                   const std::vector<const Run*>& logged, const OptionValues& options,
+                                   const Folder& folder) {
   if (!study.findings) return {};
   try {
-    return input.findings = study.findings(results_of(input, logged, folder));
+    return input.findings = study.findings(results_of(input, logged, options, folder));
   } catch (const std::exception& e) {
     input.warnings.push_back(std::string("The findings could not be held against the runs: ") + e.what());
     return {};

@@ -15,6 +15,7 @@ namespace drawpoint::studies {
 /// Asks the study with the runs and validations of the report, and puts the answers there. `logged`: the runs
 /// whose log may be used. If the study throws, there are no findings and a warning says why.
 std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
-                                   const std::vector<const Run*>& logged, const Folder& folder);
+                                   const std::vector<const Run*>& logged, const OptionValues& options,
+                                   const Folder& folder);
 
 }  // namespace drawpoint::studies

@@ -45,6 +45,7 @@ LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
                          {"hinge_G_torque_y", "N m"},
                          {"hinge_G_torque_z", "N m"}};
   log.cycles = cycles;
+  for (std::size_t k = 0; k < cycles.size(); ++k) log.cycles[k].number = static_cast<int>(k) + 1;
   return log;
 }
 
@@ -64,9 +65,10 @@ class LoadingHeadlines : public testing::Test {
   test::TestFolder place_;
 };
 
-// Two runs of two cycles: 4 and 8 t, 6 and 6 t in 10 s. Deviations of the rates from their run's mean: ±200
-// and 0 kg/s, pooled over one degree of freedom each: √(2 · 200² / 2) = 200 kg/s per cycle, 200/√2 for a mean
-// of two. Spill 0, 2 and 1, 1 t of 10: √(2 · 0.1² / 2)/√2 = 0.1/√2. No torque, no damage, no noise of it.
+// Two runs of two cycles: 4 and 8 t, 6 and 6 t in 10 s. The rates' deviations from their run's mean, ±200 and 0
+// kg/s, are ±100 from what the number of the cycle has in the mean: four of them over one degree of freedom are
+// √(4 · 100²) = 200 kg/s per cycle, 200/√2 for a mean of two. Spill 0, 2 and 1, 1 t of 10: √(4 · 0.05²)/√2 =
+// 0.1/√2. No torque, no damage, no noise of it.
 TEST_F(LoadingHeadlines, SayFillStallsAndNoise) {
   const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 8e3, 2e3, StageEnd::timeout)}),
                         log_of({cycle(0, 6e3, 1e3, StageEnd::goal), cycle(20, 6e3, 1e3, StageEnd::goal)})});
@@ -85,7 +87,7 @@ TEST_F(LoadingHeadlines, SayFillStallsAndNoise) {
 TEST_F(LoadingHeadlines, NoiseIsSetAgainstTheRangeOfTheRuns) {
   const auto of = told({log_of({cycle(0, 0, 0, StageEnd::goal), cycle(20, 0, 0, StageEnd::goal)}),
                         log_of({cycle(0, 3e3, 0, StageEnd::goal), cycle(20, 5e3, 0, StageEnd::goal)})});
-  // √((2 · 100²) / 2) / √2 = 70.7 of 400 kg/s
+  // √(4 · 50²) / √2 = 70.7 of 400 kg/s
   EXPECT_NE(of.at("noise_of_production").note.find("18 % of the range"), std::string::npos)
       << of.at("noise_of_production").note;
 }
@@ -107,27 +109,38 @@ TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
   }
 }
 
-// A run of three cycles and one of a single cycle, which lost two. Rates 200, 400 and 600 kg/s scatter by
-// √((200² + 200²) / 2) = 200 about their mean, the single one by nothing; the variances of the two means are a
-// third of 200² and all of it.
+// The second cycle brings 200 kg/s more in every run: that is no noise. Of squares of 1e5 round-off leaves 1e-10.
+TEST_F(LoadingHeadlines, WhatTheNumberOfACycleDoesIsNoNoise) {
+  const auto of = told({log_of({cycle(0, 2e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal)}),
+                        log_of({cycle(0, 3e3, 0, StageEnd::goal), cycle(20, 5e3, 0, StageEnd::goal)})});
+  EXPECT_NEAR(of.at("noise_of_production").value, 0, 1e-5);
+}
+
+// Two runs of three cycles and one of a single cycle, which lost two. Rates 200, 400, 600 and 400, 400, 400 kg/s:
+// ±100 from what their numbers have in the mean, 4 · 100² over 4 − 2 degrees; the variances of the three means
+// are a third, a third and all of it.
 TEST_F(LoadingHeadlines, RunsThatLostCyclesTellTheNoiseOfTheirOwn) {
   const auto of = told({log_of({cycle(0, 2e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal),
                                 cycle(40, 6e3, 0, StageEnd::goal)}),
+                        log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal),
+                                cycle(40, 4e3, 0, StageEnd::goal)}),
                         log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
-  EXPECT_NEAR(of.at("noise_of_production").value, 200 * std::sqrt((1.0 / 3 + 1) / 2), 1e-9);
+  EXPECT_NEAR(of.at("noise_of_production").value, std::sqrt(2e4 * 5 / 9), 1e-9);
   EXPECT_NE(of.at("noise_of_production").note.find("its 1 to 3 cycles"), std::string::npos);
 }
 
 // Damage is that of eight cycles, of which two were run: 8 times the mean of two that scatter by s, so 8 s/√2.
+// The other run has none in either, so that s is half of how far the first run's two are apart.
 TEST_F(LoadingHeadlines, DamageOfCyclesThatWereLeftOutIsNoBetterKnown) {
-  LoadingLog log = log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal)});
+  LoadingLog none = log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 4e3, 0, StageEnd::goal)});
+  none.numbers["left_out_cycles"] = 6;
+  LoadingLog log = none;
   for (int k = 1; k <= 100; ++k) log.signals.append_row(std::vector<double>{0.1 * k, 1, 0, 290e3, 0});
   for (int k = 1; k <= 100; ++k) log.signals.append_row(std::vector<double>{20 + 0.1 * k, 2, 0, 580e3, 0});
-  log.numbers["left_out_cycles"] = 6;
   const std::vector<double> damage = joint_damage_by_cycle(log);
   ASSERT_GT(std::abs(damage[0] - damage[1]), 5);
-  const double s = std::abs(damage[0] - damage[1]) / std::sqrt(2.0);
-  EXPECT_NEAR(told({log}).at("noise_of_joint_damage").value, 8 * s / std::sqrt(2.0), 1e-12);
+  const double s = std::abs(damage[0] - damage[1]) / 2;
+  EXPECT_NEAR(told({log, none}).at("noise_of_joint_damage").value, 8 * s / std::sqrt(2.0), 1e-12);
 }
 
 // Only where it happened: one run of two with three such steps, 50 kg and two lost cycles.

@@ -143,7 +143,7 @@ TEST_F(Report, FindingsAreHeldAgainstTheFirstDesign) {
     held = results;
     return std::vector<Finding>();
   }};
-  hold_findings(in, study, {}, Folder{});
+  hold_findings(in, study, {}, {}, Folder{});
   EXPECT_EQ(held.X, in.training.X().topRows(6));
   EXPECT_EQ(held.Y.rows(), 6);
   EXPECT_EQ(held.logs.size(), 6u);
