@@ -22,7 +22,7 @@ using engine::loading::LoadingLog;
 using engine::loading::Stage;
 using engine::loading::StageEnd;
 
-/// A cycle of 10 s without torque.
+/// A cycle of 10 s without torque, whose bucket loses what is spilled.
 CycleRecord cycle(double start, double loaded, double spilled, StageEnd end) {
   CycleRecord record;
   record.t_start = start;
@@ -45,7 +45,11 @@ LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
                          {"hinge_G_torque_y", "N m"},
                          {"hinge_G_torque_z", "N m"}};
   log.cycles = cycles;
-  for (std::size_t k = 0; k < cycles.size(); ++k) log.cycles[k].number = static_cast<int>(k) + 1;
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    const int number = log.cycles[k].number = static_cast<int>(k) + 1;
+    for (const double held : {cycles[k].spilled_mass, 0.0})
+      log.scene.frames.push_back({.t = 0, .cycle = number, .label = "", .bucket_mass = held});
+  }
   return log;
 }
 
@@ -102,7 +106,7 @@ TEST_F(LoadingHeadlines, OneCycleTellsNoNoise) {
 TEST_F(LoadingHeadlines, MeasuresThatTheLogsLackAreUnknown) {
   const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal)})});
   EXPECT_DOUBLE_EQ(of.at("cycle_time").value, 10);
-  for (const char* name : {"struck_fill", "energy_per_tonne", "tracking_error", "drive_lag", "wheel_slip",
+  for (const char* name : {"heaped_fill", "energy_per_tonne", "tracking_error", "drive_lag", "wheel_slip",
                            "peak_bucket_force", "peak_pin_force", "pin_load_range"}) {
     EXPECT_TRUE(std::isnan(of.at(name).value)) << name;
     EXPECT_NE(of.at(name).note.find("lack"), std::string::npos) << name;

@@ -21,13 +21,15 @@ loading::Scenario with(const OptionValues& given) {
       {.log = "", .shared = "shared", .options = with_defaults(loading_options(), given)});
 }
 
-TEST(LoadingScenario, DefaultsAreTheSmallSceneTwice) {
+TEST(LoadingScenario, DefaultsAreTheSmallSceneThreeTimes) {
   const loading::Scenario s = with({}), small = loading::lh621_in_a_drift();
-  EXPECT_EQ(s.cycles, 2);
+  EXPECT_EQ(s.cycles, 3);
   EXPECT_EQ(s.pile.mass, small.pile.mass);
   EXPECT_EQ(s.drift.width, small.drift.width);
   EXPECT_EQ(s.executor.speeds.drive_in, loading::lindmark2016_speeds().drive_in);
-  EXPECT_EQ(s.executor.moves.most_pulses, 0);
+  EXPECT_TRUE(s.executor.moves.round.empty());
+  EXPECT_EQ(s.executor.lift_end, loading::LiftEnd::arm);
+  EXPECT_FALSE(s.whole_cycle);
   EXPECT_EQ(s.materials.rock_rock.rolling, loading::calibrated_materials().rock_rock.rolling);
   EXPECT_EQ(s.pile_file, "shared/pile.h5");
 }
@@ -44,14 +46,14 @@ TEST(LoadingScenario, APrecisionInPerCentEndsRuns) {
   EXPECT_EQ(complaint({{"cycles", "6"}, {"precision", "5"}}), "");
   EXPECT_EQ(
       complaint({{"precision", "5"}}),
-      "--precision 5 with --cycles 2: a run may end after five cycles, so that allowed are 6 or more; give "
+      "--precision 5 with --cycles 3: a run may end after five cycles, so that allowed are 6 or more; give "
       "--cycles 30, or no --precision");
 }
 
 TEST(LoadingScenario, TheSceneSetsItsOwnSolverButNotTheCycles) {
   const loading::Scenario s = with({{"scene", "lindmark2016"}}),
                           large = loading::lh621_at_lindmark2016_scale();
-  EXPECT_EQ(s.cycles, 2);
+  EXPECT_EQ(s.cycles, 3);
   EXPECT_EQ(s.pile.mass, large.pile.mass);
   EXPECT_EQ(s.drift.width, large.drift.width);
   EXPECT_EQ(s.world.solver.iteration_budget, large.world.solver.iteration_budget);
@@ -72,9 +74,11 @@ TEST(LoadingScenario, TheSolverOfTheSourceGoesWithAnyScene) {
 TEST(LoadingScenario, SpeedsAndOperatorGoTogetherOrAlone) {
   const loading::Scenario s = with({{"speeds", "machine"}, {"operator", "skilled"}});
   EXPECT_EQ(s.executor.speeds.lift, loading::machine_speeds().lift);
-  EXPECT_EQ(s.executor.moves.most_pulses, loading::skilled_operator().most_pulses);
+  EXPECT_EQ(s.executor.moves.round.size(), loading::skilled_operator().round.size());
   EXPECT_EQ(s.executor.moves.crowd, loading::skilled_operator().crowd);
-  EXPECT_EQ(with({{"speeds", "machine"}}).executor.moves.most_pulses, 0);
+  EXPECT_TRUE(with({{"speeds", "machine"}}).executor.moves.round.empty());
+  EXPECT_EQ(with({{"lift-end", "any"}}).executor.lift_end, loading::LiftEnd::any_actuator);
+  EXPECT_TRUE(with({{"whole-cycle", "yes"}}).whole_cycle);
   EXPECT_EQ(with({{"operator", "skilled"}}).executor.speeds.lift, loading::lindmark2016_speeds().lift);
 }
 
