@@ -52,8 +52,11 @@ TEST(LoadingFindings, FailWhereTheRunsSayOtherwise) {
 TEST(LoadingFindings, StandAsTheyAreBesideStandardErrors) {
   const StudyResults plain = results_of(200, as_the_source);
   StudyResults told = plain;
-  for (const char* name : {"production_error", "joint_damage_error", "rock_spill_error"})
+  for (std::size_t r = 0; r < 3; ++r) {
+    const std::string name = told.problem.responses[r].name + "_error";
+    told.problem.responses[r].standard_error = name;
     told.problem.responses.push_back({.name = name, .unit = "1", .goal = doe::Goal::record, .lower = 0});
+  }
   told.Y.conservativeResize(Eigen::NoChange, 6);
   told.Y.rightCols(3) = 1000 * uniform_points(200, 3).leftCols(3);
   told.Y_new.conservativeResize(Eigen::NoChange, 6);
