@@ -42,8 +42,9 @@ json grade(const ReportInput& input, std::size_t j) {
   } else {
     const kriging::MeanError& error = input.mean_errors[j];
     verdict["grade"] = grade_of(error);
-    verdict["text"] = error_sentence(input.validations[j], error, r) +
-                      (error.nrmse() > fair_error ? ": read trends, not values" : "");
+    verdict["text"] =
+        error_sentence(input.validations[j], error, r) +
+        (error.nrmse() > fair_error && !is_flat(input.flat, j) ? ": read trends, not values" : "");
   }
   if (is_flat(input.flat, j)) {
     verdict["grade"] = "flat";

@@ -40,7 +40,7 @@ function lead(data, objectives) {
   if (!objectives.length && data.no_front) return `There is no front: ${data.no_front}.`;
   if (!objectives.length) return 'The study names no response to minimize or maximize, so there is nothing to search for.';
   if (!data.front.X.length) return `There is no front: ${data.no_front || 'the surrogates could not be fitted or searched'}.`;
-  const leftOut = data.problem.responses.flatMap((r, j) => (data.flat[j] && /^(min|max)imize$/.test(r.goal) ? [` Left out: ${pretty(r.name)}; ${data.flat[j]}.`] : [])).join('');
+  const leftOut = data.problem.responses.flatMap((r, j) => (data.flat[j] && /^(min|max)imize$/.test(r.goal) ? [` Left out is ${pretty(r.name)}, whose surrogate is flat within its own error.`] : [])).join('');
   if (objectives.length === 1) return `The surrogate was searched for the best ${pretty(objectives[0].name)}.${leftOut}`;
   return `${data.front.X.length} points that the surrogates cannot improve in one objective without losing in another (the Pareto front). All are predictions${data.confirmations.rows.length ? '; below stand those that were simulated.' : `: simulate a point before relying on it (command ${data.confirming}).`}${leftOut}`;
 }

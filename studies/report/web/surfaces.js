@@ -27,7 +27,7 @@ export function surfaces(data, shared) {
   const known = own(data.problem.responses).map((f) => ({...f, model: data.models[f.j]})).filter((f) => f.model?.surface);
   const fitted = known.filter(({j}) => !data.flat[j]), flat = known.filter(({j}) => data.flat[j]);
   const node = section('surfaces', 'Response surfaces', fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.');
-  node.append(...flat.map(({response, j}) => el('p', {class: 'note'}, `Of ${pretty(response.name)} nothing is drawn: ${data.flat[j]}.`)));
+  node.append(...flat.map(({response}) => el('p', {class: 'note'}, `Of ${pretty(response.name)} nothing is drawn: its surrogate is flat within its own error.`)));
   if (!fitted.length) return node;
   for (const f of fitted) {
     const mean = predictor(f.model.surface), ends = meanInterval(f.model.surface);
