@@ -100,8 +100,8 @@ json cycles_panel(const LoadingLog& log) {
       {"caption",
        "How each stage ended: at its goal, by its time limit, or because a drive was too slow under load."},
       {"columns",
-       {"cycle", "time [s]", "loaded [kg]", "left before the pile [kg]", "planned depth [m]", "planned height [m]",
-        "stages"}},
+       {"cycle", "time [s]", "loaded [kg]", "left before the pile [kg]", "planned depth [m]",
+        "planned height [m]", "stages"}},
       {"rows", rows}};
 }
 

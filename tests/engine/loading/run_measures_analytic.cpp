@@ -76,11 +76,15 @@ LoadingLog log_with(const std::function<Row(double t, int cycle)>& of) {
 }
 
 TEST(RunMeasures, CycleTimeAndSolidFill) {
-  const LoadingLog log = log_with([](double, int) { return Row{}; });
+  LoadingLog log = log_with([](double, int) { return Row{}; });
   EXPECT_DOUBLE_EQ(cycle_time(log), 1);
   EXPECT_DOUBLE_EQ(solid_fill_by_cycle(log)[1], 2000.0 / (4500 * 6));
   EXPECT_DOUBLE_EQ(solid_fill(log), 1500.0 / (4500 * 6));
   EXPECT_DOUBLE_EQ(struck_fill(log), 1500.0 / (4500 * 6) / 0.59);
+  log.numbers["bucket_heaped_volume"] = 8;
+  EXPECT_DOUBLE_EQ(heaped_fill(log), 1500.0 / (4500 * 8) / 0.59);
+  log.cycles[0].left_out_time = log.cycles[1].left_out_time = 3;
+  EXPECT_DOUBLE_EQ(cycle_time(log), 4) << "what was not simulated counts";
 }
 
 // Drive 30 kN m over a radius of 1 m at 1 m/s, lift 20 kN at 0.5 m/s: 40 kJ in the first cycle of 1 s. The

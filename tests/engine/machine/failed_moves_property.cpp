@@ -107,3 +107,34 @@ TEST(MachineSpec, RefusesBodiesThatAreNotFinite) {
   refused([](MachineSpec& s) { s.bodies[1].joint_point.y() = nan; }, "joint point");
   refused([](MachineSpec& s) { s.bodies[1].mass = std::numeric_limits<double>::infinity(); }, "mass");
 }
+
+// A machine that is put elsewhere in motion: every point moves by the vector, the base goes at its velocity without turning,
+// the joint at its speed; what makes no sense changes nothing.
+TEST(Machine, IsPutElsewhereAndInMotion) {
+  MachineSpec spec = rocker();
+  engine::machine::BodySpec base;
+  base.name = "base";
+  base.mass = 5;
+  base.inertia = Eigen::Matrix3d::Identity();
+  base.centre = {0, 0, -1};
+  spec.bodies.insert(spec.bodies.begin(), base);
+  for (std::size_t k = 1; k < spec.bodies.size(); ++k) ++spec.bodies[k].parent;
+  spec.bodies[3].parent = 0;
+  spec.loops[0].point_body = 2;
+  spec.loops[0].line_body = 3;
+  spec.motors[0].bodies = {1};
+  Machine machine(spec);
+  const Vector3d by(3, -2, 0.5), velocity(1.5, 0, 0), tip(1, 0, 1), before = machine.point(2, tip);
+  machine.translate(by);
+  EXPECT_LT((machine.point(2, tip) - before - by).norm(), 1e-12);
+  machine.set_velocity(velocity, {});
+  EXPECT_LT((machine.point_velocity(0, {0, 4, 0}) - velocity).norm(), 1e-12);
+  EXPECT_LT((machine.point_velocity(2, tip) - velocity).norm(), 1e-12);
+  machine.set_velocity(velocity, {{1, 0.4}});
+  EXPECT_DOUBLE_EQ(machine.speed(1), 0.4);
+  const std::vector<double> state = machine.state();
+  EXPECT_THROW(machine.translate({nan, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(machine.set_velocity({2e3, 0, 0}, {}), std::invalid_argument);
+  EXPECT_THROW(machine.set_velocity(velocity, {{0, 1}}), std::invalid_argument);
+  EXPECT_EQ(machine.state(), state);
+}
