@@ -144,8 +144,8 @@ Models fit_models(const Tables& tables) {
   if (tables.validation.X().rows() == 0) return fitted;
   for (std::size_t j = 0; j < problem.responses.size(); ++j) {
     fitted.validations.push_back(validation_of(fitted, tables.validation, j));
-    fitted.mean_errors.push_back(
-        mean_error_of(fitted.validations[j], fitted.models[j], tables.validation, problem.responses[j]));
+    fitted.mean_errors.push_back(mean_error_of(fitted.validations[j], fitted.models[j], tables.training,
+                                               tables.validation, problem.responses[j]));
   }
   return fitted;
 }

@@ -274,8 +274,8 @@ void check_results(const ReportInput& input) {
 std::vector<kriging::MeanError> mean_errors_of(const ReportInput& input) {
   std::vector<kriging::MeanError> errors;
   for (std::size_t j = 0; j < input.validations.size(); ++j)
-    errors.push_back(
-        mean_error_of(input.validations[j], input.models[j], input.validation, input.problem.responses[j]));
+    errors.push_back(mean_error_of(input.validations[j], input.models[j], input.training, input.validation,
+                                   input.problem.responses[j]));
   return errors;
 }
 

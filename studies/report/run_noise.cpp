@@ -4,6 +4,8 @@
 #include <drawpoint/studies/report/run_quantile.h>
 #include <drawpoint/kriging/signal.hpp>
 
+#include <algorithm>
+
 namespace drawpoint::studies {
 namespace {
 
@@ -31,11 +33,17 @@ kriging::MeanError mean_error_of(const kriging::Validation& v, const kriging::Tr
 }
 
 kriging::MeanError mean_error_of(const kriging::Validation& v, const kriging::TransformedModel& model,
-                                 const doe::Evaluations& validation, const doe::Response& response) {
+                                 const doe::Evaluations& training, const doe::Evaluations& validation,
+                                 const doe::Response& response) {
   if (v.observed.size() == 0) return {};
   const Eigen::VectorXd reported = validation.noise_variance(response.name);
-  if (is_reported(reported, v)) return error_with(kriging::reported_noise(reported), v);
-  return mean_error_of(v, model, validation.problem);
+  kriging::MeanError error = is_reported(reported, v) ? error_with(kriging::reported_noise(reported), v)
+                                                      : mean_error_of(v, model, validation.problem);
+  const Eigen::VectorXd y = training.y(response.name);
+  if (y.size() > 0)
+    error.range =
+        std::max(y.maxCoeff(), v.observed.maxCoeff()) - std::min(y.minCoeff(), v.observed.minCoeff());
+  return error;
 }
 
 }  // namespace drawpoint::studies

@@ -21,9 +21,11 @@ inline constexpr double most_told_variance = 1e150;
 /// By the noise that the validation runs report of the response (doe::Response::standard_error), or else by
 /// the noise of the model. Noise below a tenth of the error, or as small beside the range of the runs as the
 /// least that a fit can have, counts as none, and so does what a flat model takes for noise where no run
-/// reports any: it holds the signal that the model did not find. NaN without validation runs.
+/// reports any: it holds the signal that the model did not find. Its range is that of all runs, training runs too: a
+/// dozen validation runs span what chance gives them. NaN without validation runs.
 kriging::MeanError mean_error_of(const kriging::Validation& v, const kriging::TransformedModel& model,
-                                 const doe::Evaluations& validation, const doe::Response& response);
+                                 const doe::Evaluations& training, const doe::Evaluations& validation,
+                                 const doe::Response& response);
 
 /// The same by the noise of the model alone.
 kriging::MeanError mean_error_of(const kriging::Validation& v, const kriging::TransformedModel& model,
