@@ -18,9 +18,10 @@
 /// moves by more than `most_slip` are set slower, so that they pull and do not spin. Crowding: in the curl the drive pushes
 /// at `crowd`, which falls as the curl does, instead of standing still; so rock is pressed into the bucket while its mouth
 /// turns up. Releasing: with less than all of `curl_hold` the bucket, which swings forward as it turns up, can push the
-/// machine back. Lindmark (2016) has none of these. Sources: how loading is taught (domain literature in
-/// docs/measurements/loading.md), Hemami and Hassani (2009), Dobson, Marshall and Larsson (2017); the numbers are chosen
-/// here. World frame of kinematics.hpp, SI units.
+/// machine back. Lindmark (2016) has none of these. Sources: training material for
+/// underground loaders ("Getting a full bucket of dirt", undergroundtraining.com.au), Hemami and Hassani (2009), Dobson,
+/// Marshall and Larsson (2017); none gives rates or times, which are chosen here (docs/measurements/loading.md). World
+/// frame of kinematics.hpp, SI units.
 namespace drawpoint::engine::loading {
 
 /// Of boom and bucket, while the drive keeps the drive-in's speed.

@@ -39,7 +39,7 @@ function attempt(build) {
   }
 }
 
-const builders = data.replay ? [oneRun, panels, facts] : [asked, summary, findings, panels, contrasts, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
+const builders = data.replay ? [oneRun, panels, facts] : [summary, asked, findings, panels, contrasts, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
 const sections = builders.map(attempt).filter(Boolean);
 page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}), data.replay ? '' : selectionBar(shared));
 document.getElementById('main').append(...sections);

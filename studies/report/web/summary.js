@@ -16,12 +16,12 @@ export function navigation(sections) {
 export function summary(data) {
   const {cards, sentences, trust, cautions, next} = data.summary;
   return section('summary', 'In brief', null,
-    cards.length ? el('div', {class: 'cards'}, cards.map(card)) : null,
     sentences.map((text) => el('p', {class: 'sentence'}, text)),
-    next.length ? el('div', {}, el('h3', {}, 'What to do next'), el('ol', {class: 'next'}, next.map(step))) : null,
     el('div', {class: 'columns'},
       el('div', {}, el('h3', {}, 'How far to trust it'), el('ul', {class: 'trust'}, trust.map(verdict))),
-      cautions.length ? el('div', {}, el('h3', {}, 'Cautions'), el('ul', {class: 'cautions'}, cautions.map((text) => el('li', {}, text)))) : null));
+      cautions.length ? el('div', {}, el('h3', {}, 'Cautions'), el('ul', {class: 'cautions'}, cautions.map((text) => el('li', {}, text)))) : null),
+    next.length ? el('div', {}, el('h3', {}, 'What to do next'), el('ol', {class: 'next'}, next.map(step))) : null,
+    cards.length ? el('div', {class: 'cards'}, cards.map(card)) : null);
 }
 
 const card = ({label, value, unit, note}) => el('div', {class: 'card'}, el('span', {class: 'label'}, label),
