@@ -5,6 +5,7 @@
 #include <drawpoint/engine/granular/rock_shapes.hpp>
 #include <drawpoint/engine/loading/lhd_driver.hpp>
 #include <drawpoint/engine/loading/log/cycle_samples.hpp>
+#include <drawpoint/engine/loading/log/hinge_torque.hpp>
 #include <drawpoint/engine/loading/yield_test.hpp>
 #include <memory>
 #include <stdexcept>
@@ -46,8 +47,17 @@ class Crash {
     driver_.place(0, 0);
     add_machine(world_, lhd_, machine_);
     add_rock(options);
-    log_.signals.columns = {
-        {"time", "s"}, {"hinge_G_torque_x", "N m"}, {"hinge_G_torque_y", "N m"}, {"hinge_G_torque_z", "N m"}};
+    const char* force = scenario.machine.arm_drive == ArmDrive::cylinders ? "N" : "N m";
+    log_.signals.columns = {{"time", "s"},
+                            {"hinge_G_torque_x", "N m"},
+                            {"hinge_G_torque_y", "N m"},
+                            {"hinge_G_torque_z", "N m"},
+                            {"tip_x", "m"},
+                            {"tip_z", "m"},
+                            {"bucket_angle", "rad"},
+                            {"axle_x", "m"},
+                            {"axle_z", "m"},
+                            {"tilt_force", force}};
   }
 
   void stand() {
@@ -76,10 +86,11 @@ class Crash {
     for (const double end = world_.time() + seconds; world_.time() < end;) step(speed);
   }
 
-  /// Torque in hinge G from the touch on, low-passed from the start of the approach on, as a cycle's is.
+  /// Whole torque in hinge G from the touch on, low-passed from the start of the approach on, as a cycle's is.
   std::vector<Eigen::Vector3d> torque(double lowpass_hz) const {
     const CycleSamples samples(log_);
-    LowPassedVector filter(log_, "hinge_G_torque", lowpass_hz);
+    const HingeTorque whole(log_);
+    LowPassedVector filter([&](std::size_t row) { return whole.at(row); }, lowpass_hz);
     std::vector<Vector3d> values;
     for (std::size_t row = 0; row < samples.rows(); ++row) {
       const Vector3d value = filter.next(samples);
@@ -110,7 +121,10 @@ class Crash {
     driver_.command({.drive = speed});
     world_.step();
     const Vector3d torque = machine_.joint_wrench(lhd_.bucket).moment;
-    log_.signals.append_row(std::vector<double>{world_.time(), torque.x(), torque.y(), torque.z()});
+    const MachineReading m = driver_.read();
+    log_.signals.append_row(std::vector<double>{world_.time(), torque.x(), torque.y(), torque.z(), m.tip.x,
+                                                m.tip.z, m.tip.phi, m.front_axle.x(), m.front_axle.z(),
+                                                driver_.tilt_force()});
   }
 
   bool touches() const {
@@ -153,7 +167,8 @@ YieldTest yield_test(const Scenario& scenario, const YieldTestOptions& options) 
   const std::vector<Vector3d> torques = crash.torque(options.lowpass_hz);
   for (const Vector3d& torque : torques) {
     test.torque.push_back(torque.norm());
-    test.peak_twisting = std::max(test.peak_twisting, std::hypot(torque.x(), torque.z()));
+    test.twisting.push_back(std::hypot(torque.x(), torque.z()));
+    test.peak_twisting = std::max(test.peak_twisting, test.twisting.back());
   }
   test.peak = largest(torques);
   test.unfiltered_peak = largest(crash.torque(0));

@@ -10,8 +10,8 @@
 /// The machine stands on a level floor with its bucket's edge on it, as at the start of a cycle, a rock that
 /// nothing moves stands in its way; it gains its drive-in speed as in a cycle, if the run-up is long enough, and
 /// drives into the rock, wheels and cylinders holding what they are set to. τ_y is the largest magnitude of the
-/// torque in hinge G from the first touch on. With ArmDrive::cylinders the hinge bears only what twists the bucket, F · y for a push F at y from the middle; the torque about the pin goes through the link to the
-/// tilt cylinder. So the figure grows with `offset`, and in the middle it is that of the rock's own shape. The peak of a
+/// whole torque in hinge G from the first touch on, the tilt drive's moment about the pin included, as in joint_damage. What
+/// twists the bucket, F · y for a push F at y from the middle, grows with `offset`. The peak of a
 /// nearly rigid impact grows with stiffness and as 1/Δt: a figure belongs to the settings that it was found with; the
 /// low-pass of joint_damage takes most of that away. Cost: some seconds of machine without a pile, about 0.1 s of processor
 /// time each. Deterministic. Source: Lindmark 2016, 145 kN m; place and size of the rock are not given there and are chosen
@@ -32,6 +32,7 @@ struct YieldTest {
   double peak_twisting = 0;          ///< of its two components across the pin [N m]
   double unfiltered_peak = 0;        ///< as `peak`, without the low-pass [N m]
   std::vector<double> time, torque;  ///< from the touch on [s], low-passed magnitude [N m]
+  std::vector<double> twisting;      ///< of the two components across the pin alone [N m]
 };
 
 /// Machine, speeds, materials and solver are the scenario's. Throws std::invalid_argument naming the value and what is
