@@ -35,7 +35,10 @@ struct StudyResults {
   Eigen::MatrixXd X, Y;                     ///< training: n x d and n x r, natural units
   Eigen::MatrixXd X_new, Y_new;             ///< validation
   std::vector<std::filesystem::path> logs;  ///< of the training runs, row by row; empty where there is none
-  std::vector<double> nrmse;                ///< of the models on the validation runs; empty without those
+  /// Errors of the models on the validation runs against the mean response, over the range of all runs; empty without
+  /// validation runs.
+  std::vector<double> nrmse;
+  std::vector<double> nrmse_error = {};  ///< standard errors of these; empty: by the number of runs alone
   std::vector<std::filesystem::path> logs_new = {};  ///< of the validation runs
   OptionValues options = {};                         ///< of the study
 };

@@ -51,7 +51,11 @@ StudyResults results_of(const ReportInput& input, const std::vector<const Run*>&
                        .nrmse = {},
                        .logs_new = logs_of(input.validation, logged, folder),
                        .options = options};
-  for (const auto& validation : input.validations) results.nrmse.push_back(validation.nrmse);
+  constexpr double ends_apart = 2 * 1.96;  // of an interval of 95 %, in standard errors
+  for (const auto& error : input.mean_errors) {
+    results.nrmse.push_back(error.nrmse());
+    results.nrmse_error.push_back(error.share(error.upper - error.lower) / ends_apart);
+  }
   return results;
 }
 
