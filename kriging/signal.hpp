@@ -9,7 +9,7 @@
 /// points that fill the box: ratio = variance of m/mean of s². With eᵢ the errors of the runs that are left
 /// out and wᵢ their shares of the box (Σ wᵢ = 1): gain = (1 − Σ wᵢ eᵢ²/Σ wᵢ (yᵢ − ȳ)²)/Σ wᵢ², which is n Q2
 /// where shares are equal. Runs of noise alone have a gain that does not grow with n. A model is flat where the
-/// ratio is at most 4 and the gain at most 12, or 6 where the fit knows the noise of its runs. Where it does
+/// ratio is at most 5 and the gain at most 10, or 6 where the fit knows the noise of its runs. Where it does
 /// not, and there are fewer than 20 runs or 6 per variable, a signal that the fit took for noise is too likely,
 /// and no model counts as flat. tests/kriging/signal_statistical.cpp has how often that errs.
 ///
@@ -28,8 +28,8 @@
 namespace drawpoint::kriging {
 
 struct SignalOptions {
-  double most_ratio = 4;                       ///< of a flat model; range >= 0
-  double most_gain = 12, most_known_gain = 6;  ///< of a flat model, its noise estimated or known
+  double most_ratio = 5;                       ///< of a flat model; range >= 0
+  double most_gain = 10, most_known_gain = 6;  ///< of a flat model, its noise estimated or known
   int runs = 20, runs_per_variable = 6;        ///< with fewer, noise that is estimated leaves it open
   int points = 512;                            ///< of the box; range >= 2
 };
