@@ -96,7 +96,7 @@ std::string no_objective(const doe::Problem& asked, const std::vector<FlatRespon
   if (!has_objective(asked)) return "no response is to be minimized or maximized";
   if (has_objective(without_flat(asked, flat))) return "";
   return "no model of an objective (" + flat_objectives(flat, asked) +
-         ") differs between strategies by more than its own error";
+         ") differs between strategies by clearly more than its own error";
 }
 
 }  // namespace

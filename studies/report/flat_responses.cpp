@@ -38,7 +38,7 @@ doe::Problem as_asked(doe::Problem problem, const std::vector<FlatResponse>& fla
 std::string flat_text(const FlatResponse& flat, const doe::Problem& problem) {
   const std::string& unit = problem.responses[flat.response].unit;
   std::string text =
-      "its model does not differ between strategies by more than its own error (it varies by " +
+      "its model does not differ between strategies by clearly more than its own error (it varies by " +
       detail::number_with_unit(flat.signal.spread, unit) + ", its error is " +
       detail::number_with_unit(flat.signal.error, unit) + "); ";
   if (doe::is_objective(flat.asked)) text += "it is left out of the trade-off; ";

@@ -32,8 +32,8 @@ doe::Problem without_flat(doe::Problem problem, const std::vector<FlatResponse>&
 /// That problem with the goals of the study again.
 doe::Problem as_asked(doe::Problem problem, const std::vector<FlatResponse>& flat);
 
-/// "its model does not differ between strategies by more than its own error (it varies by 0.0001, its error is
-/// 0.002); it is left out of the trade-off; ..." without the name, so that text and page set it as they do.
+/// "its model does not differ between strategies by clearly more than its own error (it varies by 0.0001, its
+/// error is 0.002); it is left out of the trade-off; ...", without the name, which text and page set as they do.
 std::string flat_text(const FlatResponse& flat, const doe::Problem& problem);
 
 /// Name of the response and flat_text(), of each.

@@ -91,8 +91,10 @@ TEST(FlatResponse, IsNoObjective) {
 
 TEST(FlatResponse, IsSaidInTextAndJson) {
   const std::string text = front_points_text(trade_off(), 6, false);
-  EXPECT_NE(text.find("rock_spill: its model does not differ between strategies by more than its own error"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "rock_spill: its model does not differ between strategies by clearly more than its own error"),
+      std::string::npos)
       << text;
   EXPECT_NE(text.find("it is left out of the trade-off"), std::string::npos);
   EXPECT_EQ(text.find("lowest rock_spill"), std::string::npos);
@@ -130,8 +132,9 @@ TEST(FlatResponse, LeavesTheOptimumOfTheOtherObjective) {
 TEST(FlatResponse, AloneHasNoFront) {
   const ReportInput in = input({recorded, recorded, smallest});
   EXPECT_EQ(in.front.X.rows(), 0);
-  EXPECT_EQ(in.no_front,
-            "no model of an objective (rock spill) differs between strategies by more than its own error");
+  EXPECT_EQ(
+      in.no_front,
+      "no model of an objective (rock spill) differs between strategies by clearly more than its own error");
   const nlohmann::json page = detail::report_data(in);
   EXPECT_EQ(page["no_front"], in.no_front);
   EXPECT_TRUE(mentions(page["summary"]["next"], "Decide what to do about rock spill"));
