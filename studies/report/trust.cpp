@@ -37,7 +37,7 @@ json grade(const ReportInput& input, std::size_t j) {
   json verdict{{"response", pretty(r.name)}, {"grade", "unknown"}};
   if (j >= input.models.size()) {
     verdict["text"] = "no surrogate could be fitted";
-  } else if (j >= input.validations.size() || !std::isfinite(input.validations[j].nrmse)) {
+  } else if (j >= input.mean_errors.size() || !std::isfinite(input.validations[j].nrmse)) {
     verdict["text"] = "was not checked on independent runs that differ";
   } else {
     const kriging::MeanError& error = input.mean_errors[j];
