@@ -21,7 +21,7 @@ struct SimbodyTree {
 
   /// At rest in the reference pose, the machine frame at X_WM.
   void place(const Eigen::Isometry3d& X_WM);
-  /// As it is, by a world vector [m].
+  /// Moves the tree as it is by a world vector [m].
   void translate(const Eigen::Vector3d& by);
   /// The bases move so, without turning, and these joints turn or slide so.
   void set_velocity(const Eigen::Vector3d& velocity, const std::vector<std::pair<int, double>>& joint_speeds);

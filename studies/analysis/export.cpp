@@ -145,7 +145,8 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, 
   if (front.X.rows() == 0) return table;
   const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
   const Eigen::MatrixXd errors = standard_errors(fitted.models, front.X);
-  const Eigen::VectorXd on_front = uncertainty_of(front, fitted.models, predicted.problem, identity.seed).non_dominated;
+  const Eigen::VectorXd on_front =
+      uncertainty_of(front, fitted.models, predicted.problem, identity.seed).non_dominated;
   const Eigen::VectorXd success = predicted.failures.probability_of_success(front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
     std::vector<json> row;

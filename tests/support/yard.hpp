@@ -11,9 +11,8 @@
 namespace drawpoint::support {
 
 struct Yard {
-  explicit Yard(
-      const engine::loading::LhdOptions& options = {}, const engine::WorldOptions& solved = {},
-      const engine::loading::MineMaterials& materials = engine::loading::calibrated_materials())
+  explicit Yard(const engine::loading::LhdOptions& options = {}, const engine::WorldOptions& solved = {},
+                const engine::loading::MineMaterials& materials = engine::loading::calibrated_materials())
       : lhd(engine::loading::sandvik_lh621(options)),
         machine(lhd.spec),
         world(solved, engine::loading::material_table(materials)),

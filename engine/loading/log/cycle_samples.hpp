@@ -44,7 +44,7 @@ class LowPassedVector {
   /// corner [Hz]; 0: no filter.
   LowPassedVector(std::function<Eigen::Vector3d(std::size_t row)> vector, double corner)
       : vector_(std::move(vector)), corner_(corner) {}
-  /// Of three signals, NAME_x, NAME_y, NAME_z. Throws std::invalid_argument if a column is missing.
+  /// The vector is three signals, NAME_x, NAME_y, NAME_z. Throws std::invalid_argument if a column is missing.
   LowPassedVector(const LoadingLog& log, const std::string& name, double corner);
   /// The next row's value; rows are taken in order, from the first.
   const Eigen::Vector3d& next(const CycleSamples& samples);

@@ -41,7 +41,7 @@ int bucket_of_scene(const SceneRecord& scene) {
       "loading::rock_left: the log's scene has no bucket; give the log of a simulated run");
 }
 
-// Those that are not in the bucket, at the end of a cycle.
+// Rocks that are not in the bucket at the end of a cycle.
 std::vector<PosedRock> rocks_outside(const LoadingLog& log, const Lhd& lhd, int frame) {
   const SceneRecord& scene = log.scene;
   const auto bucket = pose_in(scene, bucket_of_scene(scene), frame);

@@ -18,10 +18,10 @@ struct LeftOut {
   double speed = 0;  ///< approach: on arrival; return: the largest on the way [m/s]
 };
 
-/// Over `distance` ≥ 0 [m].
+/// What the approach takes over `distance` ≥ 0 [m].
 LeftOut approach(double distance, const SpeedPreset& speeds);
 
-/// Of stage 4, whose whole way is `whole` [m], from `done` [m] on, where the machine backs at `speed` [m/s] ≥ 0 and
+/// What is left of stage 4, whose whole way is `whole` [m], from `done` [m] on, where the machine backs at `speed` [m/s] ≥ 0 and
 /// `elapsed` [s] of the stage's time have passed. It ends as the stage does, by its goal or by its time limit.
 LeftOut way_back(double whole, double done, double speed, double elapsed, const ExecutorOptions& options);
 

@@ -24,7 +24,7 @@
 /// frame of kinematics.hpp, SI units.
 namespace drawpoint::engine::loading {
 
-/// Of boom and bucket, while the drive keeps the drive-in's speed.
+/// Boom and bucket move so while the drive keeps the drive-in's speed.
 struct Move {
   double boom = 0;  ///< [rad/s], up positive
   double tilt = 0;  ///< [rad/s], curling back positive; negative: dumping
