@@ -100,6 +100,7 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
   if (!log.completed) return doe::Failure{log.message};
   const auto producing = studies::production_options(options);
   const auto damaging = studies::damage_options(options);
+  const engine::loading::RockLeft left = rock_left(log);
   auto twisting = damaging;
   twisting.component = engine::loading::TorqueComponent::twisting;
   return {production(log, producing),
@@ -111,8 +112,8 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
           joint_damage(log, twisting),
           peak_pin_force(log),
           pin_load_range(log),
-          rock_in_lane(log),
-          rock_before_front(log) / engine::loading::SpillOptions{}.m_max};
+          left.in_lane,
+          left.before_front / engine::loading::SpillOptions{}.m_max};
 }
 
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {

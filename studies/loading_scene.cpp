@@ -3,6 +3,7 @@
 
 #include <drawpoint/studies/loading_panels.h>
 #include <drawpoint/studies/loading_scene.h>
+#include <drawpoint/engine/loading/log/hinge_torque.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -101,13 +102,14 @@ std::vector<double> tip_speed(const LoadingLog& log, Rows rows, const std::vecto
   return speed;
 }
 
-// Its length, with the part about the pin or without [kN m].
+// Its length, as joint damage takes it: with the part about the pin, the tilt drive's, or without [kN m].
 std::vector<double> torque_in_G(const LoadingLog& log, Rows rows, bool about_pin) {
-  std::vector<double> torque = samples(log, "hinge_G_torque_x", rows);
-  const std::vector<double> y = samples(log, "hinge_G_torque_y", rows),
-                            z = samples(log, "hinge_G_torque_z", rows);
-  for (std::size_t i = 0; i < torque.size(); ++i)
-    torque[i] = 1e-3 * std::hypot(torque[i], about_pin ? y[i] : 0, z[i]);
+  const engine::loading::HingeTorque whole(log);
+  std::vector<double> torque;
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
+    const Eigen::Vector3d T = whole.at(row);
+    torque.push_back(1e-3 * (about_pin ? T.norm() : std::hypot(T.x(), T.z())));
+  }
   return torque;
 }
 

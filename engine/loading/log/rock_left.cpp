@@ -71,7 +71,7 @@ std::vector<double> literal_fronts(const ColumnModel& model) {
   return fronts;
 }
 
-RockLeft rock_left(const std::vector<PosedRock>& rocks, const ColumnModel& model, const Plan& plan) {
+RockLeft left_of(const std::vector<PosedRock>& rocks, const ColumnModel& model, const Plan& plan) {
   const std::vector<double> fronts = literal_fronts(model);
   RockLeft left;
   for (const PosedRock& rock : rocks) {
@@ -98,21 +98,20 @@ std::vector<RockLeft> rock_left_by_cycle(const LoadingLog& log) {
   std::vector<RockLeft> left;
   for (const CycleRecord& cycle : log.cycles) {
     const auto rocks = rocks_outside(log, lhd, last_frame(log.scene, cycle.number));
-    left.push_back(rock_left(rocks, column_model(rocks, grid, options), cycle.plan));
+    left.push_back(left_of(rocks, column_model(rocks, grid, options), cycle.plan));
   }
   return left;
 }
 
-double rock_in_lane(const LoadingLog& log) {
-  double sum = 0;
-  for (const RockLeft& left : rock_left_by_cycle(log)) sum += left.in_lane;
-  return sum / static_cast<double>(log.cycles.size());
-}
-
-double rock_before_front(const LoadingLog& log) {
-  double sum = 0;
-  for (const RockLeft& left : rock_left_by_cycle(log)) sum += left.before_front;
-  return sum / static_cast<double>(log.cycles.size());
+RockLeft rock_left(const LoadingLog& log) {
+  RockLeft mean;
+  for (const RockLeft& left : rock_left_by_cycle(log)) {
+    mean.in_lane += left.in_lane;
+    mean.before_front += left.before_front;
+  }
+  mean.in_lane /= static_cast<double>(log.cycles.size());
+  mean.before_front /= static_cast<double>(log.cycles.size());
+  return mean;
 }
 
 }  // namespace drawpoint::engine::loading

@@ -22,7 +22,6 @@ struct RockLeft {
 /// Cost: some ms per cycle and 1000 rocks.
 std::vector<RockLeft> rock_left_by_cycle(const LoadingLog& log);
 
-double rock_in_lane(const LoadingLog& log);       ///< mean over the cycles [kg]
-double rock_before_front(const LoadingLog& log);  ///< mean over the cycles [kg]
+RockLeft rock_left(const LoadingLog& log);  ///< mean over the cycles
 
 }  // namespace drawpoint::engine::loading

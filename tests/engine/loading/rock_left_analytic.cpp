@@ -57,16 +57,16 @@ TEST(RockLeft, IsCountedInTheLaneAndBeforeTheLiteralFront) {
   const Eigen::Vector3d carried(5, 0, 0);
   scene.add("bucket", lhd.spec.bodies[static_cast<std::size_t>(lhd.bucket)].centre + carried, std::nan(""));
   scene.add_rock(3.0 + carried.x(), 0, 0.5);
-  EXPECT_DOUBLE_EQ(rock_in_lane(scene.log), mass);
-  EXPECT_DOUBLE_EQ(rock_before_front(scene.log), 6 * mass);
+  EXPECT_DOUBLE_EQ(rock_left(scene.log).in_lane, mass);
+  EXPECT_DOUBLE_EQ(rock_left(scene.log).before_front, 6 * mass);
 }
 
 TEST(RockLeft, OfAWholePileIsNone) {
   CubeScene scene;
   scene.add_pile(0, 0);
   scene.add("bucket", {0, 0, 1}, std::nan(""));
-  EXPECT_EQ(rock_in_lane(scene.log), 0);
-  EXPECT_EQ(rock_before_front(scene.log), 0);
+  EXPECT_EQ(rock_left(scene.log).in_lane, 0);
+  EXPECT_EQ(rock_left(scene.log).before_front, 0);
 }
 
 TEST(RockLeft, NeedsPictures) {
