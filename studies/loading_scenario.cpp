@@ -5,6 +5,7 @@
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,42 @@ bool solved_loosely(const std::string& solver) {
 }
 
 constexpr std::array<std::string_view, 2> motion_names = {"pictures", "full"}, yes_or_no = {"no", "yes"};
+
+// What a skilled operator's numbers are given in.
+constexpr double cm = 0.01;
+
+std::string in_cm(double value) { return std::to_string(std::lround(value / cm)); }
+
+/// A number of the skilled operator, by default his own.
+StudyOption of_operator(const std::string& name, const std::string& help, const std::string& own,
+                        int least, int most) {
+  return {.name = name,
+          .help = help + "; of --operator skilled",
+          .value = own,
+          .least = least,
+          .most = most,
+          .before = own};
+}
+
+const std::array<StudyOption, 3>& operator_numbers() {
+  const auto skilled = engine::loading::skilled_operator();
+  static const std::array<StudyOption, 3> numbers = {
+      of_operator("rounds", "lift, curl, dump and curl again, so often at most in a drive-in that is held up",
+                  std::to_string(skilled.rounds), 1, 100),
+      of_operator("crowd", "cm/s that the drive pushes at while the bucket curls", in_cm(skilled.crowd), 0, 400),
+      of_operator("slip", "cm/s of the wheels, beyond which the throttle is eased", in_cm(skilled.most_slip),
+                  1, 1000)};
+  return numbers;
+}
+
+engine::loading::OperatorMoves operator_of(const RunContext& run) {
+  auto moves = engine::loading::operator_named(chosen(run, "operator"));
+  if (moves.round.empty()) return moves;
+  moves.rounds = std::stoi(chosen(run, "rounds"));
+  moves.crowd = cm * std::stod(chosen(run, "crowd"));
+  moves.most_slip = cm * std::stod(chosen(run, "slip"));
+  return moves;
+}
 
 /// One of two ways that the program has, the first by default; folders of before the option have the one that `before`
 /// is the place of.
@@ -76,6 +113,9 @@ std::vector<StudyOption> loading_options() {
        "into the rock",
        "plan",
        {engine::loading::operator_names.begin(), engine::loading::operator_names.end()}},
+      operator_numbers()[0],
+      operator_numbers()[1],
+      operator_numbers()[2],
       {.name = "pile-mass",
        .help = "t of rock in the drift, 10 or more; with --scene lindmark2016 800 choke the raise. 0: the "
                "scene's",
@@ -157,6 +197,11 @@ std::string loading_options_complaint(const OptionValues& options) {
   if (mass > 0 && mass < 10)
     return "--pile-mass " + std::to_string(mass) +
            ": allowed are 10 t (a bucket load) to 10 000 t, or 0 for the scene's";
+  if (const auto operated = options.find("operator"); operated != options.end() && operated->second == "plan")
+    for (const StudyOption& number : operator_numbers())
+      if (options.at(number.name) != number.value)
+        return "--" + number.name + " " + options.at(number.name) +
+               ": the plan alone has no such moves; give --operator skilled too";
   const auto arm = options.find("arm");  // of bucket and speed together: always cylinders
   if (arm != options.end() && arm->second == "hinges" && options.at("speeds") == "machine")
     return "--arm hinges with --speeds machine: its pump drives cylinders, and motors in the hinges have "
@@ -172,7 +217,7 @@ Scenario loading_scenario(const RunContext& run) {
                                            engine::granular::sizes_named(chosen(run, "sizes")));
   if (solved_loosely(chosen(run, "solver"))) scenario.world = engine::loading::lindmark2016_solver();
   scenario = engine::loading::with_speeds(scenario, chosen(run, "speeds"));
-  scenario.executor.moves = engine::loading::operator_named(chosen(run, "operator"));
+  scenario.executor.moves = operator_of(run);
   scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
   scenario.curl = engine::loading::curl_named(chosen(run, "curl"));
   scenario.lift = engine::loading::lift_named(chosen(run, "lift"));

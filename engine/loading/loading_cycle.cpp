@@ -25,8 +25,9 @@ constexpr double weighing_time = 1.0;  // that the machine stands before its loa
 constexpr double room_behind_A = 4.0;  // in which a rock in the way moves the start back [m]
 constexpr double before_toe = 0.1;     // tip to toe where the approach is left out [m]
 constexpr int clearance_interval = 5;  // steps between looks whether the bucket is clear
-// Between cycles, where whole ones are not simulated: a rock may still roll, nothing falls.
-constexpr granular::RestOptions short_rest{.mean_energy = 3e-4, .fastest = 0.5, .hold = 0.1};
+// Between cycles, where whole ones are not simulated: the pile stands, and single rocks that still roll down it come to
+// rest in the second or more that the approach, which is left out, takes.
+constexpr granular::RestOptions short_rest{.mean_energy = 2e-3, .fastest = 2.0, .hold = 0.1};
 constexpr double blocked_raise = 1.0;   // it has let no rock go for so long: what is missing comes later [s]
 constexpr int cycles_per_lost_one = 5;  // a run that loses more cycles than one in five has failed
 
@@ -71,6 +72,7 @@ class LoadingRun {
   Plan plan(CycleRecord& record) const;
   Approached place_machine(const Plan& plan, CycleRecord& record);
   bool execute(CycleRecord& record, const Approached& approached);
+  double carried_away(const Executor& executor) const;
   bool leaves_off(const Executor& executor);
   void leave_out_way_back(const Executor& executor, const MachineReading& reading, CycleRecord& record);
   bool weigh(CycleRecord& record);
@@ -270,6 +272,11 @@ void LoadingRun::leave_out_way_back(const Executor& executor, const MachineReadi
   record.left_out_energy += 0.5 * mass * (way.speed * way.speed - speed * speed);
 }
 
+// What the bucket holds comes down the raise as soon as the machine backs out.
+double LoadingRun::carried_away(const Executor& executor) const {
+  return !scenario_.whole_cycle && executor.stage() == Stage::back_out ? site_.mass_in_bucket() : 0;
+}
+
 bool LoadingRun::execute(CycleRecord& record, const Approached& approached) {
   Executor executor(record.plan, site_.driver().arm(), scenario_.executor, approached);
   double next_frame = site_.world().time();
@@ -293,7 +300,7 @@ bool LoadingRun::execute(CycleRecord& record, const Approached& approached) {
       largest_overlap_ = std::max(largest_overlap_, report.max_overlap);
       largest_loop_error_ = std::max(largest_loop_error_, site_.machine().loop_error());
     };
-    site_.refill();
+    site_.refill(carried_away(executor));
     if (hooks_.look_ahead) call([&] { hooks_.look_ahead(site_.world()); });
     if (!step(log_signals)) return false;
   }

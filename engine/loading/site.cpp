@@ -16,6 +16,13 @@ using engine::ConvexPolyhedron;
 constexpr double machine_length = 12.2, least_half_width = 1.7, machine_top = 2.0, room = 0.1;
 constexpr double calm = 0.25;  // of a load against its bucket [m/s]
 
+// Layers come as fast as the last one falls its own thickness; where whole cycles are simulated, as piles are poured.
+granular::EmitterOptions raise_of(const Scenario& scenario) {
+  granular::EmitterOptions raise = emitter_of(scenario.drift);
+  if (!scenario.whole_cycle) raise.interval = 0.35;
+  return raise;
+}
+
 const ConvexPolyhedron& polyhedron(const engine::Rock& rock) {
   return std::get<ConvexPolyhedron>(*rock.body.shape);
 }
@@ -29,7 +36,7 @@ Site::Site(const Scenario& scenario, const SettledPile& pile)
       world_(scenario.world, material_table(scenario.materials)),
       driver_(lhd_, machine_),
       library_(scenario.pile.density, static_cast<int>(SurfaceKind::rock)),
-      emitter_(emitter_of(scenario.drift), scenario.pile.density, scenario.seed, scenario.pile.sizes) {
+      emitter_(raise_of(scenario), scenario.pile.density, scenario.seed, scenario.pile.sizes) {
   add_drift(world_, drift_);
   driver_.settle_alone(scenario.world, scenario.materials);
   add_machine(world_, lhd_, machine_);
@@ -157,7 +164,9 @@ double Site::rock_energy() const {
   return energy;
 }
 
-bool Site::refill() { return !emitter_.emit(world_, library_, specs_, missing_mass()).empty(); }
+bool Site::refill(double carried) {
+  return !emitter_.emit(world_, library_, specs_, missing_mass() + carried).empty();
+}
 
 double Site::remove_escaped() {
   double escaped = 0;

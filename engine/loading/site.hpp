@@ -53,8 +53,8 @@ class Site {
   std::vector<int> place_machine(double tip_x, double y, double speed = 0);
 
   /// Lets rocks come down the raise when it is time, toward the mass at the start; whether any came. Call
-  /// once per step while mass is missing.
-  bool refill();
+  /// once per step while mass is missing. `carried` [kg]: what is still there and will be taken away.
+  bool refill(double carried = 0);
   double missing_mass() const;  ///< [kg]; at most 0 when the drift holds what it held at the start
 
   double initial_mass() const { return initial_mass_; }

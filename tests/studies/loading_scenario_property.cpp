@@ -82,6 +82,24 @@ TEST(LoadingScenario, SpeedsAndOperatorGoTogetherOrAlone) {
   EXPECT_EQ(with({{"operator", "skilled"}}).executor.speeds.lift, loading::lindmark2016_speeds().lift);
 }
 
+TEST(LoadingScenario, TheSkilledOperatorsNumbersAreHisOwnUnlessGiven) {
+  const loading::OperatorMoves skilled = loading::skilled_operator(),
+                               own = with({{"operator", "skilled"}}).executor.moves,
+                               given = with({{"operator", "skilled"}, {"rounds", "5"}, {"crowd", "80"}, {"slip", "25"}})
+                                           .executor.moves;
+  EXPECT_EQ(own.rounds, skilled.rounds);
+  EXPECT_DOUBLE_EQ(own.crowd, skilled.crowd);
+  EXPECT_DOUBLE_EQ(own.most_slip, skilled.most_slip);
+  EXPECT_EQ(given.rounds, 5);
+  EXPECT_DOUBLE_EQ(given.crowd, 0.8);
+  EXPECT_DOUBLE_EQ(given.most_slip, 0.25);
+  EXPECT_EQ(loading_options_complaint(with_defaults(loading_options(), {{"rounds", "5"}})),
+            "--rounds 5: the plan alone has no such moves; give --operator skilled too");
+  EXPECT_EQ(loading_options_complaint(
+                with_defaults(loading_options(), {{"operator", "skilled"}, {"rounds", "5"}})),
+            "");
+}
+
 TEST(LoadingScenario, FinerRockIsSolvedAsFarAsTheScenes) {
   using namespace engine::granular;
   const loading::Scenario s = with({{"sizes", "mine_with_fines"}}), scene = with({});

@@ -67,7 +67,7 @@ struct ExecutorOptions {
   LiftEnd lift_end = LiftEnd::arm;
   OperatorMoves moves;
   double slow_share = 0.10;                       ///< [1]
-  double slow_window = 1.0;                       ///< [s]
+  double slow_window = 0.5;                       ///< [s]
   ActuatorRates least_set = {0.05, 0.005, 0.01};  ///< v_min of rule (c) [m/s, rad/s, rad/s]
 };
 
