@@ -22,47 +22,38 @@ using nlohmann::json;
 
 std::string name_of(const CycleRecord& cycle) { return "Cycle " + std::to_string(cycle.number); }
 
-json line(const LoadingLog& log, Rows rows, const char* signal, const char* label, double scale) {
-  std::vector<double> t = samples(log, "time", rows), y = samples(log, signal, rows);
-  const double start = t.empty() ? 0 : t.front();
-  for (double& value : t) value -= start;
-  for (double& value : y) value *= scale;
+json line(const char* label, const std::vector<double>& t, const std::vector<double>& y) {
   return {{"name", label}, {"x", rounded(t)}, {"y", rounded(y)}};
-}
-
-// The yield torque in either direction.
-std::vector<json> yield_lines(const LoadingLog& log, Rows rows, double yield_torque) {
-  if (rows.first == rows.last) return {};
-  const std::size_t time = log.signals.index("time");
-  const double end = log.signals.at(rows.last - 1, time) - log.signals.at(rows.first, time);
-  std::vector<json> lines;
-  for (const double torque : {yield_torque, -yield_torque})
-    lines.push_back({{"name", torque > 0 ? "yield torque" : "yield torque, other way"},
-                     {"x", rounded({0.0, end})},
-                     {"y", rounded({1e-3 * torque, 1e-3 * torque})}});
-  return lines;
 }
 
 json forces_panel(const LoadingLog& log, const CycleRecord& cycle, double yield_torque) {
   const Rows rows = rows_of(log, cycle.number);
   const bool cylinders = log.texts.at("arm_drive") == "cylinders";
-  json series = {line(log, rows, "lift_force", "lift", 1e-3), line(log, rows, "tilt_force", "tilt", 1e-3),
-                 line(log, rows, "wheel_torque", "wheels, sum [kN m]", 1e-3),
-                 line(log, rows, "hinge_G_torque_x", "hinge G, about long axis", 1e-3),
-                 line(log, rows, "hinge_G_torque_z", "hinge G, about upright axis", 1e-3)};
-  for (const json& yield : yield_lines(log, rows, yield_torque)) series.push_back(yield);
-  return {
-      {"type", "lines"},
-      {"title", "Drive forces and the torque in hinge G"},
-      {"caption",
-       name_of(cycle) +
-           " of the run shown. The two torque components twist the bucket on its pin. Damage integrates the "
-           "excess of the torque over the yield torque of " +
-           fixed(1e-3 * yield_torque, 0) +
-           " kN m, low-passed at 20 Hz, relative to it. Every sample is drawn."},
-      {"x_label", "time [s]"},
-      {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
-      {"series", series}};
+  std::vector<double> t = samples(log, "time", rows);
+  for (double& time : t) time -= cycle.t_start;
+  const auto in_kilo = [&](const char* signal) {
+    std::vector<double> y = samples(log, signal, rows);
+    for (double& value : y) value *= 1e-3;
+    return y;
+  };
+  using engine::loading::TorqueComponent;
+  json series = {line("lift", t, in_kilo("lift_force")), line("tilt", t, in_kilo("tilt_force")),
+                 line("wheels, sum [kN m]", t, in_kilo("wheel_torque")),
+                 line("hinge G, whole torque", t, hinge_torque(log, rows, TorqueComponent::all)),
+                 line("hinge G, what twists it", t, hinge_torque(log, rows, TorqueComponent::twisting))};
+  if (!t.empty())
+    series.push_back(line("yield torque", {0.0, t.back()}, {1e-3 * yield_torque, 1e-3 * yield_torque}));
+  return {{"type", "lines"},
+          {"title", "Drive forces and the torque in hinge G"},
+          {"caption", name_of(cycle) +
+                          " of the run shown. The whole torque has the tilt drive's moment about the pin; "
+                          "the rest twists the "
+                          "bucket on it. Damage integrates the excess over the yield torque of " +
+                          fixed(1e-3 * yield_torque, 0) +
+                          " kN m, low-passed at 20 Hz, relative to it. Every sample is drawn."},
+          {"x_label", "time [s]"},
+          {"y_label", cylinders ? "force [kN], torque [kN m]" : "torque [kN m]"},
+          {"series", series}};
 }
 
 json bucket_panel(const LoadingLog& log, const CycleRecord& cycle) {
@@ -84,6 +75,13 @@ json bucket_panel(const LoadingLog& log, const CycleRecord& cycle) {
           {"series", {{{"name", "rock in the bucket"}, {"x", rounded(t)}, {"y", rounded(mass)}}}}};
 }
 
+// Logs of version 4 do not tell what the bucket held.
+std::string lost_in(const LoadingLog& log, std::size_t cycle) {
+  const auto told = [](const auto& frame) { return !std::isnan(frame.bucket_mass); };
+  if (std::none_of(log.scene.frames.begin(), log.scene.frames.end(), told)) return "unknown";
+  return fixed(engine::loading::lost_mass_by_cycle(log)[cycle], 0);
+}
+
 json cycles_panel(const LoadingLog& log) {
   json rows = json::array();
   for (const CycleRecord& c : log.cycles) {
@@ -92,7 +90,7 @@ json cycles_panel(const LoadingLog& log) {
       ends += (ends.empty() ? "" : ", ") + std::string(name(stage.stage)) + ": " +
               std::string(name(stage.reason));
     rows.push_back({std::to_string(c.number), fixed(c.seconds(), 1), fixed(c.loaded_mass, 0),
-                    fixed(c.spilled_mass, 0), fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
+                    lost_in(log, rows.size()), fixed(c.plan.depth, 2), fixed(c.plan.height, 2), ends});
   }
   return {
       {"type", "table"},
@@ -100,8 +98,8 @@ json cycles_panel(const LoadingLog& log) {
       {"caption",
        "How each stage ended: at its goal, by its time limit, or because a drive was too slow under load."},
       {"columns",
-       {"cycle", "time [s]", "loaded [kg]", "left before the pile [kg]", "planned depth [m]",
-        "planned height [m]", "stages"}},
+       {"cycle", "time [s]", "loaded [kg]", "taken and lost [kg]", "planned depth [m]", "planned height [m]",
+        "stages"}},
       {"rows", rows}};
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/studies/loading_panels.h>
+#include <drawpoint/engine/loading/log/hinge_torque.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,18 @@ std::vector<double> samples(const LoadingLog& log, const char* name, Rows rows) 
   std::vector<double> out;
   for (std::size_t r = rows.first; r < rows.last; ++r) out.push_back(log.signals.at(r, column));
   return out;
+}
+
+std::vector<double> hinge_torque(const LoadingLog& log, Rows rows,
+                                 engine::loading::TorqueComponent component) {
+  const engine::loading::HingeTorque whole(log);
+  const bool all = component == engine::loading::TorqueComponent::all;
+  std::vector<double> torque;
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
+    const Eigen::Vector3d T = whole.at(row);
+    torque.push_back(1e-3 * (all ? T.norm() : std::hypot(T.x(), T.z())));
+  }
+  return torque;
 }
 
 namespace {

@@ -39,8 +39,8 @@ constexpr double cm = 0.01;
 std::string in_cm(double value) { return std::to_string(std::lround(value / cm)); }
 
 /// A number of the skilled operator, by default his own.
-StudyOption of_operator(const std::string& name, const std::string& help, const std::string& own,
-                        int least, int most) {
+StudyOption of_operator(const std::string& name, const std::string& help, const std::string& own, int least,
+                        int most) {
   return {.name = name,
           .help = help + "; of --operator skilled",
           .value = own,
@@ -52,20 +52,22 @@ StudyOption of_operator(const std::string& name, const std::string& help, const 
 const std::array<StudyOption, 3>& operator_numbers() {
   const auto skilled = engine::loading::skilled_operator();
   static const std::array<StudyOption, 3> numbers = {
-      of_operator("rounds", "lift, curl, dump and curl again, so often at most in a drive-in that is held up",
+      of_operator("operator-rounds",
+                  "lift, curl, dump and curl again, so often at most in a drive-in that is held up",
                   std::to_string(skilled.rounds), 1, 100),
-      of_operator("crowd", "cm/s that the drive pushes at while the bucket curls", in_cm(skilled.crowd), 0, 400),
-      of_operator("slip", "cm/s of the wheels, beyond which the throttle is eased", in_cm(skilled.most_slip),
-                  1, 1000)};
+      of_operator("operator-crowd", "cm/s that the drive pushes at while the bucket curls",
+                  in_cm(skilled.crowd), 0, 400),
+      of_operator("operator-slip", "cm/s of the wheels, beyond which the throttle is eased",
+                  in_cm(skilled.most_slip), 1, 1000)};
   return numbers;
 }
 
 engine::loading::OperatorMoves operator_of(const RunContext& run) {
   auto moves = engine::loading::operator_named(chosen(run, "operator"));
   if (moves.round.empty()) return moves;
-  moves.rounds = std::stoi(chosen(run, "rounds"));
-  moves.crowd = cm * std::stod(chosen(run, "crowd"));
-  moves.most_slip = cm * std::stod(chosen(run, "slip"));
+  moves.rounds = std::stoi(chosen(run, "operator-rounds"));
+  moves.crowd = cm * std::stod(chosen(run, "operator-crowd"));
+  moves.most_slip = cm * std::stod(chosen(run, "operator-slip"));
   return moves;
 }
 
@@ -157,7 +159,7 @@ std::vector<StudyOption> loading_options() {
       {.name = "precision",
        .help = "per cent: a run ends after five cycles or more once the standard error of its mean "
                "production, haul left out, is at most this; --cycles is then the most, 6 or more, and joint "
-               "damage is that of so many. Spill is that of fewer cycles where rock stays. 0: all cycles",
+               "damage is that of so many. 0: all cycles",
        .value = "0",
        .least = 0,
        .most = 100,

@@ -3,7 +3,6 @@
 
 #include <drawpoint/studies/loading_panels.h>
 #include <drawpoint/studies/loading_scene.h>
-#include <drawpoint/engine/loading/log/hinge_torque.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -102,17 +101,6 @@ std::vector<double> tip_speed(const LoadingLog& log, Rows rows, const std::vecto
   return speed;
 }
 
-// Its length, as joint damage takes it: with the part about the pin, the tilt drive's, or without [kN m].
-std::vector<double> torque_in_G(const LoadingLog& log, Rows rows, bool about_pin) {
-  const engine::loading::HingeTorque whole(log);
-  std::vector<double> torque;
-  for (std::size_t row = rows.first; row < rows.last; ++row) {
-    const Eigen::Vector3d T = whole.at(row);
-    torque.push_back(1e-3 * (about_pin ? T.norm() : std::hypot(T.x(), T.z())));
-  }
-  return torque;
-}
-
 json scene_signals(const LoadingLog& log, const CycleRecord& cycle,
                    const engine::loading::DamageOptions& damage) {
   const Rows rows = rows_of(log, cycle.number), frames = frames_of(log, cycle.number);
@@ -121,7 +109,7 @@ json scene_signals(const LoadingLog& log, const CycleRecord& cycle,
   const bool all = damage.component == engine::loading::TorqueComponent::all;
   json signals = {signal("Speed of the cutting edge", "m/s", t, tip_speed(log, rows, t)),
                   signal(all ? "Torque in hinge G" : "Torque that twists hinge G", "kN m", t,
-                         torque_in_G(log, rows, all))};
+                         hinge_torque(log, rows, damage.component))};
   signals[1]["lines"] = {{{"name", "yield torque"}, {"y", 1e-3 * damage.tau_y}}};
   std::vector<double> at, mass;
   for (std::size_t f = frames.first; f < frames.last; ++f) {

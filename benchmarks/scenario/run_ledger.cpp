@@ -70,13 +70,14 @@ nlohmann::json energy_of(const EnergyBalance& balance) {
 nlohmann::json cycles_of(const LoadingLog& log) {
   nlohmann::json cycles = nlohmann::json::array();
   const std::vector<EnergyBalance> balances = energy_balance_by_cycle(log);
+  const std::vector<double> lost = lost_mass_by_cycle(log);
   for (std::size_t k = 0; k < log.cycles.size(); ++k) {
     const CycleRecord& cycle = log.cycles[k];
     nlohmann::json row = energy_of(balances[k]);
     row.update({{"cycle", cycle.number},
                 {"seconds", cycle.seconds()},
                 {"loaded_kg", cycle.loaded_mass},
-                {"spilled_kg", cycle.spilled_mass}});
+                {"lost_kg", lost[k]}});
     cycles.push_back(row);
   }
   return cycles;
@@ -147,11 +148,11 @@ nlohmann::json ledger(const LoadingLog& log) {
 double of(const nlohmann::json& j, const char* key) { return j.at(key).get<double>(); }
 
 void print(const nlohmann::json& j) {
-  std::printf("cycle  time s  loaded kg  spilled kg  work kJ  machine kJ  rock kJ  dissipated kJ\n");
+  std::printf("cycle  time s  loaded kg     lost kg  work kJ  machine kJ  rock kJ  dissipated kJ\n");
   for (const auto& c : j.at("cycles"))
     std::printf("%5d  %6.1f  %9.0f  %10.0f  %7.0f  %10.0f  %7.0f  %13.0f\n", c.at("cycle").get<int>(),
-                of(c, "seconds"), of(c, "loaded_kg"), of(c, "spilled_kg"), of(c, "work_kJ"),
-                of(c, "machine_kJ"), of(c, "rock_kJ"), of(c, "dissipated_kJ"));
+                of(c, "seconds"), of(c, "loaded_kg"), of(c, "lost_kg"), of(c, "work_kJ"), of(c, "machine_kJ"),
+                of(c, "rock_kJ"), of(c, "dissipated_kJ"));
   const auto &rock = j.at("rock"), &energy = j.at("energy"), &errors = j.at("errors");
   std::printf(
       "rock: %.0f kg at first + %.0f emitted - %.0f loaded - %.0f cleared - %.0f escaped = %.0f "

@@ -16,6 +16,9 @@
 /// in rock.
 namespace drawpoint::engine::loading {
 
+/// Height of the axles over the floor under the machine's own weight, as in the reference pose [m].
+inline constexpr double loaded_tyre_radius = 0.93;
+
 struct ArmLinkage {
   Eigen::Vector2d F{-0.60, 1.80}, G{2.05, 0.50}, H{1.94, 1.07}, E{1.31, 1.42}, Q{1.12, 2.32}, P{1.18, 0.63},
       T{0.10, 1.68};

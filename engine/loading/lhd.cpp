@@ -57,7 +57,7 @@ class Builder {
     lhd_.G = G;
     lhd_.bucket_profile = bucket_profile(options.bucket);
     lhd_.K = at(lhd_.bucket_profile.front().x(), lhd_.bucket_profile.front().y());
-    lhd_.loaded_radius = 0.93;
+    lhd_.loaded_radius = loaded_tyre_radius;
     lhd_.tyre_radius = 1.01;
     lhd_.bucket_width = options.bucket.width;
     lhd_.payload = 21e3;

@@ -97,7 +97,6 @@ class LoadingRun {
   SignalRecorder signals_;            // into log_
   SceneRecorder scene_;               // into log_
   double cleared_ = 0, escaped_ = 0;  // mass [kg]
-  Spill spill_;
   long steps_ = 0, repeated_ = 0;
   int clear_looks_ = 0;          // one after another in which the bucket was clear
   int lost_ = 0, left_out_ = 0;  // cycles
@@ -110,7 +109,6 @@ void LoadingRun::sum_up() {
   log_.numbers["lost_cycles"] = lost_;
   log_.numbers["left_out_cycles"] = left_out_;
   log_.numbers["cleared_mass"] = cleared_;
-  log_.numbers["cleared_spill"] = spill_.cleared;
   log_.numbers["escaped_mass"] = escaped_;
   log_.numbers["emitted_mass"] = site_.emitted_mass();
   log_.numbers["present_mass"] = site_.present_mass();
@@ -240,7 +238,6 @@ bool LoadingRun::wait_for_rest() {
 
 // At A, or at the toe with the speed that the machine has there.
 Approached LoadingRun::place_machine(const Plan& plan, CycleRecord& record) {
-  const std::vector<bool> in_front = rocks_in_front(site_, columns(true));
   const double A = plan.corners[0].x, toe = plan.toe - before_toe, farthest_back = A - room_behind_A;
   const double x = site_.free_tip_x(scenario_.whole_cycle ? A : std::max(A, toe), plan.y, farthest_back);
   const double distance = scenario_.whole_cycle ? 0 : std::max(x - A, 0.0);
@@ -248,7 +245,6 @@ Approached LoadingRun::place_machine(const Plan& plan, CycleRecord& record) {
   const std::vector<int> rocks = site_.place_machine(x, plan.y, way.speed);
   record.left_out_time += way.time;
   record.left_out_energy += 0.5 * site_.driver().moving_mass() * way.speed * way.speed;
-  spill_.clear(site_, in_front, rocks);
   cleared_ += site_.mass_of(rocks);
   return {distance, way.speed};
 }
@@ -312,7 +308,6 @@ bool LoadingRun::execute(CycleRecord& record, const Approached& approached) {
 // As it lies before the machine comes.
 void LoadingRun::look_at_pile() {
   const ColumnModel model = columns(true);
-  spill_.in_front_before = rocks_in_front(site_, model);
   if (model.rows.empty()) return;
   const SurfaceAngles surface = surface_angles(model);
   log_.numbers["pile_angle_deg"] = surface.mean * 180 / M_PI;
@@ -324,7 +319,7 @@ bool LoadingRun::weigh(CycleRecord& record) {
   for (double t = 0; scenario_.whole_cycle && t < weighing_time; t += site_.world().options().step)
     if (!step()) return false;
   scene_.frame(site_, record.number, "end of cycle");
-  cleared_ += book_load(site_, columns(false), spill_, record);
+  cleared_ += book_load(site_, columns(false), record);
   return true;
 }
 
@@ -347,9 +342,7 @@ bool LoadingRun::give_up(const CycleRecord& record, const std::string& message) 
   if (caller_failed_ || !record.plan.feasible || cycles_per_lost_one * lost_ > scenario_.cycles)
     return fail(message);
   try {
-    const std::vector<bool> in_front = rocks_in_front(site_, columns(false));
-    const Site::Load load = site_.load(in_front);
-    spill_.clear(site_, in_front, load.elsewhere);
+    const Site::Load load = site_.load(rocks_in_front(site_, columns(false)));
     cleared_ += site_.remove(load.in_bucket) + site_.remove(load.elsewhere);
     CycleRecord lost;
     place_machine(record.plan, lost);

@@ -19,9 +19,7 @@
 /// the raise is blocked; what is missing then comes while the machine digs. The next cycle begins when the pile stands,
 /// though single rocks may still roll. With Scenario::whole_cycle all of it is simulated, standing for a second before it is weighed, and rest for
 /// PileOptions::rest. What the bucket carries is weighed and taken away, spilled rocks stay where they lie. Rocks that
-/// lie on the rest of the machine, or where it must stand, are taken away and logged (`cleared_mass`); those of them
-/// that the run has spilled count as spill in all later cycles (`cleared_spill`), as if an operator had pushed them to
-/// the wall.
+/// lie on the rest of the machine, or where it must stand, are taken away and logged (`cleared_mass`).
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left
 /// the drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost

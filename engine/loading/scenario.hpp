@@ -37,12 +37,13 @@ struct Scenario {
   /// The run ends before `cycles` are done, after least_cycles_to_end or more, once the standard error of its
   /// mean production (at the pile, without haul; relative_production_error) is at most this share of the mean;
   /// 0: it does not. A run ends when its cycles happen to agree, so that it understates its error, by a fifth
-  /// or so, and its spill is that of fewer cycles: rock that stays counts again after each.
+  /// or so.
   double precision = 0;
   double standoff = 2.0;  ///< tip to toe at the start [m]
   /// Also simulated are: the approach over the standoff, the way back once the bucket is clear, standing before it is
-  /// weighed, and the wait until nothing moves. Otherwise these take the time and energy that the machine's own law gives
-  /// them (strategy/left_out.hpp).
+  /// weighed, a raise that lets rock down as slowly as piles are poured, only then, and the wait until nothing moves.
+  /// Otherwise approach and way back take the time and energy that the machine's own law gives them
+  /// (strategy/left_out.hpp).
   bool whole_cycle = false;
   Drift drift;
   PileOptions pile;

@@ -51,7 +51,7 @@ std::string seconds_complaint(const std::string& text) {
 std::string target_complaint(const std::string& text) {
   double target = std::numeric_limits<double>::quiet_NaN();
   if (CLI::detail::lexical_cast(text, target) && target >= 0 && target <= 1) return "";
-  return "Value " + text + " is no NRMSE; give 0 to 1, 0 for no target";
+  return "Value " + text + " is no share of the range; give 0 to 1, 0 for no target";
 }
 
 std::string hours_complaint(const std::string& text) {
@@ -154,8 +154,8 @@ void add_sampling_options(CLI::App& command, Settings& settings, const Defaults&
   command
       .add_option(
           "--target", settings.target,
-          "stop when the NRMSE of every response, standard errors apart, on the validation runs is at "
-          "most this (default 0: never)")
+          "stop when the models miss the mean of every response, standard errors apart, by at most this "
+          "share of its range, by the validation runs (default 0: never)")
       ->check(target_complaint)
       ->group(group);
 }

@@ -82,7 +82,7 @@ Store new_store(const Study& study, const Folder& folder, const Settings& settin
 void check_target(double target, int validation) {
   if (target > 0.0 && validation == 0)
     throw UsageError(
-        "--target: without a validation run there is no NRMSE to reach; give --validation 10 or more");
+        "--target: without a validation run there is no error to reach; give --validation 10 or more");
 }
 
 std::vector<Run> everything(std::vector<Run> existing, const std::vector<Run>& added) {

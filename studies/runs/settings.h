@@ -85,9 +85,9 @@ struct Settings {
   std::optional<doe::Seed> seed = {};  ///< study seed
   std::optional<int> adaptive = {};    ///< adaptive points, 0 or more
   std::optional<int> batch = {};       ///< adaptive points chosen together, 1 or more
-  std::optional<std::string> criteria = {};                ///< who chooses them: sampling/criteria.h
-  std::optional<double> target = {};                       ///< NRMSE at which to stop choosing; 0: none
-  std::filesystem::path imported = {};                     ///< table of points made elsewhere; empty: none
+  std::optional<std::string> criteria = {};  ///< who chooses them: sampling/criteria.h
+  std::optional<double> target = {};         ///< error of the mean at which to stop choosing; 0: none
+  std::filesystem::path imported = {};       ///< table of points made elsewhere; empty: none
   double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
   ConfirmSettings confirm = {};
   AskSettings ask = {};

@@ -112,7 +112,7 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
   Batch batch{.status = BatchStatus::target_met,
               .message = std::to_string(tables.training.rows.size()) + " runs for the models so far" +
                          (nrmse.empty() ? "" : "; " + nrmse)};
-  if (target_met(sampling, identity.problem, fitted.validations)) return batch;
+  if (target_met(sampling, identity.problem, fitted.mean_errors)) return batch;
   const BatchPoints chosen = chosen_points(identity, sampling, runs, {tables, fitted, Failures(tables)});
   if (chosen.X.rows() == 0) {
     batch.status = BatchStatus::exhausted;
@@ -127,10 +127,10 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
 }
 
 bool target_met(const Sampling& sampling, const doe::Problem& problem,
-                const std::vector<kriging::Validation>& validations) {
-  if (sampling.target <= 0.0 || validations.empty()) return false;
-  for (std::size_t j = 0; j < validations.size(); ++j)
-    if (!doe::is_standard_error(problem, j) && !(validations[j].nrmse <= sampling.target)) return false;
+                const std::vector<kriging::MeanError>& errors) {
+  if (sampling.target <= 0.0 || errors.empty()) return false;
+  for (std::size_t j = 0; j < errors.size(); ++j)
+    if (!doe::is_standard_error(problem, j) && !(errors[j].nrmse() <= sampling.target)) return false;
   return true;
 }
 

@@ -36,9 +36,9 @@ struct Batch {
 /// std::invalid_argument for those that the problem does not allow (improvement without an objective).
 Batch next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs);
 
-/// Whether the NRMSE of every response but standard errors on the validation runs is at most the target. False
-/// without a target or without validation runs.
+/// Whether the error of the mean of every response but standard errors, over its range, is at most the target. False
+/// without a target or without validation runs (no errors).
 bool target_met(const Sampling& sampling, const doe::Problem& problem,
-                const std::vector<kriging::Validation>& validations);
+                const std::vector<kriging::MeanError>& errors);
 
 }  // namespace drawpoint::studies

@@ -10,7 +10,8 @@ namespace drawpoint::studies {
 
 std::string to_text(const Sampling& sampling) {
   if (!std::isfinite(sampling.target))
-    throw std::invalid_argument("studies::Sampling: target is not finite; give an NRMSE, or 0 for none");
+    throw std::invalid_argument(
+        "studies::Sampling: target is not finite; give an error of the mean over the range, or 0 for none");
   nlohmann::json entry = {{"points", sampling.points},
                           {"batch", sampling.batch},
                           {"criteria", sampling.criteria},

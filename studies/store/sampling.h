@@ -22,7 +22,8 @@ struct Sampling {
   /// Who chooses and how often, as "name=weight" with commas between; sampling/criteria.h has the names.
   std::string criteria = "lola_voronoi=0.4,voronoi=0.4,error=0.2";
   std::vector<ConfirmationRound> rounds = {};  ///< in rising order
-  double target = 0.0;  ///< NRMSE of every response but standard errors, at which to stop; 0: none
+  double target =
+      0.0;  ///< error of the mean over the range of every response but standard errors, at which to stop; 0: none
 };
 
 /// As one JSON object. Throws std::invalid_argument for a target that is not finite.

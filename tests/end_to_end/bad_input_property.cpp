@@ -44,8 +44,8 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " evaluate", 2, "give a point with --x, or a run of a study with --run");
   expect_refused(study + " --sed 1" + out(), 2, "--sed");
   expect_refused(study + " --criteria lola=1" + out(), 2, "\"lola=1\" is no criterion and weight");
-  expect_refused(study + " --target 2" + out(), 2, "Value 2 is no NRMSE; give 0 to 1");
-  expect_refused(study + " --target nan" + out(), 2, "Value nan is no NRMSE");
+  expect_refused(study + " --target 2" + out(), 2, "Value 2 is no share of the range; give 0 to 1");
+  expect_refused(study + " --target nan" + out(), 2, "Value nan is no share of the range");
   expect_refused(study + " --hours nan" + out(), 2, "Value nan is no time");
   expect_refused(study + " --target 0.1 --validation 0" + out(), 2, "give --validation 10 or more");
   expect_refused(study + " --adaptive -1" + out(), 2, "--adaptive");

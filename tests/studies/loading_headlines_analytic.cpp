@@ -22,20 +22,25 @@ using engine::loading::LoadingLog;
 using engine::loading::Stage;
 using engine::loading::StageEnd;
 
-/// A cycle of 10 s without torque, whose bucket loses what is spilled.
-CycleRecord cycle(double start, double loaded, double spilled, StageEnd end) {
+/// A cycle and what its bucket loses [kg].
+struct Cycle {
+  CycleRecord record;
+  double lost;
+};
+
+/// Of 10 s, without torque.
+Cycle cycle(double start, double loaded, double lost, StageEnd end) {
   CycleRecord record;
   record.t_start = start;
   record.t_end = start + 10;
   record.loaded_mass = loaded;
-  record.spilled_mass = spilled;
   record.stages.resize(1);
   record.stages[0].stage = Stage::drive_in;
   record.stages[0].reason = end;
-  return record;
+  return {record, lost};
 }
 
-LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
+LoadingLog log_of(const std::vector<Cycle>& cycles) {
   LoadingLog log;
   log.completed = true;
   log.numbers = {{"payload", 20e3}, {"pile_mass", 120e3}, {"pile_crest", 2.5}, {"pile_angle_deg", 37}};
@@ -44,10 +49,10 @@ LoadingLog log_of(const std::vector<CycleRecord>& cycles) {
                          {"hinge_G_torque_x", "N m"},
                          {"hinge_G_torque_y", "N m"},
                          {"hinge_G_torque_z", "N m"}};
-  log.cycles = cycles;
-  for (std::size_t k = 0; k < cycles.size(); ++k) {
-    const int number = log.cycles[k].number = static_cast<int>(k) + 1;
-    for (const double held : {cycles[k].spilled_mass, 0.0})
+  for (const Cycle& cycle : cycles) {
+    log.cycles.push_back(cycle.record);
+    const int number = log.cycles.back().number = static_cast<int>(log.cycles.size());
+    for (const double held : {cycle.lost, 0.0})
       log.scene.frames.push_back({.t = 0, .cycle = number, .label = "", .bucket_mass = held});
   }
   return log;

@@ -85,7 +85,10 @@ TEST(LoadingScenario, SpeedsAndOperatorGoTogetherOrAlone) {
 TEST(LoadingScenario, TheSkilledOperatorsNumbersAreHisOwnUnlessGiven) {
   const loading::OperatorMoves skilled = loading::skilled_operator(),
                                own = with({{"operator", "skilled"}}).executor.moves,
-                               given = with({{"operator", "skilled"}, {"rounds", "5"}, {"crowd", "80"}, {"slip", "25"}})
+                               given = with({{"operator", "skilled"},
+                                             {"operator-rounds", "5"},
+                                             {"operator-crowd", "80"},
+                                             {"operator-slip", "25"}})
                                            .executor.moves;
   EXPECT_EQ(own.rounds, skilled.rounds);
   EXPECT_DOUBLE_EQ(own.crowd, skilled.crowd);
@@ -93,10 +96,10 @@ TEST(LoadingScenario, TheSkilledOperatorsNumbersAreHisOwnUnlessGiven) {
   EXPECT_EQ(given.rounds, 5);
   EXPECT_DOUBLE_EQ(given.crowd, 0.8);
   EXPECT_DOUBLE_EQ(given.most_slip, 0.25);
-  EXPECT_EQ(loading_options_complaint(with_defaults(loading_options(), {{"rounds", "5"}})),
-            "--rounds 5: the plan alone has no such moves; give --operator skilled too");
+  EXPECT_EQ(loading_options_complaint(with_defaults(loading_options(), {{"operator-rounds", "5"}})),
+            "--operator-rounds 5: the plan alone has no such moves; give --operator skilled too");
   EXPECT_EQ(loading_options_complaint(
-                with_defaults(loading_options(), {{"operator", "skilled"}, {"rounds", "5"}})),
+                with_defaults(loading_options(), {{"operator", "skilled"}, {"operator-rounds", "5"}})),
             "");
 }
 

@@ -37,10 +37,6 @@ void visit_cycle_numbers(CycleOrConst& cycle, Visit&& visit) {
   visit({"t_start_s", {"s", "start of the drive-in"}}, cycle.t_start);
   visit({"t_end_s", {"s", "end of backing out"}}, cycle.t_end);
   visit({"loaded_mass_kg", {"kg", "that the bucket carries once it stands"}}, cycle.loaded_mass);
-  visit({"front_mass_kg", {"kg", "in front of the pile at the end of the cycle"}}, cycle.front_mass);
-  visit({"spilled_mass_kg",
-         {"kg", "of that, rocks that did not lie there before the run; with those cleared away since"}},
-        cycle.spilled_mass);
 }
 
 // Since version 8.

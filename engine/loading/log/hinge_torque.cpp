@@ -1,22 +1,15 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/log/logged_bucket.h>
 #include <cmath>
-#include <drawpoint/engine/loading/bucket.hpp>
 #include <drawpoint/engine/loading/log/hinge_torque.hpp>
 
 namespace drawpoint::engine::loading {
 namespace {
 
-constexpr double axle_height = 0.93;  // of the logged point of the front axle in the reference pose [m]
-
 // The cutting edge goes with the bucket's size.
 ArmGeometry arm_of(const LoadingLog& log, const ArmLinkage& linkage) {
-  const auto number = [&](const char* name) {
-    const auto found = log.numbers.find(name);
-    return found == log.numbers.end() ? 0.0 : found->second;
-  };
-  const double width = number("bucket_width"), volume = number("bucket_heaped_volume");
-  const BucketOptions bucket = width > 0 && volume > 0 ? bucket_of(width, volume) : BucketOptions{};
+  const BucketOptions bucket = logged_bucket(log).value_or(BucketOptions{});
   const auto in_space = [](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), 0, p.y()); };
   return arm_geometry(in_space(linkage.F), in_space(linkage.G), in_space(bucket_profile(bucket).front()));
 }
@@ -42,7 +35,7 @@ double HingeTorque::tilt_moment(std::size_t row) const {
   const Eigen::Vector2d tip(value(by_cylinders_->tip_x), value(by_cylinders_->tip_z)),
       axle(value(by_cylinders_->axle_x), value(by_cylinders_->axle_z)),
       G = tip - arm_.GK * Eigen::Vector2d(std::cos(b), std::sin(b));
-  const ArmAngles angles = arm_angles(linkage_, G, axle, axle_height, phi);
+  const ArmAngles angles = arm_angles(linkage_, G, axle, loaded_tyre_radius, phi);
   return value(by_cylinders_->tilt_force) * tilt_lever(linkage_, angles.a, angles.phi);
 }
 

@@ -10,8 +10,9 @@ namespace {
 
 // Version 5 added the descriptions of signals, the masses of bodies and the mass in the bucket; from version
 // 6 on single numbers and texts are data, with units, where they were attributes; from version 7 on bodies
-// have poses where they move, and not in every frame; version 8 added what of a cycle was left out.
-const record::FileKind kind{"drawpoint loading log", 8, 4};
+// have poses where they move, and not in every frame; version 8 added what of a cycle was left out,
+// version 9 left out what rock lay before the pile.
+const record::FileKind kind{"drawpoint loading log", 9, 4};
 
 }  // namespace
 

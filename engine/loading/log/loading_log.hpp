@@ -27,9 +27,6 @@ struct CycleRecord {
   double left_out_time = 0;    ///< [s]
   double left_out_energy = 0;  ///< of its wheel motors [J]
   double loaded_mass = 0;      ///< that the bucket carries once it stands, in its heap or on it [kg]
-  double front_mass = 0;       ///< in front of the pile at the end of the cycle [kg]
-  /// Of that, rocks that did not lie there before the run, and such as were cleared out of its way since [kg].
-  double spilled_mass = 0;
   std::vector<double> loaded_rock_masses;  ///< [kg]
   Plan plan;
   std::vector<StageResult> stages;

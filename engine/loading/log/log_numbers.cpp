@@ -93,7 +93,6 @@ const Meanings& of_the_run() {
       {"lost_cycles", {"1", "cycles that broke down"}},
       {"left_out_cycles", {"1", "cycles not run, because the mean production was known as well as wanted"}},
       {"cleared_mass", {"kg", "rock cleared away for the machine"}},
-      {"cleared_spill", {"kg", "of that, rock that the run had spilled, which counts as spill on"}},
       {"escaped_mass", {"kg", "rock that left the drift"}},
       {"emitted_mass", {"kg", "rock that came down the raise"}},
       {"present_mass", {"kg", "rock at the end"}},

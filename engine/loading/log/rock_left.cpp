@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/loading/log/logged_bucket.h>
 #include <cmath>
 #include <drawpoint/engine/loading/lhd.hpp>
 #include <drawpoint/engine/loading/log/rock_left.hpp>
@@ -89,9 +90,7 @@ RockLeft left_of(const std::vector<PosedRock>& rocks, const ColumnModel& model, 
 }  // namespace
 
 std::vector<RockLeft> rock_left_by_cycle(const LoadingLog& log) {
-  const BucketOptions bucket =
-      bucket_of(number_of(log, "bucket_width"), number_of(log, "bucket_heaped_volume"));
-  const Lhd lhd = sandvik_lh621({.bucket = bucket});
+  const Lhd lhd = sandvik_lh621({.bucket = logged_bucket(log).value_or(BucketOptions{})});
   const ColumnGrid grid{.x_max = number_of(log, "drift_length"),
                         .half_width = number_of(log, "drift_width") / 2};
   const ColumnOptions options{.bucket_width = lhd.bucket_width, .bucket_volume = lhd.bucket_volume};

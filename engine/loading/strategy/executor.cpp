@@ -40,9 +40,6 @@ void check(const ExecutorOptions& options) {
   require(floor >= 0 && floor <= 1, "progress.velocity_floor [1]", floor, "0 to 1");
   require(tolerance >= 0 && tolerance < 1, "progress.tolerance [1]", tolerance, "0 to below 1");
   check(options.moves);
-  for (const Move& move : options.moves.round)
-    require(move.time < options.slow_window, "moves.round.time [s]", move.time,
-            "a move shorter than slow_window, or an arm that is held up in it counts as stuck");
 }
 
 // Time that an actuator has been slow, after a step of dt.
@@ -151,8 +148,9 @@ double Executor::stage_limit() const {
 }
 
 bool Executor::stage_ends(const Observation& now, StageEnd& reason) const {
-  const double slowest =
-      std::max({drive_may_be_stuck() ? slow_time_.drive : 0.0, slow_time_.boom, slow_time_.tilt});
+  // In the drive-in the arm makes moves alone, which end by their time.
+  const double arm = stage_ == Stage::drive_in ? 0.0 : std::max(slow_time_.boom, slow_time_.tilt),
+               slowest = std::max(drive_may_be_stuck() ? slow_time_.drive : 0.0, arm);
   if (goal_reached(progress_, options_.progress)) {
     reason = StageEnd::goal;
   } else if (now.time - stage_time_ >= stage_limit()) {

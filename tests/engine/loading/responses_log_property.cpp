@@ -37,7 +37,6 @@ CycleRecord example_cycle(std::mt19937& bits, int number) {
   cycle.t_start = 30.0 * number;
   cycle.t_end = cycle.t_start + 20 + value(bits);
   cycle.loaded_mass = 1000 * value(bits);
-  cycle.spilled_mass = 100 * value(bits);
   cycle.left_out_time = 0.1 * number;
   cycle.left_out_energy = 10.0 * number;
   for (int k = 0; k < 5; ++k) cycle.loaded_rock_masses.push_back(value(bits));
@@ -119,7 +118,6 @@ void expect_same(const CycleRecord& a, const CycleRecord& b) {
   EXPECT_EQ(a.left_out_time, b.left_out_time);
   EXPECT_EQ(a.left_out_energy, b.left_out_energy);
   EXPECT_EQ(a.loaded_mass, b.loaded_mass);
-  EXPECT_EQ(a.spilled_mass, b.spilled_mass);
   EXPECT_EQ(a.loaded_rock_masses, b.loaded_rock_masses);
   EXPECT_EQ(a.planned_x, b.planned_x);
   EXPECT_EQ(a.planned_z, b.planned_z);
@@ -220,7 +218,7 @@ TEST(LoadingLog, KeepsTheScene) {
 TEST(LoadingLog, EveryArraySaysWhatItIs) {
   const Folder folder;
   write_log(folder.path / "run.h5", example_log());
-  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 8});
+  const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 9});
   const std::vector<std::string> arrays = arrays_below(file, "");
   EXPECT_EQ(arrays.size(), 4u + 2 * (11 + 5 + 13) + 2 + 6 + 4 + 3)
       << "signals, two cycles, shapes, bodies, frames, motion";
@@ -251,8 +249,7 @@ TEST(LoadingLog, OfTheVersionBeforeIsRead) {
   file.number("numbers", "density", 4500);
   file.text("texts", "machine", "LH621 class");
   file.number("cycles/0000", "loaded_mass_kg", 3000);
-  for (const char* name : {"t_start_s", "t_end_s", "front_mass_kg", "spilled_mass_kg"})
-    file.number("cycles/0000", name, 1);
+  for (const char* name : {"t_start_s", "t_end_s"}) file.number("cycles/0000", name, 1);
   file.integer("cycles/0000", "number", 1);
   for (const char* name :
        {"loaded_rock_masses_kg", "planned_x_m", "planned_z_m", "contour_x_m", "contour_z_m"})
@@ -414,8 +411,7 @@ TEST(LoadingLog, CyclesThatDoNotFitAreRefused) {
     file.table("signals", {});
     const std::string cycle = "cycles/0000", plan = cycle + "/plan";
     file.integer(cycle, "number", 1);
-    for (const char* name : {"t_start_s", "t_end_s", "loaded_mass_kg", "front_mass_kg", "spilled_mass_kg"})
-      file.number(cycle, name, 1);
+    for (const char* name : {"t_start_s", "t_end_s", "loaded_mass_kg"}) file.number(cycle, name, 1);
     for (const char* name :
          {"loaded_rock_masses_kg", "planned_x_m", "planned_z_m", "contour_x_m", "contour_z_m"})
       file.array(cycle + "/" + name, std::span<const double>());
