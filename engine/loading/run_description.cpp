@@ -83,6 +83,7 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"longest_back_out", s.executor.speeds.stage_limit[3]},
                  {"slow_share", s.executor.slow_share},
                  {"slow_window", s.executor.slow_window},
+                 {"dig_window", s.executor.dig_window},
                  {"move_rounds", s.executor.moves.rounds},
                  {"held_up", s.executor.moves.held_up},
                  {"most_slip", s.executor.moves.most_slip},

@@ -33,6 +33,7 @@ void check(const ExecutorOptions& options) {
   require_positive("speeds.limits.drive_acceleration [m/s2]", speeds.limits.drive_acceleration);
   for (double limit : speeds.stage_limit) require_positive("speeds.stage_limit [s]", limit);
   require_positive("slow_window [s]", options.slow_window);
+  require_positive("dig_window [s]", options.dig_window);
   require(options.slow_share >= 0 && options.slow_share < 1, "slow_share [1]", options.slow_share,
           "0 to below 1");
   require_positive("progress.angle_length [m]", options.progress.angle_length);
@@ -148,6 +149,7 @@ double Executor::stage_limit() const {
 }
 
 bool Executor::stage_ends(const Observation& now, StageEnd& reason) const {
+  const bool digs = stage_ == Stage::drive_in || stage_ == Stage::lift;
   // In the drive-in the arm makes moves alone, which end by their time.
   const double arm = stage_ == Stage::drive_in ? 0.0 : std::max(slow_time_.boom, slow_time_.tilt),
                slowest = std::max(drive_may_be_stuck() ? slow_time_.drive : 0.0, arm);
@@ -155,7 +157,7 @@ bool Executor::stage_ends(const Observation& now, StageEnd& reason) const {
     reason = StageEnd::goal;
   } else if (now.time - stage_time_ >= stage_limit()) {
     reason = StageEnd::timeout;
-  } else if (slowest > options_.slow_window) {
+  } else if (slowest > (digs ? options_.dig_window : options_.slow_window)) {
     reason = StageEnd::slow_actuator;
   } else {
     return false;

@@ -18,8 +18,8 @@
 /// ω = κθ v_z / h when the drive-in reached its own), steered: what the pile keeps back in one direction is
 /// made good, and no direction goes beyond its goal (LiftGoal::along_slope: as aimed at its start); stage 3
 /// ω; stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose
-/// set speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`; of a drive-in the
-/// drive alone, as the arm then makes an operator's moves, which end by their time. (b) and (c)
+/// set speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`, in stages 1 and 2
+/// `dig_window`; in stage 1 the drive alone, as the arm then makes an operator's moves, which end by their time. (b) and (c)
 /// are being stuck; the policy says what follows. In stage 2 a slow drive alone ends nothing while the arm moves:
 /// cylinders that have force left go on while the wheels push (LiftEnd::any_actuator: it ends, as in the source).
 /// Stage 2 never lowers the boom: where the wanted tilt would turn the bucket about its edge and press its heel into floor or
@@ -67,8 +67,9 @@ struct ExecutorOptions {
   StuckPolicy stuck = StuckPolicy::next_stage;
   LiftEnd lift_end = LiftEnd::arm;
   OperatorMoves moves;
-  double slow_share = 0.10;                       ///< [1]
-  double slow_window = 0.5;                       ///< [s]
+  double slow_share = 0.10;  ///< [1]
+  double slow_window = 1.0;  ///< of curl and way back [s]
+  double dig_window = 0.5;   ///< of drive-in and lift, where what stands rarely moves again [s]
   ActuatorRates least_set = {0.05, 0.005, 0.01};  ///< v_min of rule (c) [m/s, rad/s, rad/s]
 };
 

@@ -284,7 +284,7 @@ TEST(Executor, AStuckDriveIsSlowAfterTheWindow) {
   const Drive run = driven(example_plan(), options, blocked);
   EXPECT_EQ(run.results[0].reason, StageEnd::slow_actuator);
   const double begins = options.least_set.drive / options.speeds.limits.drive_acceleration;
-  EXPECT_NEAR(run.results[0].t_end, begins + options.slow_window, 2.5 * h);
+  EXPECT_NEAR(run.results[0].t_end, begins + options.dig_window, 2.5 * h);
   EXPECT_EQ(run.results[1].stage, Stage::lift);
 }
 
@@ -316,6 +316,20 @@ TEST(Executor, ASlowSpellShorterThanTheWindowIsForgiven) {
   const Drive run = driven(example_plan(), options, hiccups, 400);
   ASSERT_TRUE(run.finished);
   for (const StageResult& result : run.results) EXPECT_EQ(result.reason, StageEnd::goal);
+}
+
+// A curl that is held up for 0.8 s of every second goes on: a load would fall off a bucket that is left half turned.
+TEST(Executor, ACurlIsNotGivenUpAsSoonAsALift) {
+  const auto sticky = [](const ActuatorRates& set, double time) {
+    const bool blocked = std::fmod(time, 1.0) < 0.8;
+    return ActuatorRates{set.drive, set.boom, set.boom == 0 && set.drive == 0 && blocked ? 0.0 : set.tilt};
+  };
+  ExecutorOptions options;
+  options.speeds.stage_limit = {200, 200, 200, 200};
+  const Drive run = driven(example_plan(CurlMode::hinge_G), options, sticky, 400);
+  ASSERT_TRUE(run.finished);
+  EXPECT_EQ(run.results[2].stage, Stage::curl);
+  EXPECT_EQ(run.results[2].reason, StageEnd::goal);
 }
 
 // Ten per cent is the border: 11 % passes, 9 % does not; backward is slow whatever the magnitude.

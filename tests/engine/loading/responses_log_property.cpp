@@ -220,7 +220,7 @@ TEST(LoadingLog, EveryArraySaysWhatItIs) {
   write_log(folder.path / "run.h5", example_log());
   const record::Reader file(folder.path / "run.h5", {"drawpoint loading log", 9});
   const std::vector<std::string> arrays = arrays_below(file, "");
-  EXPECT_EQ(arrays.size(), 4u + 2 * (11 + 5 + 13) + 2 + 6 + 4 + 3)
+  EXPECT_EQ(arrays.size(), 4u + 2 * (11 + 3 + 13) + 2 + 6 + 4 + 3)
       << "signals, two cycles, shapes, bodies, frames, motion";
   for (const std::string& path : arrays) {
     const std::string name = path.substr(path.rfind('/') + 1);
