@@ -40,6 +40,14 @@ bool has_limits(const doe::Problem& problem) {
 
 std::string superlative(const doe::Response& r) { return maximized(r) ? "highest" : "lowest"; }
 
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& items) {
+  std::string text;
+  for (std::size_t k = 0; k < items.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == items.size() ? " and " : ", ") + items[k];
+  return text;
+}
+
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
@@ -132,18 +140,15 @@ std::string best_sentence(const ReportInput& input, std::size_t k, std::size_t r
 
 std::string range_sentence(const ReportInput& input) {
   const auto chosen = objectives(input.problem);
-  std::string text =
-      "Over the " + counted(static_cast<std::size_t>(input.front.Y.rows()), "point") + " of the trade-off, ";
+  std::vector<std::string> ranges;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const doe::Response& r = input.problem.responses[chosen[k]];
     const auto column = input.front.Y.col(static_cast<Eigen::Index>(k));
-    text += (k == 0                   ? ""
-             : k + 1 == chosen.size() ? " and "
-                                      : ", ") +
-            pretty(r.name) + " goes from " + number(column.minCoeff()) + " to " +
-            number_with_unit(column.maxCoeff(), r.unit);
+    ranges.push_back(pretty(r.name) + " goes from " + number(column.minCoeff()) + " to " +
+                     number_with_unit(column.maxCoeff(), r.unit));
   }
-  return text + ".";
+  return "Over the " + counted(static_cast<std::size_t>(input.front.Y.rows()), "point") +
+         " of the trade-off, " + listed(ranges) + ".";
 }
 
 /// Of the successful confirmations, that with the least largest distance in one variable, as a share of its
@@ -189,6 +194,18 @@ std::string confirmation_sentence(const ReportInput& input) {
   return "Of the fronts predicted so far, simulation has checked " + text(checked) + ".";
 }
 
+/// By how much the surrogates of the objectives miss the mean of many runs.
+std::string error_sentence(const ReportInput& input) {
+  std::vector<std::string> errors;
+  for (const std::size_t j : objectives(input.problem))
+    if (j < input.mean_errors.size() && std::isfinite(input.mean_errors[j].nrmse()))
+      errors.push_back(pretty(input.problem.responses[j].name) + " by " +
+                       percent(input.mean_errors[j].nrmse()));
+  return errors.empty() ? ""
+                        : "How sure is that? Validation runs say that the surrogates miss the mean of " +
+                              listed(errors) + " of the range seen.";
+}
+
 /// How much of the front would stay if the surrogates knew the means.
 std::string certainty_sentence(const ReportInput& input) {
   const Eigen::VectorXd& known = input.uncertainty.non_dominated;
@@ -199,10 +216,21 @@ std::string certainty_sentence(const ReportInput& input) {
          " are non-dominated with a chance of one half or more.";
 }
 
-/// The responses that say nothing, each in a sentence.
+/// The objectives that say nothing, each in a sentence, and the other responses in one.
 void append_flat(const ReportInput& input, json& all) {
-  for (const auto& [response, why] : texts_of(input.flat, input.problem))
-    all.push_back(capital(pretty(response)) + ": " + why + ".");
+  std::vector<std::string> others;
+  for (const FlatResponse& flat : input.flat) {
+    const std::string name = pretty(input.problem.responses[flat.response].name);
+    if (doe::is_objective(flat.asked))
+      all.push_back(capital(name) + ": " + flat_text(flat, input.problem) + ".");
+    else
+      others.push_back(name);
+  }
+  if (!others.empty())
+    all.push_back("Of " + listed(others) +
+                  " nothing is said: " + (others.size() > 1 ? "their models do" : "its model does") +
+                  " not differ between strategies by clearly more than " +
+                  (others.size() > 1 ? "their own errors." : "its own error."));
 }
 
 /// "alpha for production, beta for spill", of the responses whose surrogates are good enough to say so.
@@ -240,8 +268,9 @@ json sentences(const ReportInput& input, const std::vector<Eigen::VectorXd>& inf
   if (done == 0) all.push_back("No training run succeeded, so there is nothing to fit, predict or search.");
   if (input.front.Y.rows() > 0 && !chosen.empty()) {
     all.push_back(best_sentence(input, 0, chosen[0]));
-    if (chosen.size() > 1) all.push_back(range_sentence(input));
+    if (const std::string sure = error_sentence(input); !sure.empty()) all.push_back(sure);
     if (chosen.size() > 1) all.push_back(balanced_sentence(input));
+    if (chosen.size() > 1) all.push_back(range_sentence(input));
     if (const std::string sure = certainty_sentence(input); chosen.size() > 1 && !sure.empty())
       all.push_back(sure);
     all.push_back(confirmation_sentence(input));

@@ -120,6 +120,12 @@ TEST(FlatResponse, HasNeitherBarsNorOptimumNorSurfaceOnThePage) {
   EXPECT_TRUE(mentions(page["summary"]["next"], "Decide what to do about rock spill"));
 }
 
+TEST(FlatResponse, ThatIsNoObjectiveIsSaidInAWord) {
+  const nlohmann::json page = detail::report_data(input({largest, smallest, recorded}));
+  EXPECT_TRUE(mentions(page["summary"]["sentences"],
+                       "Of rock spill nothing is said: its model does not differ between strategies"));
+}
+
 TEST(FlatResponse, LeavesTheOptimumOfTheOtherObjective) {
   const ReportInput in = input({recorded, smallest, smallest});
   ASSERT_EQ(in.front.X.rows(), 1);
