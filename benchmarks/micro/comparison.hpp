@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// Every method of the table on one problem over ladders of work, and the picture of it.
+/// Methods on one problem over ladders of work, and the picture of it.
 ///
 /// Whole steps (S = 1) get up to 500 iterations; methods that take substeps also 16 of them, the engine's default,
 /// with up to 40 iterations each. Residuals and distances belong to their S: to the law of a step or of a substep,
@@ -21,11 +21,12 @@ struct Measured {
 
 /// In the order of methods, substeps, iterations. `each` sees every row when it is there.
 template <class Each>
-std::vector<Measured> compare(const engine::ContactProblem& problem, ConvergedSolutions& converged,
+std::vector<Measured> compare(const engine::ContactProblem& problem,
+                              const std::vector<ContactMethod>& methods, ConvergedSolutions& converged,
                               int threads, int repeats, const Each& each) {
   const std::vector<int> of_steps{1, 4, 16, 50, 150, 500}, of_substeps{1, 2, 5, 10, 20, 40};
   std::vector<Measured> rows;
-  for (const ContactMethod& method : contact_methods())
+  for (const ContactMethod& method : methods)
     for (const int substeps : {1, 16}) {
       if (substeps > 1 && !method.takes_substeps) continue;
       for (const int iterations : substeps == 1 ? of_steps : of_substeps) {

@@ -14,16 +14,24 @@ using engine::Method;
 using engine::SolverReport;
 
 template <Method method>
-SolverReport solve_by(ContactProblem& problem, const MethodOptions& options) {
+Ready set_up(const MethodOptions& options) {
   engine::SolverOptions chosen = options;
   chosen.method = method;
-  return engine::solve(problem, chosen, std::make_shared<const engine::ThreadPool>(options.threads));
+  const auto solver = std::make_shared<engine::ContactSolver>(
+      chosen, std::make_shared<const engine::ThreadPool>(options.threads));
+  return [solver](ContactProblem& problem) { return solver->solve(problem); };
+}
+
+template <Method method>
+SolverReport solve_by(ContactProblem& problem, const MethodOptions& options) {
+  return set_up<method>(options)(problem);
 }
 
 // Made on first use, so that files may register in any order.
 std::vector<ContactMethod>& table() {
-  static std::vector<ContactMethod> methods{{"sequential", solve_by<Method::sequential>, true},
-                                            {"batched", solve_by<Method::batched>, true}};
+  static std::vector<ContactMethod> methods{
+      {"sequential", solve_by<Method::sequential>, true, set_up<Method::sequential>},
+      {"batched", solve_by<Method::batched>, true, set_up<Method::batched>}};
   return methods;
 }
 
@@ -37,6 +45,11 @@ std::vector<ContactMethod> contact_methods() {
   if (twice != methods.end())
     throw std::logic_error("contact methods: two have the name \"" + twice->name + "\"; give one another");
   return methods;
+}
+
+Ready ready(const ContactMethod& method, const MethodOptions& options) {
+  if (method.set_up) return method.set_up(options);
+  return [solve = method.solve, options](ContactProblem& problem) { return solve(problem, options); };
 }
 
 ContactMethod contact_method(const std::string& name) {

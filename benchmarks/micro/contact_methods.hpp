@@ -3,6 +3,7 @@
 #pragma once
 
 #include <drawpoint/engine/solver/solver.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,18 @@ struct MethodOptions : engine::SolverOptions {
 
 using Solve = engine::SolverReport (*)(engine::ContactProblem&, const MethodOptions&);
 
+/// A method that is set up: with its threads, and with buffers that keep their size from solve to solve.
+using Ready = std::function<engine::SolverReport(engine::ContactProblem&)>;
+
 struct ContactMethod {
   std::string name;
   Solve solve;
-  bool takes_substeps = false;  ///< else it is only asked for S = 1
+  bool takes_substeps = false;                      ///< else it is only asked for S = 1
+  Ready (*set_up)(const MethodOptions&) = nullptr;  ///< for methods that have something to set up
 };
+
+/// By set_up(), or solve with these options where there is nothing to set up.
+Ready ready(const ContactMethod& method, const MethodOptions& options);
 
 /// By name.
 std::vector<ContactMethod> contact_methods();

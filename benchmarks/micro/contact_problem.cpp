@@ -12,7 +12,7 @@
 
 /// Solves recorded contact problems by any method of the table and says how true and how fast.
 ///
-/// usage: contact_problem info FILE | solve FILE [--method NAME ...] | compare FILE [--svg FILE] | converge FILE |
+/// usage: contact_problem info FILE | solve FILE [--method NAME ...] | compare FILE... [--method NAME...] [--svg FILE] | converge FILE |
 /// export FILE OUT | import FILE OUT | record SCENE FILE
 /// info, solve, compare and converge take --json. docs/contact-solving.md explains the numbers.
 using namespace drawpoint;
@@ -25,6 +25,7 @@ namespace {
 struct Arguments {
   std::string file, method = "sequential", scene, target, svg;
   MethodOptions options = fixed_work(1, 25);
+  std::vector<std::string> files, methods;  // of compare
   std::vector<int> substeps{1, 16};
   int repeats = 5, most_iterations = 96000;
   bool as_json = false;
@@ -126,12 +127,19 @@ void print_at_equal_time(const std::vector<Measured>& rows) {
   std::printf("\n");
 }
 
-void compare_methods(const Arguments& arguments) {
-  const RecordedProblem recorded = engine::record::read_contact_problem(arguments.file);
+std::vector<ContactMethod> chosen_methods(const std::vector<std::string>& names) {
+  std::vector<ContactMethod> methods;
+  for (const std::string& name : names) methods.push_back(contact_method(name));
+  return names.empty() ? contact_methods() : methods;
+}
+
+// The rows of one set, which are printed or put into `all`.
+void compare_methods(const Arguments& arguments, const std::string& file, json& all) {
+  const RecordedProblem recorded = engine::record::read_contact_problem(file);
   const std::size_t points = recorded.problem.points.size();
-  ConvergedSolutions converged(recorded.problem, solution_file(arguments.file));
+  ConvergedSolutions converged(recorded.problem, solution_file(file));
   say_fault(converged);
-  json all = json::array();
+  if (!arguments.as_json && arguments.files.size() > 1) std::printf("\n%s\n", file.c_str());
   if (!arguments.as_json)
     std::printf("%-22s %8s %10s %15s %9s %10s %10s %10s\n", "method", "substeps", "iterations",
                 "point-iterations", "ms", "residual", "distance", "impulses");
@@ -147,15 +155,24 @@ void compare_methods(const Arguments& arguments) {
                        {"substeps", row.substeps},
                        {"iterations", row.iterations},
                        {"point_iterations", work}});
+    if (arguments.files.size() > 1) all.back()["set"] = file;
   };
-  const auto rows = compare(recorded.problem, converged, arguments.options.threads, arguments.repeats, show);
-  if (arguments.as_json)
-    std::printf("%s\n", all.dump().c_str());
-  else
-    print_at_equal_time(rows);
+  const auto rows = compare(recorded.problem, chosen_methods(arguments.methods), converged,
+                            arguments.options.threads, arguments.repeats, show);
+  if (!arguments.as_json) print_at_equal_time(rows);
   if (arguments.svg.empty()) return;
   const std::string svg = comparison_svg(rows, recorded.note + ": " + std::to_string(points) + " points");
   engine::write_atomically(arguments.svg, std::as_bytes(std::span(svg)));
+}
+
+void compare_sets(const Arguments& arguments) {
+  if (!arguments.svg.empty() && arguments.files.size() > 1)
+    throw std::invalid_argument("--svg is the picture of one set; " + std::to_string(arguments.files.size()) +
+                                " are given: ask for one at a time");
+  chosen_methods(arguments.methods);  // before anything takes long
+  json all = json::array();
+  for (const std::string& file : arguments.files) compare_methods(arguments, file, all);
+  if (arguments.as_json) std::printf("%s\n", all.dump().c_str());
 }
 
 void write_solutions(const Arguments& arguments) {
@@ -210,14 +227,14 @@ int main(int argc, char** argv) {
   };
   CLI::App* info_command = command("info", "what is in a file");
   CLI::App* solve_command = command("solve", "solve by one method");
-  CLI::App* compare_command = command("compare", "every method over a ladder of work");
+  CLI::App* compare_command = command("compare", "methods over a ladder of work");
   CLI::App* converge_command = command("converge", "write the converged solution beside a file");
   CLI::App* export_command = command("export", "write as a plain file for other programs");
   CLI::App* import_command = command("import", "check a plain file and write it as a checksummed one");
   CLI::App* record_command = command("record", "make a recorded problem");
-  for (CLI::App* sub :
-       {info_command, solve_command, compare_command, converge_command, export_command, import_command})
+  for (CLI::App* sub : {info_command, solve_command, converge_command, export_command, import_command})
     sub->add_option("file", arguments.file, "contact problem")->required();
+  compare_command->add_option("files", arguments.files, "contact problems")->required();
   for (CLI::App* sub : {solve_command, compare_command}) {
     sub->add_option("--threads", arguments.options.threads);
     sub->add_option("--repeats", arguments.repeats,
@@ -229,6 +246,9 @@ int main(int argc, char** argv) {
   solve_command->add_option("--method", arguments.method);
   solve_command->add_option("--iterations", arguments.options.iterations, "a substep");
   solve_command->add_option("--substeps", arguments.options.substeps);
+  compare_command
+      ->add_option("--method", arguments.methods, "these alone, with commas between; all of the table else")
+      ->delimiter(',');
   compare_command->add_option("--svg", arguments.svg, "picture to write");
   converge_command->add_option("--out", arguments.target, "file to write instead of FILE's .solution.h5");
   converge_command->add_option("--substeps", arguments.substeps, "one solution for each")
@@ -243,7 +263,7 @@ int main(int argc, char** argv) {
   try {
     if (*info_command) info(arguments);
     if (*solve_command) solve(arguments);
-    if (*compare_command) compare_methods(arguments);
+    if (*compare_command) compare_sets(arguments);
     if (*converge_command) write_solutions(arguments);
     if (*export_command) export_plain(arguments);
     if (*import_command) import_plain(arguments);

@@ -92,12 +92,12 @@ double triad_speed(double bytes) {
 void iterations(benchmark::State& state, const std::string& method, bool digging) {
   constexpr int count = 200;
   const ContactProblem& recorded = problem_of(static_cast<int>(state.range(0)), digging);
-  const auto solve = benchmarks::contact_method(method).solve;
+  const auto solve = benchmarks::ready(benchmarks::contact_method(method), benchmarks::fixed_work(1, count));
   for (auto _ : state) {
     state.PauseTiming();
     ContactProblem problem = recorded;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(solve(problem, benchmarks::fixed_work(1, count)));
+    benchmark::DoNotOptimize(solve(problem));
   }
   const double points = static_cast<double>(recorded.points.size()), work = points * count;
   const double bytes = method == "sequential" ? bytes_of_a_sequential_iteration(recorded)

@@ -22,12 +22,11 @@ double now(int threads) {
 }
 
 // Of one solve [s]; `solved` gets the solution.
-double time_of(const ContactProblem& problem, const ContactMethod& method, const MethodOptions& options,
-               Solved& solved) {
+double time_of(const ContactProblem& problem, const Ready& method, int threads, Solved& solved) {
   solved.problem = problem;
-  const double start = now(options.threads);
-  solved.report = method.solve(solved.problem, options);
-  return now(options.threads) - start;
+  const double start = now(threads);
+  solved.report = method(solved.problem);
+  return now(threads) - start;
 }
 
 // Calls run(), which returns the time it took, so often or more: short solves go on for a while, since a
@@ -55,8 +54,10 @@ Evaluation evaluate(const ContactProblem& problem, const ContactMethod& method, 
   Solved solved;
   Evaluation j;
   j.milliseconds = std::numeric_limits<double>::infinity();
+  const Ready run = ready(method, options);
+  time_of(problem, run, options.threads, solved);  // buffers get their size
   repeat(repeats, [&] {
-    const double time = time_of(problem, method, options, solved);
+    const double time = time_of(problem, run, options.threads, solved);
     j.milliseconds = std::min(j.milliseconds, 1e3 * time);
     return time;
   });
@@ -74,11 +75,12 @@ double nanoseconds_per_point_and_iteration(const ContactProblem& problem, const 
   MethodOptions more = options;
   more.iterations += std::max(50, options.iterations);
   Solved solved;
+  const Ready run = ready(method, options), run_longer = ready(method, more);
   // Of a long solve and a short one just before, at about the same speed of the machine.
   std::vector<double> differences;
   repeat(repeats, [&] {
-    const double brief = time_of(problem, method, options, solved),
-                 longer = time_of(problem, method, more, solved);
+    const double brief = time_of(problem, run, options.threads, solved),
+                 longer = time_of(problem, run_longer, options.threads, solved);
     differences.push_back(longer - brief);
     return brief + longer;
   });
