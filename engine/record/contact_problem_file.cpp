@@ -24,11 +24,11 @@ const FileKind problem_kind{"drawpoint contact problem", 3, 1};
 // What a reader needs to solve the problem, in the names of the arrays.
 constexpr const char* law =
     "At a point with frame (n, t1, t2): u = velocity of b minus that of a, p = impulse on b, h = step / "
-    "S in each of S substeps. 0 <= p_n, u_n + Sigma p_n - bias >= 0, one of them 0. |p_t| <= friction "
-    "p_n; u_t = -s p_t with s >= 0, and s = 0 inside the cone. Y = 1 / (1 + 4 tau / h), tau = "
+    "S in each of S substeps. 0 <= p_n, u_n - min(bias - Sigma p_n, 1 m/s) >= 0, one of them 0. |p_t| <= "
+    "friction p_n; u_t = -s p_t with s >= 0, and s = 0 inside the cone. Y = 1 / (1 + 4 tau / h), tau = "
     "max(damping_time, 2 step), Sigma = 4 Y / (h^2 stiffness). With u_n- before the substep: bias = "
-    "-gap / h if gap > 0; else Y (u_n- - 4 gap / h), 1 m/s at most, without u_n- where it is below "
-    "-0.05 m/s. Per pair, P = sum of its p_n, the moment m on b and the relative angular velocity: "
+    "-gap / h if gap > 0; else Y (u_n- - 4 gap / h), without u_n- where it is below -0.05 m/s. Per pair, "
+    "P = sum of its p_n, the moment m on b and the relative angular velocity: "
     "|m_t| <= rolling_arm P and |m_n| <= spinning_arm P, with friction's rule. Machine row: J w = "
     "target with lower <= p <= upper, complementary at the limits; stop: J w >= -gap / h, past the end "
     "-gap / recovery.";
