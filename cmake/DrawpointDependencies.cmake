@@ -13,6 +13,8 @@ endif()
 if(DRAWPOINT_BUILD_CONTACT)
   find_package(fcl 0.7 REQUIRED)
   find_package(hwy 1.0 REQUIRED)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(QHULL REQUIRED IMPORTED_TARGET qhull_r) # its CMake files name a static library, which need not be there
 endif()
 if(DRAWPOINT_BUILD_CONTACT OR DRAWPOINT_BUILD_STUDIES)
   find_package(PkgConfig REQUIRED)

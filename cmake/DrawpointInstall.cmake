@@ -126,7 +126,7 @@ if(TARGET drawpoint_record)
 endif()
 if(DRAWPOINT_BUILD_CONTACT)
   drawpoint_pkg_config(contact "Convex rocks and their contacts (C++20)" REQUIRES "eigen3 >= 3.4" hdf5 "drawpoint-record ${drawpoint_same}"
-                       CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 LIBS -lfcl -lccd -lhwy -pthread)
+                       CFLAGS -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 LIBS -lfcl -lccd -lqhull_r -lhwy -pthread)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
   drawpoint_pkg_config(engine "Articulated machines among convex rocks (C++20)" REQUIRES "drawpoint-contact ${drawpoint_same}"
@@ -186,7 +186,7 @@ endif()
 if(DRAWPOINT_BUILD_CONTACT)
   list(APPEND CPACK_COMPONENTS_ALL contact)
   drawpoint_deb(contact "Drawpoint: convex rocks and their contacts (library and headers)"
-                "libdrawpoint-record-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libhwy-dev libhdf5-dev)
+                "libdrawpoint-record-dev ${same_version}" "libeigen3-dev (>= 3.4)" libfcl-dev libqhull-dev libhwy-dev libhdf5-dev)
 endif()
 if(DRAWPOINT_BUILD_ENGINE)
   list(APPEND CPACK_COMPONENTS_ALL engine)

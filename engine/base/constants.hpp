@@ -87,15 +87,24 @@ constexpr int pairs_per_subdomain = 900;
 /// Higher: subdomains are more equal, for a longer table. Lower: threads wait for the largest.
 constexpr int slabs = 256;
 
+// Steps.
+
+/// [s] The step of a world. Shorter: 1/h² of a contact's compliance leaves single precision. Longer: a rock of 0.3 m that
+/// falls 5 m goes farther than its own size.
+constexpr double shortest_step = 1e-9, longest_step = 0.1;
+
+/// [1] A step that is longer than the last by more than this starts from no impulses: those of a short step may be a blow, not
+/// a load that grows with it. Chosen here. Higher: such a blow is multiplied. Lower: loads are lost that would serve.
+constexpr double most_growth = 10;
+
 // Geometry.
 
-/// [1] Of a hull's extent: points nearer than this are one, and so are planes. Chosen here, 1e6 times the
-/// round-off. Higher: small faces are lost. Lower: slivers remain, whose normals are round-off.
-constexpr double hull_thickness = 1e-9;
+/// [1] Of a hull's extent: points nearer than this are one, and corners so near to a plane lie in it. Text of six digits
+/// is off by up to 5e-6 of its number. Higher: small faces are lost. Lower: faces of a mesh stay in pieces.
+constexpr double hull_thickness = 1e-5;
 
-/// [1] Of a hull's extent: triples of points lower than this are no plane. The tilt of a plane by round-off,
-/// 1e-16 / 1e-6, stays below `hull_thickness`. Lower: planes tilt. Higher: flat rocks are refused.
-constexpr double least_triple_height = 1e-6;
+/// [1] Of a hull's extent: the least width of a hull. Lower: planes are tilted by round-off. Higher: sheets are refused.
+constexpr double least_hull_width = 1e-6;
 
 /// [m] A face is taken as the axis before a pair of edges that separates by up to so much more: where they
 /// tie, a face gives the richer manifold. Chosen here, below the 1e-6 m to which depths are promised; costs

@@ -51,8 +51,12 @@ ConvexPolyhedron::ConvexPolyhedron(std::vector<Vector3d> vertices, std::vector<s
   for (const auto& face : faces_) normals_.push_back(polygon_normal(vertices_, face));
   for (const Vector3d& p : vertices_) {
     radius_ = std::max(radius_, p.norm());
-    for (const Vector3d& q : vertices_) length_ = std::max(length_, (p - q).norm());
   }
+  double squared = 0;
+  for (std::size_t k = 0; k < vertices_.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j)
+      squared = std::max(squared, (vertices_[k] - vertices_[j]).squaredNorm());
+  length_ = std::sqrt(squared);
 }
 
 ConvexPolyhedron ConvexPolyhedron::transformed(const Eigen::Isometry3d& pose) const {

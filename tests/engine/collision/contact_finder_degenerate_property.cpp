@@ -123,8 +123,8 @@ TEST(ContactFinderDegenerate, ThicknessHasALimitThatTheRefusalNames) {
     FAIL() << "a needle of 0.2 micrometres was taken";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "engine::ConvexPolyhedron: the points are too flat or too nearly in one plane: widths and "
-                 "heights of faces must be at least 1e-06 of the extent, here 4e-06 m; give at least four "
-                 "finite points that span a volume");
+                 "engine::ConvexPolyhedron: the points lie in one plane or nearly so: their least width is "
+                 "2e-07 m; allowed: at least 1e-06 of the extent, here 4e-06 m; give at least four finite "
+                 "points that span a volume");
   }
 }

@@ -77,7 +77,7 @@ TEST(FclFailures, WhatMakesFclThrowLeavesNoMemoryBehind) {
                                              shape(4, 0.8)};
   std::vector<engine::detail::CollisionHull> hulls(shapes.begin(), shapes.end());
   const auto thrown = [&] {
-    support::FeaturePairs pairs(41, 0.01);
+    support::FeaturePairs pairs(58, 0.01);
     int count = 0;
     for (int k = 0; k < 20000; ++k) {
       const std::size_t a = pairs.rng()() % shapes.size(), b = pairs.rng()() % shapes.size();

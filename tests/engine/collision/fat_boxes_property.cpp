@@ -21,7 +21,8 @@ constexpr double growth = 0.005, slack = 0.02;  // [m]
 class Walker {
  public:
   Walker() {
-    items.add(hulls_.make_item(support::collider_of(support::share(support::rock(2).scaled(0.5)), 0)));
+    items.add(hulls_.make_item(support::collider_of(support::share(support::rock(2).scaled(0.5)), 0)),
+              Eigen::Isometry3d::Identity());
     place(Eigen::Isometry3d::Identity());
     box = boxes.first(items, 0);
   }

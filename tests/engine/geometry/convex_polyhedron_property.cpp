@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 #include <map>
 #include <numbers>
@@ -51,6 +53,37 @@ std::string message_of(const std::vector<Vector3d>& points) {
   return "";
 }
 
+struct Mesh {
+  std::vector<Vector3d> points;
+  std::size_t vertices, faces;
+  double volume, surface;
+};
+
+// Corners, middles of edges and of faces, several times over, as in a list of triangles.
+Mesh subdivided_box(double x, double y, double z) {
+  Mesh mesh{{}, 8, 6, 8 * x * y * z, 8 * (x * y + y * z + z * x)};
+  for (int copy = 0; copy < 3; ++copy)
+    for (int i : {-1, 0, 1})
+      for (int j : {-1, 0, 1})
+        for (int k : {-1, 0, 1})
+          if (i || j || k) mesh.points.emplace_back(i * x, j * y, k * z);
+  return mesh;
+}
+
+// A prism of radius and half height 1 with points along its edges and in the middle of its ends.
+Mesh ring_of(int sides) {
+  const double turn = 2 * std::numbers::pi / sides, area = 0.5 * sides * std::sin(turn);
+  Mesh mesh{{},
+            static_cast<std::size_t>(2 * sides),
+            static_cast<std::size_t>(sides + 2),
+            2 * area,
+            2 * area + 2 * sides * 2 * std::sin(turn / 2)};
+  for (double z : {-1.0, 1.0}) mesh.points.emplace_back(0, 0, z);
+  for (int k = 0; k < sides; ++k)
+    for (double z : {-1.0, 0.0, 1.0}) mesh.points.emplace_back(std::cos(k * turn), std::sin(k * turn), z);
+  return mesh;
+}
+
 }  // namespace
 
 TEST(ConvexPolyhedron, IsTheHullOfRandomPoints) {
@@ -82,6 +115,73 @@ TEST(ConvexPolyhedron, MergesCoplanarFacesAndDropsInnerPoints) {
     EXPECT_NEAR(cube.volume(), 8, 1e-13);
     EXPECT_NEAR(cube.length(), 2 * std::sqrt(3), 1e-14);
     expect_hull(cube, points);
+  }
+}
+
+// A mesh as files have it: turned, moved and sized as may be, in single precision or as text of six digits. A number x is
+// then off by at most 2^-24 |x| or 5e-6 |x|, so points by e = sqrt(3) of that for the largest, the volume by e times the
+// surface, and planes by a few e, below the 1e-5 of the extent within which faces are merged: text is not moved away.
+TEST(ConvexPolyhedron, FindsTheFacesThatAMeshMeant) {
+  struct Rounded {
+    double error;  // of a number
+    double away;   // in sizes of the mesh
+    double (*round)(double);
+  };
+  const Rounded single{std::pow(2.0, -24), 10, [](double x) { return double(float(x)); }};
+  const Rounded six_digits{5e-6, 0, [](double x) {
+                             char text[32];
+                             std::snprintf(text, sizeof text, "%.6g", x);
+                             return std::atof(text);
+                           }};
+  std::mt19937 rng(3);
+  std::normal_distribution<double> normal;
+  for (const Mesh& mesh : {subdivided_box(1, 1, 1), subdivided_box(1, 0.4, 0.05), ring_of(3), ring_of(5),
+                           ring_of(16), ring_of(48)})
+    for (const Rounded& rounded : {single, six_digits})
+      for (int trial = 0; trial < 200; ++trial) {
+        const Eigen::Quaterniond turn =
+            Eigen::Quaterniond(normal(rng), normal(rng), normal(rng), normal(rng)).normalized();
+        const double size = std::pow(10.0, trial % 5 - 2);
+        const Vector3d away = rounded.away * Vector3d(normal(rng), normal(rng), normal(rng));
+        std::vector<Vector3d> points;
+        double largest = 0;
+        for (const Vector3d& p : mesh.points) {
+          points.push_back((size * (turn * p + away)).unaryExpr(rounded.round));
+          largest = std::max(largest, points.back().cwiseAbs().maxCoeff());
+        }
+        const auto shape = ConvexPolyhedron::hull_of(points);
+        ASSERT_EQ(shape.vertices().size(), mesh.vertices) << mesh.points.size() << " points, trial " << trial;
+        ASSERT_EQ(shape.faces().size(), mesh.faces) << mesh.points.size() << " points, trial " << trial;
+        const double e = std::sqrt(3.0) * rounded.error * largest;
+        ASSERT_NEAR(shape.volume(), size * size * size * mesh.volume, 2 * e * size * size * mesh.surface);
+      }
+}
+
+// What SciPy's ConvexHull, which is Qhull, takes: any points that span a volume. All lie within the tolerance of the hull, and
+// its volume is what Qhull says of the same points (facets as triangles), here summed from them.
+TEST(ConvexPolyhedron, TakesAnyCloud) {
+  std::mt19937 rng(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int count = 4 + static_cast<int>(rng() % 300);
+    const Vector3d sizes(1, std::pow(10.0, -(trial % 4)), std::pow(10.0, -(trial % 6)));
+    std::vector<Vector3d> points;
+    for (int k = 0; k < count; ++k) {
+      Vector3d p(normal(rng), normal(rng), normal(rng));
+      if (trial % 3 == 1) p.normalize();
+      if (trial % 3 == 2) p = Vector3d(uniform(rng), uniform(rng), uniform(rng));
+      points.push_back(sizes.cwiseProduct(p));
+      if (trial % 5 == 0) points.push_back(points.back());
+    }
+    const auto shape = ConvexPolyhedron::hull_of(points);
+    const double tolerance = 2e-5 * shape.length();
+    for (std::size_t f = 0; f < shape.faces().size(); ++f) {
+      const Vector3d& n = shape.face_normals()[f];
+      for (const Vector3d& p : points)
+        ASSERT_LE(n.dot(p - shape.vertices()[static_cast<std::size_t>(shape.faces()[f][0])]), tolerance)
+            << "trial " << trial;
+    }
   }
 }
 
