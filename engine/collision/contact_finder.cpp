@@ -70,9 +70,10 @@ class ContactFinder::Impl {
         fcl_(options.narrow),
         narrow_(options, pool_->threads(), fcl_) {}
 
-  int add(const Collider& collider) {
+  int add(const Collider& collider, const Isometry3d& X_WB) {
     const int id = items_.size();
-    items_.add(hulls_.make_item(collider));
+    check(id, X_WB);
+    items_.add(hulls_.make_item(collider), X_WB);
     fcl_.add(id, items_.item[id].hull.get());
     if (items_.item[id].hull)
       boxes_.add(id, fat_.first(items_, id), collider.moves);
@@ -266,7 +267,9 @@ ContactFinder::~ContactFinder() = default;
 ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
 ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
 
-int ContactFinder::add(const Collider& collider) { return impl_->add(collider); }
+int ContactFinder::add(const Collider& collider, const Isometry3d& X_WB) {
+  return impl_->add(collider, X_WB);
+}
 void ContactFinder::remove(int collider) { impl_->remove(collider); }
 const Collider& ContactFinder::collider(int collider) const { return impl_->collider(collider); }
 void ContactFinder::set_pose(int collider, const Isometry3d& X_WB) { impl_->set_pose(collider, X_WB); }

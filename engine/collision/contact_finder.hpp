@@ -53,9 +53,9 @@ class ContactFinder {
   ContactFinder& operator=(ContactFinder&&) noexcept;
 
   /// Returns the number of the collider: 0, 1, 2, ... in the order of the calls, never used again after
-  /// remove(). Its body stands at the origin until set_pose(). Throws std::invalid_argument for a missing or
-  /// impossible shape.
-  int add(const Collider& collider);
+  /// remove(). Its body stands at X_WB. Throws std::invalid_argument for a missing or impossible shape, and as
+  /// set_pose() does.
+  int add(const Collider& collider, const Eigen::Isometry3d& X_WB = Eigen::Isometry3d::Identity());
   void remove(int collider);
   const Collider& collider(int collider) const;
 

@@ -5,6 +5,7 @@
 #include <drawpoint/engine/base/checks.hpp>
 #include <drawpoint/engine/base/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -34,7 +35,7 @@ void check(const HalfSpace& plane) {
 
 }  // namespace
 
-void Items::add(Item added) {
+void Items::add(Item added, const Eigen::Isometry3d& X_WB) {
   const bool half_space = added.plane != nullptr;
   double radius = 0;
   if (added.cylinder)
@@ -48,7 +49,8 @@ void Items::add(Item added) {
   motion_bound.push_back(0);
   speculative_margin.push_back(0);
   item.push_back(std::move(added));
-  place(size() - 1, Eigen::Isometry3d::Identity());
+  place(size() - 1, X_WB);
+  motion_bound.back() = 0;
 }
 
 void Items::remove(int id) {
@@ -95,7 +97,10 @@ Plane Items::plane(int id) const {
 }
 
 std::shared_ptr<const CollisionHull> HullLibrary::hull_of(const Shape& shape) {
-  std::erase_if(hulls_, [](const auto& entry) { return entry.second.expired(); });
+  if (hulls_.size() >= sweep_at_) {
+    std::erase_if(hulls_, [](const auto& entry) { return entry.second.expired(); });
+    sweep_at_ = 2 * std::max<std::size_t>(hulls_.size(), 32);
+  }
   auto& known = hulls_[&shape];
   auto hull = known.lock();
   if (hull) return hull;

@@ -50,7 +50,7 @@ struct Items {
   std::vector<double> speculative_margin;  ///< beyond the margin [m]
 
   int size() const { return static_cast<int>(item.size()); }
-  void add(Item item);
+  void add(Item item, const Eigen::Isometry3d& X_WB);
   void remove(int id);
   void place(int id, const Eigen::Isometry3d& X_WB);
   /// Sets the speculative margin. Its change counts as motion: it brings others nearer, or makes the box too large, by as
@@ -78,6 +78,7 @@ class HullLibrary {
   std::shared_ptr<const CollisionHull> hull_of(const Shape& shape);
 
   std::map<const Shape*, std::weak_ptr<const CollisionHull>> hulls_;
+  std::size_t sweep_at_ = 64;  // that many: those that nobody has any more go
 };
 
 }  // namespace drawpoint::engine::detail

@@ -43,12 +43,12 @@ struct Machine::Simbody {
         motor_targets(spec.motors.size()),
         motor_limits(most_forces(spec)),
         motor_forces(spec.motors.size()),
-        row_starts(spec.motors.size() + spec.stops.size()),
+        row_starts(spec.motors.size() + 2 * spec.stops.size()),
         extra(spec.bodies.size()),
         reactions{std::vector<Wrench>(spec.bodies.size()),
                   std::vector<Eigen::Vector3d>(spec.loops.size(), Eigen::Vector3d::Zero())} {}
 
-  StopSide side_of(const StopSpec& stop) const;
+  std::array<StopSide, 2> ends_now(const StopSpec& stop) const;
   Eigen::RowVectorXd joint_sum(const std::vector<int>& bodies) const;
   void linearise_dynamics();
   void build_rows();
@@ -84,10 +84,10 @@ BodyForces Machine::Simbody::loads(const std::vector<engine::SpatialVector>* par
   return forces;
 }
 
-StopSide Machine::Simbody::side_of(const StopSpec& stop) const {
+std::array<StopSide, 2> Machine::Simbody::ends_now(const StopSpec& stop) const {
   double sum = 0;
   for (int body : stop.bodies) sum += tree.coordinate(body);
-  return nearer_stop(stop, sum / static_cast<double>(stop.bodies.size()));
+  return ends_of(stop, sum / static_cast<double>(stop.bodies.size()));
 }
 
 // What turns w into the sum of the joints' speeds.
@@ -108,10 +108,9 @@ void Machine::Simbody::build_rows() {
                                std::min(spec.motors[m].max_reverse_force, motor_limits[m])};
     super.rows.push_back(motor_row(setting, joint_sum(bodies), h, row_starts[m]));
   }
-  for (std::size_t s = 0; s < spec.stops.size(); ++s) {
-    const StopSpec& stop = spec.stops[s];
-    super.rows.push_back(stop_row(stop, side_of(stop), joint_sum(stop.bodies), h, row_starts[n_motors + s]));
-  }
+  for (const StopSpec& stop : spec.stops)
+    for (const StopSide& end : ends_now(stop))
+      super.rows.push_back(stop_row(stop, end, joint_sum(stop.bodies), h, row_starts[super.rows.size()]));
 }
 
 // Of motors and stops on the joints, means over the step.
@@ -122,10 +121,13 @@ SimTK::Vector Machine::Simbody::row_forces(const std::vector<double>& row_impuls
   for (std::size_t m = 0; m < n_motors; ++m)
     for (int body : spec.motors[m].bodies)
       forces[static_cast<int>(tree.speed_index(body))] += row_impulses[m] / h;
-  for (std::size_t s = 0; s < spec.stops.size(); ++s)
-    for (int body : spec.stops[s].bodies)
-      forces[static_cast<int>(tree.speed_index(body))] +=
-          side_of(spec.stops[s]).sign * row_impulses[n_motors + s] / h;
+  std::size_t row = n_motors;
+  for (const StopSpec& stop : spec.stops)
+    for (const StopSide& end : ends_now(stop)) {
+      for (int body : stop.bodies)
+        forces[static_cast<int>(tree.speed_index(body))] += end.sign * row_impulses[row] / h;
+      ++row;
+    }
   return forces;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/machine/simbody_tree.h>
+
+#include <drawpoint/engine/machine/loop_projection.h>
 #include <stdexcept>
 
 namespace drawpoint::engine::machine {
@@ -9,9 +11,8 @@ namespace {
 // A linkage has several ways to close; walking to a coordinate in steps this small [rad or m] keeps the one
 // it is in.
 constexpr double coordinate_step = 0.05;
-constexpr double farthest = 1e7;          // norm of all coordinates
-constexpr double restored_error = 1e-6;   // [m], and of unit quaternions: what a saved state may have at most
-constexpr double loop_tolerance = 1e-11;  // [m], what projection aims at; the promise is 1e-9
+constexpr double farthest = 1e7;         // norm of all coordinates
+constexpr double restored_error = 1e-6;  // [m], and of unit quaternions: what a saved state may have at most
 
 }  // namespace
 
@@ -52,16 +53,29 @@ void SimbodyTree::add_loop(const LoopPinSpec& loop) {
                                  station(loop.point_body, loop.point));
 }
 
-// In q and u.
-void SimbodyTree::close_loops() {
-  system.realize(state, SimTK::Stage::Position);
+// While these joints stay where they are, and bases too if the loops can be closed so.
+void SimbodyTree::close_loops(const std::vector<int>& held) {
+  std::vector<int> with_bases = held;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (int k = 0; is_base(b) && k < bodies[b].getNumU(state); ++k)
+      with_bases.push_back(static_cast<int>(speed_index(static_cast<int>(b))) + k);
+  const SimTK::Vector before = state.getQ();
   try {
-    system.project(state, loop_tolerance);
+    project_on_loops(system, matter, with_bases, {}, state);
+  } catch (const std::runtime_error&) {
+    close_loops_by_all(held, before);
+  }
+  system.realize(state, SimTK::Stage::Velocity);
+}
+
+void SimbodyTree::close_loops_by_all(const std::vector<int>& held, const SimTK::Vector& before) {
+  state.updQ() = before;
+  try {
+    project_on_loops(system, matter, held, {}, state);
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("machine::Machine: the loops cannot be closed at this pose (") +
                              error.what() + "); move the joints closer to a pose that the linkage can reach");
   }
-  system.realize(state, SimTK::Stage::Velocity);
 }
 
 bool SimbodyTree::is_base(std::size_t body) const {
@@ -86,17 +100,14 @@ void SimbodyTree::set_coordinate(int body, double value) {
   const SimTK::State before = state;
   try {
     for (int k = 1; k <= steps; ++k) {
-      bodies[body].lockAt(state,
-                          start + (value - start) * k / steps);  // held while the rest of its loops follow
-      close_loops();
+      bodies[body].setOneQ(state, 0, start + (value - start) * k / steps);
+      close_loops({static_cast<int>(speed_index(body))});
     }
   } catch (...) {
     state = before;
     system.realize(state, SimTK::Stage::Velocity);
     throw;
   }
-  bodies[body].unlock(state);
-  system.realize(state, SimTK::Stage::Velocity);
 }
 
 void SimbodyTree::translate(const Eigen::Vector3d& by) {
@@ -126,8 +137,7 @@ void SimbodyTree::move(const Eigen::VectorXd& u, const Eigen::VectorXd& mean, do
   state.updQ() += h * qdot;
   state.updU() = to_simbody(u);
   try {
-    system.realize(state, SimTK::Stage::Position);
-    system.projectQ(state, loop_tolerance);
+    project_on_loops(system, matter, {}, {}, state);
     system.realize(state, SimTK::Stage::Velocity);
   } catch (const std::exception& error) {
     put_back(q_before, u_before);

@@ -8,7 +8,7 @@
 ///
 /// Joints turn about z and slide along x of their own frames, as Simbody's do, which are turned to the
 /// joint's axis; at zero coordinates all bodies stand in the reference pose. Whatever moves the tree projects
-/// q on to the loops (Simbody's projection, aimed at 1e-11 m), but for set_motion(), which gives a state its
+/// q on to the loops (loop_projection.h), but for set_motion(), which gives a state its
 /// very bits back. Throws std::runtime_error where the loops cannot be closed. Internal, as simbody_types.h.
 namespace drawpoint::engine::machine {
 
@@ -49,7 +49,8 @@ struct SimbodyTree {
   bool is_base(std::size_t body) const;
   void add_body(const BodySpec& body);
   void add_loop(const LoopPinSpec& loop);
-  void close_loops();
+  void close_loops(const std::vector<int>& held = {});
+  void close_loops_by_all(const std::vector<int>& held, const SimTK::Vector& before);
   void put_back(const SimTK::Vector& q, const SimTK::Vector& u);
 };
 

@@ -2,26 +2,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
+#include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cmath>
 #include <drawpoint/engine/base/constants.hpp>
+#include <numeric>
 
 namespace drawpoint::engine::detail {
 namespace {
 
 constexpr int pairs_per_block = 256;  // that a thread takes at a time
 constexpr double rigid = 1e300;       // [N/m]
+constexpr int halvings = 10;          // of the range of a scale: to 1e-3
+constexpr double round_off = 1e-9;    // of the energy that impacts turn over
+
+Eigen::Vector3d relative_velocity(const ContactProblem& problem, const Eigen::VectorXd& w,
+                                  const ContactPair& pair, const ContactPoint& point) {
+  const auto at = [&](int index, const Eigen::Vector3d& arm) -> Eigen::Vector3d {
+    if (index >= 0) return problem.bodies[index].velocity + problem.bodies[index].angular_velocity.cross(arm);
+    const SpatialVector V = problem.machine->part_maps[part_of(index)] * w;
+    return V.tail<3>() + V.head<3>().cross(arm);
+  };
+  return at(pair.b, point.arm_b) - at(pair.a, point.arm_a);
+}
+
+bool can_move(const SolverBody& body) {
+  return body.inverse_mass > 0 || body.inverse_inertia.cwiseAbs().maxCoeff() > 0;
+}
+
+int root_of(std::vector<int>& parents, int node) {
+  while (parents[node] != node) node = parents[node] = parents[parents[node]];
+  return node;
+}
 
 }  // namespace
 
 double ImpactStage::normal_speed(const ContactProblem& problem, const ContactPair& pair,
                                  const ContactPoint& point) const {
-  const auto at = [&](int index, const Eigen::Vector3d& arm) -> Eigen::Vector3d {
-    if (index >= 0) return problem.bodies[index].velocity + problem.bodies[index].angular_velocity.cross(arm);
-    const SpatialVector V = problem.machine->part_maps[part_of(index)] * problem.machine->velocity_before;
-    return V.tail<3>() + V.head<3>().cross(arm);
-  };
-  return point.normal.dot(at(pair.b, point.arm_b) - at(pair.a, point.arm_a));
+  const Eigen::VectorXd none;
+  return point.normal.dot(
+      relative_velocity(problem, problem.machine ? problem.machine->velocity_before : none, pair, point));
 }
 
 // Whether a point of the pair strikes within the step and springs back.
@@ -57,7 +78,6 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
       if (problem.points[k].gap + problem.step * std::min(speed, 0.0) > constants::touching_gap) continue;
       ContactPoint point = problem.points[k];
       point.stiffness = rigid;
-      point.start.setZero();
       members_.push_back(k);
       targets_.push_back(speed < -constants::impact_speed ? -point.restitution * speed : 0.0);
       stage_.points.push_back(point);
@@ -65,26 +85,41 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
     pair.first = first;
     pair.count = static_cast<int>(stage_.points.size()) - first;
     pair.rolling_arm = pair.spinning_arm = 0;
-    pair.start.setZero();
     if (pair.count > 0) stage_.pairs.push_back(pair);
   }
 }
 
-void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
-  machine_ = problem.machine;
-  ran_ = needed(problem, pool);
-  if (!ran_) return;
-  choose_points(problem);
-  stage_.step = problem.step;
-  stage_.bodies = problem.bodies;
-  stage_.machine = nullptr;
-  if (machine_) {
-    bare_ = struck_ = *machine_;
-    bare_.rows.clear();
-    stage_.machine = &bare_;
+void ImpactStage::find_groups(const ContactProblem& problem) {
+  const int bodies = static_cast<int>(problem.bodies.size());
+  std::vector<int> parents(static_cast<std::size_t>(bodies) + 1);  // the machine behind the bodies
+  std::iota(parents.begin(), parents.end(), 0);
+  const auto node = [&](int index) {
+    return index < 0 ? bodies : can_move(problem.bodies[index]) ? index : -1;
+  };
+  for (const ContactPair& pair : stage_.pairs) {
+    const int a = node(pair.a), b = node(pair.b);
+    if (a >= 0 && b >= 0) parents[root_of(parents, a)] = root_of(parents, b);
   }
+  std::vector<int> number(parents.size(), -1);
+  group_.clear();
+  groups_ = 0;
+  for (const ContactPair& pair : stage_.pairs) {
+    int& group = number[root_of(parents, std::max({node(pair.a), node(pair.b), 0}))];
+    if (group < 0) group = groups_++;
+    group_.push_back(group);
+  }
+}
+
+void ImpactStage::solve(const ContactProblem& problem, const std::vector<double>& scales) {
+  stage_.bodies = problem.bodies;
+  for (ContactPoint& point : stage_.points) point.start.setZero();
+  for (ContactPair& pair : stage_.pairs) pair.start.setZero();
+  std::vector<double> targets = targets_;
+  for (std::size_t k = 0; k < stage_.pairs.size(); ++k)
+    for (int p = stage_.pairs[k].first; p < stage_.pairs[k].first + stage_.pairs[k].count; ++p)
+      targets[p] *= scales[group_[k]];
   SequentialIteration iteration(stage_, 1);
-  iteration.set_bias_velocities(targets_);
+  iteration.set_bias_velocities(targets);
   double change = 1;
   for (int k = 0; k < constants::impact_iterations; ++k) {
     if (change <= constants::impact_tolerance * iteration.normal_load()) break;
@@ -92,6 +127,59 @@ void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
   }
   iteration.finish();
   solution_ = iteration.store();
+}
+
+// An impulse does the work p (u⁻ + u⁺) / 2.
+std::vector<bool> ImpactStage::groups_that_gain(const ContactProblem& problem) const {
+  std::vector<double> gain(groups_), turned_over(groups_);
+  const Eigen::VectorXd none;
+  for (std::size_t k = 0; k < stage_.pairs.size(); ++k) {
+    const ContactPair& pair = stage_.pairs[k];
+    for (int p = pair.first; p < pair.first + pair.count; ++p) {
+      const ContactPoint& point = stage_.points[p];
+      const double before = point.impulse.dot(
+          relative_velocity(problem, machine_ ? machine_->velocity_before : none, pair, point));
+      const double after = point.impulse.dot(relative_velocity(stage_, solution_.velocity, pair, point));
+      gain[group_[k]] += 0.5 * (before + after);
+      turned_over[group_[k]] += std::abs(before);
+    }
+  }
+  std::vector<bool> gains(groups_);
+  for (int g = 0; g < groups_; ++g) gains[g] = gain[g] > round_off * turned_over[g];
+  return gains;
+}
+
+// Bisection in the groups that gain; the others keep the whole of Newton's law.
+void ImpactStage::solve_without_gain(const ContactProblem& problem) {
+  std::vector<double> low(groups_, 1), high(groups_, 1);
+  solve(problem, low);
+  std::vector<bool> gains = groups_that_gain(problem);
+  const std::vector<bool> gained = gains;
+  if (std::none_of(gained.begin(), gained.end(), [](bool g) { return g; })) return;
+  for (int g = 0; g < groups_; ++g)
+    if (gained[g]) low[g] = 0;
+  for (int k = 0; k < halvings; ++k) {
+    std::vector<double> middle(groups_);
+    for (int g = 0; g < groups_; ++g) middle[g] = 0.5 * (low[g] + high[g]);
+    solve(problem, middle);
+    gains = groups_that_gain(problem);
+    for (int g = 0; g < groups_; ++g)
+      if (gained[g]) (gains[g] ? high : low)[g] = middle[g];
+  }
+  solve(problem, low);
+}
+
+void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
+  machine_ = problem.machine;
+  ran_ = needed(problem, pool);
+  if (!ran_) return;
+  choose_points(problem);
+  find_groups(problem);
+  stage_.step = problem.step;
+  if (machine_) bare_ = struck_ = *machine_;
+  bare_.rows.clear();
+  stage_.machine = machine_ ? &bare_ : nullptr;
+  solve_without_gain(problem);
   for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
     problem.bodies[k].velocity = stage_.bodies[k].velocity;
     problem.bodies[k].angular_velocity = stage_.bodies[k].angular_velocity;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/flight.h>
 #include <drawpoint/engine/solver/momentum.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
@@ -76,6 +77,11 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
   if (load > 0) report.last_change = change / load;
   detail::report_residual(iteration.residual_sums(), report);
   report.machine = iteration.store();
+  const std::vector<char> pushed = detail::pushed_bodies(problem);
+  for (std::size_t k = 0; k < pushed.size(); ++k) {
+    SolverBody& body = problem.bodies[k];
+    if (!pushed[k]) detail::fly(body, body.velocity - body.external_velocity_change, problem.step);
+  }
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include <drawpoint/engine/world/checks.h>
 #include <cmath>
 #include <drawpoint/engine/base/checks.hpp>
+#include <drawpoint/engine/base/constants.hpp>
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <limits>
 
@@ -58,9 +59,9 @@ void check(const WorldOptions& o) {
 }
 
 void check_step(const char* place, double h) {
-  if (!(h > 0) || h > 0.1)
-    refuse(std::string(place) + ": step is " + text(h) +
-           " s; allowed: above 0, at most 0.1 s; rocks of 0.3 m need about 0.005 s");
+  if (!(h >= constants::shortest_step) || h > constants::longest_step)
+    refuse(std::string(place) + ": step is " + text(h) + " s; allowed: " + text(constants::shortest_step) +
+           " to " + text(constants::longest_step) + " s; rocks of 0.3 m need about 0.005 s");
 }
 
 void check(const MaterialTable& materials) {

@@ -33,7 +33,8 @@ ContactAssembly::ContactAssembly(const WorldOptions& options, const Scene& scene
 
 void ContactAssembly::begin_step(double h, double last) {
   problem_.step = h;
-  start_share_ = last > 0 ? options_.warm_start * (h / last) : options_.warm_start;
+  start_share_ = options_.warm_start;
+  if (last > 0) start_share_ *= h > constants::most_growth * last ? 0.0 : h / last;
 }
 
 void ContactAssembly::fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake) {

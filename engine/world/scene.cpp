@@ -49,9 +49,10 @@ void Scene::check_materials(const char* place, const SurfaceOwner& owner, int ki
   }
 }
 
-int Scene::add_surface(const char* place, const Surface& surface, const Collider& collider) {
+int Scene::add_surface(const char* place, const Surface& surface, const Collider& collider,
+                       const Eigen::Isometry3d& pose) {
   check_materials(place, surface, surface.material);
-  const int id = finder_.add(collider);
+  const int id = finder_.add(collider, pose);
   if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1);
   surfaces_[id] = surface;
   kinds_[static_cast<std::size_t>(surface.owner)][surface.material] = true;
@@ -66,10 +67,9 @@ int Scene::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const V
   const int index = static_cast<int>(rocks_.size());
   const int id =
       add_surface("World::add_rock", {{Owner::rock, index}, body.material, radius_about_origin(*body.shape)},
-                  rock_collider(body, index));
+                  rock_collider(body, index), pose);
   rocks_.push_back({body, pose, velocity, angular_velocity, true, id});
   extra_reach_.add(*body.shape);
-  finder_.set_pose(id, pose);
   return index;
 }
 
@@ -110,6 +110,7 @@ void Scene::attach(ArticulatedBody* machine) {
     surface = {{Owner::fixed, detached}, 0};
     surroundings_.add(static_cast<std::uint64_t>(id));
   }
+  if (!machine) extra_reach_.forget_parts();
   machine_ = machine;
 }
 
@@ -119,8 +120,7 @@ int Scene::add_static(std::shared_ptr<const Shape> shape, const Eigen::Isometry3
   const Shape* added = shape.get();
   const int id = add_surface(
       "World::add_static", {{Owner::fixed, -1}, material},
-      {std::move(shape), body_of_surroundings, fixed_family, false, Eigen::Isometry3d::Identity()});
-  finder_.set_pose(id, pose);
+      {std::move(shape), body_of_surroundings, fixed_family, false, Eigen::Isometry3d::Identity()}, pose);
   hash_surface(id, *added, pose);
   return id;
 }
@@ -139,8 +139,9 @@ void Scene::add_part_shape(int part, std::shared_ptr<const Shape> shape, const E
   const Shape* added = shape.get();
   const double radius = radius_about_origin(*shape) + X_PS.translation().norm();
   const int id = add_surface("World::add_part_shape", {{Owner::part, part}, material, radius},
-                             {std::move(shape), machine_part(part), machine_family, true, X_PS});
-  finder_.set_pose(id, machine_->part_pose(part));
+                             {std::move(shape), machine_part(part), machine_family, true, X_PS},
+                             machine_->part_pose(part));
+  extra_reach_.add_part(part, *added, radius);
   hash_surface(id, *added, X_PS);
 }
 
@@ -254,8 +255,8 @@ ContactFinder Scene::finder_for(const std::vector<Rock>& rocks) const {
     const bool rock = surface.owner == Owner::rock;
     const bool gone =
         rock ? !rocks[surface.index].present : surface.owner == Owner::fixed && surface.index == detached;
-    if (rock)
-      finder.add(rock_collider(rocks[surface.index].body, surface.index));
+    if (rock)  // where it is now: a tree of boxes that all stand at the origin takes long
+      finder.add(rock_collider(rocks[surface.index].body, surface.index), rocks_[surface.index].pose);
     else if (gone)
       finder.add({std::make_shared<const Shape>(box(Eigen::Vector3d::Ones()))});
     else

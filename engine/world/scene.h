@@ -83,7 +83,12 @@ class Scene {
   /// Beyond what velocities say, in this step [m].
   ExtraReach& extra_reach() { return extra_reach_; }
   double extra_reach_of(const Surface& surface) const {
+    if (surface.owner == Owner::part) return extra_reach_.of_part(surface.index);
     return surface.owner == Owner::rock ? extra_reach_.of(surface.index) : 0.0;
+  }
+
+  bool reach_of_parts_grows(const SuperBodySolution& solved, double h) {
+    return machine_ && extra_reach_.grow(super_, solved, h);
   }
 
   /// As World's function of this name.
@@ -98,7 +103,8 @@ class Scene {
   std::uint64_t surroundings_hash() const { return surroundings_.value(); }
 
  private:
-  int add_surface(const char* place, const Surface& surface, const Collider& collider);
+  int add_surface(const char* place, const Surface& surface, const Collider& collider,
+                  const Eigen::Isometry3d& pose);
   void check_materials(const char* place, const SurfaceOwner& owner, int kind) const;
   void hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose);
   Eigen::Isometry3d shape_pose(int collider) const;

@@ -113,7 +113,8 @@ StepReport World::Impl::step(double h) {
     solved = solve(with_thawed_near_machine(find_contacts(report), report), report);
     check_solution(solved.machine);
   } while (thaw_struck(report.solves) ||
-           scene.extra_reach().grow(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h));
+           scene.extra_reach().grow(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h) ||
+           scene.reach_of_parts_grows(solved.machine, h));
   if (scene.machine()) {
     const auto advance_start = std::chrono::steady_clock::now();
     scene.machine()->advance(solved.machine);

@@ -22,7 +22,7 @@
 /// Rocks, fixed surroundings and at most one machine, stepped together: nonsmooth DEM with fixed steps of h.
 ///
 /// A step: find contacts at q; v* = v + h f/m; solve all impulses (rocks and machine in one problem); q⁺ = q
-/// + h v⁺. Rocks turn by the exponential map and keep their angular momentum through the turn, so free
+/// + h v⁺, and for rocks that nothing pushes q + h (v + v⁺)/2, a parabola. Rocks turn by the exponential map and keep their angular momentum through the turn, so free
 /// rotation conserves it to round-off, and its energy but for a swing of O(h²) (free_rotation.h). First order
 /// in h. World frame: x toward the back wall, z up.
 ///
@@ -62,7 +62,7 @@ class World {
   /// Throws SolutionBroken when a velocity or the machine comes out not finite or absurdly fast; the rocks,
   /// machine and the time are then as before the step.
   StepReport step();
-  /// A step of h [s], above 0, at most 0.1, in place of options().step; the impulses that it starts from are scaled with h.
+  /// A step of h [s], 1e-9 to 0.1, in place of options().step; the impulses that it starts from are scaled with h.
   /// Throws std::invalid_argument with freezing on, whose rules count steps.
   StepReport step(double h);
 

@@ -11,7 +11,7 @@
 namespace drawpoint::engine {
 
 struct WorldOptions {
-  double step = 0.01;                                      ///< h [s], above 0, at most 0.1
+  double step = 0.01;                                      ///< h [s], 1e-9 to 0.1
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);  ///< [m/s²]
   int threads = 1;                                         ///< 1 to 256; never changes a bit
   SolverOptions solver;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/batched_solver.h>
+#include <drawpoint/engine/solver/flight.h>
 #include <drawpoint/engine/solver/momentum.h>
 #include <algorithm>
 #include <cassert>
@@ -10,13 +11,6 @@ namespace drawpoint::engine::detail {
 namespace {
 
 Eigen::Vector3d vector(const float (&v)[4]) { return {v[0], v[1], v[2]}; }
-
-// A body in free flight, exactly as the substeps would move it.
-void fly(SolverBody& body, double h, int substeps) {
-  body.displacement = h * (body.velocity + (substeps + 1) / (2.0 * substeps) * body.external_velocity_change);
-  body.rotation_vector = h * body.angular_velocity;
-  body.velocity += body.external_velocity_change;
-}
 
 }  // namespace
 
@@ -39,9 +33,10 @@ SolverReport BatchedSolver::solve(ContactProblem& problem) {
   assert(batches_.row_of.size() == problem.bodies.size() && "each body has a row");
   each_row([this](int row) { displacement(row); });
   SolverReport solved = report();
-  store_bodies();
   batches_.store(problem, options_.substeps, *pool_);
   solved.machine = machine_->store(problem);
+  pushed_ = pushed_bodies(problem);
+  store_bodies();
   return solved;
 }
 
@@ -243,7 +238,7 @@ void BatchedSolver::store_bodies() {
 
 void BatchedSolver::store_body(int index) {
   SolverBody& body = problem_->bodies[index];
-  if (!touched_[index]) return fly(body, problem_->step, options_.substeps);
+  if (!pushed_[static_cast<std::size_t>(index)]) return fly(body, body.velocity, problem_->step);
   const int row = batches_.row_of[index];
   assert(batches_.order().bodies[row] == index && "a body's row holds the body");
   body.velocity = vector(batches_.bodies[row].velocity);

@@ -63,6 +63,7 @@ class BatchedSolver {
   std::vector<BodyRow> travel_;    // by row: ∫ v dt, ∫ ω dt
   std::vector<BodyRow> previous_;  // by row: velocities that momentum goes on from
   std::vector<char> touched_;      // by body: in a pair
+  std::vector<char> pushed_;       // by body, in the end: by a contact
 
   // During a solve.
   ContactProblem* problem_ = nullptr;

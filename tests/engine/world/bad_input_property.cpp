@@ -4,12 +4,14 @@
 // with its place, value and range, and the world is left as it was, bit for bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <drawpoint/engine/world/state_hash.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 #include <drawpoint/tests/support/told.hpp>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <random>
 
 using namespace drawpoint::engine;
 using drawpoint::support::at;
@@ -148,6 +150,30 @@ TEST_F(BadInput, RocksThatAreNotThere) {
         world.add_part_shape(0, shared(box({1, 1, 1})), at(0, 0, 0), 0);
       },
       {"no part 0", "has 0"});
+}
+
+TEST_F(BadInput, StepsThatAreTooShortOrTooLong) {
+  for (double h : {0.0, 5e-324, 9e-10, 0.11, -0.01, nan, infinity})
+    expect_told([&] { world.step(h); }, {"World::step", "step is", "1e-09 to 0.1 s"});
+}
+
+// A box falls on the floor and lies there, in steps of any lengths. What overlaps is pushed apart at 1 m/s at most, so it
+// never has more energy than it fell with and that. A blow that a short step ends is no load for a long step that follows.
+TEST(Steps, OfAnyLengthsMakeNoEnergy) {
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> power(-9, -1), height(0, 0.5);
+  for (int trial = 0; trial < 50; ++trial) {
+    World world({}, one_material({.friction = 0.5}));
+    drawpoint::support::add_floor(world);
+    const double above = height(rng);
+    const int box = world.add_rock(box_body({0.2, 0.2, 0.2}), at(0, 0, 0.2 + above));
+    for (int k = 0; k < 200; ++k) {
+      world.step(std::pow(10.0, power(rng)));
+      const double energy = world.kinetic_energy() / world.rock(box).body.mass +
+                            9.81 * (world.rock(box).pose.translation().z() - 0.2);
+      ASSERT_LT(energy, 9.81 * above + 0.5 * 1.0 * 1.0) << "trial " << trial << ", step " << k;
+    }
+  }
 }
 
 TEST(BadOptions, AreRefusedByName) {

@@ -4,7 +4,9 @@
 // for as far as the velocities before the step carry, and again where the solved motion is another one.
 #include <gtest/gtest.h>
 
+#include <drawpoint/engine/machine/machine.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
+#include <random>
 
 using namespace drawpoint;
 using Eigen::Vector3d;
@@ -68,6 +70,41 @@ TEST_P(Reach, AFollowerDoesNotPassTheOneThatIsStopped) {
       ASSERT_LT(x_of(world, front), -thin) << "gap " << gap << ", step " << k;
       ASSERT_LT(x_of(world, back), x_of(world, front) - half) << "gap " << gap << ", step " << k;
     }
+  }
+}
+
+// A blade that stands when the step begins is driven to V within it by its motor, whose force knows no bound, or meets the
+// cube while it slides on: what lay ahead of it is pushed, at any thickness, gap and speed, whichever way it goes. The cube
+// goes with the blade or faster, so its centre stays before the blade's middle.
+TEST_P(Reach, ABladeThatStartsAtOnceDoesNotPassARock) {
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 40; ++trial) {
+    const double thickness = 0.01 + 0.1 * unit(rng), gap = 0.2 * unit(rng), V = 1 + 30 * unit(rng);
+    const double way = trial % 2 ? 1 : -1;
+    engine::machine::BodySpec blade;
+    blade.name = "blade";
+    blade.parent = -1;
+    blade.joint = engine::machine::JointKind::slider;
+    blade.joint_axis = Vector3d::UnitX();
+    blade.mass = 1000;
+    blade.inertia = 100 * Eigen::Matrix3d::Identity();
+    engine::machine::Machine machine({{blade}, {}, {{"drive", {0}, 1e9}}, {}});
+    engine::WorldOptions options;
+    options.gravity = Vector3d::Zero();
+    options.solver.method = GetParam();
+    World world(options, support::one_material({.friction = 0.3, .stiffness = stiffness}));
+    world.attach(&machine);
+    world.add_part_shape(0, support::shared(engine::box({thickness / 2, 1, 1})),
+                         Eigen::Isometry3d::Identity(), 0);
+    const int cube = add_cube(world, way * (thickness / 2 + gap + half), 2500, 0);
+    for (int k = 0; k < 3; ++k) world.step();
+    machine.set_motor(0, way * V);
+    for (int k = 0; k < 40; ++k) {
+      world.step();
+      ASSERT_GT(way * x_of(world, cube), way * machine.coordinate(0)) << "trial " << trial << ", step " << k;
+    }
+    EXPECT_GT(way * world.rock(cube).velocity.x(), 0.99 * V) << "trial " << trial;
   }
 }
 
