@@ -93,8 +93,8 @@ constexpr int slabs = 256;
 /// falls 5 m goes farther than its own size.
 constexpr double shortest_step = 1e-9, longest_step = 0.1;
 
-/// [1] A step that is longer than the last by more than this starts from no impulses: those of a short step may be a blow, not
-/// a load that grows with it. Chosen here. Higher: such a blow is multiplied. Lower: loads are lost that would serve.
+/// [1] A step that is longer than the last by more than this starts from no impulses: those of a short step may be an impact, not
+/// a load that grows with it. Chosen here. Higher: such an impact is multiplied. Lower: loads are lost that would serve.
 constexpr double most_growth = 10;
 
 // Geometry.

@@ -3,6 +3,7 @@
 #include <drawpoint/engine/geometry/convex_polyhedron.hpp>
 
 #include <drawpoint/engine/geometry/hull.h>
+#include <drawpoint/engine/geometry/merged_faces.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,15 +14,6 @@ namespace drawpoint::engine {
 namespace {
 
 using Eigen::Vector3d;
-
-// Newell's normal: exact for a planar polygon, and the best plane of one that is planar up to round-off.
-Vector3d polygon_normal(const std::vector<Vector3d>& vertices, const std::vector<int>& face) {
-  Vector3d area = Vector3d::Zero();
-  const Vector3d& origin = vertices[face[0]];
-  for (std::size_t k = 1; k + 1 < face.size(); ++k)
-    area += (vertices[face[k]] - origin).cross(vertices[face[k + 1]] - origin);
-  return area.normalized();
-}
 
 double volume_of(const std::vector<Vector3d>& vertices, const std::vector<std::vector<int>>& faces) {
   const Vector3d apex = vertices[0];
@@ -48,7 +40,7 @@ ConvexPolyhedron ConvexPolyhedron::hull_of(std::span<const Vector3d> points) {
 
 ConvexPolyhedron::ConvexPolyhedron(std::vector<Vector3d> vertices, std::vector<std::vector<int>> faces)
     : vertices_(std::move(vertices)), faces_(std::move(faces)), volume_(volume_of(vertices_, faces_)) {
-  for (const auto& face : faces_) normals_.push_back(polygon_normal(vertices_, face));
+  for (const auto& face : faces_) normals_.push_back(detail::twice_area(vertices_, face).normalized());
   for (const Vector3d& p : vertices_) {
     radius_ = std::max(radius_, p.norm());
   }

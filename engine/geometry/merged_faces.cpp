@@ -17,19 +17,11 @@ std::uint64_t edge_key(int from, int to) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 | static_cast<std::uint32_t>(to);
 }
 
-// Twice the area, along the outward normal (Newell).
-Vector3d area_of(const std::vector<Vector3d>& points, const std::vector<int>& face) {
-  Vector3d area = Vector3d::Zero();
-  for (std::size_t k = 1; k + 1 < face.size(); ++k)
-    area += (points[face[k]] - points[face[0]]).cross(points[face[k + 1]] - points[face[0]]);
-  return area;
-}
-
-// Of facets, weighed by their areas.
+// The plane of facets, each of which counts by its area.
 class MeanPlane {
  public:
   void add(const std::vector<Vector3d>& points, const std::vector<int>& facet) {
-    const Vector3d area = area_of(points, facet);
+    const Vector3d area = twice_area(points, facet);
     Vector3d middle = Vector3d::Zero();
     for (int v : facet) middle += points[v] / static_cast<double>(facet.size());
     area_ += area;
@@ -71,7 +63,7 @@ class Merger {
   void gather() {
     std::vector<std::pair<double, int>> largest_first;
     for (std::size_t f = 0; f < facets_.size(); ++f)
-      largest_first.emplace_back(-area_of(points_, facets_[f]).norm(), static_cast<int>(f));
+      largest_first.emplace_back(-twice_area(points_, facets_[f]).norm(), static_cast<int>(f));
     std::sort(largest_first.begin(), largest_first.end());
     for (const auto& [area, facet] : largest_first)
       if (group_[facet] < 0) grow(facet);
@@ -164,6 +156,14 @@ class Merger {
 };
 
 }  // namespace
+
+Vector3d twice_area(const std::vector<Vector3d>& points, const std::vector<int>& face) {
+  Vector3d area = Vector3d::Zero();
+  const Vector3d& origin = points[face[0]];
+  for (std::size_t k = 1; k + 1 < face.size(); ++k)
+    area += (points[face[k]] - origin).cross(points[face[k + 1]] - origin);
+  return area;
+}
 
 FaceList merged_faces(const std::vector<Vector3d>& points, const FaceList& facets, double tolerance) {
   FaceList faces = Merger(points, facets, tolerance).run();

@@ -11,6 +11,10 @@
 /// tolerance of the mean plane of what it has. A corner then stays where three faces or more meet.
 namespace drawpoint::engine::detail {
 
+/// Twice the area of a polygon along its outward normal (Newell): exact for a planar one, and the best plane of one that is
+/// planar up to round-off.
+Eigen::Vector3d twice_area(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& face);
+
 using FaceList = std::vector<std::vector<int>>;  ///< corners, counter-clockwise seen from outside
 
 /// Each face begins at its first point, and faces are in the order of their points. Empty when that is no closed surface:

@@ -13,8 +13,8 @@ namespace {
 constexpr int most_steps = 40;
 // Singular values of the loops below this share of the largest count as none: Newton would divide by them.
 constexpr double least_share = 1e-7;
-constexpr double farthest =
-    0.5;  // [rad or m], that a joint may be moved: beyond, the loops may close another way round
+// [rad or m] A joint is moved by no more: beyond, the loops may close another way round.
+constexpr double farthest = 0.5;
 
 // The columns of P, and rows and columns of M, of the joints that may move.
 std::vector<Eigen::Index> free_speeds(int count, const std::vector<int>& held) {
@@ -57,14 +57,15 @@ void project_on_loops(const SimTK::MultibodySystem& system, const SimTK::Simbody
   for (int step = 0;; ++step) {
     matter.normalizeQuaternions(state);
     system.realize(state, SimTK::Stage::Position);
-    SimTK::Matrix P, M;
-    matter.calcP(state, P);
-    if (P.nrow() == 0) return;
-    const Eigen::VectorXd errors = view(state.getQErr()).head(P.nrow());  // quaternions' come behind
+    const SimTK::Vector& listed = state.getQErr();  // those of quaternions come behind
+    if (listed.size() == matter.getNumQuaternionsInUse(state)) return;
+    const Eigen::VectorXd errors = view(listed).head(listed.size() - matter.getNumQuaternionsInUse(state));
     const double error = errors.lpNorm<Eigen::Infinity>();
     if (close_enough(error, before, tolerance)) return;
     if (step == most_steps || !std::isfinite(error)) give_up(error, tolerance);
     before = error;
+    SimTK::Matrix P, M;
+    matter.calcP(state, P);
     matter.calcM(state, M);
     Eigen::VectorXd move = Eigen::VectorXd::Zero(state.getNU());
     move(moving) = least_move(to_eigen(M)(moving, moving), to_eigen(P)(Eigen::all, moving), errors);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/number_or_null.h>
 #include <drawpoint/studies/analysis/summary.h>
+#include <drawpoint/studies/report/text.h>
 #include <drawpoint/doe/problem.hpp>
 
 #include <cmath>
@@ -30,10 +31,7 @@ std::string runs_text(const Summary& summary) {
   for (const auto& [kind, count] : summary.ended)
     if (count > 0) parts.push_back(std::to_string(count) + " " + name_of(kind));
   if (parts.empty()) return "no runs";
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
-  return text + " runs";
+  return detail::listed(parts) + " runs";
 }
 
 std::string front_text(const Summary& summary) {

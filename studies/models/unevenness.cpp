@@ -18,13 +18,9 @@ std::string uneven_place(const kriging::Stationarity& found, const doe::Problem&
     return v.name + " lies from " + detail::number(found.from) + " to " +
            detail::number_with_unit(found.to, v.unit);
   }
-  std::string names;
-  for (std::size_t k = 0; k < found.runs.size(); ++k)
-    names += (k == 0                       ? ""
-              : k + 1 == found.runs.size() ? " and "
-                                           : ", ") +
-             std::to_string(runs[static_cast<std::size_t>(found.runs[k])]);
-  return std::string(found.runs.size() == 1 ? "run " : "runs ") + names +
+  std::vector<std::string> names;
+  for (const auto run : found.runs) names.push_back(std::to_string(runs[static_cast<std::size_t>(run)]));
+  return std::string(found.runs.size() == 1 ? "run " : "runs ") + detail::listed(names) +
          (found.runs.size() == 1 ? " lies" : " lie");
 }
 

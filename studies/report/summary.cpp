@@ -40,14 +40,6 @@ bool has_limits(const doe::Problem& problem) {
 
 std::string superlative(const doe::Response& r) { return maximized(r) ? "highest" : "lowest"; }
 
-/// "a, b and c".
-std::string listed(const std::vector<std::string>& items) {
-  std::string text;
-  for (std::size_t k = 0; k < items.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == items.size() ? " and " : ", ") + items[k];
-  return text;
-}
-
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;

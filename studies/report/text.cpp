@@ -45,6 +45,13 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+std::string listed(const std::vector<std::string>& items) {
+  std::string text;
+  for (std::size_t k = 0; k < items.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == items.size() ? " and " : ", ") + items[k];
+  return text;
+}
+
 std::string labelled(const std::string& name, const std::string& unit) {
   return name + (unit.empty() || unit == "1" ? "" : " [" + unit + "]");
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 namespace drawpoint::studies::detail {
 
@@ -17,6 +18,7 @@ std::string number_with_unit(double value, const std::string& unit);
 std::string percent(double share);
 std::string pretty(const std::string& name);                             ///< underscores become spaces
 std::string counted(std::size_t count, const std::string& thing);        ///< "1 run", "2 runs"
+std::string listed(const std::vector<std::string>& items);               ///< "a, b and c"
 std::string labelled(const std::string& name, const std::string& unit);  ///< "lip [m]", "fill"
 
 /// Of a variable, without its unit: "1.2", "3", "ore". What is nearer to 0 than 1e-4 of the range is "0".

@@ -30,6 +30,17 @@ inline engine::machine::BodySpec rod(const std::string& name, int parent, const 
   return body;
 }
 
+/// A body that slides along x from the origin, where its centre is.
+inline engine::machine::BodySpec slider(const std::string& name, double mass, double moment) {
+  engine::machine::BodySpec body;
+  body.name = name;
+  body.joint = engine::machine::JointKind::slider;
+  body.joint_axis = Eigen::Vector3d::UnitX();
+  body.mass = mass;
+  body.inertia = moment * Eigen::Matrix3d::Identity();
+  return body;
+}
+
 /// A point mass (a 1 mm sphere's inertia) on a massless arm: the simple pendulum, hinged at the origin.
 inline engine::machine::MachineSpec simple_pendulum(double length, double mass) {
   engine::machine::BodySpec bob = rod("bob", -1, Eigen::Vector3d::Zero(), {2 * length, 0, 0}, mass);

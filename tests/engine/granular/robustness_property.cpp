@@ -64,7 +64,7 @@ TEST_P(Thrown, IsStoppedByAThinWall) {
   world.add_rock(body, at(0, 0, 1.5), {GetParam().speed, 0, 0}, {3, 20, 5});
   const double start = energy(world), slack = 1e-3 * start;
   for (double t = 0; t < 8;
-       t += options.step) {  // the wall's blow and the floor may throw it up once or twice
+       t += options.step) {  // the wall's impact and the floor may throw it up once or twice
     world.step();
     expect_finite(world);
     ASSERT_LT(world.rocks()[0].pose.translation().x(), 5) << "at t = " << world.time();

@@ -17,14 +17,7 @@ using Eigen::Vector3d;
 namespace {
 
 engine::machine::MachineSpec sliding_block(double lower, double upper) {
-  engine::machine::BodySpec block;
-  block.name = "block";
-  block.parent = -1;
-  block.joint = engine::machine::JointKind::slider;
-  block.joint_axis = Vector3d::UnitX();
-  block.mass = 10;
-  block.inertia = Eigen::Matrix3d::Identity();
-  return {{block}, {}, {}, {{"stroke", {0}, lower, upper}}};
+  return {{support::slider("block", 10, 1)}, {}, {}, {{"stroke", {0}, lower, upper}}};
 }
 
 }  // namespace

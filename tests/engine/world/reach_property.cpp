@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/engine/machine/machine.hpp>
+#include <drawpoint/tests/support/machines.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 #include <random>
 
@@ -82,14 +83,7 @@ TEST_P(Reach, ABladeThatStartsAtOnceDoesNotPassARock) {
   for (int trial = 0; trial < 40; ++trial) {
     const double thickness = 0.01 + 0.1 * unit(rng), gap = 0.2 * unit(rng), V = 1 + 30 * unit(rng);
     const double way = trial % 2 ? 1 : -1;
-    engine::machine::BodySpec blade;
-    blade.name = "blade";
-    blade.parent = -1;
-    blade.joint = engine::machine::JointKind::slider;
-    blade.joint_axis = Vector3d::UnitX();
-    blade.mass = 1000;
-    blade.inertia = 100 * Eigen::Matrix3d::Identity();
-    engine::machine::Machine machine({{blade}, {}, {{"drive", {0}, 1e9}}, {}});
+    engine::machine::Machine machine({{support::slider("blade", 1000, 100)}, {}, {{"drive", {0}, 1e9}}, {}});
     engine::WorldOptions options;
     options.gravity = Vector3d::Zero();
     options.solver.method = GetParam();
