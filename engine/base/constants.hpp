@@ -181,6 +181,20 @@ constexpr double speculative_step = 5e-3;
 /// points to solve. Lower: a contact may be missed for a step.
 constexpr double resting_margin = 1e-3;
 
+/// [m] Shapes that are swept towards each other touch when they come this near. Derived: above face_preference, by which an
+/// edge may be nearer than is said. Higher: shapes that pass each other catch.
+constexpr double touching = 1e-6;
+
+/// [m] By how much two surfaces of a body may lie apart where one goes on into the other (world/inner_edges.h). Chosen here.
+/// Higher: what should catch in a gap slides over it. Lower: joints of real drawings catch.
+constexpr double seam_width = 1e-3;
+
+/// [m] By how much one of them may lie higher. Chosen here. Higher: a step that should stop a rock does not. Lower: as above.
+constexpr double seam_step = 1e-4;
+
+/// A contact normal this near to a face's is the face's. Derived: a mesh of six digits turns its faces by some 1e-6.
+constexpr double same_face = 1e-4;
+
 /// [m] A point without its feature of the last step starts from the nearest one left within this. Chosen here, a tenth of
 /// the smallest rock. Higher: impulses start at the wrong place. Lower: a rolling rock starts from nothing.
 constexpr double match_distance = 0.03;

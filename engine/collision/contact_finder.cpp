@@ -5,6 +5,7 @@
 #include <drawpoint/engine/collision/fat_boxes.h>
 #include <drawpoint/engine/collision/finder_state.h>
 #include <drawpoint/engine/collision/narrow_phase.h>
+#include <drawpoint/engine/collision/swept_contact.h>
 #include <chrono>
 #include <cmath>
 #include <drawpoint/engine/base/checks.hpp>
@@ -68,7 +69,8 @@ class ContactFinder::Impl {
         pool_(pool ? std::move(pool) : std::make_shared<const ThreadPool>(1)),
         boxes_(pool_->threads()),
         fcl_(options.narrow),
-        narrow_(options, pool_->threads(), fcl_) {}
+        narrow_(options, pool_->threads(), fcl_),
+        swept_(static_cast<std::size_t>(pool_->threads())) {}
 
   int add(const Collider& collider, const Isometry3d& X_WB) {
     const int id = items_.size();
@@ -167,6 +169,23 @@ class ContactFinder::Impl {
     }
   }
 
+  bool first_touch(const Manifold& m, const RigidMotion& a, const RigidMotion& b, double h, int thread,
+                   FirstTouch& touch) {
+    touch.manifold = m;
+    return swept_[static_cast<std::size_t>(thread)].find({items_.placed[m.collider_a], a},
+                                                         {items_.placed[m.collider_b], b}, h,
+                                                         pairs_.state(m.slot).contact.feature, touch);
+  }
+
+  bool meets_face(const Manifold& m, int point, const Vector3d& shift) const {
+    return detail::meets_face(m, items_.placed[m.collider_a], items_.placed[m.collider_b],
+                              pairs_.state(m.slot).contact, point, shift);
+  }
+
+  bool with_half_space(const Manifold& m) const {
+    return !items_.placed[m.collider_a].hull || !items_.placed[m.collider_b].hull;
+  }
+
   int slots() const { return pairs_.slots(); }
 
   int slot_of(int a, int b) const {
@@ -254,6 +273,7 @@ class ContactFinder::Impl {
   detail::PairCache pairs_;
   detail::FclAxes fcl_;
   detail::NarrowPhase narrow_;
+  std::vector<detail::SweptContact> swept_;  // by thread
   std::vector<char> leaves_;                    // by move: leaves its box
   std::vector<int> dirty_;                      // have left their boxes, or are half-spaces that were moved
   std::vector<Eigen::AlignedBox3d> new_boxes_;  // theirs
@@ -281,6 +301,16 @@ void ContactFinder::move(std::span<const ColliderMove> moves) { impl_->move(move
 void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }
+bool ContactFinder::first_touch(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b,
+                                double h, int thread, FirstTouch& touch) const {
+  return impl_->first_touch(manifold, a, b, h, thread, touch);
+}
+bool ContactFinder::meets_face(const Manifold& manifold, int point, const Vector3d& shift) const {
+  return impl_->meets_face(manifold, point, shift);
+}
+bool ContactFinder::with_half_space(const Manifold& manifold) const {
+  return impl_->with_half_space(manifold);
+}
 int ContactFinder::slots() const { return impl_->slots(); }
 int ContactFinder::slot_of(int collider_a, int collider_b) const {
   return impl_->slot_of(collider_a, collider_b);

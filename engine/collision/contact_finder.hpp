@@ -6,7 +6,9 @@
 #include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/collision/collider.hpp>
 #include <drawpoint/engine/collision/contact_finder_options.hpp>
+#include <drawpoint/engine/collision/first_touch.hpp>
 #include <drawpoint/engine/collision/manifold.hpp>
+#include <drawpoint/engine/collision/rigid_motion.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -78,6 +80,17 @@ class ContactFinder {
   /// into its place, ends them.
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
+
+  /// Of a manifold of the last find() whose shapes are polyhedra or cylinders and apart: where they touch first within a
+  /// time h > 0 [s] as their bodies move so; false when they do not. Several threads may call it at once, each with its
+  /// own number, 0 .. threads-1 of the pool.
+  bool first_touch(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b, double h, int thread,
+                   FirstTouch& touch) const;
+  /// Of the same: whether a point of it meets the face that gave its normal, when b goes against a by `shift` [m]: the
+  /// manifold then is that of the touch. Cheaper.
+  bool meets_face(const Manifold& manifold, int point, const Eigen::Vector3d& shift) const;
+  /// Whether one of its shapes is a half-space, whose normal is the same wherever the other goes.
+  bool with_half_space(const Manifold& manifold) const;
 
   /// Each remembered pair has a slot of its own, below slots(), which its manifolds name; -1 for a pair that is not
   /// remembered or has a removed collider. restore() gives slots anew.

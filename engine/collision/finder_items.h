@@ -26,6 +26,15 @@ struct Placement {
   Eigen::Vector3d at(const Eigen::Vector3d& local) const { return R * local + p; }
 };
 
+/// X_AB of two shapes.
+inline Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
+  Eigen::Isometry3d X_AB;
+  X_AB.linear() = a.R.transpose() * b.R;
+  X_AB.translation() = a.R.transpose() * (b.p - a.p);
+  X_AB.makeAffine();
+  return X_AB;
+}
+
 struct Traits {
   int body = -1, family = 0;
   bool moves = false, alive = false;

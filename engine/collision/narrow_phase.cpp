@@ -19,14 +19,6 @@ using Eigen::Vector3d;
 constexpr int block_size = 128;
 constexpr std::size_t apart_size = 64;  // of a pair state: what still_apart() reads, and whether it touches
 
-Eigen::Isometry3d pose_against(const Placement& a, const Placement& b) {
-  Eigen::Isometry3d X_AB;
-  X_AB.linear() = a.R.transpose() * b.R;
-  X_AB.translation() = a.R.transpose() * (b.p - a.p);
-  X_AB.makeAffine();
-  return X_AB;
-}
-
 // Writes manifolds over those of the step before: to make them anew costs as much as to fill them.
 class Manifolds {
  public:

@@ -45,8 +45,9 @@ class PairCache {
   const std::vector<PairEntry>& entries() const { return entries_; }
   PairState& state(const PairEntry& entry) { return states_[static_cast<std::size_t>(entry.slot)]; }
   const PairState& state(const PairEntry& entry) const {
-    return states_[static_cast<std::size_t>(entry.slot)];
+    return state(entry.slot);
   }
+  const PairState& state(int slot) const { return states_[static_cast<std::size_t>(slot)]; }
 
   const Inactive& inactive() const { return inactive_; }
   int slots() const { return static_cast<int>(states_.size()); }

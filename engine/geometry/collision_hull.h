@@ -59,6 +59,7 @@ struct CollisionHull {
   Eigen::ArrayXXf face_planes, edge_frames;
   Eigen::Vector3d centre;    ///< mean of the vertices
   double radius;             ///< of the sphere about the centre
+  double inner_radius;       ///< of the largest sphere about the centre inside
   double reach;              ///< of the vertex farthest from the frame's origin
   double equivalent_radius;  ///< of the sphere of the same volume
 

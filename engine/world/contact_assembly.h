@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/world/inner_edges.h>
+#include <drawpoint/engine/world/joining_points.h>
 #include <drawpoint/engine/world/pair_memory.h>
 #include <drawpoint/engine/world/scene.h>
+#include <drawpoint/engine/world/step_bodies.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <memory>
@@ -11,9 +14,8 @@
 
 /// From manifolds to the contact problem of a step, and from its impulses to what the next step starts from.
 ///
-/// Points that may come to bear within the step join the problem: those that overlap or are within 1 mm, and
-/// those that could close in at twice their present speed or that an impact may carry that far
-/// (extra_reach.h). Owns the problem and the memory of pairs.
+/// Points that may come to bear within the step join the problem (joining_points.h), but for those on edges between
+/// surfaces that go on into each other (inner_edges.h). Owns the problem and the memory of pairs.
 namespace drawpoint::engine::detail {
 
 class ContactAssembly {
@@ -28,7 +30,7 @@ class ContactAssembly {
   /// Takes over the impulses of the solved problem.
   void keep_impulses();
   /// Of a rock in anything, at the start of the step [m].
-  double deepest_overlap() const;
+  double deepest_overlap() const { return joining_.deepest_overlap(); }
 
   ContactProblem& problem() { return problem_; }
   const ContactProblem& problem() const { return problem_; }
@@ -41,26 +43,18 @@ class ContactAssembly {
     int pair = 0, point = 0;
   };
 
-  void fill_bodies(const std::vector<int>& awake);
-  void fill_contacts();
-  unsigned joining(const Manifold& m) const;  // a bit for each point that may come to bear
-  void count_joining(int first, int last);    // of these manifolds, one block; and their deepest overlap
+  void fill_contacts(int count);  // of so many manifolds
+  void count_joining(int first, int last);  // of these manifolds, one block
   void fill_pairs(int first, int last);
-  void fill_pair(const Manifold& m, unsigned joins, ContactPlace place);
-  int solver_index(const Surface& surface) const;
-  Side side_of(const Surface& surface) const;
-  Eigen::Vector3d origin_of(const Surface& surface) const;
+  void fill_pair(int manifold, ContactPlace place);
 
   const WorldOptions& options_;
   const Scene& scene_;
   std::shared_ptr<const ThreadPool> pool_;
-  const std::vector<Manifold>* manifolds_ = nullptr;
-  double start_share_ = 1;         // of the remembered impulses, to start from
-  std::vector<int> body_of_rock_;  // in the problem
-  std::vector<Side>
-      sides_;  // by body of the problem, so that pairs find in a few lines what they ask of rocks
-  std::vector<unsigned> joins_;       // by manifold
-  std::vector<double> deepest_;       // overlap by block of manifolds [m]
+  double start_share_ = 1;  // of the remembered impulses, to start from
+  StepBodies bodies_;
+  JoiningPoints joining_;
+  InnerEdges inner_edges_;
   std::vector<ContactPlace> places_;  // by block of manifolds
   ContactProblem problem_;
   std::vector<int> slots_;  // by pair of the problem

@@ -56,6 +56,7 @@ int Scene::add_surface(const char* place, const Surface& surface, const Collider
   if (id >= static_cast<int>(surfaces_.size())) surfaces_.resize(id + 1);
   surfaces_[id] = surface;
   kinds_[static_cast<std::size_t>(surface.owner)][surface.material] = true;
+  joined_surfaces_ += surface.owner != Owner::rock;
   return id;
 }
 
@@ -172,14 +173,15 @@ SurfaceOwner Scene::owner(int collider) const {
   return owner.owner == Owner::fixed ? SurfaceOwner{Owner::fixed, collider} : owner;
 }
 
-Side Scene::side_of(const Surface& surface) const {
+// Of a part without what its motors do in the step.
+RigidMotion Scene::motion_of(const Surface& surface) const {
   if (surface.owner == Owner::part) {
     const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
-    return {super_.origins[surface.index], V.tail<3>(), V.head<3>()};
+    return {super_.origins[surface.index], V.tail<3>(), V.head<3>(), Vector3d::Zero()};
   }
-  if (surface.owner == Owner::fixed) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+  if (surface.owner == Owner::fixed) return {};
   const Rock& rock = rocks_[surface.index];
-  return {rock.pose.translation(), rock.velocity, rock.angular_velocity};
+  return {rock.pose.translation(), rock.velocity, rock.angular_velocity, options_.gravity};
 }
 
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its

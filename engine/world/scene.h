@@ -6,6 +6,7 @@
 #include <array>
 #include <drawpoint/engine/base/hash.hpp>
 #include <drawpoint/engine/collision/contact_finder.hpp>
+#include <drawpoint/engine/collision/rigid_motion.hpp>
 #include <drawpoint/engine/geometry/ray.hpp>
 #include <drawpoint/engine/world/articulated_body.hpp>
 #include <drawpoint/engine/world/contacts.hpp>
@@ -29,14 +30,6 @@ namespace detail {
 struct Surface : SurfaceOwner {
   int material = 0;
   double radius = 0;  ///< that holds the shape, about the body's origin [m]; 0 for a fixed one
-};
-
-/// A body at the start of the step, as a contact sees it.
-struct Side {
-  Eigen::Vector3d origin, velocity, angular_velocity;
-  Eigen::Vector3d at(const Eigen::Vector3d& position) const {
-    return velocity + angular_velocity.cross(position - origin);
-  }
 };
 
 class Scene {
@@ -78,7 +71,7 @@ class Scene {
   SurfaceOwner owner(int collider) const;
   /// Where the origin of the surface's body is; of a machine, at the start of the last step.
   Eigen::Vector3d origin_of(const Surface& surface) const;
-  Side side_of(const Surface& surface) const;
+  RigidMotion motion_of(const Surface& surface) const;
 
   /// Beyond what velocities say, in this step [m].
   ExtraReach& extra_reach() { return extra_reach_; }
@@ -95,6 +88,9 @@ class Scene {
   std::optional<RayHit> cast_ray(const Ray& ray, double most) const;
 
   const ContactFinder& finder() const { return finder_; }
+  Eigen::Isometry3d shape_pose(int collider) const;
+  /// Whether any shape of the surroundings or of a part may go on into another of the same body.
+  bool has_inner_edges() const { return joined_surfaces_ > 1; }
   /// A new finder with these colliders, numbered as here, for these rocks.
   ContactFinder finder_for(const std::vector<Rock>& rocks) const;
   void replace(std::vector<Rock> rocks, ContactFinder finder);
@@ -107,7 +103,6 @@ class Scene {
                   const Eigen::Isometry3d& pose);
   void check_materials(const char* place, const SurfaceOwner& owner, int kind) const;
   void hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose);
-  Eigen::Isometry3d shape_pose(int collider) const;
   void place_colliders(const std::vector<int>& awake, double h);
   double speculative_margin_of(const Surface& surface, double h) const;
 
@@ -117,6 +112,7 @@ class Scene {
   ContactFinder finder_;
   std::vector<Surface> surfaces_;           // by collider
   std::array<std::vector<bool>, 3> kinds_;  // of the surfaces so far, by their owner
+  int joined_surfaces_ = 0;                 // that are no rocks
   std::vector<Rock> rocks_;
   ExtraReach extra_reach_;
   ArticulatedBody* machine_ = nullptr;

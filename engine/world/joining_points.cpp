@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/world/joining_points.h>
+
+#include <algorithm>
+#include <drawpoint/engine/base/constants.hpp>
+#include <limits>
+
+namespace drawpoint::engine::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+double least_gap(const Manifold& m) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < m.count; ++k) least = std::min(least, m.points[static_cast<std::size_t>(k)].gap);
+  return least;
+}
+
+bool of_rock(const Scene& scene, const Manifold& m) {
+  return scene.surface(m.collider_a).owner == Owner::rock || scene.surface(m.collider_b).owner == Owner::rock;
+}
+
+template <class Joins>
+unsigned points_that(const Manifold& m, const Joins& joins) {
+  unsigned points = 0;
+  for (int k = 0; k < m.count; ++k)
+    points |= static_cast<unsigned>(joins(m.points[static_cast<std::size_t>(k)])) << k;
+  return points;
+}
+
+// Of the smaller shape of a pair, across; fixed surfaces have any size.
+double size_of(const Surface& a, const Surface& b) {
+  if (a.owner == Owner::fixed) return 2 * b.radius;
+  if (b.owner == Owner::fixed) return 2 * a.radius;
+  return 2 * std::min(a.radius, b.radius);
+}
+
+constexpr double passing_slack = 1 + 1e-5;  // above single precision, in which impulses are sought
+
+// How far b goes against a at this point in a time h.
+Vector3d shift(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, double h) {
+  return h * (b.at(at) - a.at(at) + 0.5 * h * (b.acceleration - a.acceleration));
+}
+
+// How near b can come to a along the unit vector n in a time h at any point within `size` of this one.
+double most_way(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n, double size,
+                double h) {
+  return h * size * (b.angular_velocity - a.angular_velocity).cross(n).norm() - n.dot(shift(a, b, at, h));
+}
+
+// By how much b comes nearer to a at this point, by substeps, whose first has all of what accelerates it.
+double most_closing(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n, double h) {
+  return -h * n.dot(b.at(at) - a.at(at) + h * (b.acceleration - a.acceleration));
+}
+
+}  // namespace
+
+void JoiningPoints::find(const std::vector<Manifold>& manifolds, const Scene& scene, const StepBodies& bodies,
+                         double h, const ThreadPool& pool) {
+  manifolds_ = &manifolds;
+  const int count = static_cast<int>(manifolds.size());
+  joins_.resize(manifolds.size());
+  touch_.resize(manifolds.size());
+  const std::size_t blocks = manifolds.size() / block + 1;
+  if (touches_.size() < blocks) touches_.resize(blocks);
+  deepest_.assign(blocks, 0.0);
+  const Step step{scene, bodies, h};
+  pool.blocks_by_thread(count, block, [&](int begin, int end, int thread) {
+    for (int first = begin; first < end; first += block)
+      find_block(step, first, std::min(end, first + block), thread);
+  });
+}
+
+void JoiningPoints::find_block(const Step& step, int first, int last, int thread) {
+  std::vector<FirstTouch>& touches = touches_[static_cast<std::size_t>(first / block)];
+  touches.clear();
+  double& deepest = deepest_[static_cast<std::size_t>(first / block)];
+  for (int k = first; k < last; ++k) {
+    const auto place = static_cast<std::size_t>(k);
+    const std::size_t before = touches.size();
+    if (of_rock(step.scene, (*manifolds_)[place])) deepest = std::max(deepest, -least_gap((*manifolds_)[place]));
+    joins_[place] = joining(step, (*manifolds_)[place], thread, touches);
+    touch_[place] = touches.size() > before ? static_cast<int>(before) : -1;
+  }
+}
+
+double JoiningPoints::deepest_overlap() const {
+  return *std::max_element(deepest_.begin(), deepest_.end());
+}
+
+unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
+                                std::vector<FirstTouch>& touches) const {
+  constexpr double margin = constants::resting_margin;
+  const double h = step.h, least = least_gap(m);
+  const unsigned near = points_that(m, [](const ManifoldPoint& p) { return p.gap <= margin; });
+  if (least <= 0 && near + 1 == 1u << m.count) return near;  // most: no need to look at the bodies
+  const Surface &surface_a = step.scene.surface(m.collider_a), &surface_b = step.scene.surface(m.collider_b);
+  const RigidMotion a = step.bodies.motion(surface_a), b = step.bodies.motion(surface_b);
+  const double reach = margin + step.scene.extra_reach_of(surface_a) + step.scene.extra_reach_of(surface_b);
+  const unsigned within = near | points_that(m, [&](const ManifoldPoint& p) {
+    return p.gap <= reach + 2 * h * (b.at(p.position) - a.at(p.position)).norm();
+  });
+  if (within == 0 || least <= 0 || step.scene.finder().with_half_space(m)) return within;
+  const double size = size_of(surface_a, surface_b);
+  if (most_way(a, b, m.points[0].position, m.normal, size, h) < least) return within;
+  for (int k = 0; k < m.count; ++k)
+    if (within >> k & 1u && step.scene.finder().meets_face(m, k, shift(a, b, m.points[static_cast<std::size_t>(k)].position, h)))
+      return within;
+  touches.emplace_back();
+  FirstTouch& touch = touches.back();
+  if (step.scene.finder().first_touch(m, a, b, h, thread, touch)) return (1u << touch.manifold.count) - 1;
+  // They pass each other: only what is pushed farther than their motion goes may meet here.
+  touch = {m, {}, {}, a.origin, b.origin};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k) {
+    ManifoldPoint& p = touch.manifold.points[k];
+    touch.on_a[k] = p.position - 0.5 * p.gap * m.normal, touch.on_b[k] = p.position + 0.5 * p.gap * m.normal;
+    p.gap = std::max(p.gap, passing_slack * most_closing(a, b, p.position, m.normal, h));
+  }
+  return within;
+}
+
+}  // namespace drawpoint::engine::detail
