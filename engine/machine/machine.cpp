@@ -3,6 +3,7 @@
 #include <drawpoint/engine/machine/reactions.h>
 
 #include <drawpoint/engine/machine/constrained_response.h>
+#include <drawpoint/engine/machine/free_motion.h>
 #include <drawpoint/engine/machine/machine_rows.h>
 #include <algorithm>
 #include <drawpoint/engine/base/checks.hpp>
@@ -29,13 +30,16 @@ struct Machine::Simbody {
   SimbodyTree tree;
   std::vector<double> motor_targets, motor_limits, motor_forces, row_starts;
   std::vector<Wrench> extra;  // by add_force, for the next step
+  Eigen::VectorXd reaction;   // generalised force of contacts, motors and stops in the last step
   Reactions reactions;        // of the last step
 
   // The linearisation of the present step.
   double h = 0;
   Eigen::Vector3d gravity;
-  Eigen::MatrixXd M, G, J, N;  // J: 6 (bodies + 1) x n, ground first
-  SimTK::Vector bias;          // C(q, u) − f
+  TreeDynamics dynamics;
+  Eigen::MatrixXd J;  // 6 (bodies + 1) x n, ground first
+  TreeMotion flow;    // over the step, if what contacts, motors and stops do stays as it was in the last
+  Eigen::VectorXd flow_change;  // of w
   engine::SuperBody super;
 
   explicit Simbody(const MachineSpec& spec)
@@ -45,6 +49,7 @@ struct Machine::Simbody {
         motor_forces(spec.motors.size()),
         row_starts(spec.motors.size() + 2 * spec.stops.size()),
         extra(spec.bodies.size()),
+        reaction(Eigen::VectorXd::Zero(tree.state.getNU())),
         reactions{std::vector<Wrench>(spec.bodies.size()),
                   std::vector<Eigen::Vector3d>(spec.loops.size(), Eigen::Vector3d::Zero())} {}
 
@@ -54,19 +59,17 @@ struct Machine::Simbody {
   void build_rows();
   BodyForces loads(const std::vector<engine::SpatialVector>* part_impulses) const;
   SimTK::Vector row_forces(const std::vector<double>& row_impulses) const;
+  Eigen::VectorXd lasting(const Eigen::VectorXd& force) const;
+  Eigen::VectorXd beside_flow(const engine::SuperBodySolution& solution) const;
 };
 
 void Machine::Simbody::linearise_dynamics() {
+  const BodyForces outer = loads(nullptr);
+  dynamics.linearise(tree, tree.state, outer);
   SimTK::Matrix matrix;
-  tree.matter.calcM(tree.state, matrix);
-  M = to_eigen(matrix);
-  tree.matter.calcG(tree.state, matrix);
-  G = to_eigen(matrix);
   tree.matter.calcSystemJacobian(tree.state, matrix);
   J = to_eigen(matrix);
-  N = constrained_response(M, G);
-  const SimTK::Vector none(tree.state.getNU(), 0.0);
-  tree.matter.calcResidualForceIgnoringConstraints(tree.state, none, loads(nullptr), none, bias);
+  flow = free_motion(tree, dynamics, outer, reaction, h);
 }
 
 // Gravity and added forces on every body, with the contact impulses over the step when they are known.
@@ -92,8 +95,8 @@ std::array<StopSide, 2> Machine::Simbody::ends_now(const StopSpec& stop) const {
 
 // What turns w into the sum of the joints' speeds.
 Eigen::RowVectorXd Machine::Simbody::joint_sum(const std::vector<int>& bodies) const {
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(N.cols());
-  for (int body : bodies) sum += N.row(tree.speed_index(body));
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(dynamics.N.cols());
+  for (int body : bodies) sum += dynamics.N.row(tree.speed_index(body));
   return sum;
 }
 
@@ -111,6 +114,22 @@ void Machine::Simbody::build_rows() {
   for (const StopSpec& stop : spec.stops)
     for (const StopSide& end : ends_now(stop))
       super.rows.push_back(stop_row(stop, end, joint_sum(stop.bodies), h, row_starts[super.rows.size()]));
+}
+
+// What of a generalised force may be expected to go on: not an impact, which outer forces do not match.
+Eigen::VectorXd Machine::Simbody::lasting(const Eigen::VectorXd& force) const {
+  const double own = (dynamics.N.transpose() * force).norm(), outer = (dynamics.N.transpose() * dynamics.bias).norm();
+  return std::min(1.0, own > 0 ? 2 * outer / own : 1.0) * force;
+}
+
+// The mean of w beyond that of the flow. Substeps change w at their beginnings, which moves farther than a steady change does: where the
+// impulses are those that the flow knew, that is taken off; else gaps are to be closed just as the solver closed them.
+Eigen::VectorXd Machine::Simbody::beside_flow(const engine::SuperBodySolution& solution) const {
+  const double change = flow_change.norm(),
+               unknown = (solution.velocity - super.velocity_before - flow_change).norm();
+  const double as_known = change > 0 ? std::max(0.0, 1 - unknown / change) : 0.0;
+  const double share = 0.5 + as_known * (solution.steady_share - 0.5);
+  return solution.mean_velocity - super.velocity_before - share * flow_change;
 }
 
 // Of motors and stops on the joints, means over the step.
@@ -142,6 +161,7 @@ int Machine::parts() const { return static_cast<int>(simbody_->tree.bodies.size(
 
 void Machine::place(const Eigen::Isometry3d& X_WM) {
   std::fill(simbody_->row_starts.begin(), simbody_->row_starts.end(), 0.0);
+  simbody_->reaction.setZero();
   simbody_->tree.place(X_WM);
 }
 
@@ -270,12 +290,14 @@ const engine::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gra
   s.gravity = gravity;
   s.linearise_dynamics();
   const Eigen::VectorXd u = view(s.tree.state.getU());
-  s.super.velocity_before = s.N.transpose() * (s.M * u);
-  s.super.velocity = s.super.velocity_before - h * (s.N.transpose() * view(s.bias));
+  const Eigen::MatrixXd &M = s.dynamics.M, &N = s.dynamics.N;
+  s.super.velocity_before = N.transpose() * (M * u);
+  s.flow_change = N.transpose() * (M * (s.flow.u - u));
+  s.super.velocity = s.super.velocity_before + s.flow_change - h * (N.transpose() * s.reaction);
   s.super.part_maps.resize(s.tree.bodies.size());
   s.super.origins.resize(s.tree.bodies.size());
   for (std::size_t b = 0; b < s.tree.bodies.size(); ++b) {
-    s.super.part_maps[b] = s.J.middleRows<6>(6 * s.tree.bodies[b].getMobilizedBodyIndex()) * s.N;
+    s.super.part_maps[b] = s.J.middleRows<6>(6 * s.tree.bodies[b].getMobilizedBodyIndex()) * N;
     s.super.origins[b] = to_eigen(s.tree.bodies[b].getBodyOriginLocation(s.tree.state));
   }
   s.build_rows();
@@ -284,15 +306,18 @@ const engine::SuperBody& Machine::linearise(double h, const Eigen::Vector3d& gra
 
 void Machine::advance(const engine::SuperBodySolution& solution) {
   Simbody& s = *simbody_;
-  const Eigen::VectorXd u = s.N * solution.velocity;
+  const Eigen::MatrixXd& N = s.dynamics.N;
+  const Eigen::VectorXd u = N * solution.velocity;
   if (!(u.norm() <= SimbodyTree::fastest))
     throw std::runtime_error("machine::Machine::advance: the joint speeds come out with norm " +
                              std::to_string(u.norm()) + " m/s or rad/s; use a smaller step");
-  const Eigen::VectorXd acceleration = (u - view(s.tree.state.getU())) / s.h;
   // At the pose before the step, but kept only once the step has been made.
-  Reactions felt = reactions(
-      s.tree, s.G, {s.row_forces(solution.row_impulses), s.loads(&solution.part_impulses)}, acceleration);
-  s.tree.move(u, s.N * solution.mean_velocity, s.h);
+  const AppliedForces applied{s.row_forces(solution.row_impulses), s.loads(&solution.part_impulses)};
+  const Eigen::VectorXd reaction =
+      s.dynamics.bias - TreeDynamics::bias_under(s.tree, s.tree.state, applied.joints, applied.bodies);
+  Reactions felt = reactions(s.tree, s.dynamics.G, applied, s.dynamics.acceleration(reaction));
+  s.tree.move(u, s.flow.q, s.h * (N * s.beside_flow(solution)));
+  s.reaction = s.lasting(reaction);
   s.reactions = std::move(felt);
   for (std::size_t m = 0; m < s.motor_forces.size(); ++m) s.motor_forces[m] = solution.row_impulses[m] / s.h;
   s.row_starts = solution.row_starts;
@@ -311,6 +336,7 @@ std::vector<double> Machine::state() const {
   add(s.motor_limits);
   add(s.motor_forces);
   add(s.row_starts);
+  add(s.reaction);
   for (const std::vector<Wrench>* wrenches : {&s.extra, &s.reactions.joints})
     for (const Wrench& w : *wrenches) add(w.moment), add(w.force);
   for (const Eigen::Vector3d& force : s.reactions.loops) add(force);
@@ -334,6 +360,7 @@ void Machine::set_state(const std::vector<double>& state) {
   s.tree.set_motion(q, u);
   for (std::vector<double>* values : {&s.motor_targets, &s.motor_limits, &s.motor_forces, &s.row_starts})
     take(values->data(), values->size());
+  take(s.reaction.data(), static_cast<std::size_t>(s.reaction.size()));
   for (std::vector<Wrench>* wrenches : {&s.extra, &s.reactions.joints})
     for (Wrench& w : *wrenches) take(w.moment.data(), 3), take(w.force.data(), 3);
   for (Eigen::Vector3d& force : s.reactions.loops) take(force.data(), 3);

@@ -130,13 +130,15 @@ void SimbodyTree::set_velocity(const Eigen::Vector3d& velocity,
 }
 
 // Speeds are not projected here: the next w = NᵀMu is their mass-weighted projection, which keeps momentum.
-void SimbodyTree::move(const Eigen::VectorXd& u, const Eigen::VectorXd& mean, double h) {
+void SimbodyTree::move(const Eigen::VectorXd& u, const SimTK::Vector& q, const Eigen::VectorXd& way) {
   const SimTK::Vector q_before = state.getQ(), u_before = state.getU();
-  SimTK::Vector qdot;
-  matter.multiplyByN(state, false, to_simbody(mean), qdot);
-  state.updQ() += h * qdot;
-  state.updU() = to_simbody(u);
   try {
+    state.updQ() = q;
+    system.realize(state, SimTK::Stage::Position);
+    SimTK::Vector change;
+    matter.multiplyByN(state, false, to_simbody(way), change);
+    state.updQ() += change;
+    state.updU() = to_simbody(u);
     project_on_loops(system, matter, {}, {}, state);
     system.realize(state, SimTK::Stage::Velocity);
   } catch (const std::exception& error) {

@@ -103,6 +103,7 @@ SuperBodySolution SuperBodyMotion::store() const {
   if (!machine_) return solution;
   solution.velocity = w_;
   solution.mean_velocity = travel_ / step_;
+  solution.steady_share = 0.5 * (1 + 1.0 / substeps_);
   for (const Row& row : rows_) {
     solution.row_impulses.push_back(row.total);
     solution.row_starts.push_back(substeps_ * row.impulse);
