@@ -210,10 +210,6 @@ constexpr double gyroscopic_angle = 1e-5;
 /// the momentum of more rocks changes its direction by the extra turn.
 constexpr double energy_rise = 1.1;
 
-/// [√kg] Of the effective mass 1e12 kg of a kinematic body along its motion: 1 MN s per step changes its speed by
-/// 1e-6 m/s. Chosen here. Higher: single precision loses the change. Lower: a blade gives way.
-constexpr double kinematic_root_mass = 1e6;
-
 /// [m/s], [rad/s] What a rock may be given, and beyond which (rad/s: ten times) the solution of a step has broken down.
 /// Chosen here, far beyond any mine; squares of it do not overflow single precision.
 constexpr double fastest_input = 1e3, fastest_spin = 1e4, fastest_solution = 1e4;

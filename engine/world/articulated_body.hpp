@@ -3,7 +3,9 @@
 #pragma once
 
 #include <drawpoint/engine/base/eigen.hpp>
+#include <drawpoint/engine/collision/rigid_motion.hpp>
 #include <drawpoint/engine/solver/super_body.hpp>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -12,12 +14,27 @@
 namespace drawpoint::engine {
 
 /// A machine that takes part in the contact solve.
+/// Of a body that nothing stops.
+struct PrescribedMotion {
+  RigidMotion rigid;
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< [rad/s²]
+  /// Of its point at `position`, at the start [m/s²].
+  Eigen::Vector3d acceleration_at(const Eigen::Vector3d& position) const {
+    const Eigen::Vector3d arm = position - rigid.origin, &w = rigid.angular_velocity;
+    return rigid.acceleration + angular_acceleration.cross(arm) + w.cross(w.cross(arm));
+  }
+};
+
 class ArticulatedBody {
  public:
   virtual ~ArticulatedBody() = default;
 
   virtual int parts() const = 0;
   virtual Eigen::Isometry3d part_pose(int part) const = 0;  ///< X_WP
+
+  /// How the body moves of a machine that contacts do not move, in the coming step; nullopt for one that they do. The first then has
+  /// a single part and no super-body.
+  virtual std::optional<PrescribedMotion> prescribed() const { return std::nullopt; }
 
   /// The super-body at the present position for a step of h [s] under the gravity vector [m/s²]. Valid until
   /// advance().

@@ -47,7 +47,10 @@ void ContactAssembly::fill_contacts(int count) {
     const ContactPlace block = std::exchange(place, end);
     end.pair += block.pair;
     end.point += block.point;
+    end.prescribed += block.prescribed;
   }
+  first_prescribed_ = static_cast<int>(problem_.bodies.size());
+  problem_.bodies.resize(problem_.bodies.size() + static_cast<std::size_t>(end.prescribed));
   problem_.pairs.resize(static_cast<std::size_t>(end.pair));
   problem_.points.resize(static_cast<std::size_t>(end.point));
   slots_.resize(static_cast<std::size_t>(end.pair));
@@ -59,6 +62,7 @@ void ContactAssembly::count_joining(int first, int last) {
   for (int k = first; k < last; ++k) {
     place.pair += joining_.points(k) != 0;
     place.point += std::popcount(joining_.points(k));
+    place.prescribed += joining_.points(k) != 0 && has_prescribed(joining_.manifold(k));
   }
   places_[first / manifolds_per_block] = place;
 }
@@ -71,7 +75,49 @@ void ContactAssembly::fill_pairs(int first, int last) {
     fill_pair(k, place);
     ++place.pair;
     place.point += std::popcount(joining_.points(k));
+    place.prescribed += has_prescribed(joining_.manifold(k));
   }
+}
+
+bool ContactAssembly::has_prescribed(const Manifold& m) const {
+  return scene_.prescribed() && (scene_.surface(m.collider_a).owner == Owner::part ||
+                                 scene_.surface(m.collider_b).owner == Owner::part);
+}
+
+// A pair's own body on the machine: its place is the middle of the pair's points, which it takes along their arc, so that what is carried
+// round is pushed to the middle all the time.
+void ContactAssembly::fill_prescribed(const ContactPair& pair, int body) {
+  ContactPoint* const points = &problem_.points[static_cast<std::size_t>(pair.first)];
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int k = 0; k < pair.count; ++k) middle += points[k].position / pair.count;
+  for (int k = 0; k < pair.count; ++k) (pair.a == body ? points[k].arm_a : points[k].arm_b) = points[k].position - middle;
+  const PrescribedMotion& motion = *scene_.prescribed();
+  SolverBody& moved = problem_.bodies[static_cast<std::size_t>(body)];
+  moved = SolverBody();
+  // A third of the step on: then the way of the step is right to the third order.
+  const Eigen::Vector3d later = middle + problem_.step / 3 * motion.rigid.angular_velocity.cross(middle - motion.rigid.origin);
+  moved.external_velocity_change = problem_.step * motion.acceleration_at(later);
+  // In a substep it goes as fast as in the middle of it.
+  moved.velocity = motion.rigid.at(middle) - 0.5 / options_.solver.substeps * moved.external_velocity_change;
+  moved.angular_velocity = motion.rigid.angular_velocity;
+}
+
+SuperBodySolution ContactAssembly::felt_by_prescribed() const {
+  SuperBodySolution felt;
+  felt.part_impulses.assign(1, SpatialVector::Zero());
+  SpatialVector& sum = felt.part_impulses.front();
+  const Eigen::Vector3d& origin = scene_.prescribed()->rigid.origin;
+  for (const ContactPair& pair : problem_.pairs) {
+    if (std::max(pair.a, pair.b) < first_prescribed_) continue;
+    const double sign = pair.b >= first_prescribed_ ? 1 : -1;
+    sum.head<3>() += sign * pair.impulse;
+    for (int k = pair.first; k < pair.first + pair.count; ++k) {
+      const ContactPoint& p = problem_.points[static_cast<std::size_t>(k)];
+      sum.head<3>() += sign * (p.position - origin).cross(p.impulse);
+      sum.tail<3>() += sign * p.impulse;
+    }
+  }
+  return felt;
 }
 
 void ContactAssembly::fill_pair(int manifold, ContactPlace place) {
@@ -88,8 +134,9 @@ void ContactAssembly::fill_pair(int manifold, ContactPlace place) {
   pair = ContactPair();
   pair.first = place.point;
   pair.count = std::popcount(joins);
-  pair.a = bodies_.index(a);
-  pair.b = bodies_.index(b);
+  const int prescribed = has_prescribed(m) ? first_prescribed_ + place.prescribed : 0;
+  pair.a = prescribed && a.owner == Owner::part ? prescribed : bodies_.index(a);
+  pair.b = prescribed && b.owner == Owner::part ? prescribed : bodies_.index(b);
   pair.collider_a = m.collider_a;
   pair.collider_b = m.collider_b;
   pair.rolling_arm = material.rolling * m.radius;
@@ -116,6 +163,7 @@ void ContactAssembly::fill_pair(int manifold, ContactPlace place) {
     c.restitution = material.restitution;
     c.start = start_share_ * start.point(p.feature, p.position);
   }
+  if (prescribed) fill_prescribed(pair, prescribed);
 }
 
 void ContactAssembly::keep_impulses() {

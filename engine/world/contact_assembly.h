@@ -29,6 +29,8 @@ class ContactAssembly {
   void fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake);
   /// Takes over the impulses of the solved problem.
   void keep_impulses();
+  /// What a machine that contacts do not move feels in the solved problem.
+  SuperBodySolution felt_by_prescribed() const;
   /// Of a rock in anything, at the start of the step [m].
   double deepest_overlap() const { return joining_.deepest_overlap(); }
 
@@ -38,15 +40,17 @@ class ContactAssembly {
   const PairMemory& memory() const { return memory_; }
 
  private:
-  // Where the next pair and the next point go in the problem; at first, how many a block of manifolds has.
+  // Where the next pair, point and such body go in the problem; at first, how many a block of manifolds has.
   struct ContactPlace {
-    int pair = 0, point = 0;
+    int pair = 0, point = 0, prescribed = 0;  // the last: bodies of a machine that contacts do not move
   };
 
   void fill_contacts(int count);  // of so many manifolds
   void count_joining(int first, int last);  // of these manifolds, one block
   void fill_pairs(int first, int last);
   void fill_pair(int manifold, ContactPlace place);
+  bool has_prescribed(const Manifold& m) const;  // as a side
+  void fill_prescribed(const ContactPair& pair, int body);
 
   const WorldOptions& options_;
   const Scene& scene_;
@@ -57,7 +61,8 @@ class ContactAssembly {
   InnerEdges inner_edges_;
   std::vector<ContactPlace> places_;  // by block of manifolds
   ContactProblem problem_;
-  std::vector<int> slots_;  // by pair of the problem
+  std::vector<int> slots_;    // by pair of the problem
+  int first_prescribed_ = 0;  // body of the problem
   PairMemory memory_;
 };
 

@@ -94,8 +94,10 @@ unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
   constexpr double margin = constants::resting_margin;
   const double h = step.h, least = least_gap(m);
   const unsigned near = points_that(m, [](const ManifoldPoint& p) { return p.gap <= margin; });
-  if (least <= 0 && near + 1 == 1u << m.count) return near;  // most: no need to look at the bodies
+  if (least <= 0 && near + 1 == 1u << m.count && !step.scene.prescribed()) return near;  // most: no need to look at the bodies
   const Surface &surface_a = step.scene.surface(m.collider_a), &surface_b = step.scene.surface(m.collider_b);
+  if (step.scene.prescribed() && surface_a.owner != Owner::rock && surface_b.owner != Owner::rock)
+    return 0;  // neither gives way
   const RigidMotion a = step.bodies.motion(surface_a), b = step.bodies.motion(surface_b);
   const double reach = margin + step.scene.extra_reach_of(surface_a) + step.scene.extra_reach_of(surface_b);
   const unsigned within = near | points_that(m, [&](const ManifoldPoint& p) {

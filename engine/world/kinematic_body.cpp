@@ -5,8 +5,10 @@
 
 #include <drawpoint/engine/world/checks.h>
 #include <algorithm>
-#include <drawpoint/engine/base/constants.hpp>
+#include <drawpoint/engine/base/checks.hpp>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 namespace drawpoint::engine {
 
@@ -16,27 +18,45 @@ void KinematicBody::set_velocity(const Eigen::Vector3d& velocity, const Eigen::V
   angular_velocity_ = angular_velocity;
 }
 
+namespace {
+constexpr double most_acceleration = 1e6;  // [m/s²], [rad/s²]
+}  // namespace
+
+void KinematicBody::set_acceleration(const Eigen::Vector3d& acceleration,
+                                     const Eigen::Vector3d& angular_acceleration) {
+  for (const auto& [name, value, unit] : {std::tuple("acceleration", acceleration.norm(), "m/s2"),
+                                          std::tuple("angular acceleration", angular_acceleration.norm(), "rad/s2")})
+    detail::require(std::string("engine::KinematicBody::set_acceleration: the ") + name, value,
+                    {0, most_acceleration, unit});
+  acceleration_ = acceleration;
+  angular_acceleration_ = angular_acceleration;
+}
+
+std::optional<PrescribedMotion> KinematicBody::prescribed() const {
+  return PrescribedMotion{{pose_.translation(), velocity_, angular_velocity_, acceleration_}, angular_acceleration_};
+}
+
+// No freedom: its parts answer nothing.
 const SuperBody& KinematicBody::linearise(double h, const Eigen::Vector3d&) {
   step_ = h;
-  SpatialVector twist;
-  twist << angular_velocity_, velocity_;
-  const double size = twist.norm();
-  if (size > 0) direction_ = twist / size;
-  super_.velocity_before = super_.velocity =
-      Eigen::VectorXd::Constant(1, constants::kinematic_root_mass * size);
-  super_.part_maps.assign(1, direction_ / constants::kinematic_root_mass);
+  super_.velocity_before = super_.velocity = Eigen::VectorXd();
+  super_.part_maps.assign(1, SpatialMap(6, 0));
   super_.origins.assign(1, pose_.translation());
   return super_;
 }
 
 void KinematicBody::advance(const SuperBodySolution& solution) {
   const SpatialVector& impulse = solution.part_impulses.at(0);
+  const Eigen::Vector3d mean = velocity_ + 0.5 * step_ * acceleration_,
+                        mean_turning = angular_velocity_ + 0.5 * step_ * angular_acceleration_;
   wrench_ = {impulse.head<3>() / step_, impulse.tail<3>() / step_};
-  work_ -= step_ * (wrench_.force.dot(velocity_) + wrench_.moment.dot(angular_velocity_));
-  pose_.translation() += step_ * velocity_;
-  const double angle = step_ * angular_velocity_.norm();
+  work_ -= step_ * (wrench_.force.dot(mean) + wrench_.moment.dot(mean_turning));
+  velocity_ += step_ * acceleration_;
+  angular_velocity_ += step_ * angular_acceleration_;
+  pose_.translation() += step_ * mean;
+  const double angle = step_ * mean_turning.norm();
   if (angle == 0) return;
-  const Eigen::AngleAxisd turn(angle, angular_velocity_.normalized());
+  const Eigen::AngleAxisd turn(angle, mean_turning.normalized());
   pose_.linear() = Eigen::Quaterniond(turn * pose_.linear()).normalized().toRotationMatrix();
 }
 
@@ -48,7 +68,8 @@ std::vector<double> KinematicBody::state() const {
   put(pose_.matrix());
   put(velocity_);
   put(angular_velocity_);
-  put(direction_);
+  put(acceleration_);
+  put(angular_acceleration_);
   put(wrench_.moment);
   put(wrench_.force);
   state.push_back(work_);
@@ -73,7 +94,8 @@ void KinematicBody::set_state(const std::vector<double>& state) {
   pose_ = pose;
   take(velocity_);
   take(angular_velocity_);
-  take(direction_);
+  take(acceleration_);
+  take(angular_acceleration_);
   take(wrench_.moment);
   take(wrench_.force);
   work_ = *next;

@@ -7,10 +7,9 @@
 
 /// A body that moves as it is told whatever pushes it, and feels what does: a blade, a gate, a shaken floor.
 ///
-/// To the solver it is a machine of one part and one freedom, the motion that was set: with V the twist, the unit twist
-/// V/|V| and an effective mass of 1e12 kg along it (kg m² where it turns), whose speed is set anew in every step. A load of
-/// 1 MN s per step changes that speed by 1e-6 m/s within the step, and across the motion it is rigid. Its position follows
-/// the speed that was set, turns by the exponential map: exact for a steady motion. World frame, SI units.
+/// To the solver each of its contacts is a body of its own that no impulse moves: the point of the body that is there, with its velocity
+/// and, within the step, its acceleration, that towards the axis of its turning included. Its position follows velocity and
+/// acceleration, turns by the exponential map: exact for a steady motion. World frame, SI units.
 namespace drawpoint::engine {
 
 class KinematicBody final : public ArticulatedBody {
@@ -22,6 +21,11 @@ class KinematicBody final : public ArticulatedBody {
   /// more than 1000 m/s or 10 000 rad/s and for what is not finite.
   void set_velocity(const Eigen::Vector3d& velocity,
                     const Eigen::Vector3d& angular_velocity = Eigen::Vector3d::Zero());
+  /// From the next step on, until it is set again [m/s²], [rad/s²]: velocities grow by so much within the steps. What is carried along
+  /// then feels a steady push, where a velocity that is set anew in each step strikes in each. Throws std::invalid_argument for more
+  /// than 1e6 and for what is not finite.
+  void set_acceleration(const Eigen::Vector3d& acceleration,
+                        const Eigen::Vector3d& angular_acceleration = Eigen::Vector3d::Zero());
 
   const Eigen::Isometry3d& pose() const { return pose_; }  ///< X_WB
   const Eigen::Vector3d& velocity() const { return velocity_; }
@@ -32,6 +36,7 @@ class KinematicBody final : public ArticulatedBody {
 
   int parts() const override { return 1; }
   Eigen::Isometry3d part_pose(int) const override { return pose_; }
+  std::optional<PrescribedMotion> prescribed() const override;
   const SuperBody& linearise(double h, const Eigen::Vector3d& gravity) override;
   void advance(const SuperBodySolution& solution) override;
   std::vector<double> state() const override;
@@ -40,8 +45,7 @@ class KinematicBody final : public ArticulatedBody {
  private:
   Eigen::Isometry3d pose_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), angular_velocity_ = Eigen::Vector3d::Zero();
-  SpatialVector direction_ =
-      SpatialVector::Unit(3);  // of the last motion, unit; at rest it still says where it gives way
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero(), angular_acceleration_ = Eigen::Vector3d::Zero();
   double step_ = 0, work_ = 0;
   Wrench wrench_;
   SuperBody super_;

@@ -158,9 +158,11 @@ void Scene::hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& po
 void Scene::set_moves(int rock, bool moves) { finder_.set_moves(rocks_[rock].collider, moves); }
 
 const SuperBody* Scene::linearise(double h) {
+  prescribed_.reset();
   if (!machine_) return nullptr;
+  prescribed_ = machine_->prescribed();
   super_ = machine_->linearise(h, options_.gravity);
-  return &super_;
+  return prescribed_ ? nullptr : &super_;
 }
 
 Vector3d Scene::origin_of(const Surface& surface) const {
@@ -176,6 +178,7 @@ SurfaceOwner Scene::owner(int collider) const {
 // Of a part without what its motors do in the step.
 RigidMotion Scene::motion_of(const Surface& surface) const {
   if (surface.owner == Owner::part) {
+    if (prescribed_) return prescribed_->rigid;
     const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
     return {super_.origins[surface.index], V.tail<3>(), V.head<3>(), Vector3d::Zero()};
   }
@@ -195,8 +198,9 @@ double Scene::speculative_margin_of(const Surface& surface, double h) const {
     const Rock& rock = rocks_[surface.index];
     speed = rock.velocity.norm() + rock.angular_velocity.norm() * surface.radius + fall;
   } else if (surface.owner == Owner::part) {
-    const SpatialVector V = super_.part_maps[surface.index] * super_.velocity_before;
-    speed = V.tail<3>().norm() + V.head<3>().norm() * surface.radius + fall;
+    const RigidMotion motion = motion_of(surface);
+    const double gain = prescribed_ ? h * (motion.acceleration.norm() + surface.radius * prescribed_->angular_acceleration.norm()) : fall;
+    speed = motion.velocity.norm() + motion.angular_velocity.norm() * surface.radius + gain;
   }
   const double way = h * speed + extra_reach_of(surface);
   return resolution * std::ceil(std::max(0.0, way - 0.5 * options_.contacts.margin) / resolution);

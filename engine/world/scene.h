@@ -58,7 +58,7 @@ class Scene {
   /// Between two colliders that do not move nothing is searched.
   void set_moves(int rock, bool moves);
 
-  /// The machine's super-body for the coming step of h [s]; nullptr without a machine. Stays as it is until
+  /// The machine's super-body for the coming step of h [s]; nullptr without a machine that contacts move. Stays as it is until
   /// the next call, whatever becomes of the machine.
   const SuperBody* linearise(double h);
 
@@ -72,6 +72,8 @@ class Scene {
   /// Where the origin of the surface's body is; of a machine, at the start of the last step.
   Eigen::Vector3d origin_of(const Surface& surface) const;
   RigidMotion motion_of(const Surface& surface) const;
+  /// Of the machine in this step, if contacts do not move it.
+  const std::optional<PrescribedMotion>& prescribed() const { return prescribed_; }
 
   /// Beyond what velocities say, in this step [m].
   ExtraReach& extra_reach() { return extra_reach_; }
@@ -81,7 +83,7 @@ class Scene {
   }
 
   bool reach_of_parts_grows(const SuperBodySolution& solved, double h) {
-    return machine_ && extra_reach_.grow(super_, solved, h);
+    return machine_ && !prescribed_ && extra_reach_.grow(super_, solved, h);
   }
 
   /// As World's function of this name.
@@ -116,6 +118,7 @@ class Scene {
   std::vector<Rock> rocks_;
   ExtraReach extra_reach_;
   ArticulatedBody* machine_ = nullptr;
+  std::optional<PrescribedMotion> prescribed_;
   SuperBody super_;                  // of the last step, a copy: the machine's own is valid until it advances
   std::vector<ColliderMove> moves_;  // of this step
   StateHash surroundings_;

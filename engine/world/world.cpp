@@ -117,7 +117,7 @@ StepReport World::Impl::step(double h) {
            scene.reach_of_parts_grows(solved.machine, h));
   if (scene.machine()) {
     const auto advance_start = std::chrono::steady_clock::now();
-    scene.machine()->advance(solved.machine);
+    scene.machine()->advance(scene.prescribed() ? contacts.felt_by_prescribed() : solved.machine);
     report.machine_s += seconds_since(advance_start);
   }
   contacts.keep_impulses();  // from here on nothing can fail

@@ -18,7 +18,10 @@ namespace {
 
 using constants::slabs;
 
-bool is_fixed(const SolverBody& body) { return body.inverse_mass == 0 && body.inverse_inertia.isZero(0); }
+bool is_fixed(const SolverBody& body) {
+  return body.inverse_mass == 0 && body.inverse_inertia.isZero(0) && body.velocity.isZero(0) &&
+         body.angular_velocity.isZero(0) && body.external_velocity_change.isZero(0);
+}
 
 // Sorts by a key of 0 .. keys-1, stably, in linear time; numbers whose key is negative are left out.
 template <class Key>
