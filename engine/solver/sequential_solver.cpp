@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/flight.h>
 #include <drawpoint/engine/solver/momentum.h>
+#include <drawpoint/engine/solver/motion_change.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
 
@@ -36,6 +37,17 @@ void add_momentum(std::vector<SolverBody>& bodies, double share, std::vector<Mot
   }
 }
 
+// Since `last`, which becomes the present motion.
+double motion_change(const std::vector<SolverBody>& bodies, const std::vector<detail::MotionWeight>& weights, std::vector<Motion>& last) {
+  double sum = 0;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    sum += weights[k].mass * (bodies[k].velocity - last[k].velocity).lpNorm<1>() +
+           weights[k].turning * (bodies[k].angular_velocity - last[k].angular_velocity).lpNorm<1>();
+    last[k] = {bodies[k].velocity, bodies[k].angular_velocity};
+  }
+  return sum;
+}
+
 }  // namespace
 
 SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options) {
@@ -43,8 +55,10 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
   for (SolverBody& body : problem.bodies) body.displacement.setZero(), body.rotation_vector.setZero();
   detail::SequentialIteration iteration(problem, options.substeps);
   std::vector<Motion> begin(problem.bodies.size()), now(problem.bodies.size()),
-      previous(problem.bodies.size());
-  double change = 0;
+      previous(problem.bodies.size()), last(problem.bodies.size());
+  std::vector<detail::MotionWeight> weights;
+  for (const SolverBody& body : problem.bodies) weights.push_back(detail::MotionWeight::of(body));
+  double change = 0, moved = 0;
   SolverReport report;
   for (int s = 0; s < options.substeps; ++s) {
     iteration.refresh();
@@ -59,12 +73,14 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
       iteration.correct();
     }
     begin.swap(now);
-    for (int k = 0; goes_on(options, problem.points.size(), k, change, iteration.normal_load()); ++k) {
+    motion_change(problem.bodies, weights, last);
+    for (int k = 0; goes_on(options, problem.points.size(), k, moved, iteration.normal_load()); ++k) {
       if (detail::remembers(k)) {
         add_momentum(problem.bodies, detail::momentum_of(k), previous);
         iteration.add_momentum(detail::momentum_of(k));
       }
       change = iteration.iteration();
+      moved = motion_change(problem.bodies, weights, last) + iteration.machine_change();
       ++report.iterations;
     }
     iteration.finish();

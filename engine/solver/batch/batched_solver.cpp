@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace drawpoint::engine::detail {
 namespace {
+
+constexpr double last_bit = 0x1p-23;  // of single precision
 
 Eigen::Vector3d vector(const float (&v)[4]) { return {v[0], v[1], v[2]}; }
 
@@ -25,6 +28,7 @@ SolverReport BatchedSolver::solve(ContactProblem& problem) {
   previous_.resize(problem.bodies.size());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   find_touched();
+  weigh();
   iterations_ = 0;
   run_substep(0);
   const bool standing = stands();
@@ -100,15 +104,43 @@ void BatchedSolver::run_substep(int number) {
   const int most = most_iterations(options_, problem_->points.size());
   const bool hands_over = number + 1 < options_.substeps;
   Iteration this_iteration{substep(), true, false, number == 0};
-  for (int k = 0; goes_on(options_, problem_->points.size(), k, change(), normal_load());
+  const bool watches = most > options_.iterations;
+  if (watches) std::copy_n(batches_.bodies.begin(), watched_.size(), watched_.begin());
+  for (int k = 0; goes_on(options_, problem_->points.size(), k, motion_change_ + machine_change_, normal_load());
        ++k, this_iteration.first = false) {
     this_iteration.last = hands_over && k + 1 == most;
     if (most > 1) add_momentum(k, this_iteration);
     iteration(this_iteration);
+    if (watches) watch();
   }
   if (hands_over && !this_iteration.last)
     each_stage([this](BatchRange range) { end_substep_batches(batches_.arrays(), range); });
   machine_->finish();
+}
+
+void BatchedSolver::weigh() {
+  weights_.resize(problem_->bodies.size());
+  watched_.resize(problem_->bodies.size());
+  each_row([this](int row) { weights_[row] = MotionWeight::of(problem_->bodies[batches_.order().bodies[row]]); });
+}
+
+void BatchedSolver::watch() {
+  const int rows = static_cast<int>(weights_.size());
+  changes_.assign(static_cast<std::size_t>(rows / bodies_per_block + 1), MotionChange());
+  each_row([this](int row) {
+    const BodyRow &now = batches_.bodies[row], before = std::exchange(watched_[row], now);
+    const MotionWeight& weight = weights_[row];
+    float moved = 0, size = 0;
+    for (int i = 0; i < 3; ++i) {
+      moved += weight.mass * std::abs(now.velocity[i] - before.velocity[i]) +
+               weight.turning * std::abs(now.angular_velocity[i] - before.angular_velocity[i]);
+      size += weight.mass * std::abs(now.velocity[i]) + weight.turning * std::abs(now.angular_velocity[i]);
+    }
+    changes_[static_cast<std::size_t>(row / bodies_per_block)] += {moved, size * last_bit};
+  });
+  MotionChange sum;
+  for (const MotionChange& change : changes_) sum += change;
+  motion_change_ = sum.beyond();
 }
 
 // Whether the first substep has left everything as it was: then so will the others. Bodies in free flight do not count,

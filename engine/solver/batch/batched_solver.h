@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/solver/motion_change.h>
 #include <drawpoint/engine/solver/batch/machine_pairs.h>
 #include <drawpoint/engine/solver/batch/pair_batches.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
@@ -54,7 +55,9 @@ class BatchedSolver {
   void store_body(int index);
   SolverReport report();
   float substep() const { return static_cast<float>(problem_->step / options_.substeps); }
-  double change() const { return batches_.change() + machine_change_; }
+  double change() const { return batches_.change() + machine_change_; }  // of impulses
+  void weigh();
+  void watch();  // what the iteration has changed of the motion since it was watched last
   double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
 
   SolverOptions options_;
@@ -62,6 +65,9 @@ class BatchedSolver {
   PairBatches batches_;
   std::vector<BodyRow> travel_;    // by row: ∫ v dt, ∫ ω dt
   std::vector<BodyRow> previous_;  // by row: velocities that momentum goes on from
+  std::vector<MotionWeight> weights_;  // by row
+  std::vector<BodyRow> watched_;       // by row: velocities after the last iteration
+  std::vector<MotionChange> changes_;  // by block of rows
   std::vector<char> touched_;      // by body: in a pair
   std::vector<char> pushed_;       // by body, in the end: by a contact
 
@@ -70,6 +76,7 @@ class BatchedSolver {
   std::optional<MachinePairs> machine_;
   int threads_ = 1;
   int iterations_ = 0;
+  double motion_change_ = 0;  // by the last iteration that was watched [N s]
   double machine_change_ = 0;  // of the machine's pairs in the last iteration
 };
 
