@@ -27,7 +27,7 @@ struct SolverOptions {
   /// needs some five iterations per substep: with one, its bucket loads half as much again
   /// (docs/decisions/0018).
   int iteration_budget = 20000;
-  /// Of Σ λ_n, for what an iteration changes momenta by (motion_change.h). In loading cycles velocities were off by 1 to 3 times what the last iteration
+  /// Of Σ λ_n, for what an iteration changes momenta by (motion_change.h); 0: all that the budget allows. In loading cycles velocities were off by 1 to 3 times what the last iteration
   /// changed (docs/measurements/contact-solving.md): the default solves small problems to the end, 0.02 is enough for a
   /// machine in a large pile.
   double tolerance = 1e-5;
@@ -42,7 +42,7 @@ inline int most_iterations(const SolverOptions& options, std::size_t points) {
 /// `load`, both [N s].
 inline bool goes_on(const SolverOptions& options, std::size_t points, int k, double change, double load) {
   return k < options.iterations ||
-         (k < most_iterations(options, points) && change > options.tolerance * load);
+         (k < most_iterations(options, points) && (change > options.tolerance * load || options.tolerance == 0));
 }
 
 }  // namespace drawpoint::engine

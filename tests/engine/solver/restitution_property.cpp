@@ -104,7 +104,8 @@ TEST_P(RestitutionBy, IsNewtonsWithoutFriction) {
     solve(problem, options());
     const double after =
         problem.points[0].normal.dot(relative_velocity(problem, problem.pairs[0], problem.points[0]));
-    if (approach < -0.05) EXPECT_NEAR(after, -e * approach, 1e-6 * std::abs(approach)) << "trial " << trial;
+    if (approach >= -0.05) continue;
+    EXPECT_NEAR(after, -e * approach, 1e-6 * std::abs(approach)) << "trial " << trial;
   }
 }
 
