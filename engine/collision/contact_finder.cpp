@@ -17,6 +17,7 @@
 namespace drawpoint::engine {
 namespace {
 
+using detail::Placement;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
@@ -172,14 +173,26 @@ class ContactFinder::Impl {
   bool first_touch(const Manifold& m, const RigidMotion& a, const RigidMotion& b, double h, int thread,
                    FirstTouch& touch) {
     touch.manifold = m;
-    return swept_[static_cast<std::size_t>(thread)].find({items_.placed[m.collider_a], a},
-                                                         {items_.placed[m.collider_b], b}, h,
-                                                         pairs_.state(m.slot).contact.feature, touch);
+    const RigidMotion shape_a = of_shape(m.collider_a, a), shape_b = of_shape(m.collider_b, b);
+    const bool meet = swept_[static_cast<std::size_t>(thread)].find(
+        {items_.placed[m.collider_a], shape_a, items_.item[m.collider_a].cylinder},
+        {items_.placed[m.collider_b], shape_b, items_.item[m.collider_b].cylinder}, h,
+        pairs_.state(m.slot).contact.feature, touch);
+    touch.origin_a += a.origin - shape_a.origin, touch.origin_b += b.origin - shape_b.origin;
+    return meet;
   }
 
   bool meets_face(const Manifold& m, int point, const Vector3d& shift) const {
     return detail::meets_face(m, items_.placed[m.collider_a], items_.placed[m.collider_b],
                               pairs_.state(m.slot).contact, point, shift);
+  }
+
+  // A cylinder that turns about its axis stays where it is.
+  RigidMotion of_shape(int id, const RigidMotion& body) const {
+    if (!items_.item[id].cylinder) return body;
+    const Placement& placed = items_.placed[id];
+    const Vector3d axis = placed.R.col(1), &w = body.angular_velocity;
+    return {placed.centre, body.at(placed.centre), w - axis.dot(w) * axis, body.acceleration};
   }
 
   bool with_half_space(const Manifold& m) const {

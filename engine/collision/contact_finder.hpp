@@ -21,8 +21,9 @@
 /// `margin` give points with positive gaps; the least of them is no less than the separation along the
 /// normal, but may exceed the distance of two shapes that do not face each other squarely. On request FCL's narrow
 /// phase gives the axis (ContactFinderOptions::narrow): it is checked, and several times slower
-/// (docs/decisions/0007). Half-spaces have closed forms. Against polyhedra a cylinder is an inscribed
-/// 48-sided prism: at most R(1 − cos(π/48)) = 0.0021 R of it is missing and its normals step by 7.5°.
+/// (docs/decisions/0007). Half-spaces have closed forms. A cylinder's round side meets
+/// polyhedra exactly (round_contact.h); its flat ends, and another cylinder, as an inscribed 48-sided prism, of which at most R(1 − cos(π/48)) =
+/// 0.0021 R is missing.
 ///
 /// Pairs that have hardly moved against each other reuse their manifold, carried along rigidly. A point's gap
 /// then changes with the motion, |Δgap| ≤ m, and so does the true overlap: the deepest reported gap is off by

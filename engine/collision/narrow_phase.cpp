@@ -3,6 +3,7 @@
 #include <drawpoint/engine/base/prefetch.h>
 #include <drawpoint/engine/collision/narrow_phase.h>
 #include <drawpoint/engine/geometry/hull_extremes.h>
+#include <drawpoint/engine/geometry/round_contact.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -146,7 +147,7 @@ struct NarrowPhase::Worker {
     const bool known = entry.limit != PairEntry::at_once;
     if (known && entry.count > 0 && still_stands(a, b, motion_bound, entry, state)) return;
     if (known && entry.count == 0 && still_apart(a, b, motion_bound, entry, state.contact)) return;
-    compute(a, b, motion_bound, entry, state);
+    compute(items, motion_bound, entry, state);
   }
 
   // The plane on A that separated the shapes last time.
@@ -174,8 +175,8 @@ struct NarrowPhase::Worker {
     return true;
   }
 
-  void compute(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
-               PairState& state) {
+  void compute(const Items& items, double motion_bound, PairEntry& entry, PairState& state) {
+    const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
     ++computed;
     const HullPair pair{*a.hull, *b.hull, pose_against(a, b)};
     const AxisQuery query{margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin};
@@ -183,6 +184,7 @@ struct NarrowPhase::Worker {
       convex.find(pair, query, state.contact);
     else if (!find_by_fcl(fcl, entry.a, entry.b, pair, query, convex, state.contact))
       ++refused;
+    round_off(items.item[entry.a].cylinder, items.item[entry.b].cylinder, pair, query.margin, state.contact);
     entry.count = state.contact.count;
     if (entry.count == 0) {
       entry.limit = motion_bound + (state.contact.separation - margin);

@@ -3,6 +3,7 @@
 #include <drawpoint/engine/collision/swept_contact.h>
 
 #include <drawpoint/engine/geometry/hull_extremes.h>
+#include <drawpoint/engine/geometry/round_contact.h>
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/engine/base/constants.hpp>
@@ -105,6 +106,7 @@ bool SweptContact::find(const MovingHull& a, const MovingHull& b, double h, cons
     const double reach = constants::resting_margin + std::max(0.0, axis.separation) +
                          std::max(0.0, axis.separation - at_end);
     contacts_.find_along(pair, {reach, 0, {}, reach}, axis, contact_);
+    round_off(a.cylinder, b.cylinder, pair, reach, contact_);
     Manifold& m = touch.manifold;
     m.normal = (contact_.normal_of_b ? at_b : at_a).R * contact_.normal;
     m.count = contact_.count;

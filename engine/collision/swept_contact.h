@@ -19,6 +19,7 @@ namespace drawpoint::engine::detail {
 struct MovingHull {
   const Placement& placement;
   const RigidMotion& motion;
+  const Cylinder* cylinder = nullptr;  ///< for which the hull stands
 };
 
 class SweptContact {
