@@ -286,7 +286,7 @@ class ContactFinder::Impl {
   detail::PairCache pairs_;
   detail::FclAxes fcl_;
   detail::NarrowPhase narrow_;
-  std::vector<detail::SweptContact> swept_;  // by thread
+  std::vector<detail::SweptContact> swept_;     // by thread
   std::vector<char> leaves_;                    // by move: leaves its box
   std::vector<int> dirty_;                      // have left their boxes, or are half-spaces that were moved
   std::vector<Eigen::AlignedBox3d> new_boxes_;  // theirs

@@ -19,11 +19,11 @@
 /// are looked up again. Narrow phase of two polyhedra: the axis of least overlap (all face normals and the
 /// edge pairs that can matter, exact), the facing polygons clipped to a manifold. Shapes apart by less than
 /// `margin` give points with positive gaps; the least of them is no less than the separation along the
-/// normal, but may exceed the distance of two shapes that do not face each other squarely. On request FCL's narrow
-/// phase gives the axis (ContactFinderOptions::narrow): it is checked, and several times slower
-/// (docs/decisions/0007). Half-spaces have closed forms. A cylinder's round side meets
-/// polyhedra exactly (round_contact.h); its flat ends, and another cylinder, as an inscribed 48-sided prism, of which at most R(1 − cos(π/48)) =
-/// 0.0021 R is missing.
+/// normal, but may exceed the distance of two shapes that do not face each other squarely. On request FCL's
+/// narrow phase gives the axis (ContactFinderOptions::narrow): it is checked, and several times slower
+/// (docs/decisions/0007). Half-spaces have closed forms. A cylinder's round side meets polyhedra exactly
+/// (round_contact.h); its flat ends, and another cylinder, as an inscribed 48-sided prism, of which at most
+/// R(1 − cos(π/48)) = 0.0021 R is missing.
 ///
 /// Pairs that have hardly moved against each other reuse their manifold, carried along rigidly. A point's gap
 /// then changes with the motion, |Δgap| ≤ m, and so does the true overlap: the deepest reported gap is off by
@@ -82,13 +82,13 @@ class ContactFinder {
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
 
-  /// Of a manifold of the last find() whose shapes are polyhedra or cylinders and apart: where they touch first within a
-  /// time h > 0 [s] as their bodies move so; false when they do not. Several threads may call it at once, each with its
-  /// own number, 0 .. threads-1 of the pool.
+  /// Of a manifold of the last find() whose shapes are polyhedra or cylinders and apart: where they touch
+  /// first within a time h > 0 [s] as their bodies move so; false when they do not. Several threads may call
+  /// it at once, each with its own number, 0 .. threads-1 of the pool.
   bool first_touch(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b, double h, int thread,
                    FirstTouch& touch) const;
-  /// Of the same: whether a point of it meets the face that gave its normal, when b goes against a by `shift` [m]: the
-  /// manifold then is that of the touch. Cheaper.
+  /// Of the same: whether a point of it meets the face that gave its normal, when b goes against a by `shift`
+  /// [m]: the manifold then is that of the touch. Cheaper.
   bool meets_face(const Manifold& manifold, int point, const Eigen::Vector3d& shift) const;
   /// Whether one of its shapes is a half-space, whose normal is the same wherever the other goes.
   bool with_half_space(const Manifold& manifold) const;

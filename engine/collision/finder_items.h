@@ -62,8 +62,8 @@ struct Items {
   void add(Item item, const Eigen::Isometry3d& X_WB);
   void remove(int id);
   void place(int id, const Eigen::Isometry3d& X_WB);
-  /// Sets the speculative margin. Its change counts as motion: it brings others nearer, or makes the box too large, by as
-  /// much.
+  /// Sets the speculative margin. Its change counts as motion: it brings others nearer, or makes the box too
+  /// large, by as much.
   void extend(int id, double to);
   Eigen::AlignedBox3d box(int id) const;  ///< tight, in the world
   Plane plane(int id) const;              ///< in the world

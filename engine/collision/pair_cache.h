@@ -44,9 +44,7 @@ class PairCache {
   std::vector<PairEntry>& entries() { return entries_; }
   const std::vector<PairEntry>& entries() const { return entries_; }
   PairState& state(const PairEntry& entry) { return states_[static_cast<std::size_t>(entry.slot)]; }
-  const PairState& state(const PairEntry& entry) const {
-    return state(entry.slot);
-  }
+  const PairState& state(const PairEntry& entry) const { return state(entry.slot); }
   const PairState& state(int slot) const { return states_[static_cast<std::size_t>(slot)]; }
 
   const Inactive& inactive() const { return inactive_; }

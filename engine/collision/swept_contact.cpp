@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-
 // The turn by 2 atan(|v|/2) about v: that by |v| but for |v|³/12, without a sine.
 Eigen::Matrix3d turn_of(const Vector3d& v) {
   const Vector3d c = 0.5 * v;
@@ -57,13 +56,15 @@ double bend(const MovingHull& hull, double h) {
 double most_way(const MovingHull& a, const MovingHull& b, double h) {
   const RigidMotion &u = a.motion, &v = b.motion;
   const double size = std::min(a.placement.hull->radius, b.placement.hull->radius);
-  const Vector3d &at = a.placement.hull->radius < b.placement.hull->radius ? a.placement.centre : b.placement.centre;
+  const Vector3d& at =
+      a.placement.hull->radius < b.placement.hull->radius ? a.placement.centre : b.placement.centre;
   return h * ((v.at(at) - u.at(at)).norm() + size * (v.angular_velocity - u.angular_velocity).norm() +
               0.5 * h * (v.acceleration - u.acceleration).norm());
 }
 
-// The share of an interval, from 0, up to which a distance stays above 0 that is `now` > 0 and `then` at its ends and below the straight line
-// between them by no more than a parabola of this height; above 1 when it always does.
+// The share of an interval, from 0, up to which a distance stays above 0 that is `now` > 0 and `then` at its
+// ends and below the straight line between them by no more than a parabola of this height; above 1 when it
+// always does.
 double first_share(double now, double then, double height) {
   const double slope = then - now - 4 * height, square = slope * slope - 16 * height * now;
   if (slope >= 0 || square < 0) return 2;
@@ -103,8 +104,8 @@ bool SweptContact::find(const MovingHull& a, const MovingHull& b, double h, cons
       continue;
     }
     // Points that may come to bear in what is left of the step belong to the contact too.
-    const double reach = constants::resting_margin + std::max(0.0, axis.separation) +
-                         std::max(0.0, axis.separation - at_end);
+    const double reach =
+        constants::resting_margin + std::max(0.0, axis.separation) + std::max(0.0, axis.separation - at_end);
     contacts_.find_along(pair, {reach, 0, {}, reach}, axis, contact_);
     round_off(a.cylinder, b.cylinder, pair, reach, contact_);
     Manifold& m = touch.manifold;
@@ -136,7 +137,8 @@ bool meets_face(const Manifold& m, const Placement& a, const Placement& b, const
   const ManifoldPoint& p = m.points[static_cast<std::size_t>(point)];
   const double closing = -m.normal.dot(shift);
   if (closing < p.gap) return false;
-  const Vector3d other = p.position + 0.5 * p.gap * outward + p.gap / closing * (on_a ? shift : Vector3d(-shift));
+  const Vector3d other =
+      p.position + 0.5 * p.gap * outward + p.gap / closing * (on_a ? shift : Vector3d(-shift));
   const Vector3d local = reference.R.transpose() * (other - reference.p);
   for (const HullCorner& corner : reference.hull->corners(face))
     if (corner.outward.dot(local) > corner.offset) return false;

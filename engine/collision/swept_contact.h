@@ -9,10 +9,10 @@
 
 /// Whether two polyhedra that are apart touch while each goes on with its motion, and where.
 ///
-/// Conservative advancement (Mirtich 1996) by chords: along an axis that separates the shapes now, their separation at the end
-/// of the step is computed too. In between it lies below the straight line by no more than what turning and acceleration bend, so it
-/// is above zero up to a time at which the axis is sought anew, or for good. Two or three searches do. Touching is a separation
-/// below constants::touching.
+/// Conservative advancement (Mirtich 1996) by chords: along an axis that separates the shapes now, their
+/// separation at the end of the step is computed too. In between it lies below the straight line by no more
+/// than what turning and acceleration bend, so it is above zero up to a time at which the axis is sought
+/// anew, or for good. Two or three searches do. Touching is a separation below constants::touching.
 namespace drawpoint::engine::detail {
 
 /// A body's collider: where it stands and how it moves.
@@ -37,8 +37,8 @@ class SweptContact {
   ConvexContact contact_;
 };
 
-/// Whether a point of the pair's contact meets the face that gave the normal, when b goes against a by `shift` [m] in a step: then the contact
-/// is where it will be.
+/// Whether a point of the pair's contact meets the face that gave the normal, when b goes against a by
+/// `shift` [m] in a step: then the contact is where it will be.
 bool meets_face(const Manifold& m, const Placement& a, const Placement& b, const ConvexContact& contact,
                 int point, const Eigen::Vector3d& shift);
 

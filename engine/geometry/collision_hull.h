@@ -54,8 +54,8 @@ struct CollisionHull {
   std::vector<double> offsets;                              ///< face plane: normal·x = offset
   std::vector<HullEdge> edges;
   Eigen::ArrayXd x, y, z;  ///< vertices, padded to a multiple of four by repeating the last
-  /// For bounds (hull_extremes.h), a row per face or edge, padded by zeros to a multiple of `padding`. Faces: normal and
-  /// offset. Edges: start, normals of left and right, beyond_left, beyond_right.
+  /// For bounds (hull_extremes.h), a row per face or edge, padded by zeros to a multiple of `padding`. Faces:
+  /// normal and offset. Edges: start, normals of left and right, beyond_left, beyond_right.
   Eigen::ArrayXXf face_planes, edge_frames;
   Eigen::Vector3d centre;    ///< mean of the vertices
   double radius;             ///< of the sphere about the centre

@@ -14,15 +14,17 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t line_group = 0x7e, side_group = 0xfe;
 constexpr double most_along_axis = 0.99;  // of a face's normal: beyond, it meets a flat end
-constexpr double least_facing = 0.99;     // of a face that may give the normal: a prism's normals are off by 3.75°
-constexpr double one_normal = 0.02;       // [rad] within which an edge's points share the normal of the nearest
+constexpr double least_facing =
+    0.99;  // of a face that may give the normal: a prism's normals are off by 3.75°
+constexpr double one_normal = 0.02;  // [rad] within which an edge's points share the normal of the nearest
 
 // The polyhedron as the cylinder sees it, and how a point of each frame goes into the contact.
 struct View {
   View(bool is_a, const HullPair& p)
       : cylinder_is_a(is_a), other(is_a ? p.b : p.a), X_CP(is_a ? p.X_AB : p.X_AB.inverse()) {}
 
-  void add(const Vector3d& on_cylinder, const Vector3d& on_other, std::uint32_t feature, ConvexContact& contact) const {
+  void add(const Vector3d& on_cylinder, const Vector3d& on_other, std::uint32_t feature,
+           ConvexContact& contact) const {
     Anchors& p = contact.points[static_cast<std::size_t>(contact.count++)];
     p.on_a = cylinder_is_a ? on_cylinder : on_other;
     p.on_b = cylinder_is_a ? on_other : on_cylinder;
@@ -55,7 +57,8 @@ Span over_face(const CollisionHull& hull, int face, const Vector3d& start, const
 }
 
 // The cylinder's line next to a face of the other. False when none of it is over the face.
-bool line_on_face(const Cylinder& cylinder, const View& view, int face, double margin, ConvexContact& contact) {
+bool line_on_face(const Cylinder& cylinder, const View& view, int face, double margin,
+                  ConvexContact& contact) {
   const CollisionHull& hull = view.other;
   const Vector3d n = view.X_CP.linear() * hull.normals[face];
   const Vector3d across(n.x(), 0, n.z());
@@ -98,7 +101,8 @@ void edges_on_side(const Cylinder& cylinder, const View& view, double margin, Co
     const Vector3d p = view.X_CP * view.on_other(contact.points[static_cast<std::size_t>(k)]);
     if (std::abs(p.y()) > cylinder.half_width + constants::touching) continue;
     radial[static_cast<std::size_t>(k)] = Vector3d(p.x(), 0, p.z());
-    if (const double r = radial[static_cast<std::size_t>(k)].norm(); r > 0 && r < least) least = r, nearest = k;
+    if (const double r = radial[static_cast<std::size_t>(k)].norm(); r > 0 && r < least)
+      least = r, nearest = k;
   }
   if (nearest < 0 || least - cylinder.radius > margin) return;
   const Vector3d outward = radial[static_cast<std::size_t>(nearest)] / least;
@@ -126,11 +130,14 @@ void round_contact(const Cylinder& cylinder, bool cylinder_is_a, const HullPair&
   if (contact.count == 0) return;
   const View view(cylinder_is_a, pair);
   const Vector3d normal_in_a = contact.normal_of_b ? pair.X_AB.linear() * contact.normal : contact.normal;
-  const Vector3d normal = cylinder_is_a ? normal_in_a : Vector3d(pair.X_AB.linear().transpose() * normal_in_a);
+  const Vector3d normal =
+      cylinder_is_a ? normal_in_a : Vector3d(pair.X_AB.linear().transpose() * normal_in_a);
   if (std::abs(normal.y()) > most_along_axis) return;
   const Vector3d towards = view.X_CP.linear().transpose() * (cylinder_is_a ? Vector3d(-normal) : normal);
   const int face = facing(view.other, towards);
-  if (view.other.normals[face].dot(towards) > least_facing && line_on_face(cylinder, view, face, margin, contact)) return;
+  if (view.other.normals[face].dot(towards) > least_facing &&
+      line_on_face(cylinder, view, face, margin, contact))
+    return;
   edges_on_side(cylinder, view, margin, contact);
 }
 

@@ -9,7 +9,7 @@
 namespace drawpoint::engine::machine {
 namespace {
 
-constexpr double flow_turn = 0.05;    // [rad]; an oscillation loses x⁶/72 of its energy in a step of x radians
+constexpr double flow_turn = 0.05;  // [rad]; an oscillation loses x⁶/72 of its energy in a step of x radians
 constexpr double least_turn = 0.005;  // [rad]; a step of the first order adds x² of it
 constexpr int most_steps = 200;       // of the flow in a step
 
@@ -37,16 +37,18 @@ bool turns_little(const SimbodyTree& tree, const TreeDynamics& now, double h) {
 TreeMotion straight_motion(const SimbodyTree& tree, const Eigen::VectorXd& acceleration, double h) {
   const Eigen::VectorXd u = view(tree.state.getU());
   SimTK::Vector way;
-  tree.matter.multiplyByN(tree.state, false, to_simbody(Eigen::VectorXd(h * (u + 0.5 * h * acceleration))), way);
+  tree.matter.multiplyByN(tree.state, false, to_simbody(Eigen::VectorXd(h * (u + 0.5 * h * acceleration))),
+                          way);
   return {tree.state.getQ() + way, u + h * acceleration};
 }
 
 }  // namespace
 
-Eigen::VectorXd TreeDynamics::bias_under(const SimbodyTree& tree, const SimTK::State& state, const SimTK::Vector& joints,
-                                         const BodyForces& loads) {
+Eigen::VectorXd TreeDynamics::bias_under(const SimbodyTree& tree, const SimTK::State& state,
+                                         const SimTK::Vector& joints, const BodyForces& loads) {
   SimTK::Vector residual;
-  tree.matter.calcResidualForceIgnoringConstraints(state, joints, loads, SimTK::Vector(state.getNU(), 0.0), residual);
+  tree.matter.calcResidualForceIgnoringConstraints(state, joints, loads, SimTK::Vector(state.getNU(), 0.0),
+                                                   residual);
   return view(residual);
 }
 
@@ -62,7 +64,8 @@ void TreeDynamics::linearise(const SimbodyTree& tree, const SimTK::State& state,
 
 TreeMotion free_motion(const SimbodyTree& tree, const TreeDynamics& now, const BodyForces& loads,
                        const Eigen::VectorXd& force, double h) {
-  if (!force.isZero(0) && turns_little(tree, now, h)) return straight_motion(tree, now.acceleration(force), h);
+  if (!force.isZero(0) && turns_little(tree, now, h))
+    return straight_motion(tree, now.acceleration(force), h);
   const int steps = steps_of(tree, h);
   const double dt = h / steps;
   SimTK::State state = tree.state;
@@ -76,7 +79,8 @@ TreeMotion free_motion(const SimbodyTree& tree, const TreeDynamics& now, const B
     return {state.getQDot(), dynamics.acceleration(force)};
   };
   for (int k = 0; k < steps; ++k) {
-    const Rates r1 = k == 0 ? Rates{tree.state.getQDot(), now.acceleration(force)} : rates_at(motion.q, motion.u);
+    const Rates r1 =
+        k == 0 ? Rates{tree.state.getQDot(), now.acceleration(force)} : rates_at(motion.q, motion.u);
     const Rates r2 = rates_at(motion.q + 0.5 * dt * r1.q, motion.u + 0.5 * dt * r1.u);
     const Rates r3 = rates_at(motion.q + 0.5 * dt * r2.q, motion.u + 0.5 * dt * r2.u);
     const Rates r4 = rates_at(motion.q + dt * r3.q, motion.u + dt * r3.u);

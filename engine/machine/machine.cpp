@@ -118,12 +118,14 @@ void Machine::Simbody::build_rows() {
 
 // What of a generalised force may be expected to go on: not an impact, which outer forces do not match.
 Eigen::VectorXd Machine::Simbody::lasting(const Eigen::VectorXd& force) const {
-  const double own = (dynamics.N.transpose() * force).norm(), outer = (dynamics.N.transpose() * dynamics.bias).norm();
+  const double own = (dynamics.N.transpose() * force).norm(),
+               outer = (dynamics.N.transpose() * dynamics.bias).norm();
   return std::min(1.0, own > 0 ? 2 * outer / own : 1.0) * force;
 }
 
-// The mean of w beyond that of the flow. Substeps change w at their beginnings, which moves farther than a steady change does: where the
-// impulses are those that the flow knew, that is taken off; else gaps are to be closed just as the solver closed them.
+// The mean of w beyond that of the flow. Substeps change w at their beginnings, which moves farther than a
+// steady change does: where the impulses are those that the flow knew, that is taken off; else gaps are to be
+// closed just as the solver closed them.
 Eigen::VectorXd Machine::Simbody::beside_flow(const engine::SuperBodySolution& solution) const {
   const double change = flow_change.norm(),
                unknown = (solution.velocity - super.velocity_before - flow_change).norm();

@@ -27,7 +27,8 @@ struct SimbodyTree {
   void set_velocity(const Eigen::Vector3d& velocity, const std::vector<std::pair<int, double>>& joint_speeds);
   /// One joint's coordinate; the others of its loops follow. Not moved if this throws.
   void set_coordinate(int body, double value);
-  /// To the coordinates `q` moved on by `way`, speeds of all joints over a time, with the speeds `u`. Not moved if this throws.
+  /// To the coordinates `q` moved on by `way`, speeds of all joints over a time, with the speeds `u`. Not
+  /// moved if this throws.
   void move(const Eigen::VectorXd& u, const SimTK::Vector& q, const Eigen::VectorXd& way);
   /// Coordinates and speeds as they once were, not projected. They must close the loops; not moved if not.
   void set_motion(const Eigen::VectorXd& q, const Eigen::VectorXd& u);

@@ -8,9 +8,10 @@
 
 /// What an iteration does to motion, by which its solver decides whether to go on.
 ///
-/// Σ m (|Δv| + r|Δω|) over the bodies, r the radius of gyration. Not the change of the impulses: points that share a load in many ways
-/// hand it to and fro for thousands of iterations without moving anything. Velocities have a last bit: below what it is worth
-/// nothing converges, and a body that goes by at 4 m/s has more of it, in single precision, than a pile at rest.
+/// Σ m (|Δv| + r|Δω|) over the bodies, r the radius of gyration. Not the change of the impulses: points that
+/// share a load in many ways hand it to and fro for thousands of iterations without moving anything.
+/// Velocities have a last bit: below what it is worth nothing converges, and a body that goes by at 4 m/s has
+/// more of it, in single precision, than a pile at rest.
 namespace drawpoint::engine::detail {
 
 /// Mass and mass times radius of gyration of a body, 0 for a fixed one.

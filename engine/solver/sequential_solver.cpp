@@ -38,7 +38,8 @@ void add_momentum(std::vector<SolverBody>& bodies, double share, std::vector<Mot
 }
 
 // Since `last`, which becomes the present motion.
-double motion_change(const std::vector<SolverBody>& bodies, const std::vector<detail::MotionWeight>& weights, std::vector<Motion>& last) {
+double motion_change(const std::vector<SolverBody>& bodies, const std::vector<detail::MotionWeight>& weights,
+                     std::vector<Motion>& last) {
   double sum = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     sum += weights[k].mass * (bodies[k].velocity - last[k].velocity).lpNorm<1>() +

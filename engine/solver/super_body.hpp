@@ -46,7 +46,8 @@ struct SuperBody {
 struct SuperBodySolution {
   Eigen::VectorXd velocity;       ///< w at the end of the step, length r
   Eigen::VectorXd mean_velocity;  ///< over the step: what moves the positions
-  double steady_share = 1;  ///< of a change of w that is the same in all S substeps, what the mean has of it: (1 + 1/S)/2
+  double steady_share =
+      1;  ///< of a change of w that is the same in all S substeps, what the mean has of it: (1 + 1/S)/2
   std::vector<SpatialVector>
       part_impulses;  ///< contact impulse on each part at its origin (moment; force) [N m s; N s]
   std::vector<double> row_impulses;  ///< over the step, in the order of SuperBody::rows

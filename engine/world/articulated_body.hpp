@@ -32,8 +32,8 @@ class ArticulatedBody {
   virtual int parts() const = 0;
   virtual Eigen::Isometry3d part_pose(int part) const = 0;  ///< X_WP
 
-  /// How the body moves of a machine that contacts do not move, in the coming step; nullopt for one that they do. The first then has
-  /// a single part and no super-body.
+  /// How the body moves of a machine that contacts do not move, in the coming step; nullopt for one that they
+  /// do. The first then has a single part and no super-body.
   virtual std::optional<PrescribedMotion> prescribed() const { return std::nullopt; }
 
   /// The super-body at the present position for a step of h [s] under the gravity vector [m/s²]. Valid until

@@ -84,18 +84,20 @@ bool ContactAssembly::has_prescribed(const Manifold& m) const {
                                  scene_.surface(m.collider_b).owner == Owner::part);
 }
 
-// A pair's own body on the machine: its place is the middle of the pair's points, which it takes along their arc, so that what is carried
-// round is pushed to the middle all the time.
+// A pair's own body on the machine: its place is the middle of the pair's points, which it takes along their
+// arc, so that what is carried round is pushed to the middle all the time.
 void ContactAssembly::fill_prescribed(const ContactPair& pair, int body) {
   ContactPoint* const points = &problem_.points[static_cast<std::size_t>(pair.first)];
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int k = 0; k < pair.count; ++k) middle += points[k].position / pair.count;
-  for (int k = 0; k < pair.count; ++k) (pair.a == body ? points[k].arm_a : points[k].arm_b) = points[k].position - middle;
+  for (int k = 0; k < pair.count; ++k)
+    (pair.a == body ? points[k].arm_a : points[k].arm_b) = points[k].position - middle;
   const PrescribedMotion& motion = *scene_.prescribed();
   SolverBody& moved = problem_.bodies[static_cast<std::size_t>(body)];
   moved = SolverBody();
   // A third of the step on: then the way of the step is right to the third order.
-  const Eigen::Vector3d later = middle + problem_.step / 3 * motion.rigid.angular_velocity.cross(middle - motion.rigid.origin);
+  const Eigen::Vector3d later =
+      middle + problem_.step / 3 * motion.rigid.angular_velocity.cross(middle - motion.rigid.origin);
   moved.external_velocity_change = problem_.step * motion.acceleration_at(later);
   // In a substep it goes as fast as in the middle of it.
   moved.velocity = motion.rigid.at(middle) - 0.5 / options_.solver.substeps * moved.external_velocity_change;

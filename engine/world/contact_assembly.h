@@ -45,7 +45,7 @@ class ContactAssembly {
     int pair = 0, point = 0, prescribed = 0;  // the last: bodies of a machine that contacts do not move
   };
 
-  void fill_contacts(int count);  // of so many manifolds
+  void fill_contacts(int count);            // of so many manifolds
   void count_joining(int first, int last);  // of these manifolds, one block
   void fill_pairs(int first, int last);
   void fill_pair(int manifold, ContactPlace place);

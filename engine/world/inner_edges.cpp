@@ -25,11 +25,12 @@ struct Depth {
 };
 
 double height(const ConvexPolyhedron& shape, std::size_t face, const Vector3d& p) {
-  return shape.face_normals()[face].dot(p - shape.vertices()[static_cast<std::size_t>(shape.faces()[face].front())]);
+  return shape.face_normals()[face].dot(
+      p - shape.vertices()[static_cast<std::size_t>(shape.faces()[face].front())]);
 }
 
-// How deep the shape holds the point, which may lie outside by constants::seam_step, under the faces that do not look back
-// along `from`. Nothing of cylinders.
+// How deep the shape holds the point, which may lie outside by constants::seam_step, under the faces that do
+// not look back along `from`. Nothing of cylinders.
 std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vector3d& from) {
   const Vector3d p = solid.X_WS.inverse() * point, along = solid.X_WS.linear().transpose() * from;
   std::optional<Depth> least;
@@ -41,7 +42,8 @@ std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vect
       const double depth = -height(*shape, face, p);
       if (depth < -constants::seam_step) return std::nullopt;
       if (shape->face_normals()[face].dot(along) < -0.5) continue;  // it is behind the seam
-      if (!least || depth < least->depth) least = Depth{depth, solid.X_WS.linear() * shape->face_normals()[face]};
+      if (!least || depth < least->depth)
+        least = Depth{depth, solid.X_WS.linear() * shape->face_normals()[face]};
     }
   }
   return least;
@@ -64,7 +66,8 @@ void InnerEdges::leave_out(const Scene& scene, int manifolds, JoiningPoints& joi
   if (!scene.has_inner_edges()) return;
   list(scene, manifolds, joining);
   for (auto first = contacts_.begin(); first != contacts_.end();) {
-    const auto last = std::find_if(first, contacts_.end(), [&](const Contact& c) { return !c.same_body(*first); });
+    const auto last =
+        std::find_if(first, contacts_.end(), [&](const Contact& c) { return !c.same_body(*first); });
     for (auto contact = first; contact != last; ++contact)
       for (auto by = first; by != last; ++by)
         if (by != contact) joining.leave_out(contact->manifold, covered(scene, joining, *contact, *by));
@@ -83,7 +86,8 @@ void InnerEdges::list(const Scene& scene, int manifolds, const JoiningPoints& jo
     for (const bool on_a : {true, false}) {
       const Surface& surface = on_a ? a : b;
       if (surface.owner == Owner::rock) continue;
-      contacts_.push_back({on_a ? m.collider_b : m.collider_a, surface.owner == Owner::part ? surface.index : -1, k, on_a});
+      contacts_.push_back(
+          {on_a ? m.collider_b : m.collider_a, surface.owner == Owner::part ? surface.index : -1, k, on_a});
     }
   }
   std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {

@@ -44,13 +44,14 @@ Vector3d shift(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, d
 }
 
 // How near b can come to a along the unit vector n in a time h at any point within `size` of this one.
-double most_way(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n, double size,
-                double h) {
+double most_way(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n,
+                double size, double h) {
   return h * size * (b.angular_velocity - a.angular_velocity).cross(n).norm() - n.dot(shift(a, b, at, h));
 }
 
 // By how much b comes nearer to a at this point, by substeps, whose first has all of what accelerates it.
-double most_closing(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n, double h) {
+double most_closing(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n,
+                    double h) {
   return -h * n.dot(b.at(at) - a.at(at) + h * (b.acceleration - a.acceleration));
 }
 
@@ -79,35 +80,36 @@ void JoiningPoints::find_block(const Step& step, int first, int last, int thread
   for (int k = first; k < last; ++k) {
     const auto place = static_cast<std::size_t>(k);
     const std::size_t before = touches.size();
-    if (of_rock(step.scene, (*manifolds_)[place])) deepest = std::max(deepest, -least_gap((*manifolds_)[place]));
+    if (of_rock(step.scene, (*manifolds_)[place]))
+      deepest = std::max(deepest, -least_gap((*manifolds_)[place]));
     joins_[place] = joining(step, (*manifolds_)[place], thread, touches);
     touch_[place] = touches.size() > before ? static_cast<int>(before) : -1;
   }
 }
 
-double JoiningPoints::deepest_overlap() const {
-  return *std::max_element(deepest_.begin(), deepest_.end());
-}
+double JoiningPoints::deepest_overlap() const { return *std::max_element(deepest_.begin(), deepest_.end()); }
 
 unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
                                 std::vector<FirstTouch>& touches) const {
   constexpr double margin = constants::resting_margin;
   const double h = step.h, least = least_gap(m);
   const unsigned near = points_that(m, [](const ManifoldPoint& p) { return p.gap <= margin; });
-  if (least <= 0 && near + 1 == 1u << m.count && !step.scene.prescribed()) return near;  // most: no need to look at the bodies
+  if (least <= 0 && near + 1 == 1u << m.count && !step.scene.prescribed())
+    return near;  // most: no need to look at the bodies
   const Surface &surface_a = step.scene.surface(m.collider_a), &surface_b = step.scene.surface(m.collider_b);
   if (step.scene.prescribed() && surface_a.owner != Owner::rock && surface_b.owner != Owner::rock)
     return 0;  // neither gives way
   const RigidMotion a = step.bodies.motion(surface_a), b = step.bodies.motion(surface_b);
   const double reach = margin + step.scene.extra_reach_of(surface_a) + step.scene.extra_reach_of(surface_b);
   const unsigned within = near | points_that(m, [&](const ManifoldPoint& p) {
-    return p.gap <= reach + 2 * h * (b.at(p.position) - a.at(p.position)).norm();
-  });
+                            return p.gap <= reach + 2 * h * (b.at(p.position) - a.at(p.position)).norm();
+                          });
   if (within == 0 || least <= 0 || step.scene.finder().with_half_space(m)) return within;
   const double size = size_of(surface_a, surface_b);
   if (most_way(a, b, m.points[0].position, m.normal, size, h) < least) return within;
   for (int k = 0; k < m.count; ++k)
-    if (within >> k & 1u && step.scene.finder().meets_face(m, k, shift(a, b, m.points[static_cast<std::size_t>(k)].position, h)))
+    if (within >> k & 1u &&
+        step.scene.finder().meets_face(m, k, shift(a, b, m.points[static_cast<std::size_t>(k)].position, h)))
       return within;
   touches.emplace_back();
   FirstTouch& touch = touches.back();

@@ -10,12 +10,12 @@
 
 /// Which points of the step's manifolds may come to bear, and join its problem.
 ///
-/// Of shapes that overlap, and of a half-space: what overlaps or is within 1 mm, and what would close in at twice its
-/// present speed. Of shapes that are apart, points join in two cases. Their own motion brings them together within the
-/// step: then with normal and places of their first touch, since the nearest features of now may be others
-/// than those that meet, and a normal of theirs would stop what passes by. Or they are within 1 mm and their motion does not
-/// close that along the normal: a push may, and the normal holds. Where an impact carries a body farther than its motion says
-/// (extra_reach.h) all within that reach join. Cost: some 2 µs for a pair that is swept, some ns for another.
+/// What overlaps or is within 1 mm, what would close in at twice its present speed, and what an impact may
+/// carry that far (extra_reach.h). The nearest features of now need not be those that meet, and a normal of
+/// theirs would stop what passes by. So shapes that are apart and whose own motion closes the gap along the
+/// normal are swept: if they meet, the points are those of their first touch; if they pass, the gaps become
+/// what their motion closes, and only a push beyond it is stopped. A half-space has one normal. Cost: some
+/// 2 µs for a pair that is swept, some ns for another.
 namespace drawpoint::engine::detail {
 
 class JoiningPoints {
@@ -31,10 +31,11 @@ class JoiningPoints {
     const FirstTouch* touch = this->touch(k);
     return touch ? touch->manifold : (*manifolds_)[static_cast<std::size_t>(k)];
   }
-  /// Of a pair that comes together within the step; else nullptr.
+  /// Of a pair that was swept; else nullptr.
   const FirstTouch* touch(int k) const {
     const int place = touch_[static_cast<std::size_t>(k)];
-    return place < 0 ? nullptr : &touches_[static_cast<std::size_t>(k / block)][static_cast<std::size_t>(place)];
+    return place < 0 ? nullptr
+                     : &touches_[static_cast<std::size_t>(k / block)][static_cast<std::size_t>(place)];
   }
   /// Of a rock in anything, at the start of the step [m].
   double deepest_overlap() const;
@@ -51,8 +52,8 @@ class JoiningPoints {
   unsigned joining(const Step& step, const Manifold& m, int thread, std::vector<FirstTouch>& touches) const;
 
   const std::vector<Manifold>* manifolds_ = nullptr;
-  std::vector<unsigned> joins_;                  // by manifold
-  std::vector<int> touch_;                       // by manifold: place among the touches of its block, or -1
+  std::vector<unsigned> joins_;                   // by manifold
+  std::vector<int> touch_;                        // by manifold: place among the touches of its block, or -1
   std::vector<std::vector<FirstTouch>> touches_;  // by block of manifolds
   std::vector<double> deepest_;                   // overlap by block of manifolds [m]
 };

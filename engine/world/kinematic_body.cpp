@@ -24,8 +24,9 @@ constexpr double most_acceleration = 1e6;  // [m/s²], [rad/s²]
 
 void KinematicBody::set_acceleration(const Eigen::Vector3d& acceleration,
                                      const Eigen::Vector3d& angular_acceleration) {
-  for (const auto& [name, value, unit] : {std::tuple("acceleration", acceleration.norm(), "m/s2"),
-                                          std::tuple("angular acceleration", angular_acceleration.norm(), "rad/s2")})
+  for (const auto& [name, value, unit] :
+       {std::tuple("acceleration", acceleration.norm(), "m/s2"),
+        std::tuple("angular acceleration", angular_acceleration.norm(), "rad/s2")})
     detail::require(std::string("engine::KinematicBody::set_acceleration: the ") + name, value,
                     {0, most_acceleration, unit});
   acceleration_ = acceleration;
@@ -33,7 +34,8 @@ void KinematicBody::set_acceleration(const Eigen::Vector3d& acceleration,
 }
 
 std::optional<PrescribedMotion> KinematicBody::prescribed() const {
-  return PrescribedMotion{{pose_.translation(), velocity_, angular_velocity_, acceleration_}, angular_acceleration_};
+  return PrescribedMotion{{pose_.translation(), velocity_, angular_velocity_, acceleration_},
+                          angular_acceleration_};
 }
 
 // No freedom: its parts answer nothing.

@@ -7,9 +7,10 @@
 
 /// A body that moves as it is told whatever pushes it, and feels what does: a blade, a gate, a shaken floor.
 ///
-/// To the solver each of its contacts is a body of its own that no impulse moves: the point of the body that is there, with its velocity
-/// and, within the step, its acceleration, that towards the axis of its turning included. Its position follows velocity and
-/// acceleration, turns by the exponential map: exact for a steady motion. World frame, SI units.
+/// To the solver each of its contacts is a body of its own that no impulse moves: the point of the body that
+/// is there, with its velocity and, within the step, its acceleration, that towards the axis of its turning
+/// included. Its position follows velocity and acceleration, turns by the exponential map: exact for a steady
+/// motion. World frame, SI units.
 namespace drawpoint::engine {
 
 class KinematicBody final : public ArticulatedBody {
@@ -21,9 +22,9 @@ class KinematicBody final : public ArticulatedBody {
   /// more than 1000 m/s or 10 000 rad/s and for what is not finite.
   void set_velocity(const Eigen::Vector3d& velocity,
                     const Eigen::Vector3d& angular_velocity = Eigen::Vector3d::Zero());
-  /// From the next step on, until it is set again [m/s²], [rad/s²]: velocities grow by so much within the steps. What is carried along
-  /// then feels a steady push, where a velocity that is set anew in each step strikes in each. Throws std::invalid_argument for more
-  /// than 1e6 and for what is not finite.
+  /// From the next step on, until it is set again [m/s²], [rad/s²]: velocities grow by so much within the
+  /// steps. What is carried along then feels a steady push, where a velocity that is set anew in each step
+  /// strikes in each. Throws std::invalid_argument for more than 1e6 and for what is not finite.
   void set_acceleration(const Eigen::Vector3d& acceleration,
                         const Eigen::Vector3d& angular_acceleration = Eigen::Vector3d::Zero());
 

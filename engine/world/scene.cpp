@@ -199,7 +199,10 @@ double Scene::speculative_margin_of(const Surface& surface, double h) const {
     speed = rock.velocity.norm() + rock.angular_velocity.norm() * surface.radius + fall;
   } else if (surface.owner == Owner::part) {
     const RigidMotion motion = motion_of(surface);
-    const double gain = prescribed_ ? h * (motion.acceleration.norm() + surface.radius * prescribed_->angular_acceleration.norm()) : fall;
+    const double gain =
+        prescribed_
+            ? h * (motion.acceleration.norm() + surface.radius * prescribed_->angular_acceleration.norm())
+            : fall;
     speed = motion.velocity.norm() + motion.angular_velocity.norm() * surface.radius + gain;
   }
   const double way = h * speed + extra_reach_of(surface);

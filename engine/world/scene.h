@@ -58,8 +58,8 @@ class Scene {
   /// Between two colliders that do not move nothing is searched.
   void set_moves(int rock, bool moves);
 
-  /// The machine's super-body for the coming step of h [s]; nullptr without a machine that contacts move. Stays as it is until
-  /// the next call, whatever becomes of the machine.
+  /// The machine's super-body for the coming step of h [s]; nullptr without a machine that contacts move.
+  /// Stays as it is until the next call, whatever becomes of the machine.
   const SuperBody* linearise(double h);
 
   std::vector<Rock>& rocks() { return rocks_; }

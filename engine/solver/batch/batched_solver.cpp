@@ -106,7 +106,8 @@ void BatchedSolver::run_substep(int number) {
   Iteration this_iteration{substep(), true, false, number == 0};
   const bool watches = most > options_.iterations;
   if (watches) std::copy_n(batches_.bodies.begin(), watched_.size(), watched_.begin());
-  for (int k = 0; goes_on(options_, problem_->points.size(), k, motion_change_ + machine_change_, normal_load());
+  for (int k = 0;
+       goes_on(options_, problem_->points.size(), k, motion_change_ + machine_change_, normal_load());
        ++k, this_iteration.first = false) {
     this_iteration.last = hands_over && k + 1 == most;
     if (most > 1) add_momentum(k, this_iteration);
@@ -121,7 +122,8 @@ void BatchedSolver::run_substep(int number) {
 void BatchedSolver::weigh() {
   weights_.resize(problem_->bodies.size());
   watched_.resize(problem_->bodies.size());
-  each_row([this](int row) { weights_[row] = MotionWeight::of(problem_->bodies[batches_.order().bodies[row]]); });
+  each_row(
+      [this](int row) { weights_[row] = MotionWeight::of(problem_->bodies[batches_.order().bodies[row]]); });
 }
 
 void BatchedSolver::watch() {
@@ -143,8 +145,8 @@ void BatchedSolver::watch() {
   motion_change_ = sum.beyond();
 }
 
-// Whether the first substep has left everything as it was: then so will the others. Bodies in free flight do not count,
-// and a machine that touches nothing that moves is on its own: the pile stands while it drives by.
+// Whether the first substep has left everything as it was: then so will the others. Bodies in free flight do
+// not count, and a machine that touches nothing that moves is on its own: the pile stands while it drives by.
 bool BatchedSolver::stands() const {
   if (options_.substeps == 1) return false;
   const bool alone = !machine_->touches_bodies();

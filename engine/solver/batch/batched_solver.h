@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/engine/solver/motion_change.h>
 #include <drawpoint/engine/solver/batch/machine_pairs.h>
 #include <drawpoint/engine/solver/batch/pair_batches.h>
+#include <drawpoint/engine/solver/motion_change.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <drawpoint/engine/solver/solver_options.hpp>
@@ -63,20 +63,20 @@ class BatchedSolver {
   SolverOptions options_;
   std::shared_ptr<const ThreadPool> pool_;
   PairBatches batches_;
-  std::vector<BodyRow> travel_;    // by row: ∫ v dt, ∫ ω dt
-  std::vector<BodyRow> previous_;  // by row: velocities that momentum goes on from
+  std::vector<BodyRow> travel_;        // by row: ∫ v dt, ∫ ω dt
+  std::vector<BodyRow> previous_;      // by row: velocities that momentum goes on from
   std::vector<MotionWeight> weights_;  // by row
   std::vector<BodyRow> watched_;       // by row: velocities after the last iteration
   std::vector<MotionChange> changes_;  // by block of rows
-  std::vector<char> touched_;      // by body: in a pair
-  std::vector<char> pushed_;       // by body, in the end: by a contact
+  std::vector<char> touched_;          // by body: in a pair
+  std::vector<char> pushed_;           // by body, in the end: by a contact
 
   // During a solve.
   ContactProblem* problem_ = nullptr;
   std::optional<MachinePairs> machine_;
   int threads_ = 1;
   int iterations_ = 0;
-  double motion_change_ = 0;  // by the last iteration that was watched [N s]
+  double motion_change_ = 0;   // by the last iteration that was watched [N s]
   double machine_change_ = 0;  // of the machine's pairs in the last iteration
 };
 

@@ -79,13 +79,15 @@ Gyration gyrate(double h, double seconds, double spin) {
   const Vector3d gravity(0, 0, -g);
   const double before = machine.energy(gravity);
   run(world, h, seconds);
-  return {machine.coordinate(0) - rate * seconds, machine.coordinate(1), machine.energy(gravity) / before - 1};
+  return {machine.coordinate(0) - rate * seconds, machine.coordinate(1),
+          machine.energy(gravity) / before - 1};
 }
 
 }  // namespace
 
-// A level gyroscope precesses steadily at m g l/(C spin), whatever its other moments. 50 rad/s turn by half a radian in a step of 10 ms.
-// The fourth-order flow in steps of 0.05 rad leaves 0.05⁴/120 of a rate, 5e-8: an angle of 2 rad is right to 1e-6, energy too.
+// A level gyroscope precesses steadily at m g l/(C spin), whatever its other moments. 50 rad/s turn by half a
+// radian in a step of 10 ms. The fourth-order flow in steps of 0.05 rad leaves 0.05⁴/120 of a rate, 5e-8: an
+// angle of 2 rad is right to 1e-6, energy too.
 TEST(Gyroscope, PrecessesAtTheExactRate) {
   for (const double h : {0.001, 0.01})
     for (const double spin : {30.0, 50.0, 200.0}) {
@@ -96,8 +98,8 @@ TEST(Gyroscope, PrecessesAtTheExactRate) {
     }
 }
 
-// A slender body thrown with 200 rad/s about a skew axis: no force acts, so momentum and energy stay. The flow loses x⁶/72 of its
-// energy per step of x = 0.05 rad: 2e-10, 8e3 of them in 2 s of 200 rad/s.
+// A slender body thrown with 200 rad/s about a skew axis: no force acts, so momentum and energy stay. The
+// flow loses x⁶/72 of its energy per step of x = 0.05 rad: 2e-10, 8e3 of them in 2 s of 200 rad/s.
 TEST(FreeBody, KeepsMomentumAndEnergyAtAnySpeed) {
   for (const double h : {0.001, 0.005})
     for (const Vector3d& inertia : {Vector3d(0.002, 0.1, 0.1), Vector3d(0.03, 0.06, 0.08)}) {

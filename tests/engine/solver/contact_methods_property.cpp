@@ -105,8 +105,8 @@ void expect_one_solution(const Heap& heap) {
 
 TEST(ContactMethods, ReachOneSolution) { expect_one_solution(Heap()); }
 
-// 0.1 m of overlap would be taken back at 4 · 0.1 m / 5 ms · 1/9 = 9 m/s; the law allows `push_out_speed`. The bound is
-// reached where the reference's deepest points press at all.
+// 0.1 m of overlap would be taken back at 4 · 0.1 m / 5 ms · 1/9 = 9 m/s; the law allows `push_out_speed`.
+// The bound is reached where the reference's deepest points press at all.
 TEST(ContactMethods, ReachOneSolutionWhereOverlapsAreDeep) {
   Heap heap;
   const ContactPair& deep = heap.problem.pairs[heap.problem.pairs.size() - 2];  // the last two boxes

@@ -78,9 +78,10 @@ class RestitutionBy : public testing::TestWithParam<Method> {
 
 }  // namespace
 
-// Any chain, friction and restitution. The stage of impacts solves to 1e-12 and lets 1e-9 of what it turns over pass. The
-// step that follows has contacts that open or rest: 1e-6; in single precision it rounds a velocity three times in each of 16
-// substeps by 6e-8 of the fastest, which may be ten times what carries the energy, as masses are 1 to 100: 1e-4.
+// Any chain, friction and restitution. The stage of impacts solves to 1e-12 and lets 1e-9 of what it turns
+// over pass. The step that follows has contacts that open or rest: 1e-6; in single precision it rounds a
+// velocity three times in each of 16 substeps by 6e-8 of the fastest, which may be ten times what carries the
+// energy, as masses are 1 to 100: 1e-4.
 TEST_P(RestitutionBy, MakesNoEnergy) {
   CounterRandom random(7);
   const double rounded = GetParam() == Method::batched ? 1e-4 : 1e-6;

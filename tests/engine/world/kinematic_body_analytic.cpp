@@ -63,8 +63,9 @@ TEST(KinematicBody, FeelsAWeight) {
   EXPECT_EQ(scene.plate.pose().translation(), Vector3d(0, 0, -0.25));
 }
 
-// Set moving at V, the plate drags the block along: friction works on the way V t, t = V/(μ g), so m V² in all, half of it
-// kinetic, half lost. The end of the slip falls between two steps: an error of at most one step's work, μ m g V h.
+// Set moving at V, the plate drags the block along: friction works on the way V t, t = V/(μ g), so m V² in
+// all, half of it kinetic, half lost. The end of the slip falls between two steps: an error of at most one
+// step's work, μ m g V h.
 TEST(KinematicBody, WorksOnWhatItDrags) {
   WorldOptions options;
   options.step = 1e-3;
@@ -77,8 +78,9 @@ TEST(KinematicBody, WorksOnWhatItDrags) {
   EXPECT_NEAR(scene.world.kinetic_energy(), 0.5 * exact, 1e-2 * exact);
 }
 
-// A box that friction must hold for ever on a turntable: ω² r / (μ g) = 0.51. What the contact's point and the box do in a step differ in the
-// third order, (ω h)³ r/24 = 3e-7 m at 10 ms, 3e-4 m in 10 s in one direction at most.
+// A box that friction must hold for ever on a turntable: ω² r / (μ g) = 0.51. What the contact's point and
+// the box do in a step differ in the third order, (ω h)³ r/24 = 3e-7 m at 10 ms, 3e-4 m in 10 s in one
+// direction at most.
 TEST(KinematicBody, HoldsABoxOnATurntable) {
   for (const double h : {0.01, 0.005}) {
     WorldOptions options;
@@ -96,8 +98,9 @@ TEST(KinematicBody, HoldsABoxOnATurntable) {
   }
 }
 
-// A truck bed that pulls away at 4 m/s² of the 7.8 that friction gives takes its load along. The load has the bed's speed in the middle of a
-// substep, a h/(2 S) = 1.25 mm/s less than at the end of a step; it slips while the start is taken up, one substep, by less than 1e-5 m.
+// A truck bed that pulls away at 4 m/s² of the 7.8 that friction gives takes its load along. The load has the
+// bed's speed in the middle of a substep, a h/(2 S) = 1.25 mm/s less than at the end of a step; it slips
+// while the start is taken up, one substep, by less than 1e-5 m.
 TEST(KinematicBody, CarriesALoadAlongWhenItSpeedsUp) {
   World world({}, one_material({.friction = 0.8, .stiffness = 1e8}));
   KinematicBody bed(at(0, 0, -0.25));
@@ -151,7 +154,10 @@ TEST(KinematicBody, RefusesWhatCannotBe) {
               body.set_velocity({0, std::nan(""), 0});
             }).find("KinematicBody::set_velocity"),
             std::string::npos);
-  EXPECT_NE(told([&] { body.set_acceleration({0, 0, 1e7}); }).find("KinematicBody::set_acceleration"), std::string::npos);
+  EXPECT_NE(told([&] {
+              body.set_acceleration({0, 0, 1e7});
+            }).find("KinematicBody::set_acceleration"),
+            std::string::npos);
   EXPECT_NE(told<std::runtime_error>([&] {
               body.set_state({1, 2, 3});
             }).find("3 numbers that are not the state"),

@@ -51,7 +51,8 @@ double reach(const engine::ConvexPolyhedron& hull, const Eigen::Matrix3d& R, con
   return most;
 }
 
-// Two hulls on the two sides of a plane, which one goes along without coming nearer to it than the clearance: they never touch.
+// Two hulls on the two sides of a plane, which one goes along without coming nearer to it than the clearance:
+// they never touch.
 struct Passing {
   explicit Passing(Random& random)
       : still(any_hull(random)),
@@ -60,7 +61,8 @@ struct Passing {
         X_mover(any_pose(random)),
         n(direction(random)) {
     clearance = std::exp(between(random, std::log(2e-5), std::log(0.03)));
-    velocity = std::exp(between(random, std::log(0.2), std::log(20.0))) * n.cross(direction(random)).normalized();
+    velocity =
+        std::exp(between(random, std::log(0.2), std::log(20.0))) * n.cross(direction(random)).normalized();
     const double most = reach(still, X_still.linear(), n) + reach(mover, X_mover.linear(), -n) + clearance;
     X_mover.translation() = most * n - between(random, 0.3, 0.9) * velocity.normalized();
   }
@@ -81,15 +83,16 @@ World world_of(double step) {
 
 class PassingBy : public testing::TestWithParam<double> {};  // step [s]
 
-// By a fixed body, and by a rock with which it shares a velocity that is added to both. Without gravity a rock that nothing touches
-// keeps its velocity bit by bit.
+// By a fixed body, and by a rock with which it shares a velocity that is added to both. Without gravity a
+// rock that nothing touches keeps its velocity bit by bit.
 TEST_P(PassingBy, LeavesNoImpulse) {
   const double h = GetParam();
   Random random(11);
   for (int trial = 0; trial < 400; ++trial) {
     const Passing scene(random);
     World world = world_of(h);
-    const Vector3d carried = trial % 2 ? Vector3d(between(random, 0, 3) * direction(random)) : Vector3d::Zero();
+    const Vector3d carried =
+        trial % 2 ? Vector3d(between(random, 0, 3) * direction(random)) : Vector3d::Zero();
     if (trial % 2)
       world.add_rock(rock_of(scene.still), scene.X_still, carried);
     else
@@ -99,8 +102,9 @@ TEST_P(PassingBy, LeavesNoImpulse) {
     for (int k = 0; k < std::min(steps, 400); ++k) {
       world.step();
       for (const engine::ContactPoint& point : world.problem().points)
-        ASSERT_EQ(point.impulse, Vector3d::Zero()) << "trial " << trial << ", step " << k << ", clearance "
-                                                    << scene.clearance << " m, " << scene.velocity.norm() << " m/s";
+        ASSERT_EQ(point.impulse, Vector3d::Zero())
+            << "trial " << trial << ", step " << k << ", clearance " << scene.clearance << " m, "
+            << scene.velocity.norm() << " m/s";
     }
     ASSERT_EQ(world.rock(rock).velocity, Vector3d(scene.velocity + carried)) << "trial " << trial;
   }
@@ -119,9 +123,11 @@ TEST_P(PassingBy, WhileBothSpinLeavesNoImpulse) {
       for (const Vector3d& p : hull->vertices()) most = std::max(most, p.norm());
       radii += most;
     }
-    const Vector3d along = scene.X_mover.translation().dot(scene.velocity) * scene.velocity / scene.velocity.squaredNorm();
+    const Vector3d along =
+        scene.X_mover.translation().dot(scene.velocity) * scene.velocity / scene.velocity.squaredNorm();
     scene.X_mover.translation() = along + (radii + scene.clearance) * scene.n;
-    world.add_rock(rock_of(scene.still), scene.X_still, Vector3d::Zero(), between(random, 0, 30) * direction(random));
+    world.add_rock(rock_of(scene.still), scene.X_still, Vector3d::Zero(),
+                   between(random, 0, 30) * direction(random));
     const int rock = world.add_rock(rock_of(scene.mover), scene.X_mover, scene.velocity,
                                     between(random, 0, 30) * direction(random));
     const int steps = static_cast<int>(2 / (h * scene.velocity.norm())) + 1;
@@ -147,13 +153,14 @@ TEST(PassingBy, ACubeFallsBesideAnEdge) {
   }
 }
 
-// What does touch is stopped, from any side and at any speed: the pass is not bought with holes. A hull is thrown at the middle of another
-// and must not come out behind it.
+// What does touch is stopped, from any side and at any speed: the pass is not bought with holes. A hull is
+// thrown at the middle of another and must not come out behind it.
 TEST_P(PassingBy, WhatMeetsIsStopped) {
   const double h = GetParam();
   Random random(13);
   for (int trial = 0; trial < 200; ++trial) {
-    const engine::ConvexPolyhedron wall = engine::box({1, 1, between(random, 0.05, 0.3)}), hull = any_hull(random);
+    const engine::ConvexPolyhedron wall = engine::box({1, 1, between(random, 0.05, 0.3)}),
+                                   hull = any_hull(random);
     World world = world_of(h);
     world.add_static(support::shared(wall), Eigen::Isometry3d::Identity(), 0);
     Eigen::Isometry3d pose = any_pose(random);
@@ -162,12 +169,14 @@ TEST_P(PassingBy, WhatMeetsIsStopped) {
     velocity *= speed / velocity.norm();
     const Vector3d goal(between(random, -0.2, 0.2), between(random, -0.2, 0.2), 0);
     pose.translation() = goal - velocity * (1.5 / speed);
-    const int rock = world.add_rock(rock_of(hull), pose, velocity, between(random, 0, 20) * direction(random));
+    const int rock =
+        world.add_rock(rock_of(hull), pose, velocity, between(random, 0, 20) * direction(random));
     const int steps = static_cast<int>(3 / (h * speed)) + 1;
     for (int k = 0; k < steps; ++k) {
       world.step();
       const Vector3d p = world.rock(rock).pose.translation();
-      ASSERT_TRUE(p.z() > 0 || p.head<2>().cwiseAbs().maxCoeff() > 1) << "trial " << trial << " at " << p.transpose();
+      ASSERT_TRUE(p.z() > 0 || p.head<2>().cwiseAbs().maxCoeff() > 1)
+          << "trial " << trial << " at " << p.transpose();
     }
   }
 }

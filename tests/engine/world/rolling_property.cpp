@@ -30,9 +30,11 @@ engine::machine::MachineSpec wheel(double mass) {
 // A wheel of a ton on a floor in the frame R, at v along its x axis, rolling.
 struct Rolling {
   Rolling(const Eigen::Matrix3d& R, double friction, double v, double stiffness = 1e8)
-      : machine(wheel(1000)), world(options_of(R), support::one_material({.friction = friction, .stiffness = stiffness})) {
+      : machine(wheel(1000)),
+        world(options_of(R), support::one_material({.friction = friction, .stiffness = stiffness})) {
     world.attach(&machine);
-    world.add_part_shape(0, support::shared(engine::Cylinder{radius, half_width}), Eigen::Isometry3d::Identity(), 0);
+    world.add_part_shape(0, support::shared(engine::Cylinder{radius, half_width}),
+                         Eigen::Isometry3d::Identity(), 0);
     Eigen::Isometry3d X(R);
     X.translation() = R * Vector3d(0, 0, radius);
     machine.place(X);
@@ -58,16 +60,19 @@ void add_box(World& world, const Eigen::Matrix3d& R, const Vector3d& half, const
 
 }  // namespace
 
-// 2 m/s for 10 s are 20 m, on one box and on tiles of 0.4 m, level in frames that stand anyhow. The wheel sinks in by 50 um at the start, which
-// turns m g 50 um = 0.5 J of the 3000 J into heat, 0.01 % of the speed; single precision drifts by as much. Where the contact changes
-// tiles within a step, the wheel sinks in anew: ten times that.
+// 2 m/s for 10 s are 20 m, on one box and on tiles of 0.4 m, level in frames that stand anyhow. The wheel
+// sinks in by 50 um at the start, which turns m g 50 um = 0.5 J of the 3000 J into heat, 0.01 % of the speed;
+// single precision drifts by as much. Where the contact changes tiles within a step, the wheel sinks in anew:
+// ten times that.
 TEST(Wheel, RollsOnBoxesAsFarAsItShould) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 4; ++trial) {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     if (trial > 1)
-      R = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+      R = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+              .normalized()
+              .toRotationMatrix();
     Rolling scene(R, 0.6, 2);
     if (trial % 2 == 0)
       add_box(scene.world, R, {30, 1, 0.5}, {20, 0, -0.5});
@@ -81,7 +86,8 @@ TEST(Wheel, RollsOnBoxesAsFarAsItShould) {
   }
 }
 
-// Over the edge of a box onto a lower one and against one that is higher: a wheel of 0.5 m at 0.5 m/s does not climb 0.2 m.
+// Over the edge of a box onto a lower one and against one that is higher: a wheel of 0.5 m at 0.5 m/s does
+// not climb 0.2 m.
 TEST(Wheel, IsStoppedByAKerb) {
   Rolling scene(Eigen::Matrix3d::Identity(), 0.3, 0.5);
   add_box(scene.world, Eigen::Matrix3d::Identity(), {5, 1, 0.5}, {0, 0, -0.5});

@@ -79,10 +79,9 @@ double slide(World& world, const Eigen::Matrix3d& floor, const Vector3d& half, d
 TEST(Seams, ABlockSlidesOverTilesAsFarAsOverAHalfSpace) {
   Random random(21);
   for (int trial = 0; trial < 60; ++trial) {
-    const Eigen::Matrix3d floor =
-        trial % 3 ? any_turn(random) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-    const double friction = between(random, 0.2, 0.6), v = between(random, 1, 4), angle = between(random, -0.6, 0.6),
-                 stiffness = std::pow(10, between(random, 7, 9));
+    const Eigen::Matrix3d floor = trial % 3 ? any_turn(random) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    const double friction = between(random, 0.2, 0.6), v = between(random, 1, 4),
+                 angle = between(random, -0.6, 0.6), stiffness = std::pow(10, between(random, 7, 9));
     const Vector3d half(between(random, 0.1, 0.4), between(random, 0.1, 0.4), between(random, 0.03, 0.06));
     const Tiling tiling{between(random, 0.15, 0.8), between(random, 0.15, 0.8), between(random, 0, 0.4),
                         trial % 2 ? 0.0 : between(random, -0.03, 0.03), trial % 4 ? 0.0 : 5e-4};
@@ -91,8 +90,8 @@ TEST(Seams, ABlockSlidesOverTilesAsFarAsOverAHalfSpace) {
     add_tiles(tiles, floor, tiling);
     const double expected = slide(plane, floor, half, v, angle), way = slide(tiles, floor, half, v, angle);
     EXPECT_NEAR(way, expected, 0.01 * expected)
-        << "trial " << trial << ": " << v << " m/s, friction " << friction << ", tiles " << tiling.length << " x "
-        << tiling.width << " m, gap " << tiling.gap << ", lean " << tiling.lean;
+        << "trial " << trial << ": " << v << " m/s, friction " << friction << ", tiles " << tiling.length
+        << " x " << tiling.width << " m, gap " << tiling.gap << ", lean " << tiling.lean;
   }
 }
 
@@ -102,7 +101,8 @@ TEST(Seams, ABlockSlidesOverARowOfBoxes) {
     for (int start = 0; start < 20; ++start) {
       World world = world_of(Eigen::Matrix3d::Identity(), 0.3, 1e8);
       for (int k = -2; k < 10; ++k)
-        world.add_static(support::shared(engine::box({0.25, 1, 0.25})), support::at(0.5 * k + 0.025 * start, 0, -0.25), 0);
+        world.add_static(support::shared(engine::box({0.25, 1, 0.25})),
+                         support::at(0.5 * k + 0.025 * start, 0, -0.25), 0);
       const double way = slide(world, Eigen::Matrix3d::Identity(), Vector3d::Constant(0.2), v, 0);
       EXPECT_NEAR(way, v * v / (2 * 0.3 * g), 0.01 * v * v / (2 * 0.3 * g)) << start;
     }
