@@ -174,12 +174,10 @@ class ContactFinder::Impl {
                    FirstTouch& touch) {
     touch.manifold = m;
     const RigidMotion shape_a = of_shape(m.collider_a, a), shape_b = of_shape(m.collider_b, b);
-    const bool meet = swept_[static_cast<std::size_t>(thread)].find(
+    return swept_[static_cast<std::size_t>(thread)].find(
         {items_.placed[m.collider_a], shape_a, items_.item[m.collider_a].cylinder},
         {items_.placed[m.collider_b], shape_b, items_.item[m.collider_b].cylinder}, h,
         pairs_.state(m.slot).contact.feature, touch);
-    touch.origin_a += a.origin - shape_a.origin, touch.origin_b += b.origin - shape_b.origin;
-    return meet;
   }
 
   bool meets_face(const Manifold& m, int point, const Vector3d& shift) const {

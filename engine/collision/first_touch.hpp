@@ -8,13 +8,13 @@
 
 namespace drawpoint::engine {
 
-/// Where two shapes that are apart touch first, each going on with its motion.
+/// Where two shapes that are apart touch first, each going on with its motion, told at the start.
 struct FirstTouch {
-  /// Normal and positions are those at the touch; a gap is what the point closes along the normal until then.
+  /// The normal is that at the touch; a gap is what the point closes along it until then; a position lies
+  /// midway between the point's places on the shapes as they stand at the start, so that equal and opposite
+  /// impulses there keep angular momentum.
   Manifold manifold;
-  std::array<Eigen::Vector3d, 4> on_a, on_b;  ///< its points on the shapes as these stand at the start
-  Eigen::Vector3d origin_a = Eigen::Vector3d::Zero(),
-                  origin_b = Eigen::Vector3d::Zero();  ///< of the bodies, at the touch
+  std::array<Eigen::Vector3d, 4> on_a, on_b;  ///< these places
 };
 
 }  // namespace drawpoint::engine

@@ -22,12 +22,11 @@ Eigen::Matrix3d turn_of(const Vector3d& v) {
   return Eigen::Matrix3d::Identity() + 2 / (1 + c.squaredNorm()) * (cross + cross * cross);
 }
 
-// The hull after a time t, and its body's origin.
-Placement moved(const MovingHull& hull, double t, Vector3d& origin) {
+// The hull after a time t.
+Placement moved(const MovingHull& hull, double t) {
   const RigidMotion& motion = hull.motion;
   Placement placement = hull.placement;
-  const Vector3d shift = motion.shift(t);
-  origin = motion.origin + shift;
+  const Vector3d shift = motion.shift(t), origin = motion.origin + shift;
   if (motion.angular_velocity.isZero(0)) {
     placement.p += shift, placement.centre += shift;
     return placement;
@@ -82,7 +81,7 @@ Axis SweptContact::next_axis(const HullPair& pair, const Feature& hint) {
 
 bool SweptContact::find(const MovingHull& a, const MovingHull& b, double h, const Feature& hint,
                         FirstTouch& touch) {
-  const Placement end_a = moved(a, h, touch.origin_a), end_b = moved(b, h, touch.origin_b);
+  const Placement end_a = moved(a, h), end_b = moved(b, h);
   const bool short_way = most_way(a, b, h) < a.placement.hull->inner_radius + b.placement.hull->inner_radius;
   if (short_way && apart(end_a, end_b, hint)) return false;
   const double bends = bend(a, h) + bend(b, h);
@@ -90,7 +89,7 @@ bool SweptContact::find(const MovingHull& a, const MovingHull& b, double h, cons
   Feature feature = hint;
   double t = 0;
   for (int advances = 0;; ++advances) {
-    const Placement at_a = moved(a, t, touch.origin_a), at_b = moved(b, t, touch.origin_b);
+    const Placement at_a = moved(a, t), at_b = moved(b, t);
     const HullPair pair{*at_a.hull, *at_b.hull, pose_against(at_a, at_b)};
     const Axis axis = next_axis(pair, feature);
     const double at_end = separation(end_a, end_b, at_a.R * axis.normal);
@@ -114,7 +113,7 @@ bool SweptContact::find(const MovingHull& a, const MovingHull& b, double h, cons
     for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k) {
       const Anchors& p = contact_.points[k];
       touch.on_a[k] = a.placement.at(p.on_a), touch.on_b[k] = b.placement.at(p.on_b);
-      m.points[k] = {0.5 * (at_a.at(p.on_a) + at_b.at(p.on_b)), m.normal.dot(touch.on_b[k] - touch.on_a[k]),
+      m.points[k] = {0.5 * (touch.on_a[k] + touch.on_b[k]), m.normal.dot(touch.on_b[k] - touch.on_a[k]),
                      p.feature};
     }
     return m.count > 0;

@@ -188,7 +188,7 @@ void SequentialIteration::add_momentum(double share) {
 }
 
 double SequentialIteration::iteration() {
-  change_ = machine_change_ = 0;
+  change_ = 0;
   machine_.iteration();
   for (PairBlock& r : pairs_) {
     for (int k = r.first; k < r.first + r.count; ++k) solve_point(points_[k]);
@@ -206,7 +206,6 @@ void SequentialIteration::solve_point(PointBlock& p) {
   const double moved = delta.lpNorm<1>();
   if (moved == 0) return;
   change_ += moved;
-  if (p.a < 0 || p.b < 0) machine_change_ += moved;
   apply(p, delta);
 }
 

@@ -48,8 +48,8 @@ class SequentialIteration {
   void add_momentum(double share);
   /// Returns Σ|Δλ| over the points.
   double iteration();
-  /// Of it, Σ|Δλ| of points on the machine [N s].
-  double machine_change() const { return machine_change_; }
+  /// As SuperBodyMotion::moved().
+  double machine_moved() { return machine_.moved(); }
   /// Adds the substep's impulses and the machine's displacement to the step's.
   void finish();
 
@@ -84,7 +84,7 @@ class SequentialIteration {
   SuperBodyMotion machine_;
   std::vector<PointBlock> points_;
   std::vector<PairBlock> pairs_;
-  double change_ = 0, machine_change_ = 0;
+  double change_ = 0;
   double fastest_ = constants::push_out_speed;  // that contacts push; set velocities have no bound
 };
 

@@ -75,13 +75,14 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
     }
     begin.swap(now);
     motion_change(problem.bodies, weights, last);
+    iteration.machine_moved();
     for (int k = 0; goes_on(options, problem.points.size(), k, moved, iteration.normal_load()); ++k) {
       if (detail::remembers(k)) {
         add_momentum(problem.bodies, detail::momentum_of(k), previous);
         iteration.add_momentum(detail::momentum_of(k));
       }
       change = iteration.iteration();
-      moved = motion_change(problem.bodies, weights, last) + iteration.machine_change();
+      moved = motion_change(problem.bodies, weights, last) + iteration.machine_moved();
       ++report.iterations;
     }
     iteration.finish();

@@ -7,11 +7,25 @@
 #include <cassert>
 
 namespace drawpoint::engine::detail {
+namespace {
+
+// An impulse λ on a part changes its speed along a row R by |R|² λ: along its easiest axis it has the mass 1/|R|².
+double heaviest_root_mass(const SuperBody& machine) {
+  double heaviest = 0;
+  for (const SpatialMap& map : machine.part_maps) {
+    const double easiest = map.bottomRows<3>().rowwise().norm().maxCoeff();
+    if (easiest > 0) heaviest = std::max(heaviest, 1 / easiest);
+  }
+  return heaviest;
+}
+
+}  // namespace
 
 SuperBodyMotion::SuperBodyMotion(const SuperBody* machine, double step, int substeps)
     : machine_(machine), step_(step), h_(step / substeps), substeps_(substeps) {
   if (!machine) return;
-  w_ = begin_ = machine->velocity_before;
+  w_ = begin_ = watched_ = machine->velocity_before;
+  root_mass_ = heaviest_root_mass(*machine);
   push_ = (machine->velocity - machine->velocity_before) / substeps;
   travel_ = Eigen::VectorXd::Zero(w_.size());
   for (const SuperBodyRow& row : machine->rows) {
@@ -79,6 +93,13 @@ void SuperBodyMotion::iteration() {
     r.impulse = next;
     w_.noalias() += row.jacobian * delta;
   }
+}
+
+double SuperBodyMotion::moved() {
+  if (!machine_) return 0;
+  const double moved = root_mass_ * (w_ - watched_).norm();
+  watched_ = w_;
+  return moved;
 }
 
 void SuperBodyMotion::finish() {

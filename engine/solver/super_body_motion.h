@@ -42,6 +42,8 @@ class SuperBodyMotion {
   void add_momentum(double share);
   /// One step of every motor and stop.
   void iteration();
+  /// By how much its momentum has changed since this was asked last [N s], all of its mass counted (motion_change.h).
+  double moved();
   /// Adds the substep's displacement and impulses to the step's.
   void finish();
   /// Whether no part is faster than that at its origin [m/s, rad/s], before and after the substep; without a machine true.
@@ -64,7 +66,8 @@ class SuperBodyMotion {
   const SuperBody* machine_;
   double step_, h_;
   int substeps_;
-  Eigen::VectorXd w_, begin_, push_, travel_, previous_;
+  double root_mass_ = 0;  // of all that its heaviest part carries along [√kg]
+  Eigen::VectorXd w_, begin_, push_, travel_, previous_, watched_;
   std::vector<Row> rows_;          // in the order of SuperBody::rows
   std::vector<double> part_rows_;  // 3 x r each, column by column
 };

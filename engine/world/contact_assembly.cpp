@@ -125,11 +125,9 @@ SuperBodySolution ContactAssembly::felt_by_prescribed() const {
 void ContactAssembly::fill_pair(int manifold, ContactPlace place) {
   const Manifold& m = joining_.manifold(manifold);
   const unsigned joins = joining_.points(manifold);
-  const FirstTouch* const touch = joining_.touch(manifold);
   const Surface &a = scene_.surface(m.collider_a), &b = scene_.surface(m.collider_b);
   const Material& material = scene_.materials().of(a.material, b.material);
-  const Vector3d origin_a = touch ? touch->origin_a : bodies_.origin(a),
-                 origin_b = touch ? touch->origin_b : bodies_.origin(b);
+  const Vector3d origin_a = bodies_.origin(a), origin_b = bodies_.origin(b);
   PairMemory::Start start = memory_.start(m.slot, m.collider_a, m.collider_b);
   slots_[place.pair] = m.slot;
   ContactPair& pair = problem_.pairs[place.pair];

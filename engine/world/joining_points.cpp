@@ -115,7 +115,7 @@ unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
   FirstTouch& touch = touches.back();
   if (step.scene.finder().first_touch(m, a, b, h, thread, touch)) return (1u << touch.manifold.count) - 1;
   // They pass each other: only what is pushed farther than their motion goes may meet here.
-  touch = {m, {}, {}, a.origin, b.origin};
+  touch.manifold = m;
   for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k) {
     ManifoldPoint& p = touch.manifold.points[k];
     touch.on_a[k] = p.position - 0.5 * p.gap * m.normal, touch.on_b[k] = p.position + 0.5 * p.gap * m.normal;

@@ -105,9 +105,8 @@ void BatchedSolver::run_substep(int number) {
   const bool hands_over = number + 1 < options_.substeps;
   Iteration this_iteration{substep(), true, false, number == 0};
   const bool watches = most > options_.iterations;
-  if (watches) std::copy_n(batches_.bodies.begin(), watched_.size(), watched_.begin());
-  for (int k = 0;
-       goes_on(options_, problem_->points.size(), k, motion_change_ + machine_change_, normal_load());
+  if (watches) begin_to_watch();
+  for (int k = 0; goes_on(options_, problem_->points.size(), k, motion_change_, normal_load());
        ++k, this_iteration.first = false) {
     this_iteration.last = hands_over && k + 1 == most;
     if (most > 1) add_momentum(k, this_iteration);
@@ -126,6 +125,11 @@ void BatchedSolver::weigh() {
       [this](int row) { weights_[row] = MotionWeight::of(problem_->bodies[batches_.order().bodies[row]]); });
 }
 
+void BatchedSolver::begin_to_watch() {
+  std::copy_n(batches_.bodies.begin(), watched_.size(), watched_.begin());
+  machine_->moved();
+}
+
 void BatchedSolver::watch() {
   const int rows = static_cast<int>(weights_.size());
   changes_.assign(static_cast<std::size_t>(rows / bodies_per_block + 1), MotionChange());
@@ -142,7 +146,7 @@ void BatchedSolver::watch() {
   });
   MotionChange sum;
   for (const MotionChange& change : changes_) sum += change;
-  motion_change_ = sum.beyond();
+  motion_change_ = sum.beyond() + machine_->moved();
 }
 
 // Whether the first substep has left everything as it was: then so will the others. Bodies in free flight do
@@ -188,9 +192,12 @@ void BatchedSolver::run_machine_alone() {
   machine_->refresh(batches_.bodies);
   machine_->extrapolate();
   machine_->correct(batches_.bodies);
-  for (int k = 0; goes_on(options_, machine_->points(), k, machine_change_, machine_->normal_load()); ++k) {
+  machine_->moved();
+  double moved = 0;
+  for (int k = 0; goes_on(options_, machine_->points(), k, moved, machine_->normal_load()); ++k) {
     if (remembers(k)) machine_->add_momentum(momentum_of(k));
     machine_change_ = machine_->iteration(batches_.bodies);
+    moved = machine_->moved();
   }
   machine_->finish();
 }

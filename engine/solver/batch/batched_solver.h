@@ -57,6 +57,7 @@ class BatchedSolver {
   float substep() const { return static_cast<float>(problem_->step / options_.substeps); }
   double change() const { return batches_.change() + machine_change_; }  // of impulses
   void weigh();
+  void begin_to_watch();
   void watch();  // what the iteration has changed of the motion since it was watched last
   double normal_load() const { return batches_.normal_load() + machine_->normal_load(); }
 

@@ -20,6 +20,7 @@ class MachinePairs {
   void correct(std::vector<BodyRow>& bodies);
   void add_momentum(double share) { iteration_.add_momentum(share); }  ///< the bodies are the caller's
   double iteration(std::vector<BodyRow>& bodies);                      ///< returns Σ|Δλ|
+  double moved() { return iteration_.machine_moved(); }                ///< as SuperBodyMotion::moved()
   bool touches_bodies() const;                                         ///< that move
   bool stands(double speed) const { return iteration_.stands(speed); }
   void repeat(int substeps) { iteration_.repeat(substeps); }
