@@ -26,7 +26,7 @@ struct SolverOptions {
   /// none, rocks in motion some, and small problems, which are cheap, as many as it takes. 0: never. A
   /// machine that digs needs some five iterations per substep: with one, its bucket loads half as much again
   /// (docs/decisions/0018).
-  int iteration_budget = 20000;
+  int iteration_budget = 8000;
   /// Of Σ λ_n, for what an iteration changes momenta by (motion_change.h); 0: all that the budget allows. In
   /// loading cycles velocities were off by 1 to 3 times what the last iteration changed
   /// (docs/measurements/contact-solving.md): the default solves small problems to the end, 0.02 is enough for
