@@ -14,6 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double short_share = 0.1;  // of the inner radii: a way in which shapes can only cut a corner off
+
 // The turn by 2 atan(|v|/2) about v: that by |v| but for |v|³/12, without a sine.
 Eigen::Matrix3d turn_of(const Vector3d& v) {
   const Vector3d c = 0.5 * v;
@@ -82,7 +84,8 @@ Axis SweptContact::next_axis(const HullPair& pair, const Feature& hint) {
 bool SweptContact::find(const MovingHull& a, const MovingHull& b, double h, const Feature& hint,
                         FirstTouch& touch) {
   const Placement end_a = moved(a, h), end_b = moved(b, h);
-  const bool short_way = most_way(a, b, h) < a.placement.hull->inner_radius + b.placement.hull->inner_radius;
+  const bool short_way =
+      most_way(a, b, h) < short_share * (a.placement.hull->inner_radius + b.placement.hull->inner_radius);
   if (short_way && apart(end_a, end_b, hint)) return false;
   const double bends = bend(a, h) + bend(b, h);
   const int most_advances = short_way ? 3 : 24;

@@ -13,6 +13,7 @@
 /// separation at the end of the step is computed too. In between it lies below the straight line by no more
 /// than what turning and acceleration bend, so it is above zero up to a time at which the axis is sought
 /// anew, or for good. Two or three searches do. Touching is a separation below constants::touching.
+/// Shapes that go less than a tenth of their inner radii against each other and are apart at the end pass.
 namespace drawpoint::engine::detail {
 
 /// A body's collider: where it stands and how it moves.

@@ -64,7 +64,7 @@ void TreeDynamics::linearise(const SimbodyTree& tree, const SimTK::State& state,
 
 TreeMotion free_motion(const SimbodyTree& tree, const TreeDynamics& now, const BodyForces& loads,
                        const Eigen::VectorXd& force, double h) {
-  if (!force.isZero(0) && turns_little(tree, now, h))
+  if (!force.isZero(0) && steps_of(tree, h) == 1 && turns_little(tree, now, h))
     return straight_motion(tree, now.acceleration(force), h);
   const int steps = steps_of(tree, h);
   const double dt = h / steps;

@@ -5,18 +5,22 @@
 #include <drawpoint/engine/solver/super_body_motion.h>
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace drawpoint::engine::detail {
 namespace {
 
-// An impulse λ on a part changes its speed along a row R by |R|² λ: along its easiest axis it has the mass 1/|R|².
+// An impulse λ on a part changes its speed along a row R by |R|² λ: along its easiest axis it has the mass 1/|R|²,
+// and where it turns on the spot that of its inertia a metre away.
 double heaviest_root_mass(const SuperBody& machine) {
-  double heaviest = 0;
+  constexpr double least_share =
+      1e-3;  // of the row of the part that gives way most: no part is a million times as heavy
+  double most = 0, least = std::numeric_limits<double>::infinity();
   for (const SpatialMap& map : machine.part_maps) {
-    const double easiest = map.bottomRows<3>().rowwise().norm().maxCoeff();
-    if (easiest > 0) heaviest = std::max(heaviest, 1 / easiest);
+    const double easiest = map.rowwise().norm().maxCoeff();
+    if (easiest > 0) most = std::max(most, easiest), least = std::min(least, easiest);
   }
-  return heaviest;
+  return most > 0 ? 1 / std::max(least, least_share * most) : 0;
 }
 
 }  // namespace

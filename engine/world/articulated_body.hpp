@@ -13,8 +13,7 @@
 /// the solved velocities. Frames: world. SI units.
 namespace drawpoint::engine {
 
-/// A machine that takes part in the contact solve.
-/// Of a body that nothing stops.
+/// How a body moves that nothing stops.
 struct PrescribedMotion {
   RigidMotion rigid;
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< [rad/s²]
@@ -25,6 +24,7 @@ struct PrescribedMotion {
   }
 };
 
+/// A machine that takes part in the contact solve.
 class ArticulatedBody {
  public:
   virtual ~ArticulatedBody() = default;

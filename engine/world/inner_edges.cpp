@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <drawpoint/engine/base/constants.hpp>
-#include <limits>
 #include <tuple>
 
 namespace drawpoint::engine::detail {
@@ -49,9 +48,10 @@ std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vect
   return least;
 }
 
+// Or holds but for less than a step, as a wall does that leans back.
 bool contains(const ConvexPolyhedron& shape, const Vector3d& p) {
   for (std::size_t face = 0; face < shape.faces().size(); ++face)
-    if (height(shape, face, p) > constants::coincident) return false;
+    if (height(shape, face, p) > 0.5 * constants::seam_step) return false;
   return true;
 }
 
@@ -122,7 +122,7 @@ unsigned InnerEdges::covered(const Scene& scene, const JoiningPoints& joining, c
                              : Vector3d(m.points[place].position + to_surface * m.normal);
     const std::optional<Depth> held = holds(solid, p + constants::seam_width * back, back);
     if (!held) continue;
-    const Vector3d above = p + (std::max(0.0, held->depth) + constants::seam_step) * held->normal;
+    const Vector3d above = p + (std::max(0.0, held->depth) + 1.5 * constants::seam_step) * held->normal;
     if (!contains(*shape, X_WS.inverse() * above)) covered |= 1u << k;
   }
   return covered;

@@ -17,7 +17,8 @@
 /// With n a face's normal d = n: the face is covered. Else, on an edge or a corner, d is the part of n that
 /// leans back over T, across the normal of what slides on T: no point of the joined surface has such a
 /// normal. ε = constants::seam_width, so joints may gape by as much. Rocks have no inner edges, and a
-/// half-space only covers. Cost: nothing but for what is near two shapes of one body.
+/// half-space only covers.
+/// Cost: some 10 ns for a contact with the surroundings or a part, more for what is near two shapes of one body.
 namespace drawpoint::engine::detail {
 
 class InnerEdges {

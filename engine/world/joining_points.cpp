@@ -38,21 +38,10 @@ double size_of(const Surface& a, const Surface& b) {
 
 constexpr double passing_slack = 1 + 1e-5;  // above single precision, in which impulses are sought
 
-// How far b goes against a at this point in a time h.
-Vector3d shift(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, double h) {
-  return h * (b.at(at) - a.at(at) + 0.5 * h * (b.acceleration - a.acceleration));
-}
-
-// How near b can come to a along the unit vector n in a time h at any point within `size` of this one.
-double most_way(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n,
-                double size, double h) {
-  return h * size * (b.angular_velocity - a.angular_velocity).cross(n).norm() - n.dot(shift(a, b, at, h));
-}
-
-// By how much b comes nearer to a at this point, by substeps, whose first has all of what accelerates it.
-double most_closing(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, const Vector3d& n,
-                    double h) {
-  return -h * n.dot(b.at(at) - a.at(at) + h * (b.acceleration - a.acceleration));
+// By how much b can come nearer to a at this point along n in a time h, with the acceleration or, where motors and
+// contacts hold it, without. Substeps have all of what speeds them up at their beginnings.
+double most_closing(const Vector3d& velocity, const Vector3d& acceleration, const Vector3d& n, double h) {
+  return -h * n.dot(velocity) + std::max(0.0, -h * h * n.dot(acceleration));
 }
 
 }  // namespace
@@ -89,6 +78,11 @@ void JoiningPoints::find_block(const Step& step, int first, int last, int thread
 
 double JoiningPoints::deepest_overlap() const { return *std::max_element(deepest_.begin(), deepest_.end()); }
 
+Vector3d JoiningPoints::Step::acceleration(const Surface& surface, const RigidMotion& motion,
+                                           const Vector3d& at) const {
+  return surface.owner == Owner::part ? scene.part_acceleration(surface.index, at, h) : motion.acceleration;
+}
+
 unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
                                 std::vector<FirstTouch>& touches) const {
   constexpr double margin = constants::resting_margin;
@@ -101,16 +95,25 @@ unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
     return 0;  // neither gives way
   const RigidMotion a = step.bodies.motion(surface_a), b = step.bodies.motion(surface_b);
   const double reach = margin + step.scene.extra_reach_of(surface_a) + step.scene.extra_reach_of(surface_b);
+  const Vector3d &first = m.points[0].position, acceleration = step.acceleration(surface_b, b, first) -
+                                                               step.acceleration(surface_a, a, first);
+  const auto velocity = [&](const ManifoldPoint& p) -> Vector3d {
+    return b.at(p.position) - a.at(p.position);
+  };
+  const bool with_part = surface_a.owner == Owner::part || surface_b.owner == Owner::part;
+  const double speeding_up =
+      with_part ? h * h * acceleration.norm() : 0;  // of rocks it is weight: in the margin
   const unsigned within = near | points_that(m, [&](const ManifoldPoint& p) {
-                            return p.gap <= reach + 2 * h * (b.at(p.position) - a.at(p.position)).norm();
+                            return p.gap <= reach + speeding_up + 2 * h * velocity(p).norm();
                           });
   if (within == 0 || least <= 0 || step.scene.finder().with_half_space(m)) return within;
-  const double size = size_of(surface_a, surface_b);
-  if (most_way(a, b, m.points[0].position, m.normal, size, h) < least) return within;
-  for (int k = 0; k < m.count; ++k)
-    if (within >> k & 1u &&
-        step.scene.finder().meets_face(m, k, shift(a, b, m.points[static_cast<std::size_t>(k)].position, h)))
-      return within;
+  const double turning =
+      size_of(surface_a, surface_b) * (b.angular_velocity - a.angular_velocity).cross(m.normal).norm();
+  if (h * turning + most_closing(velocity(m.points[0]), acceleration, m.normal, h) < least) return within;
+  for (int k = 0; k < m.count; ++k) {
+    const Vector3d shift = h * (velocity(m.points[static_cast<std::size_t>(k)]) + 0.5 * h * acceleration);
+    if (within >> k & 1u && step.scene.finder().meets_face(m, k, shift)) return within;
+  }
   touches.emplace_back();
   FirstTouch& touch = touches.back();
   if (step.scene.finder().first_touch(m, a, b, h, thread, touch)) return (1u << touch.manifold.count) - 1;
@@ -119,7 +122,7 @@ unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
   for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k) {
     ManifoldPoint& p = touch.manifold.points[k];
     touch.on_a[k] = p.position - 0.5 * p.gap * m.normal, touch.on_b[k] = p.position + 0.5 * p.gap * m.normal;
-    p.gap = std::max(p.gap, passing_slack * most_closing(a, b, p.position, m.normal, h));
+    p.gap = std::max(p.gap, passing_slack * most_closing(velocity(p), acceleration, m.normal, h));
   }
   return within;
 }

@@ -43,10 +43,13 @@ class JoiningPoints {
  private:
   static constexpr int block = 64;  // manifolds that a thread takes at a time
 
+  // What a step's bodies do, as the solver moves them.
   struct Step {
     const Scene& scene;
     const StepBodies& bodies;
     double h;
+    Eigen::Vector3d acceleration(const Surface& surface, const RigidMotion& motion,
+                                 const Eigen::Vector3d& at) const;
   };
   void find_block(const Step& step, int first, int last, int thread);
   unsigned joining(const Step& step, const Manifold& m, int thread, std::vector<FirstTouch>& touches) const;

@@ -98,6 +98,10 @@ void KinematicBody::set_state(const std::vector<double>& state) {
   take(angular_velocity_);
   take(acceleration_);
   take(angular_acceleration_);
+  if (std::max(acceleration_.norm(), angular_acceleration_.norm()) > most_acceleration)
+    throw std::runtime_error("engine::KinematicBody::set_state: an acceleration of more than " +
+                             std::to_string(most_acceleration) +
+                             " m/s2 or rad/s2; restore a world of this version");
   take(wrench_.moment);
   take(wrench_.force);
   work_ = *next;

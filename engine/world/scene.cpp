@@ -187,6 +187,12 @@ RigidMotion Scene::motion_of(const Surface& surface) const {
   return {rock.pose.translation(), rock.velocity, rock.angular_velocity, options_.gravity};
 }
 
+Vector3d Scene::part_acceleration(int part, const Vector3d& position, double h) const {
+  if (prescribed_) return prescribed_->acceleration_at(position);
+  const SpatialVector A = super_.part_maps[part] * (super_.velocity - super_.velocity_before) / h;
+  return A.tail<3>() + Vector3d(A.head<3>()).cross(position - super_.origins[part]);
+}
+
 // How far beyond the margin a surface may go in a step: a pair closes by no more than the sum of its
 // speculative margins and the margin, so no contact is missed at any speed that it has or gets
 // (extra_reach.h). In whole steps of constants::speculative_step.

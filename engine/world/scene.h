@@ -72,6 +72,9 @@ class Scene {
   /// Where the origin of the surface's body is; of a machine, at the start of the last step.
   Eigen::Vector3d origin_of(const Surface& surface) const;
   RigidMotion motion_of(const Surface& surface) const;
+  /// Of the point of a part that is at `position`, in a step of h, by outer and inertia forces or as
+  /// prescribed [m/s²].
+  Eigen::Vector3d part_acceleration(int part, const Eigen::Vector3d& position, double h) const;
   /// Of the machine in this step, if contacts do not move it.
   const std::optional<PrescribedMotion>& prescribed() const { return prescribed_; }
 

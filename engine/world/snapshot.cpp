@@ -15,7 +15,7 @@
 namespace drawpoint::engine {
 namespace {
 
-constexpr std::uint64_t state_mark = 0x356574617473'7044;  // "Dpstate5": the version is the last digit
+constexpr std::uint64_t state_mark = 0x366574617473'7044;  // "Dpstate6": the version is the last digit
 
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);

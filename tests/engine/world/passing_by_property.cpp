@@ -180,3 +180,16 @@ TEST_P(PassingBy, WhatMeetsIsStopped) {
     }
   }
 }
+
+// Nor is what rises past the underside of a ledge, against its weight, held back by more than the weight.
+TEST(PassingBy, ARockRisesPastALedge) {
+  for (const double start : {-0.700, -0.707, -0.714, -0.721}) {
+    World world({}, support::one_material({.friction = 0.5, .stiffness = 1e8}));
+    world.add_static(support::shared(engine::box({0.5, 0.5, 0.1})), support::at(0, 0, 0), 0);
+    const int cube =
+        world.add_rock(support::box_body(Vector3d::Constant(0.2)), support::at(0.705, 0.1, start), {0, 0, 4});
+    for (int k = 0; k < 30; ++k) world.step();
+    EXPECT_NEAR(world.rock(cube).velocity.z(), 4 - 9.81 * 0.3, 1e-9);
+    EXPECT_EQ(world.rock(cube).angular_velocity, Vector3d::Zero());
+  }
+}

@@ -120,3 +120,25 @@ TEST(Seams, AStepAndAWallStopWhatSlides) {
       EXPECT_NEAR(way, 0.3, 0.005) << "step of " << step << " m, foot " << foot << " m";
     }
 }
+
+// A wall that leans, in front of which the block lies: it takes the block's push, and the floor its weight,
+// however little it leans.
+TEST(Seams, AWallThatLeansStopsWhatSlides) {
+  for (const double degrees : {-5.0, -1.0, -0.01, 0.01, 0.1, 1.0, 5.0})
+    for (const double foot : {0.0, 0.2}) {
+      World world = world_of(Eigen::Matrix3d::Identity(), 0.1, 1e8);
+      world.add_static(support::shared(engine::box({2, 2, 0.25})), support::at(0, 0, -0.25), 0);
+      Eigen::Isometry3d wall(Eigen::AngleAxisd(degrees * M_PI / 180, Vector3d::UnitY()));
+      wall.translation() = Vector3d(0.5, 0, 0) + wall.linear() * Vector3d(0.5, 0, 0.5 * (1 - foot));
+      world.add_static(support::shared(engine::box({0.5, 2, 0.5 * (1 + foot)})), wall, 0);
+      const int block =
+          world.add_rock(support::box_body({0.2, 0.2, 0.05}), support::at(0, 0, 0.05), {1, 0, 0});
+      for (int k = 0; k < 200; ++k) {
+        world.step();
+        ASSERT_LT(world.rock(block).pose.translation().x(), 0.305)
+            << degrees << " deg, foot " << foot << " m";
+        ASSERT_GT(world.rock(block).pose.translation().z(), 0.045)
+            << degrees << " deg, foot " << foot << " m";
+      }
+    }
+}
