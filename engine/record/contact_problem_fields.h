@@ -33,7 +33,7 @@ void visit_bodies(Visitor& v, std::vector<SolverBody>& items) {
       {"bodies/external_velocity_change", "m/s", "by outer forces over the step, not yet in velocity"}, items,
       vector, [](auto& b) -> auto& { return b.external_velocity_change; });
   v.reals(
-      {"bodies/inverse_mass", "1/kg", "0: nothing pushes it"}, items, [](auto& b) -> auto& { return b.inverse_mass; });
+      {"bodies/inverse_mass", "1/kg", "0: fixed"}, items, [](auto& b) -> auto& { return b.inverse_mass; });
   v.arrays(
       {"bodies/inverse_inertia", "1/(kg m2)", "about the centre of mass, in world axes"}, items, {3, 3},
       [](auto& b) -> auto& { return b.inverse_inertia; });

@@ -147,7 +147,7 @@ TEST(DirectShear, StopsWhenAsked) {
 
 EdgeOptions small_bank() {
   EdgeOptions o;
-  o.width = o.height = 3;
+  o.width = 3, o.height = 4;
   o.edge_width = 2;
   o.depth = 1;
   o.speed = 0.15;  // whole steps in every part
@@ -196,7 +196,7 @@ TEST(TiltingBox, SlidesLaterWithMoreFriction) {
 
 TEST(TiltingBox, StopsWhenAsked) {
   TiltingBoxOptions o;
-  o.length = o.width = o.height = 3;
+  o.length = o.width = 3, o.height = 4;
   expect_stops_in({"pour", "settle", "tilt"}, o, [&] { return tilting_box(stones(0.7), o).status; });
 }
 

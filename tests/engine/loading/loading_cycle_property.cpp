@@ -84,7 +84,8 @@ TEST(LoadingCycle, LeavesOutWhatTheMachineDrivesAlone) {
     drive_whole += seconds(whole, stage);
   }
   EXPECT_NEAR(drive, drive_whole, 0.5);
-  EXPECT_LT(seconds(part, Stage::back_out), seconds(whole, Stage::back_out));
+  EXPECT_LT(seconds(part, Stage::back_out),
+            seconds(whole, Stage::back_out) + 0.5);  // rock may stay at the bucket
   EXPECT_EQ(part.stages.back().reason, StageEnd::goal);
   // 57 t and the wheels at 1.5 m/s are 66 kJ and more; the way back adds at most that at 3.8 m/s with the load.
   EXPECT_GT(part.left_out_energy, 0.5 * 57e3 * 1.5 * 1.5);
