@@ -64,9 +64,9 @@ void TreeDynamics::linearise(const SimbodyTree& tree, const SimTK::State& state,
 
 TreeMotion free_motion(const SimbodyTree& tree, const TreeDynamics& now, const BodyForces& loads,
                        const Eigen::VectorXd& force, double h) {
-  if (!force.isZero(0) && steps_of(tree, h) == 1 && turns_little(tree, now, h))
-    return straight_motion(tree, now.acceleration(force), h);
   const int steps = steps_of(tree, h);
+  if (!force.isZero(0) && steps == 1 && turns_little(tree, now, h))
+    return straight_motion(tree, now.acceleration(force), h);
   const double dt = h / steps;
   SimTK::State state = tree.state;
   TreeDynamics dynamics;

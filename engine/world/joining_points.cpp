@@ -69,9 +69,10 @@ void JoiningPoints::find_block(const Step& step, int first, int last, int thread
   for (int k = first; k < last; ++k) {
     const auto place = static_cast<std::size_t>(k);
     const std::size_t before = touches.size();
-    if (of_rock(step.scene, (*manifolds_)[place]))
-      deepest = std::max(deepest, -least_gap((*manifolds_)[place]));
-    joins_[place] = joining(step, (*manifolds_)[place], thread, touches);
+    const Manifold& m = (*manifolds_)[place];
+    const double least = least_gap(m);
+    if (of_rock(step.scene, m)) deepest = std::max(deepest, -least);
+    joins_[place] = joining(step, m, least, thread, touches);
     touch_[place] = touches.size() > before ? static_cast<int>(before) : -1;
   }
 }
@@ -83,10 +84,10 @@ Vector3d JoiningPoints::Step::acceleration(const Surface& surface, const RigidMo
   return surface.owner == Owner::part ? scene.part_acceleration(surface.index, at, h) : motion.acceleration;
 }
 
-unsigned JoiningPoints::joining(const Step& step, const Manifold& m, int thread,
+unsigned JoiningPoints::joining(const Step& step, const Manifold& m, double least, int thread,
                                 std::vector<FirstTouch>& touches) const {
   constexpr double margin = constants::resting_margin;
-  const double h = step.h, least = least_gap(m);
+  const double h = step.h;
   const unsigned near = points_that(m, [](const ManifoldPoint& p) { return p.gap <= margin; });
   if (least <= 0 && near + 1 == 1u << m.count && !step.scene.prescribed())
     return near;  // most: no need to look at the bodies

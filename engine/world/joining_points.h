@@ -52,7 +52,8 @@ class JoiningPoints {
                                  const Eigen::Vector3d& at) const;
   };
   void find_block(const Step& step, int first, int last, int thread);
-  unsigned joining(const Step& step, const Manifold& m, int thread, std::vector<FirstTouch>& touches) const;
+  unsigned joining(const Step& step, const Manifold& m, double least, int thread,
+                   std::vector<FirstTouch>& touches) const;
 
   const std::vector<Manifold>* manifolds_ = nullptr;
   std::vector<unsigned> joins_;                   // by manifold

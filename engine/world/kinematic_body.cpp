@@ -11,16 +11,15 @@
 #include <tuple>
 
 namespace drawpoint::engine {
+namespace {
+constexpr double most_acceleration = 1e6;  // [m/s²], [rad/s²]
+}  // namespace
 
 void KinematicBody::set_velocity(const Eigen::Vector3d& velocity, const Eigen::Vector3d& angular_velocity) {
   detail::check_velocity("KinematicBody::set_velocity", velocity, angular_velocity);
   velocity_ = velocity;
   angular_velocity_ = angular_velocity;
 }
-
-namespace {
-constexpr double most_acceleration = 1e6;  // [m/s²], [rad/s²]
-}  // namespace
 
 void KinematicBody::set_acceleration(const Eigen::Vector3d& acceleration,
                                      const Eigen::Vector3d& angular_acceleration) {

@@ -28,7 +28,7 @@ SolverReport BatchedSolver::solve(ContactProblem& problem) {
   previous_.resize(problem.bodies.size());
   everywhere([this](BatchRange range) { prepare_batches(batches_.arrays(), range); });
   find_touched();
-  weigh();
+  if (watches()) weigh();
   iterations_ = 0;
   run_substep(0);
   const bool standing = stands();
@@ -104,18 +104,22 @@ void BatchedSolver::run_substep(int number) {
   const int most = most_iterations(options_, problem_->points.size());
   const bool hands_over = number + 1 < options_.substeps;
   Iteration this_iteration{substep(), true, false, number == 0};
-  const bool watches = most > options_.iterations;
-  if (watches) begin_to_watch();
+  if (watches()) begin_to_watch();
   for (int k = 0; goes_on(options_, problem_->points.size(), k, motion_change_, normal_load());
        ++k, this_iteration.first = false) {
     this_iteration.last = hands_over && k + 1 == most;
     if (most > 1) add_momentum(k, this_iteration);
     iteration(this_iteration);
-    if (watches) watch();
+    if (watches()) watch();
   }
   if (hands_over && !this_iteration.last)
     each_stage([this](BatchRange range) { end_substep_batches(batches_.arrays(), range); });
   machine_->finish();
+}
+
+// Only where more iterations than asked for may be made does it matter what one changes.
+bool BatchedSolver::watches() const {
+  return most_iterations(options_, problem_->points.size()) > options_.iterations;
 }
 
 void BatchedSolver::weigh() {

@@ -56,6 +56,7 @@ class BatchedSolver {
   SolverReport report();
   float substep() const { return static_cast<float>(problem_->step / options_.substeps); }
   double change() const { return batches_.change() + machine_change_; }  // of impulses
+  bool watches() const;
   void weigh();
   void begin_to_watch();
   void watch();  // what the iteration has changed of the motion since it was watched last
