@@ -28,24 +28,23 @@ double height(const ConvexPolyhedron& shape, std::size_t face, const Vector3d& p
       p - shape.vertices()[static_cast<std::size_t>(shape.faces()[face].front())]);
 }
 
-// How deep the shape holds the point, which may lie outside by constants::seam_step, under the faces that do
-// not look back along `from`. Nothing of cylinders.
-std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vector3d& from) {
-  const Vector3d p = solid.X_WS.inverse() * point, along = solid.X_WS.linear().transpose() * from;
-  std::optional<Depth> least;
+// How deep the shape holds the point, which may lie outside by constants::seam_step, under the face that looks along
+// `beside` most. Nothing of cylinders.
+std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vector3d& beside) {
+  const Vector3d p = solid.X_WS.inverse() * point, along = solid.X_WS.linear().transpose() * beside;
   if (const auto* plane = std::get_if<HalfSpace>(&solid.shape)) {
     const double depth = plane->offset - plane->normal.dot(p);
-    if (depth >= -constants::seam_step) least = Depth{depth, solid.X_WS.linear() * plane->normal};
-  } else if (const auto* shape = std::get_if<ConvexPolyhedron>(&solid.shape)) {
-    for (std::size_t face = 0; face < shape->faces().size(); ++face) {
-      const double depth = -height(*shape, face, p);
-      if (depth < -constants::seam_step) return std::nullopt;
-      if (shape->face_normals()[face].dot(along) < -0.5) continue;  // it is behind the seam
-      if (!least || depth < least->depth)
-        least = Depth{depth, solid.X_WS.linear() * shape->face_normals()[face]};
-    }
+    if (depth < -constants::seam_step) return std::nullopt;
+    return Depth{depth, solid.X_WS.linear() * plane->normal};
   }
-  return least;
+  const auto* shape = std::get_if<ConvexPolyhedron>(&solid.shape);
+  if (!shape) return std::nullopt;
+  std::size_t top = 0;
+  for (std::size_t face = 0; face < shape->faces().size(); ++face) {
+    if (height(*shape, face, p) > constants::seam_step) return std::nullopt;
+    if (shape->face_normals()[face].dot(along) > shape->face_normals()[top].dot(along)) top = face;
+  }
+  return Depth{-height(*shape, top, p), solid.X_WS.linear() * shape->face_normals()[top]};
 }
 
 // Or holds but for less than a step, as a wall does that leans back.
@@ -120,7 +119,7 @@ unsigned InnerEdges::covered(const Scene& scene, const JoiningPoints& joining, c
     const double to_surface = (contact.on_a ? -0.5 : 0.5) * m.points[place].gap;
     const Vector3d p = touch ? (contact.on_a ? touch->on_a : touch->on_b)[place]
                              : Vector3d(m.points[place].position + to_surface * m.normal);
-    const std::optional<Depth> held = holds(solid, p + constants::seam_width * back, back);
+    const std::optional<Depth> held = holds(solid, p + constants::seam_width * back, beside);
     if (!held) continue;
     const Vector3d above = p + (std::max(0.0, held->depth) + 1.5 * constants::seam_step) * held->normal;
     if (!contains(*shape, X_WS.inverse() * above)) covered |= 1u << k;

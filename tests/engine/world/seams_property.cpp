@@ -142,3 +142,31 @@ TEST(Seams, AWallThatLeansStopsWhatSlides) {
       }
     }
 }
+
+// So do slabs with many corners and sides that lean outwards, whose corners meet those of tiles.
+TEST(Seams, ASlabOfManyCornersSlidesOverTilesAsFarAsOverABox) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    Random random(seed);
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 12; ++k) {
+      const double x = between(random, -0.5, 0.5), y = between(random, -0.5, 0.5);
+      points.emplace_back(x, y, 0.06);
+      points.emplace_back(0.8 * x, 0.8 * y, -0.06);
+    }
+    const engine::PlacedHull slab = engine::place_hull(points, 2700);
+    const Eigen::Isometry3d start = support::at(0, 0, 0.06) * slab.X_PB;
+    double way[2];
+    for (const bool tiles : {false, true}) {
+      World world = world_of(Eigen::Matrix3d::Identity(), 0.4, 1e8);
+      if (!tiles) world.add_static(support::shared(engine::box({30, 30, 0.25})), support::at(0, 0, -0.25), 0);
+      for (int i = -4; tiles && i < 12; ++i)
+        for (int j = -6; j < 7; ++j)
+          world.add_static(support::shared(engine::box({0.15, 0.2, 0.25})),
+                           support::at(0.3 * i + 0.02 * seed, 0.4 * j, -0.25), 0);
+      const int rock = world.add_rock(slab.body, start, {3, 0.5, 0});
+      for (int k = 0; k < 120; ++k) world.step();
+      way[tiles] = (world.rock(rock).pose.translation() - start.translation()).norm();
+    }
+    EXPECT_NEAR(way[1], way[0], 0.01 * way[0]) << "seed " << seed;
+  }
+}
