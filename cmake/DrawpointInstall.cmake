@@ -199,7 +199,8 @@ if(DRAWPOINT_BUILD_STUDIES)
                 "libdrawpoint-pareto-dev ${same_version}" "libdrawpoint-record-dev ${same_version}" libsqlitecpp-dev libsqlite3-dev
                 libcpp-httplib-dev nlohmann-json3-dev)
   list(APPEND CPACK_COMPONENTS_ALL programs)
-  drawpoint_deb(programs "Drawpoint: explore machine designs and strategies by simulation (programs)")
+  # They load the reference BLAS and LAPACK, which others would do for as dependencies.
+  drawpoint_deb(programs "Drawpoint: explore machine designs and strategies by simulation (programs)" libblas3 liblapack3)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "bash-completion, chromium, ffmpeg, python3, slurm-client")

@@ -5,7 +5,7 @@
 /// exact hypervolume, non-dominated sorting.
 ///
 /// Times are CPU seconds of the process, the least of several repeats; the peers' were measured once on the
-/// machine that docs/pareto.md names, as medians. Point sets and test functions are those of
+/// machine that docs/measurements/pareto.md names, as medians. Point sets and test functions are those of
 /// tests/pareto/test_functions.hpp. `pareto_table quick` leaves out the slow searches.
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 /// another way. So the targets Drawpoint::contact and Drawpoint::engine, and their pkg-config files, define for whoever
 /// links them what is true on plain x86-64: EIGEN_MAX_ALIGN_BYTES=16 and EIGEN_MALLOC_ALREADY_ALIGNED=1. AVX is still
 /// used, on unaligned data. A program that reaches the headers without them does not compile
-/// (docs/decisions/0020-alignment-of-eigen-types.md).
+/// (docs/decisions/0020).
 namespace drawpoint::engine {
 
 static_assert(

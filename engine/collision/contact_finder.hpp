@@ -82,13 +82,13 @@ class ContactFinder {
   const std::vector<Manifold>& find();
   const FinderTimes& times() const;
 
-  /// Of a manifold of the last find() whose shapes are polyhedra or cylinders and apart: where they touch
-  /// first within a time h > 0 [s] as their bodies move so; false when they do not. Several threads may call
-  /// it at once, each with its own number, 0 .. threads-1 of the pool.
+  /// Finds where two shapes touch first within a time h > 0 [s] as their bodies move; returns false when they
+  /// do not. The manifold is one of the last find(), of polyhedra or cylinders that are apart. Several threads
+  /// may call it at once, each with its own number, 0 .. threads-1 of the pool.
   bool first_touch(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b, double h, int thread,
                    FirstTouch& touch) const;
-  /// Of the same: whether a point of it meets the face that gave its normal, when b goes against a by `shift`
-  /// [m]: the manifold then is that of the touch. Cheaper.
+  /// Returns whether a point of such a manifold meets the face that gave its normal, when b moves against a by
+  /// `shift` [m]. The manifold is then that of the first touch, at less cost.
   bool meets_face(const Manifold& manifold, int point, const Eigen::Vector3d& shift) const;
   /// Whether one of its shapes is a half-space, whose normal is the same wherever the other goes.
   bool with_half_space(const Manifold& manifold) const;

@@ -17,7 +17,7 @@ struct RigidMotion {
   Eigen::Vector3d at(const Eigen::Vector3d& position) const {
     return velocity + angular_velocity.cross(position - origin);
   }
-  /// Of the origin after a time t [m].
+  /// The way of the origin in a time t [m].
   Eigen::Vector3d shift(double t) const { return t * (velocity + 0.5 * t * acceleration); }
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/collision/swept_contact.h>
 
+#include <drawpoint/engine/base/cross_matrix.h>
 #include <drawpoint/engine/geometry/hull_extremes.h>
 #include <drawpoint/engine/geometry/round_contact.h>
 #include <algorithm>
@@ -18,10 +19,8 @@ constexpr double short_share = 0.1;  // of the inner radii: a way in which shape
 
 // The turn by 2 atan(|v|/2) about v: that by |v| but for |v|³/12, without a sine.
 Eigen::Matrix3d turn_of(const Vector3d& v) {
-  const Vector3d c = 0.5 * v;
-  Eigen::Matrix3d cross;
-  cross << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
-  return Eigen::Matrix3d::Identity() + 2 / (1 + c.squaredNorm()) * (cross + cross * cross);
+  const Eigen::Matrix3d half = cross_matrix(0.5 * v);
+  return Eigen::Matrix3d::Identity() + 2 / (1 + 0.25 * v.squaredNorm()) * (half + half * half);
 }
 
 // The hull after a time t.

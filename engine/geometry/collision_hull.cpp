@@ -42,7 +42,7 @@ CollisionHull::CollisionHull(const ConvexPolyhedron& shape)
       edges(detail::edges_of(shape.faces(), *this)),
       centre(Vector3d::Zero()),
       radius(0),
-      inner_radius(unbounded),
+      inner_radius(0),
       reach(0),
       equivalent_radius(std::cbrt(3 * shape.volume() / (4 * std::numbers::pi))) {
   for (const Vector3d& normal : normals) {
@@ -56,8 +56,7 @@ CollisionHull::CollisionHull(const ConvexPolyhedron& shape)
     radius = std::max(radius, (p - centre).norm());
     reach = std::max(reach, p.norm());
   }
-  for (int face = 0; face < face_count(); ++face)
-    inner_radius = std::min(inner_radius, offsets[face] - normals[face].dot(centre));
+  inner_radius = shape.depth(centre);
   index(shape.faces());
   lay_out();
   assert(vertex_count() + face_count() == static_cast<int>(edges.size()) + 2 && "a closed hull (Euler)");

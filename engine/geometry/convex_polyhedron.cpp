@@ -6,6 +6,7 @@
 #include <drawpoint/engine/geometry/merged_faces.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -49,6 +50,12 @@ ConvexPolyhedron::ConvexPolyhedron(std::vector<Vector3d> vertices, std::vector<s
     for (std::size_t j = 0; j < k; ++j)
       squared = std::max(squared, (vertices_[k] - vertices_[j]).squaredNorm());
   length_ = std::sqrt(squared);
+}
+
+double ConvexPolyhedron::depth(const Vector3d& p) const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t face = 0; face < faces_.size(); ++face) highest = std::max(highest, height_over(face, p));
+  return -highest;
 }
 
 ConvexPolyhedron ConvexPolyhedron::transformed(const Eigen::Isometry3d& pose) const {

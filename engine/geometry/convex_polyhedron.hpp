@@ -32,6 +32,13 @@ class ConvexPolyhedron {
   double length() const { return length_; }  ///< longest distance between two vertices [m]
   double radius() const { return radius_; }  ///< of the sphere about the origin that holds all vertices [m]
 
+  /// [m] Of p over the plane of a face.
+  double height_over(std::size_t face, const Eigen::Vector3d& p) const {
+    return normals_[face].dot(p - vertices_[static_cast<std::size_t>(faces_[face].front())]);
+  }
+  /// [m] Of p under the nearest face's plane: the distance from the surface, or less than 0 outside.
+  double depth(const Eigen::Vector3d& p) const;
+
   ConvexPolyhedron transformed(const Eigen::Isometry3d& pose) const;
   /// Scaled about the origin; throws std::invalid_argument unless factor > 0.
   ConvexPolyhedron scaled(double factor) const;

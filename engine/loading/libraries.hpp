@@ -10,8 +10,7 @@
 namespace drawpoint::engine::loading {
 
 /// Another one when machine, rock, contacts or responses have changed so that a scenario gives other numbers: a
-/// study does not put the runs of both into one model. 2: the bucket has its stated volume clear of its plates,
-/// and spill that was cleared away counts on.
+/// study does not put the runs of both into one model.
 inline constexpr const char* simulator = "drawpoint loading, model 5";
 
 std::vector<std::string> libraries();

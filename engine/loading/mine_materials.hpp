@@ -26,8 +26,8 @@ struct MineMaterials {
 
 /// The default. No rolling and no spinning resistance. Friction, pair by pair (docs/measurements/materials.md has the
 /// sources and the tests):
-///   rock on rock   0.7   calibrated: bulk density, angle of repose and direct shear of blasted ore (docs/decisions/0025,
-///                        0026); piles lie at 36 degrees in the mean, where 35 to 42 are quoted
+///   rock on rock   0.7   calibrated: bulk density, angle of repose and direct shear of blasted ore
+///                        (docs/decisions/0019); piles lie at 36 degrees in the mean, where 35 to 42 are quoted
 ///   rock on floor  0.6   hard rock on hard rock, 0.55 to 0.70 (Barton and Choubey 1977)
 ///   rock on steel  0.35  rock fill on steel, 0.30 single-sized to 0.40 well graded (NAVFAC DM-7.02, 1986, table 1)
 ///   steel on floor 0.35  the same: a bucket slides on broken rock

@@ -19,7 +19,7 @@ void require_setting(bool fine, const std::string& name, double value, const std
 Scenario lh621_in_a_drift() {
   Scenario s;
   s.executor.speeds = lindmark2016_speeds();
-  // Reached while the bucket goes up and back; while it digs the budget ends first (docs/decisions/0024).
+  // Reached while the bucket goes up and back; while it digs the budget ends first (docs/decisions/0011).
   s.world.solver.tolerance = 0.02;
   // The force on the bucket is then off by 1.4 %, with 20 000 by 2.9 % (docs/measurements/loading.md).
   s.world.solver.iteration_budget = 40000;

@@ -21,13 +21,6 @@ inline Eigen::Matrix3d contact_frame(const Eigen::Vector3d& n) {
   return frame;
 }
 
-/// The matrix X with X v = r × v.
-inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
-  Eigen::Matrix3d X;
-  X << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return X;
-}
-
 /// A point's start impulse of one of S substeps in its frame, made admissible for the pair's friction.
 inline Eigen::Vector3d start_impulse(const ContactPoint& point, const Eigen::Matrix3d& frame, double friction,
                                      int substeps) {

@@ -48,14 +48,14 @@ class SequentialIteration {
   void add_momentum(double share);
   /// Returns Σ|Δλ| over the points.
   double iteration();
-  /// As SuperBodyMotion::moved().
+  /// Returns how far the last iteration moved the machine, as SuperBodyMotion::moved() does.
   double machine_moved() { return machine_.moved(); }
   /// Adds the substep's impulses and the machine's displacement to the step's.
   void finish();
 
   /// Whether the machine stands (SuperBodyMotion::stands).
   bool stands(double speed) const { return machine_.stands(speed); }
-  /// So many substeps more with the impulses and speeds of the last one.
+  /// Adds substeps that repeat the impulses and speeds of the last one.
   void repeat(int substeps);
 
   double normal_load() const;          ///< Σ λ_n of the substep [N s]

@@ -21,20 +21,20 @@ struct SolverOptions {
   Method method = Method::batched;
   int substeps = 16;   ///< S ≥ 1
   int iterations = 1;  ///< per substep, at least, ≥ 1
-  /// Beyond that a substep adds iterations until one changes the bodies' momentum by less than `tolerance` of
-  /// the normal load, as long as iterations times points stay below `iteration_budget`: a pile at rest needs
-  /// none, rocks in motion some, and small problems, which are cheap, as many as it takes. 0: never. A
+  /// A substep adds iterations until one changes the bodies' momentum by less than `tolerance` of the normal
+  /// load, as long as iterations times points stay below `iteration_budget`: a pile at rest needs none, rocks
+  /// in motion some, and small problems, which are cheap, as many as it takes. With 0 none is added. A
   /// machine that digs needs some five iterations per substep: with one, its bucket loads half as much again
-  /// (docs/decisions/0018).
+  /// (docs/decisions/0011).
   int iteration_budget = 8000;
-  /// Of Σ λ_n, for what an iteration changes momenta by (motion_change.h); 0: all that the budget allows. In
-  /// loading cycles velocities were off by 1 to 3 times what the last iteration changed
+  /// Share of Σ λ_n by which an iteration changes momenta (motion_change.h) when the iterations end; 0 uses all
+  /// that the budget allows. In loading cycles velocities were off by 1 to 3 times what the last iteration changed
   /// (docs/measurements/contact-solving.md): the default solves small problems to the end, 0.02 is enough for
   /// a machine in a large pile.
   double tolerance = 1e-5;
 };
 
-/// Iterations per substep at most, for so many points.
+/// The most iterations per substep for a number of points.
 inline int most_iterations(const SolverOptions& options, std::size_t points) {
   return std::max(options.iterations, options.iteration_budget / std::max(1, static_cast<int>(points)));
 }

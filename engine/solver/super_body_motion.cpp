@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/base/cross_matrix.h>
 #include <drawpoint/engine/solver/contact_frame.h>
 #include <drawpoint/engine/solver/contact_law_scalar.h>
 #include <drawpoint/engine/solver/super_body_motion.h>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -15,13 +14,7 @@ constexpr int rocks_per_reach_block = 256;  // that a thread takes at a time
 double inner_radius(const Shape& shape, const Eigen::Vector3d& from) {
   if (const auto* cylinder = std::get_if<Cylinder>(&shape))
     return std::min(cylinder->radius, cylinder->half_width);
-  const auto& polyhedron = std::get<ConvexPolyhedron>(shape);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t face = 0; face < polyhedron.faces().size(); ++face) {
-    const auto vertex = static_cast<std::size_t>(polyhedron.faces()[face].front());
-    least = std::min(least, polyhedron.face_normals()[face].dot(polyhedron.vertices()[vertex] - from));
-  }
-  return least;
+  return std::get<ConvexPolyhedron>(shape).depth(from);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #pragma once
 
 /// When a rock that stands still is taken out of the solve, and when it comes back. The rules, with the meaning of
-/// balance, load and impact, are those of freezing.h; docs/engine.md says what freezing costs in accuracy.
+/// balance, load and impact, are those of freezing.h; docs/measurements/freezing.md says what freezing costs in accuracy.
 namespace drawpoint::engine {
 
 struct FreezingOptions {

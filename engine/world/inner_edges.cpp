@@ -23,11 +23,6 @@ struct Depth {
   Vector3d normal;
 };
 
-double height(const ConvexPolyhedron& shape, std::size_t face, const Vector3d& p) {
-  return shape.face_normals()[face].dot(
-      p - shape.vertices()[static_cast<std::size_t>(shape.faces()[face].front())]);
-}
-
 // How deep the shape holds the point, which may lie outside by constants::seam_step, under the face that looks along
 // `beside` most. Nothing of cylinders.
 std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vector3d& beside) {
@@ -41,17 +36,15 @@ std::optional<Depth> holds(const Solid& solid, const Vector3d& point, const Vect
   if (!shape) return std::nullopt;
   std::size_t top = 0;
   for (std::size_t face = 0; face < shape->faces().size(); ++face) {
-    if (height(*shape, face, p) > constants::seam_step) return std::nullopt;
+    if (shape->height_over(face, p) > constants::seam_step) return std::nullopt;
     if (shape->face_normals()[face].dot(along) > shape->face_normals()[top].dot(along)) top = face;
   }
-  return Depth{-height(*shape, top, p), solid.X_WS.linear() * shape->face_normals()[top]};
+  return Depth{-shape->height_over(top, p), solid.X_WS.linear() * shape->face_normals()[top]};
 }
 
 // Or holds but for less than a step, as a wall does that leans back.
 bool contains(const ConvexPolyhedron& shape, const Vector3d& p) {
-  for (std::size_t face = 0; face < shape.faces().size(); ++face)
-    if (height(shape, face, p) > 0.5 * constants::seam_step) return false;
-  return true;
+  return shape.depth(p) >= -0.5 * constants::seam_step;
 }
 
 bool is_face_normal(const ConvexPolyhedron& shape, const Vector3d& n) {

@@ -14,7 +14,7 @@
 /// the spheres of the bodies' volumes. A stiffness is a choice of accuracy: rocks of 20 to 500 kg in substeps
 /// of 0.6 ms hold still from 1e8 N/m down, where 100 kN on a contact are 1 mm of overlap; with 1e9 N/m a
 /// contact answers faster than a substep, the iterations do not keep up and a pile without rolling resistance
-/// creeps (docs/decisions/0022). Lindmark's (2016) Young's modulus E reads as k = E ℓ, ℓ = 0.1 m: 1e9 N/m.
+/// creeps (docs/decisions/0008). Lindmark's (2016) Young's modulus E reads as k = E ℓ, ℓ = 0.1 m: 1e9 N/m.
 /// Friction: Coulomb with a circular cone. Rolling and spinning resistance: moments of at most μ_r R* and
 /// μ_s R* times the normal force, once per pair. Restitution: Newton's law by an impulse stage before the
 /// step, for approaches faster than `impact_speed`.

@@ -13,7 +13,10 @@
 /// below 1e-4, or when the last 4 iterations together gained less than 1e-3: near a singular R the likelihood
 /// carries round-off that no step can climb.
 ///
-/// Ipopt's linear solver MUMPS keeps global state, so searches of different threads wait for each other.
+/// Ipopt and its linear solver MUMPS call the BLAS that the system has chosen, whose last digits differ from
+/// library to library. So the maximum is moved to the next multiple of 2⁻¹⁶ inside the box: all libraries
+/// give the same bits, for a loss of log likelihood below 1e-9 per unit of curvature. MUMPS keeps global
+/// state, so searches of different threads wait for each other.
 /// Nothing is printed and no option file is read.
 
 #include <Eigen/Core>
@@ -186,6 +189,14 @@ inline Ipopt::SmartPtr<Ipopt::IpoptApplication> silent_ipopt(int max_iterations)
   return ipopt;
 }
 
+/// p on a grid that is far coarser than what a BLAS may change and far finer than what data can tell.
+inline Eigen::VectorXd on_grid(const Box& box, const Eigen::VectorXd& p) {
+  Eigen::VectorXd at = p;
+  for (Eigen::Index i = 0; i < p.size(); ++i)
+    at[i] = std::clamp(std::round(p[i] * 0x1p16) * 0x1p-16, box.lower[i], box.upper[i]);
+  return at;
+}
+
 /// One run of Ipopt in a box in which equal bounds fix a parameter.
 inline Maximum run_ipopt(Likelihood& likelihood, const Box& box, const SearchStart& start,
                          int max_iterations) {
@@ -195,7 +206,7 @@ inline Maximum run_ipopt(Likelihood& likelihood, const Box& box, const SearchSta
   const auto status = ipopt->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(problem)));
   const bool done = status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level ||
                     status == Ipopt::Search_Direction_Becomes_Too_Small;
-  return {problem->best(), problem->best_value(), done || problem->stopped()};
+  return {on_grid(box, problem->best()), problem->best_value(), done || problem->stopped()};
 }
 
 /// `box` with the parameters fixed that a bound holds at p.

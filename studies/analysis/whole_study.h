@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A whole study in one HDF5 file for other programs (docs/decisions/0056-studies-in-hdf5.md).
+/// A whole study in one HDF5 file for other programs (docs/decisions/0003).
 ///
 ///     study/        name, seed, simulator, version; no_front, why there is none
 ///     options/      one text per option of the study

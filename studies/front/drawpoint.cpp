@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 /// The program `drawpoint`: lists the studies of an installation, says what they are made of, and starts one.
-/// It knows none of them: they are the programs of one folder, and are asked (docs/decisions/0042).
+/// It knows none of them: they are the programs of one folder, and are asked (docs/decisions/0005).
 
 #include <drawpoint/studies/commands/option_tree.h>
 #include <unistd.h>

@@ -2,11 +2,14 @@
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
 #
-# any_blas.sh LHD_LOADING: a loading cycle comes out the same, digit by digit, whichever BLAS and LAPACK the system has chosen.
-# Where the system has one alone, a second is fetched from Debian's packages and looked at here, not installed; without a
-# network there is nothing to compare (77). Models and fronts do follow the library, through Ipopt's MUMPS.
+# any_blas.sh LHD_LOADING FORMULA_DEMO PRINT_FITS: a loading cycle, the models and the front of a study, and fits of a program
+# that links the toolkit alone, come out the same, digit by digit, whichever BLAS and LAPACK the system has chosen. Where the
+# system has one alone, a second is fetched from Debian's packages and used here without being installed; without a network
+# there is nothing to compare (77).
 set -euo pipefail
 loading=$1
+formula=$2
+fits=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -26,9 +29,21 @@ mapfile -t libraries < <(choices)
 [ ${#libraries[@]} -ge 2 ] || mapfile -t -O ${#libraries[@]} libraries < <(fetched)
 [ ${#libraries[@]} -ge 2 ] || { echo "one BLAS is here, ${libraries[*]}, and no other can be fetched; install libopenblas0" >&2; exit 77; }
 
+# answers LIBRARIES FOLDER: what the programs compute with these.
+answers() {
+  mkdir "$2"
+  export LD_LIBRARY_PATH=$1
+  "$loading" evaluate --x=1.2,0.8,0.5,0.2 --pile-mass 15 --cycles 1 --seed 1 >"$2/cycle" 2>/dev/null
+  "$formula" run --runs 40 --validation 10 --out "$2/study" --json 2>/dev/null | tr ',' '\n' | grep -v -e seconds -e report >"$2/study.json"
+  "$formula" export --what front --out "$2/study" >"$2/front.csv" 2>/dev/null
+  "$fits" >"$2/fits"
+  rm -r "$2/study"
+}
+
+failed=0
 for k in "${!libraries[@]}"; do
-  LD_LIBRARY_PATH=${libraries[$k]} "$loading" evaluate --x=1.2,0.8,0.5,0.2 --pile-mass 15 --cycles 1 --seed 1 >"$work/$k" 2>/dev/null
-  diff "$work/0" "$work/$k" >"$work/diff" ||
-    { echo "a cycle differs between ${libraries[0]} (<) and ${libraries[$k]} (>):"; head -6 "$work/diff"; failed=1; }
+  (answers "${libraries[$k]}" "$work/$k")
+  diff -r "$work/0" "$work/$k" >"$work/diff" ||
+    { echo "${libraries[0]} (<) and ${libraries[$k]} (>) give different answers:"; head -20 "$work/diff"; failed=1; }
 done
-exit "${failed:-0}"
+exit "$failed"

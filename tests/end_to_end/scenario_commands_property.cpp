@@ -61,7 +61,7 @@ TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
 }
 
 // The pile on which versions and engines are compared keeps its rock, the upper bound of what blasted ore may have
-// (docs/decisions/0025), whatever the loading case takes.
+// (docs/decisions/0019), whatever the loading case takes.
 TEST_F(ScenarioCommands, PileMaterialIsTheBoundOfOreUnlessTold) {
   const nlohmann::json j = run(pile + " --rocks 2 --settle 1 --steps 1 --dig 1 --json").json();
   EXPECT_EQ(j.at("rolling"), 0.1);

@@ -74,26 +74,3 @@ TEST(Documents, ADeadLinkIsFound) {
                  root),
       (std::vector<std::string>{"gone.md", "gone/b.png"}));
 }
-
-// What strategy_sweep printed lies in docs/measurements/sweeps: a row per value, mean +- half of an interval for
-// each measure, of which the share of the payload (the fourth) stays out of the page's tables.
-TEST(Documents, TheSweepsOfTheFindingsAreWhatWasPrinted) {
-  const std::string page = read_text(root / "docs/findings.md");
-  const std::regex pair("(-?[0-9.]+) \\+- ([0-9.]+)");
-  for (const std::string variable : {"alpha", "beta", "gamma", "kappa"}) {
-    std::istringstream printed(read_text(root / "docs/measurements/sweeps" / (variable + ".txt")));
-    std::string line;
-    int values = 0;
-    for (int skipped = 0; skipped < 2; ++skipped) std::getline(printed, line);
-    for (; std::getline(printed, line); ++values) {
-      std::ostringstream row;
-      row << "| " << std::stod(line) << " |";
-      int measure = 0;
-      for (std::sregex_iterator match(line.begin(), line.end(), pair), end; match != end; ++match)
-        if (measure++ != 3) row << ' ' << (*match)[1] << " ± " << (*match)[2] << " |";
-      EXPECT_EQ(measure, 10) << line;
-      EXPECT_NE(page.find(row.str()), std::string::npos) << variable << ": " << row.str();
-    }
-    EXPECT_EQ(values, 9) << variable;
-  }
-}

@@ -15,10 +15,10 @@ using validation::record;
 
 namespace {
 
-const validation::Problem bouncing{"bouncing", validation::Group::impact, "Bouncing block",
-                                   "A cube of 0.4 m falls flat on the floor from 1 m and bounces twice, with "
-                                   "restitution 0.5 and 0.9. Rigid contact (1e12 "
-                                   "N/m), steps of 1 ms, reference settings."};
+const validation::Problem bouncing{
+    "bouncing", validation::Group::impact, "Bouncing block",
+    "A cube of 0.4 m falls flat on the floor from 1 m and bounces twice, with restitution 0.5 and "
+    "0.9, at 1e12 N/m, in steps of 1 ms by the reference settings."};
 
 constexpr double g = 9.81, h = 1e-3, side = 0.4;
 

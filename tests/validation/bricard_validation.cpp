@@ -14,15 +14,10 @@ using validation::record;
 
 namespace {
 
-const validation::Problem bricard{"bricard", validation::Group::mechanism,
-                                  "Bricard's mechanism (benchmark A04)",
-                                  "Five rods of 1 m and 1 kg along the edges of a cube fall for 10 s; six "
-                                  "hinges, each across both its rods, leave one "
-                                  "freedom although they count to none. Five hinges form the tree. The sixth "
-                                  "is closed by two pins on its axis: four "
-                                  "equations, a cylindrical joint, none of them redundant; that the rods do "
-                                  "not slide along the axis is then a "
-                                  "result. Steps of 4, 2, 1 and 0.5 ms."};
+const validation::Problem bricard{
+    "bricard", validation::Group::mechanism, "Bricard's mechanism (benchmark A04)",
+    "Five rods of 1 m and 1 kg along the edges of a cube fall for 10 s in steps of 4, 2, 1 and 0.5 "
+    "ms, joined by six hinges that leave one freedom; two pins close the sixth."};
 
 // The corner is compared at 9.5 s; at 10 s the rods happen to stand nearly still again.
 constexpr double g = 9.81, duration = 10, seen = 9.5;
@@ -96,7 +91,8 @@ TEST(Bricard, Corner) {
     correction = std::max(correction, found.back().correction);
   }
   const std::array<const char*, 3> names{
-      "x of the corner opposite the ground at 9.5 s, extrapolated to h = 0", "the same, y", "the same, z"};
+      "x of the corner opposite the ground at 9.5 s, extrapolated to h = 0",
+      "the corner's y, extrapolated to h = 0", "the corner's z, extrapolated to h = 0"};
   for (int k = 0; k < 3; ++k)
     record(bricard,
            {.quantity = names[k],
@@ -122,7 +118,7 @@ TEST(Bricard, EnergyAndClosure) {
                    .budget_reason =
                        "Energy: it swings in proportion to h (0.3 J at 4 ms) and must vanish with it, to the "
                        "last of Richardson's corrections."});
-  record(bricard, {.quantity = "order in h of that change",
+  record(bricard, {.quantity = "order in h of the change of energy",
                    .expected = 1,
                    .source = "semi-implicit Euler",
                    .measured = energy.order,

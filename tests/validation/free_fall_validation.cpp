@@ -14,7 +14,7 @@ namespace {
 
 const validation::Problem free_fall{
     "free_fall", validation::Group::single_body, "Free fall",
-    "A rock of 0.5 m is thrown at (3, -1, 4) m/s and falls for 2 s with nothing to meet, in steps of 5 ms."};
+    "A rock of 0.5 m is thrown at (3, -1, 4) m/s and falls for 2 s in steps of 5 ms."};
 
 constexpr double h = 0.005, g = 9.81;
 constexpr int steps = 400;

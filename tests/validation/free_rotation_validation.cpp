@@ -15,9 +15,8 @@ namespace {
 
 const validation::Problem free_rotation{
     "free_rotation", validation::Group::single_body, "Torque-free rotation of a rock",
-    "A block of 0.2 m x 0.4 m x 0.7 m spins freely at about 5 rad/s, mostly about its middle axis, for 10 s "
-    "in steps of 5 ms; "
-    "the axes turn over again and again. For the order also 2.5 and 1.25 ms."};
+    "A block of 0.2 m x 0.4 m x 0.7 m spins freely at about 5 rad/s, mostly about its middle axis, "
+    "for 10 s in steps of 5 ms (2.5 and 1.25 ms for the order)."};
 
 constexpr double h = 0.005, duration = 10;
 const Vector3d start(0.3, 5, 0.4);  // [rad/s], in the block's axes, which are the world's at the start
@@ -96,7 +95,7 @@ TEST(FreeRotation, KeepsMomentumAndEnergy) {
            "A and B turning at rates below ω: by less than (hω)²/8; it swings by that and does not drift."});
   const auto energy = validation::extrapolate(
       {spins()[0].worst_energy, spins()[1].worst_energy, spins()[2].worst_energy}, 2, 2);
-  record(free_rotation, {.quantity = "order in h of that change",
+  record(free_rotation, {.quantity = "order in h of the change of energy",
                          .expected = 2,
                          .source = "Strang's rule",
                          .measured = energy.order,
@@ -114,8 +113,9 @@ TEST(FreeRotation, FollowsEulersEquations) {
     correction = std::max(correction, found.back().correction);
   }
   const std::array<const char*, 3> names{
-      "rate about the largest moment's axis at 10 s, extrapolated to h = 0", "the same, middle axis",
-      "the same, smallest moment's axis"};
+      "rate about the largest moment's axis at 10 s, extrapolated to h = 0",
+      "rate about the middle axis, extrapolated to h = 0",
+      "rate about the smallest moment's axis, extrapolated to h = 0"};
   for (int k = 0; k < 3; ++k)
     record(free_rotation,
            {.quantity = names[k],

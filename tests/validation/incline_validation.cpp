@@ -15,9 +15,8 @@ namespace {
 
 const validation::Problem incline{
     "incline", validation::Group::single_body, "Block on an incline",
-    "A flat block of 0.8 m x 0.8 m x 0.2 m lies on a slope with friction 0.6 "
-    "(friction angle 30.96°), at its rest "
-    "overlap; steps of 5 ms, reference settings, and twice the engine's default settings."};
+    "A flat block of 0.8 m x 0.8 m x 0.2 m lies on a slope with friction 0.6 (friction angle 30.96°), "
+    "in steps of 5 ms by the reference settings, and twice by the default settings."};
 
 constexpr double g = 9.81, mu = 0.6, stiffness = 1e8, degree = std::numbers::pi / 180;
 

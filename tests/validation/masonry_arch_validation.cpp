@@ -15,9 +15,8 @@ namespace {
 
 const validation::Problem masonry_arch{
     "masonry_arch", validation::Group::assembly, "Masonry arch",
-    "A semicircular arch of 24 voussoirs (mean radius 2 m, depth 0.6 m, 2500 kg/m³, μ = 0.8, 1e9 N/m per "
-    "joint) is "
-    "let go on the floor, each joint just closed. Default steps and iterations."};
+    "A semicircular arch of 24 voussoirs (mean radius 2 m, depth 0.6 m, 2500 kg/m³, μ = 0.8, 1e9 N/m "
+    "per joint) is let go on the floor with closed joints, by the default settings."};
 
 constexpr int voussoirs = 24;
 constexpr double R = 2, depth = 0.6, density = 2500, g = 9.81, k = 1e9;

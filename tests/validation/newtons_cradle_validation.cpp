@@ -13,11 +13,9 @@ namespace {
 
 const validation::Problem newtons_cradle{
     "newtons_cradle", validation::Group::impact, "Newton's cradle",
-    "Cubes of 0.5 m in a row, face to face and without friction or gravity; one arrives with 2 m/s. "
-    "Touching: all impacts fall in "
-    "one step and are shared at once (Newton's law of impact, all contacts together), where a real cradle "
-    "passes "
-    "them on. 0.1 m apart: one impact after the other. Default steps and iterations."};
+    "A cube of 0.5 m strikes a row of others at 2 m/s without friction or gravity; touching ones "
+    "share all impacts in one step, where a real cradle passes them on as cubes 0.1 m apart do "
+    "(default settings)."};
 
 constexpr double side = 0.5, v = 2;  // halves and quarters: touching faces have a gap of exactly zero
 
@@ -34,11 +32,9 @@ World cradle(int n, double restitution, double apart) {
 }
 
 const char* const precision_reason =
-    "Impulses are solved to a relative 1e-12 and velocities pass through single precision: 6e-8 of 2 m/s a "
-    "rounding, some ten "
-    "roundings. Cubes that go on together carry no load, so 50 x 16 substeps make all 64 iterations that "
-    "have or precede "
-    "momentum: 25 600 roundings by at most 3e-8 m/s, as a random walk 4.8e-6 m/s.";
+    "Velocities pass through single precision: ten roundings of 6e-8 of 2 m/s, and, where cubes carry no "
+    "load, 25 600 of 3e-8 m/s as a random walk, 4.8e-6 m/s.";
+// Cubes that go on together make all 64 iterations that have or precede momentum, in 50 x 16 substeps.
 constexpr double precision = 10 * 6e-8 * v + 4.8e-6;
 
 void record_velocity(const World& world, const std::string& which, int cube, double expected,

@@ -15,10 +15,8 @@ namespace {
 
 const validation::Problem overlap{
     "overlap", validation::Group::single_body, "Overlap of a resting block",
-    "Cubes of 0.2 m and 0.4 m (20 kg, 160 kg) are put down on a level floor at "
-    "first touch and come to rest within 4 s, "
-    "with a linear contact of 1e6 N/m and (damping time 0.1 s) with Hertz's law for E* = 1 MPa; "
-    "steps of 5 ms, reference settings."};
+    "Cubes of 20 kg and 160 kg come to rest on the floor within 4 s, by a linear contact of 1e6 N/m "
+    "and by Hertz's law (E* = 1 MPa), in steps of 5 ms by the reference settings."};
 
 constexpr double g = 9.81;
 

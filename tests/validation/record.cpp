@@ -10,6 +10,7 @@
 #include <drawpoint/tests/validation/record.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -22,44 +23,68 @@ std::string printed(double value, int digits) {
   return text.data();
 }
 
-// With one digit more than the budget can tell apart.
+// With one digit more than the budget can tell apart; three where there is no budget.
 std::string resolved(double value, double budget) {
   if (!std::isfinite(value) || value == 0) return printed(value, 3);
-  const double orders = budget > 0 ? std::ceil(std::log10(std::abs(value) / budget)) : 13;
+  const double orders = budget > 0 ? std::ceil(std::log10(std::abs(value) / budget)) : 1;
   return printed(value, static_cast<int>(std::clamp(orders + 2, 2.0, 15.0)));
 }
 
-// The columns of a row that say how it went; the same in both files.
 double share_of_budget(const Comparison& c) {
   return c.budget > 0 ? std::abs(c.error) / c.budget : (c.error == 0 ? 0.0 : 1.0);
 }
 
-std::string row(const Comparison& c) {
-  return "| " + c.quantity + " | " + c.unit + " | " + resolved(c.expected, c.budget) + " | " +
-         resolved(c.measured, c.budget) + " | " + printed(c.error, 2) + " | " + printed(c.budget, 2) + " | " +
-         c.source + " |\n";
+// The comparison that is nearest to its budget, then the headlines.
+std::vector<Comparison> on_the_page(const std::vector<Comparison>& done) {
+  const auto nearest = std::max_element(
+      done.begin(), done.end(),
+      [](const Comparison& a, const Comparison& b) { return share_of_budget(a) < share_of_budget(b); });
+  std::vector<Comparison> shown{*nearest};
+  for (auto c = done.begin(); c != done.end(); ++c)
+    if (c->headline && c != nearest) shown.push_back(*c);
+  return shown;
 }
 
-std::string section(const Problem& problem, const std::vector<Comparison>& done) {
-  std::string text = "### " + problem.title + "\n\n" + problem.simulated +
-                     "\n\n| Compared | Unit | Expected | Measured | Error | Budget | Source |\n" +
-                     "|---|---|---|---|---|---|---|\n";
-  for (const Comparison& c : done) text += row(c);
-  text += "\n";
-  std::vector<std::string> told;
-  for (const Comparison& c : done) {
-    if (std::find(told.begin(), told.end(), c.budget_reason) != told.end()) continue;
-    told.push_back(c.budget_reason);
-    text += "* " + c.budget_reason + "\n";
+std::string rows(const Problem& problem, const std::vector<Comparison>& done) {
+  std::string text, head = problem.title, test = "`" + problem.name + "_validation`";
+  for (const Comparison& c : on_the_page(done)) {
+    text += "| " + head + " | " + c.quantity + (c.unit == "1" ? "" : " [" + c.unit + "]") + " | " +
+            resolved(c.expected, c.budget) + " | " + resolved(c.measured, c.budget) + " | " +
+            printed(c.error, 2) + " | " + printed(c.budget, 2) + " | " + c.source + " | " + test + " |\n";
+    head.clear();
+    test.clear();
   }
+  return text;
+}
+
+std::string words(const Problem& problem, const std::vector<Comparison>& done) {
+  std::string text = "* **" + problem.title + ".** " + problem.simulated;
+  std::set<std::string> said;
+  for (const Comparison& c : on_the_page(done))
+    if (said.insert(c.budget_reason).second) text += " *" + c.budget_reason + "*";
   return text + "\n";
 }
 
-std::string summary(const Problem& problem, const std::vector<Comparison>& done) {
-  double worst = 0;
-  for (const Comparison& c : done) worst = std::max(worst, share_of_budget(c));
-  return "| " + problem.title + " | " + std::to_string(done.size()) + " | " + printed(worst, 2) + " | `" +
-         problem.name + "_validation.cpp` |\n";
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) {
+    cell += c;
+    if (c == '"') cell += c;
+  }
+  return cell + "\"";
+}
+
+// In the order of the header that tests/validation/table writes.
+std::string csv(const Problem& problem, const std::vector<Comparison>& done) {
+  std::string text;
+  for (const Comparison& c : done) {
+    for (const std::string& cell : {problem.title, problem.name + "_validation", c.quantity, c.unit})
+      text += quoted(cell) + ",";
+    text += resolved(c.expected, c.budget) + "," + resolved(c.measured, c.budget) + "," +
+            printed(c.error, 2) + "," + printed(c.budget, 2) + "," + printed(share_of_budget(c), 2) + "," +
+            quoted(c.source) + "," + quoted(c.budget_reason) + "\n";
+  }
+  return text;
 }
 
 void replace(const std::filesystem::path& path, const std::string& text) {
@@ -75,8 +100,9 @@ void write(const Problem& problem, const std::vector<Comparison>& done) {
   const char* folder = std::getenv("DRAWPOINT_VALIDATION_TABLE");
   if (!folder) return;
   const std::string stem = std::to_string(static_cast<int>(problem.group)) + "." + problem.name;
-  replace(std::filesystem::path(folder) / (stem + ".section"), section(problem, done));
-  replace(std::filesystem::path(folder) / (stem + ".summary"), summary(problem, done));
+  replace(std::filesystem::path(folder) / (stem + ".rows"), rows(problem, done));
+  replace(std::filesystem::path(folder) / (stem + ".words"), words(problem, done));
+  replace(std::filesystem::path(folder) / (stem + ".csv"), csv(problem, done));
 }
 
 }  // namespace

@@ -19,14 +19,8 @@ namespace {
 
 const validation::Problem repose_ledge{
     "repose_ledge", validation::Group::granular, "Angle of repose, ledge",
-    "410 rocks of 0.3 m, the six shapes in turn, in a bin 2.4 m long and 0.9 m wide with smooth "
-    "sides; its end is "
-    "taken away and what slides off the ledge is gone. μ = 0.1 and 0.9, six seeds each with rolling "
-    "resistance μ_r = 0.5; three "
-    "with none, and at μ = 0.9 three with 0.1; default steps and iterations; the angle "
-    "of what is left, from half a rock above the ledge to one rock below the crest. Four rocks of height "
-    "over the edge "
-    "and three across: the bank is a small one, steeper than a high one would stand."};
+    "The end of a smooth bin, 2.4 m long and 0.9 m wide, with 410 rocks of 0.3 m is taken away; the "
+    "bank that stays is small, and steeper than a high one (three or six seeds, default settings)."};
 
 constexpr double size = 0.3, length = 2.4, width = 0.9;
 
@@ -102,7 +96,8 @@ void record_steepness(const Material& rough, const Estimate& bank) {
           .measured = bank.mean,
           .error = std::max(0.0, 32 - bank.mean),
           .budget = 0,
-          .budget_reason = "A drained bank is steeper than a poured heap; the error is what it lacks."});
+          .budget_reason = "A drained bank is steeper than a poured heap; the error is what it lacks.",
+          .headline = true});
 }
 
 // `student`: of as many degrees of freedom as the two means have together, 1 % one-sided.
@@ -146,6 +141,7 @@ TEST(ReposeLedge, StandsByShapeAlone) {
   const Estimate low = drained_angle({.friction = 0.1}, three), high = drained_angle(none, three);
   record_steepness(none, high);
   record_rise("μ_r = 0", low, high, 3.75,
-              "As before, with 3.75 standard errors (Student, 4 degrees of freedom).");
+              "A rise must exceed 3.75 standard errors of the difference (Student, 4 degrees of freedom, 1 % "
+              "one-sided).");
   record_steepness(little, drained_angle(little, three));
 }

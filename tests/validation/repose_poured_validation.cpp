@@ -17,12 +17,8 @@ namespace {
 
 const validation::Problem repose_poured{
     "repose_poured", validation::Group::granular, "Angle of repose, poured",
-    "300 rocks of 0.3 m, the six shapes in turn, let go in layers of nine some "
-    "0.7 m over the "
-    "heap's top, on a floor as rough as they are; μ = 0.3, 0.6 and 0.9 with rolling resistance μ_r = 0.5, "
-    "eight seeds each; μ = 0.9 "
-    "with none and with 0.1, five seeds each; default steps and iterations. The angle "
-    "is that of the cone's sections, from one rock above the floor to one rock below the tip."};
+    "300 rocks of 0.3 m are poured in layers of nine, some 0.7 m over the heap's top, on a floor as "
+    "rough as they are (five or eight seeds, default settings)."};
 
 constexpr double size = 0.3;
 
@@ -62,7 +58,8 @@ void record_angle(const engine::Material& material, const Estimate& angle, doubl
                          .source = "published band of 32 to 47 deg",
                          .measured = angle.mean,
                          .budget = 7.5 + student_of_it * angle.standard_error,
-                         .budget_reason = reason});
+                         .budget_reason = reason,
+                         .headline = true});
 }
 
 }  // namespace
@@ -116,8 +113,7 @@ TEST(ReposePoured, IsPlausibleByShapeAlone) {
   const engine::Material shape_alone{.friction = 0.9}, ore{.friction = 0.9, .rolling = 0.1};
   const Estimate none = poured_angle(shape_alone, 5), little = poured_angle(ore, 5);
   const std::string reason =
-      "The same half of the band, and 3.75 standard errors of a mean of five (Student, 4 degrees of "
-      "freedom).";
+      "Half the published band, and 3.75 standard errors of a mean of five (Student, 4 degrees of freedom).";
   record_angle(shape_alone, none, student_of_mean_of_five, reason);
   record_angle(ore, little, student_of_mean_of_five, reason);
   record(repose_poured,

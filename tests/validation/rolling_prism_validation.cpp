@@ -14,12 +14,11 @@ using validation::record;
 
 namespace {
 
-const validation::Problem rolling_prism{"rolling_prism", validation::Group::single_body,
-                                        "Rolling of a twelve-sided prism",
-                                        "A prism (radius 0.5 m, width 0.6 m) starts on a face and rolls over "
-                                        "its edges, losing energy with each face that "
-                                        "strikes the floor and to a rolling resistance. Rigid contact (1e12 "
-                                        "N/m), steps of 0.1 ms; reference settings."};
+const validation::Problem rolling_prism{
+    "rolling_prism", validation::Group::single_body, "Rolling of a twelve-sided prism",
+    "A prism (radius 0.5 m, width 0.6 m) rolls over its edges and loses energy to each face that "
+    "strikes the floor and to rolling resistance, at 1e12 N/m in steps of 0.1 ms by the reference "
+    "settings."};
 
 constexpr double g = 9.81, R = 0.5, half_width = 0.3, density = 2000, h = 1e-4, omega = 3;
 constexpr int n = 12;
@@ -125,7 +124,7 @@ TEST(RollingPrism, LosesWhatEachFaceTakes) {
              "twice; the losses add up over four faces."});
     record(rolling_prism, {.quantity = "edges passed" + with,
                            .expected = static_cast<double>(exact.over_edge.size()),
-                           .source = "the same",
+                           .source = "angular momentum about the new edge, energy in between",
                            .measured = static_cast<double>(rates.size()),
                            .budget = 0,
                            .budget_reason = "Edges: an integer."});

@@ -14,13 +14,10 @@ using validation::record;
 
 namespace {
 
-const validation::Problem rolling{"rolling", validation::Group::single_body,
-                                  "Rolling to rest, and from slip to rolling",
-                                  "A cylinder (radius 0.5 m, width 0.6 m, 1 t) and a twelve-sided prism of "
-                                  "the same size on a level floor; steps of 5 ms, "
-                                  "reference settings. The rolling resistance is a moment μ_r R* N with R* "
-                                  "the radius of the sphere of the body's "
-                                  "volume."};
+const validation::Problem rolling{
+    "rolling", validation::Group::single_body, "Rolling to rest, and from slip to rolling",
+    "A cylinder (radius 0.5 m, width 0.6 m, 1 t) rolls to rest, and from slip to rolling, in steps of "
+    "5 ms by the reference settings; R* is the radius of the sphere of its volume."};
 
 constexpr double g = 9.81, R = 0.5, half_width = 0.3, mass = 1000, stiffness = 1e8;
 

@@ -5,7 +5,7 @@
 #include <drawpoint/engine/world/world.hpp>
 
 /// The settings with which laws are validated: the reference method in double precision, one substep of 25
-/// iterations, started from all of the last step's impulses, so that the solver's answers to the same problem
+/// iterations or more, started from all of the last step's impulses, so that the solver's answers to the same problem
 /// converge from step to step and errors come from the law and the time step alone. The engine's defaults,
 /// which trade some of that for speed, have lines of their own.
 namespace drawpoint::validation {

@@ -13,11 +13,10 @@ using validation::record;
 
 namespace {
 
-const validation::Problem stopping{"stopping_distance", validation::Group::single_body,
-                                   "Stopping distance of a sliding block",
-                                   "A block of 0.8 m x 0.8 m x 0.2 m is thrown over a level floor (friction "
-                                   "0.5) at 2 m/s in 16 directions; default "
-                                   "step, substeps and iterations."};
+const validation::Problem stopping{
+    "stopping_distance", validation::Group::single_body, "Stopping distance of a sliding block",
+    "A block of 0.8 m x 0.8 m x 0.2 m is thrown over a level floor (friction 0.5) at 2 m/s in 16 "
+    "directions, by the default settings."};
 
 constexpr double g = 9.81, mu = 0.5, speed = 2, stiffness = 1e8;
 
@@ -81,12 +80,12 @@ TEST(StoppingDistance, IsTheSameInEveryDirection) {
                     .source = "circular cone",
                     .measured = aside,
                     .budget = 1e-4 * exact,
-                    .budget_reason = "Aside and turn: the same."});
+                    .budget_reason = "Aside and turn: as the spread."});
   record(stopping, {.quantity = "largest turn about the vertical",
                     .unit = "rad",
                     .expected = 0,
                     .source = "no moment of uniform sliding",
                     .measured = turn,
                     .budget = 1e-4,
-                    .budget_reason = "Aside and turn: the same."});
+                    .budget_reason = "Aside and turn: as the spread."});
 }

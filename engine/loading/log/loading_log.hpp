@@ -97,7 +97,7 @@ void write_log(const std::filesystem::path& path, const LoadingLog& log);
 /// What of a log is read: motion and shapes of a scene are most of it. Without, the scene has its frames alone.
 enum class LogContent { all, without_scene };
 
-/// Of this version and of versions 4 to 7; of a run that was killed, all cycles that it had done: those after
+/// Reads logs of versions 4 to 9; of a run that was killed, all cycles that it had done: those after
 /// the first are in files beside it, FILE.part0002 and so on. Throws std::runtime_error if a file is missing,
 /// truncated, damaged or no loading log, or if a part is of another run.
 LoadingLog read_log(const std::filesystem::path& path, LogContent content = LogContent::all);

@@ -77,8 +77,8 @@ double joint_damage(const LoadingLog& log, const DamageOptions& options = {});
 double rock_spill(const LoadingLog& log, const SpillOptions& options = {});
 
 /// Standard errors of the three, in their units, by the scatter of the run's cycles alone: of k cycles known to
-/// 1/√(2(k − 2)) of themselves, as the first, which meets a fresh pile and loads a fifth more in every run, tells nothing
-/// of scatter; two cycles tell theirs with that in it. They take cycles as independent. One cycle of one that was wanted
+/// 1/√(2(k − 2)) of themselves, as the first, which meets a fresh pile and loads more in every run, shows nothing
+/// of scatter; that of two cycles has this in it. They take cycles as independent. One cycle of one that was wanted
 /// tells none: 0; one that is left of several tells as little: the response itself.
 double production_standard_error(const LoadingLog& log, const ProductionOptions& options = {});  // of_ratios
 double joint_damage_standard_error(const LoadingLog& log, const DamageOptions& options = {});

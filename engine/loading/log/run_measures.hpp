@@ -31,7 +31,7 @@
 /// bucket capacity): 0.80 to 0.95 in well blasted rock, 0.75 to 0.90 in average, 0.60 to 0.75 in poorly blasted rock.
 namespace drawpoint::engine::loading {
 
-/// Of the default rock in its mine's sizes, poured loosely (docs/decisions/0026-rock-within-its-bounds.md)
+/// Of the default rock in its mine's sizes, poured loosely (docs/decisions/0019)
 /// [1].
 inline constexpr double loose_ore_porosity = 0.41;
 

@@ -18,11 +18,11 @@
 /// A pile at rest costs one iteration: when the first substep leaves every velocity and impulse as it was, the others
 /// would too, and are not made (constants::standing_speed).
 ///
-/// Pairs that touch the machine are swept one after another in double precision before the others
-/// (iteration_order.hpp), on the same velocities. Bodies that touch nothing keep double precision. Velocities
+/// Pairs that touch the machine are solved one after another in double precision before the others
+/// (iteration_order.h), on the same velocities. Bodies that touch nothing keep double precision. Velocities
 /// and impulses of the others have 24 bits: a residual below about 1e-6 of the load is round-off, and
 /// momentum is kept to 6e-8 of a body's own an iteration. Positions stay in double precision outside. Cost
-/// and figures: docs/contact-solving.md.
+/// and figures: docs/measurements/contact-solving.md.
 namespace drawpoint::engine::detail {
 
 class BatchedSolver {

@@ -73,8 +73,7 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 // is taken, and one pile may lie that much outside. No row is flatter than a pile that was dropped (25 degrees at
 // most) or steeper than wet sand stands; the crest is higher than the bucket's mouth, 1.75 m, and no rock reaches the roof.
 TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
-  Scenario scenario = lh621_in_a_drift();
-  scenario.world.threads = 2;  // for time only
+  const Scenario scenario = lh621_in_a_drift();
   const SettledPile pile = pour_pile(scenario);
   const PileShape shape = pile_shape(pile, scenario);
   EXPECT_FALSE(pile.timed_out);

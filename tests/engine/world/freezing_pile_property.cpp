@@ -38,9 +38,8 @@ void run(World& world, double seconds) {
   for (const double end = world.time() + seconds - 1e-9; world.time() < end;) world.step();
 }
 
-// What is told here is of piles that come to rest. With as much rolling and spinning resistance as this,
-// rocks stop ticking in their seats; with 0.1 and none some never do (docs/engine.md), and
-// stay awake.
+// These tests need piles that come to rest. With as much rolling and spinning resistance as this, rocks stop
+// ticking in their seats; with 0.1 and none some never do (docs/measurements/freezing.md), and stay awake.
 support::PileMaterial that_holds_still() {
   support::PileMaterial material;
   material.rolling = material.spinning = 0.5;
