@@ -97,9 +97,7 @@ std::vector<Sample> one_by_one(const std::vector<Configuration>& all, const Run&
 
 std::vector<Configuration> configurations(const Settings& s, engine::WorldOptions options) {
   std::vector<Configuration> all;
-  const auto chosen = world_options(s.engine);
-  options.threads = chosen.threads;
-  options.freezing.on = chosen.freezing.on;
+  options.threads = world_options(s.engine).threads;
   const auto add = [&](const std::string& name, const std::string& text, double offset) {
     const Setting setting = setting_of(text);
     all.push_back({name, setting, with(options, setting), offset,
@@ -108,7 +106,7 @@ std::vector<Configuration> configurations(const Settings& s, engine::WorldOption
   options.solver.method = engine::method_named(s.reference_method);
   add("reference", s.reference, 0);
   add("replicate", s.reference, 1e-6);
-  options.solver.method = chosen.solver.method;
+  options.solver.method = world_options(s.engine).solver.method;
   for (const std::string& setting : s.tried) add("", setting, 0);
   return all;
 }

@@ -57,7 +57,6 @@ CLI::Validator between(double low, double high, const std::string& unit, const s
 void add_method_flags(CLI::App& app, EngineFlags& flags) {
   flags.method = to_string(flags.world.solver.method);
   flags.narrow = to_string(flags.world.contacts.narrow);
-  flags.freeze = flags.world.freezing.on ? "on" : "off";
   app.add_option("--method", flags.method, "contact solver: sequential (the reference) or batched")
       ->check(known_name(engine::method_named))
       ->capture_default_str();
@@ -68,10 +67,6 @@ void add_method_flags(CLI::App& app, EngineFlags& flags) {
       ->capture_default_str();
   app.add_option("--threads", flags.world.threads, "threads; they change the time only")
       ->check(between(1, 256, "", "no more than there are cores"))
-      ->capture_default_str();
-  app.add_option("--freeze", flags.freeze,
-                 "let rocks that stand still freeze, so that they cost next to nothing")
-      ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
 }
 
@@ -125,7 +120,6 @@ engine::WorldOptions world_options(const EngineFlags& flags) {
   engine::WorldOptions options = flags.world;
   options.solver.method = engine::method_named(flags.method);
   options.contacts.narrow = engine::narrow_method_named(flags.narrow);
-  options.freezing.on = flags.freeze == "on";
   return options;
 }
 
@@ -137,16 +131,14 @@ nlohmann::json described(const engine::WorldOptions& options) {
           {"iteration_budget", options.solver.iteration_budget},
           {"tolerance", options.solver.tolerance},
           {"narrow", to_string(options.contacts.narrow)},
-          {"threads", options.threads},
-          {"freeze", options.freezing.on ? "on" : "off"}};
+          {"threads", options.threads}};
 }
 
 std::string in_words(const nlohmann::json& j) {
   std::ostringstream text;
   text << "dt " << 1e3 * j.at("dt_s").get<double>() << " ms, " << j.at("method").get<std::string>() << ", "
        << j.at("substeps") << " x " << j.at("iterations") << " iterations to "
-       << j.at("tolerance").get<double>() << ", threads " << j.at("threads") << ", freeze "
-       << j.at("freeze").get<std::string>();
+       << j.at("tolerance").get<double>() << ", threads " << j.at("threads");
   return text.str();
 }
 

@@ -31,11 +31,11 @@ std::function<std::string(const std::string&)> taken_by(std::function<void(const
 /// The flags; the defaults are those of WorldOptions{}.
 struct EngineFlags {
   engine::WorldOptions world;
-  std::string method, narrow, freeze;
+  std::string method, narrow;
 };
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags);
-/// Of these only --method, --narrow, --threads and --freeze.
+/// Of these only --method, --narrow and --threads.
 void add_method_flags(CLI::App& app, EngineFlags& flags);
 /// The world's options as the flags choose them; --threads holds for contact finding and solving.
 engine::WorldOptions world_options(const EngineFlags& flags);
@@ -57,7 +57,7 @@ void add_material_flags(CLI::App& app, MaterialFlags& flags);
 
 /// The options as they go into the results.
 nlohmann::json described(const engine::WorldOptions& options);
-/// "dt 5 ms, sequential, 1 x 25 iterations to 1e-05, threads 1, freeze off", from described().
+/// "dt 5 ms, sequential, 1 x 25 iterations to 1e-05, threads 1", from described().
 std::string in_words(const nlohmann::json& described);
 
 /// --json, whose help it is.

@@ -65,7 +65,6 @@ engine::StepReport add_step(PhaseTimes& times, engine::World& world) {
   times.rest += 1e3 * report.rest_s;
   times.points = report.points;
   times.manifolds = report.manifolds;
-  times.awake = report.awake;
   times.computed += report.computed;
   times.refused += report.refused;
   times.complementarity = std::max(times.complementarity, report.complementarity);

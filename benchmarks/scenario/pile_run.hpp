@@ -14,7 +14,7 @@ namespace drawpoint::benchmarks {
 struct PhaseTimes {
   std::vector<double> wall;                                         ///< of each step [ms]
   double broad = 0, narrow = 0, solver = 0, machine = 0, rest = 0;  ///< sums over the steps [ms]
-  int points = 0, manifolds = 0, awake = 0;                         ///< of the last step
+  int points = 0, manifolds = 0;                                    ///< of the last step
   long computed = 0, refused = 0;  ///< pairs computed anew, and of these answers of FCL that were wrong; sums
   double complementarity = 0, cone = 0;  ///< largest residual of a step, relative to the normal load
 

@@ -33,8 +33,9 @@ constexpr const char* about =
     "with\n\n"
     "Fields of --json:\n"
     "  ms_rest      median wall time of a step at rest; ms_dig: mean while the blade moves. Parts: means.\n"
-    "  contacts     contact points in the last step at rest; manifolds: pairs with such points;\n"
-    "               awake: rocks that were solved in it; dig_*: in the last step of digging\n"
+    "  contacts     contact points in the last step at rest; manifolds: pairs with such points; dig_*: in "
+    "the\n"
+    "               last step of digging\n"
     "  computed     pairs whose contact was computed anew, refused: of these, answers of FCL that were "
     "wrong\n"
     "               (--narrow), over the rest phase; dig_*: while digging\n"
@@ -91,7 +92,6 @@ void measure_dig(nlohmann::json& out, support::PileWorld& world, int steps, Prog
   out["ms_dig"] = times.mean();
   out["ms_dig_parts"] = times.parts();
   out["dig_contacts"] = times.points;
-  out["dig_awake"] = times.awake;
   out["dig_computed"] = times.computed;
   out["dig_refused"] = times.refused;
   out["blade_drag_n"] = drag;
@@ -118,7 +118,6 @@ nlohmann::json run(const Settings& s) {
   out["ms_rest_parts"] = rest.parts();
   out["contacts"] = rest.points;
   out["manifolds"] = rest.manifolds;
-  out["awake"] = rest.awake;
   out["computed"] = rest.computed;
   out["refused"] = rest.refused;
   out["complementarity"] = rest.complementarity;
@@ -146,9 +145,8 @@ void print_table(const nlohmann::json& j) {
               number(j, "mass_kg") / 1e3, number(j, "rolling"), number(j, "spinning"), in_words(j).c_str());
   print_times("rest", number(j, "ms_rest"), j.at("ms_rest_parts"));
   print_times("dig", number(j, "ms_dig"), j.at("ms_dig_parts"));
-  std::printf("contact points %d in %d manifolds, %d rocks awake at rest; %d and %d while digging\n",
-              j.at("contacts").get<int>(), j.at("manifolds").get<int>(), j.at("awake").get<int>(),
-              j.at("dig_contacts").get<int>(), j.at("dig_awake").get<int>());
+  std::printf("contact points %d in %d manifolds at rest; %d while digging\n", j.at("contacts").get<int>(),
+              j.at("manifolds").get<int>(), j.at("dig_contacts").get<int>());
   std::printf("pairs computed by %s: %ld at rest, %ld while digging; FCL wrong in %ld and %ld\n",
               j.at("narrow").get<std::string>().c_str(), j.at("computed").get<long>(),
               j.at("dig_computed").get<long>(), j.at("refused").get<long>(), j.at("dig_refused").get<long>());

@@ -8,8 +8,7 @@
 /// are a reference, a derivation, or "chosen here" for rocks of 0.3 to 2 m in steps of about 0.01 s. Most
 /// change the bits of a run; none depends on the machine. Numbers that only say how much work a thread takes
 /// at a time, how memory is laid out or what a file begins with change no result and stay where they are
-/// used. What a user may choose is an option: WorldOptions, ContactFinderOptions, FreezingOptions,
-/// SolverOptions.
+/// used. What a user may choose is an option: WorldOptions, ContactFinderOptions, SolverOptions.
 namespace drawpoint::engine::constants {
 
 // Contact law (solver).
@@ -217,17 +216,5 @@ constexpr double fastest_input = 1e3, fastest_spin = 1e4, fastest_solution = 1e4
 /// [m] Coordinates of a restored rock. Chosen here: a day's flight at `fastest_solution`; squares of it do
 /// not overflow. Lower: a world whose rocks left it long ago cannot be restored.
 constexpr double farthest_restored = 1e9;
-
-// Freezing (world).
-
-/// [1] Of FreezingOptions::tolerance: a rock freezes at so much unbalance at most, and thaws beyond all of
-/// it. Chosen here. Higher: rocks freeze and thaw in turn, each time with work for their neighbours. Lower:
-/// fewer freeze.
-constexpr double freezing_balance = 0.5;
-
-/// [1] Of FreezingOptions::hold: what a rock touches must have stayed for so long before it freezes. Chosen
-/// here. Higher: the layer of calm rocks around what moves is thicker, and solved. Lower: rocks freeze
-/// against ones that are about to move, and thaw again.
-constexpr double neighbour_hold = 0.5;
 
 }  // namespace drawpoint::engine::constants

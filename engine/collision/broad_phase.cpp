@@ -130,16 +130,6 @@ class BroadPhase::Impl {
     mark(id);
   }
 
-  void set_moves(int id, bool moves) {
-    Entry& entry = at(id);
-    if (entry.moves == moves) return;
-    if (entry.object) tree(id, entry.moves).unregisterObject(entry.object.get());
-    entry.moves = moves;
-    entry.dirty = false;
-    if (entry.object) tree(id, moves).registerObject(entry.object.get());
-    mark(id);
-  }
-
   Changes update(const ThreadPool& pool) {
     for (int id : before_) changed_before_[static_cast<std::size_t>(id)] = false;
     before_.swap(changed_);
@@ -279,7 +269,6 @@ void BroadPhase::add(int id, const Plane& plane, bool moves) { impl_->add(id, pl
 void BroadPhase::remove(int id) { impl_->remove(id); }
 void BroadPhase::set_box(int id, const AlignedBox3d& box) { impl_->set_box(id, box); }
 void BroadPhase::set_plane(int id, const Plane& plane) { impl_->set_plane(id, plane); }
-void BroadPhase::set_moves(int id, bool moves) { impl_->set_moves(id, moves); }
 BroadPhase::Changes BroadPhase::update(const ThreadPool& pool) { return impl_->update(pool); }
 const std::vector<char>& BroadPhase::changed() const { return impl_->changed(); }
 const AlignedBox3d& BroadPhase::box(int id) const { return impl_->box(id); }

@@ -33,7 +33,6 @@ class BroadPhase {
   void remove(int id);
   void set_box(int id, const Eigen::AlignedBox3d& box);
   void set_plane(int id, const Plane& plane);
-  void set_moves(int id, bool moves);
 
   struct Changes {
     bool any = false;                ///< whether anything was added, changed or removed

@@ -90,7 +90,6 @@ class ContactFinder::Impl {
     boxes_.remove(id);
     items_.remove(id);
     fcl_.remove(id);
-    pairs_.remove(id);
   }
 
   const Collider& collider(int id) const {
@@ -140,13 +139,6 @@ class ContactFinder::Impl {
     });
     for (int k = 0; k < count; ++k)
       if (leaves_[k]) renew_box(moves[k].collider);
-  }
-
-  void set_moves(int id, bool moves) {
-    require(id);
-    if (items_.traits[id].moves == moves) return;
-    items_.traits[id].moves = items_.item[id].collider.moves = moves;
-    boxes_.set_moves(id, moves);
   }
 
   const std::vector<Manifold>& find() {
@@ -213,7 +205,6 @@ class ContactFinder::Impl {
     for (int id = 0; id < items_.size(); ++id) {
       if (!items_.traits[id].alive) continue;
       const auto& saved = state.colliders[id];
-      set_moves(id, saved.moves);
       items_.placed[id].R = saved.R, items_.placed[id].p = saved.p, items_.placed[id].centre = saved.centre;
       items_.motion_bound[id] = saved.motion_bound;
       items_.speculative_margin[id] = saved.speculative_margin;
@@ -226,7 +217,7 @@ class ContactFinder::Impl {
         boxes_.set_plane(id, fat_.plane(items_, id));
     }
     boxes_.set_pending(state.pending);
-    pairs_.assign(state.entries, state.inactive, state.pairs);
+    pairs_.assign(state.entries, state.pairs);
   }
 
   const FinderTimes& times() const { return times_; }
@@ -268,10 +259,7 @@ class ContactFinder::Impl {
     }
     dirty_.clear();
     const auto changes = boxes_.update(*pool_);
-    if (changes.any)
-      pairs_.update(
-          boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); },
-          [this](int a, int b) { return items_.both_stand(a, b); });
+    if (changes.any) pairs_.update(boxes_, changes, [this](int a, int b) { return items_.may_touch(a, b); });
     times_.pairs = static_cast<int>(pairs_.entries().size());
   }
 
@@ -309,7 +297,6 @@ void ContactFinder::set_speculative_margin(int collider, double reach) {
   impl_->set_speculative_margin(collider, reach);
 }
 void ContactFinder::move(std::span<const ColliderMove> moves) { impl_->move(moves); }
-void ContactFinder::set_moves(int collider, bool moves) { impl_->set_moves(collider, moves); }
 const std::vector<Manifold>& ContactFinder::find() { return impl_->find(); }
 const FinderTimes& ContactFinder::times() const { return impl_->times(); }
 bool ContactFinder::first_touch(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b,

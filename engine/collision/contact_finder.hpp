@@ -73,8 +73,6 @@ class ContactFinder {
   /// Both for many colliders, on all threads; each collider at most once. Throws as those
   /// do, and then has moved nothing.
   void move(std::span<const ColliderMove> moves);
-  /// Freezes or wakes a collider; between two frozen ones nothing is searched.
-  void set_moves(int collider, bool moves);
 
   /// All manifolds with at least one point, ordered by (collider_a, collider_b). They stay as they are until
   /// the next find(), whatever is added, moved or removed before; the end of the finder, or another one moved

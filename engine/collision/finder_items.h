@@ -71,10 +71,6 @@ struct Items {
     const Traits &ta = traits[a], &tb = traits[b];
     return ta.body != tb.body && (ta.moves || tb.moves) && (ta.family <= 0 || ta.family != tb.family);
   }
-  /// Two that are there and do not move.
-  bool both_stand(int a, int b) const {
-    return traits[a].alive && traits[b].alive && !traits[a].moves && !traits[b].moves;
-  }
 };
 
 /// Makes items; colliders with one shape share one hull.

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t mark = 0x3530444e46435044;  // "DPCFND05"
+constexpr std::uint64_t mark = 0x3630444e46435044;  // "DPCFND06"
 
 std::array<double, 6> numbers_of(const ContactFinderOptions& o) {
   return {o.margin, o.slack, o.reuse_distance, o.reuse_angle, o.hysteresis, static_cast<double>(o.narrow)};
@@ -30,7 +30,6 @@ int vertices_of(const Items& items, int id) {
 void save_collider(const FinderParts& parts, int id, ByteWriter& out) {
   const Placement& placed = parts.items.placed[id];
   out.put(vertices_of(parts.items, id));
-  out.put(parts.items.traits[id].moves);
   out.put(parts.items.item[id].dirty);
   out.put(placed.R), out.put(placed.p), out.put(placed.centre);
   out.put(parts.items.motion_bound[id]), out.put(parts.items.item[id].boxed_at);
@@ -43,7 +42,6 @@ ColliderState read_collider(const FinderParts& parts, int id, ByteReader& in) {
   const int vertices = vertices_of(parts.items, id);
   in.get_int("the number of vertices", vertices, vertices);
   ColliderState state;
-  state.moves = in.get<bool>("a collider's moves");
   state.dirty = in.get<bool>("a collider's dirty flag");
   state.R = in.get_rotation("a collider's orientation");
   state.p = in.get_vector("a collider's position"), state.centre = in.get_vector("a collider's centre");
@@ -172,8 +170,6 @@ std::vector<std::byte> save_state(const FinderParts& parts) {
   };
   for (const PairEntry& entry : parts.pairs.entries())
     if (alive(entry)) save(entry);
-  out.put_count(parts.pairs.inactive().size());
-  for (const auto& [pair, entry] : parts.pairs.inactive()) save(entry);
   out.put(Checksum::of(out.bytes()));
   return out.take();
 }
@@ -203,8 +199,7 @@ FinderState read_state(const FinderParts& parts, std::span<const std::byte> byte
   }
   for (std::size_t k = in.get_count(4); k > 0; --k)
     state.pending.push_back(in.get_int("a box to look up", 0, size - 1));
-  for (std::vector<PairEntry>* entries : {&state.entries, &state.inactive})
-    *entries = read_pairs(parts.items, in, state.pairs);
+  state.entries = read_pairs(parts.items, in, state.pairs);
   in.expect_end();
   return state;
 }

@@ -12,8 +12,7 @@
 /// The state of a contact finder as bytes.
 ///
 /// Saved is all that later results depend on: options, poses, motion bounds and boxes of the colliders, what
-/// has left its box, what the broad phase has yet to look up, and for each pair, inactive ones included, its
-/// contact, where the shapes stood and until when that holds. Not saved, because results do not depend on it:
+/// has left its box, what the broad phase has yet to look up, and for each pair its contact, where the shapes stood and until when that holds. Not saved, because results do not depend on it:
 /// the shape of the box trees (the pairs are filtered by the exact boxes and sorted), the slots of the pairs
 /// (they are only storage), buffers of the workers (cleared before use), pairs with a removed collider (the
 /// next look-up drops them).
@@ -27,14 +26,14 @@ struct ColliderState {
   Eigen::Vector3d p, centre;
   double motion_bound, boxed_at, speculative_margin;
   Eigen::AlignedBox3d box;
-  bool moves, dirty;
+  bool dirty;
 };
 
 struct FinderState {
   std::vector<ColliderState> colliders;  ///< of removed ones: not set
   std::vector<int> pending;              ///< colliders that the broad phase is to look up
-  std::vector<PairEntry> entries, inactive;
-  std::vector<PairState> pairs;  ///< in the order of the entries, then of the inactive
+  std::vector<PairEntry> entries;
+  std::vector<PairState> pairs;  ///< in the order of the entries
 };
 
 /// The parts of a finder.

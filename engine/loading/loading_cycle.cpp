@@ -183,9 +183,8 @@ engine::StepReport LoadingRun::advance() {
   try {
     return world.step();
   } catch (const engine::SolutionBroken&) {
-    if (world.options().freezing.on) throw;  // its rules count steps
+    ++repeated_;
   }
-  ++repeated_;
   engine::StepReport report;
   for (int part = 0; part < parts_of_broken_step; ++part)
     report = world.step(world.options().step / parts_of_broken_step);

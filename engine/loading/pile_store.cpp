@@ -97,15 +97,6 @@ std::string pile_provenance(const Scenario& s) {
   add_number(provenance, "rest_energy", s.pile.rest.mean_energy);
   add_number(provenance, "rest_hold", s.pile.rest.hold);
   add_number(provenance, "rest_cap", s.pile.rest.cap);
-  if (const engine::FreezingOptions& f = s.world.freezing; f.on) {
-    add_number(provenance, "freeze_hold", f.hold);
-    add_number(provenance, "freeze_distance", f.distance);
-    add_number(provenance, "freeze_tolerance", f.tolerance);
-    add_number(provenance, "freeze_average", f.average);
-    add_number(provenance, "freeze_impact", f.impact);
-    add_number(provenance, "freeze_nudge", f.nudge);
-    add_number(provenance, "freeze_spread", f.spread);
-  }
   return provenance;
 }
 

@@ -70,8 +70,6 @@ void describe(const Scenario& s, const Site& site, LoadingLog& log) {
                  {"iteration_budget", s.world.solver.iteration_budget},
                  {"tolerance", s.world.solver.tolerance},
                  {"warm_start", s.world.warm_start},
-                 {"freezing", s.world.freezing.on ? 1.0 : 0.0},
-                 {"freezing_tolerance", s.world.freezing.tolerance},
                  {"set_drive_in", s.executor.speeds.drive_in},
                  {"set_lift", s.executor.speeds.lift},
                  {"set_curl", s.executor.speeds.curl},

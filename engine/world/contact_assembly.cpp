@@ -32,8 +32,8 @@ void ContactAssembly::begin_step(double h, double last) {
 
 // Each manifold is looked at twice, first to see which points join, then to write them where they belong, so
 // that threads may share the work.
-void ContactAssembly::fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake) {
-  bodies_.fill(awake, *pool_, problem_);
+void ContactAssembly::fill(const std::vector<Manifold>& manifolds) {
+  bodies_.fill(*pool_, problem_);
   joining_.find(manifolds, scene_, bodies_, problem_.step, *pool_);
   inner_edges_.leave_out(scene_, static_cast<int>(manifolds.size()), joining_);
   fill_contacts(static_cast<int>(manifolds.size()));

@@ -25,8 +25,8 @@ class ContactAssembly {
 
   /// For a step of h [s] after one of `last` [s], 0 before the first.
   void begin_step(double h, double last);
-  /// Makes problem() but for its machine: bodies are the world, then the rocks that are awake.
-  void fill(const std::vector<Manifold>& manifolds, const std::vector<int>& awake);
+  /// Makes problem() but for its machine: bodies are the world, then the rocks.
+  void fill(const std::vector<Manifold>& manifolds);
   /// Takes over the impulses of the solved problem.
   void keep_impulses();
   /// What a machine that contacts do not move feels in the solved problem.

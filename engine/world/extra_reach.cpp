@@ -43,21 +43,21 @@ void ExtraReach::begin_step() {
 
 bool ExtraReach::grow(const std::vector<Rock>& rocks, const SolvedRocks& solved, double h) {
   const auto beyond = [&](int k) {
-    const auto rock = static_cast<std::size_t>(solved.awake[k]);
+    const auto rock = static_cast<std::size_t>(solved.present[k]);
     const SolverBody& body = solved.problem.bodies[k + 1];
     const double way = (body.displacement - h * rocks[rock].velocity).norm();
     const double fall = h * body.external_velocity_change.norm();
     return way > allowed_[rock] + reach_[rock] + fall ? way : 0.0;
   };
   std::atomic<bool> found{false};
-  const int count = static_cast<int>(solved.awake.size());
+  const int count = static_cast<int>(solved.present.size());
   solved.pool.blocks(count, rocks_per_reach_block, [&](int first, int last) {
     for (int k = first; k < last; ++k)
       if (beyond(k) > 0) found.store(true, std::memory_order_relaxed);
   });
   if (!found) return false;
   for (int k = 0; k < count; ++k)
-    if (const double way = beyond(k); way > 0) reach_[static_cast<std::size_t>(solved.awake[k])] = 2 * way;
+    if (const double way = beyond(k); way > 0) reach_[static_cast<std::size_t>(solved.present[k])] = 2 * way;
   return any_ = true;
 }
 

@@ -19,7 +19,7 @@
 /// reach, and no displacement is without bound, so the rounds end; a rock struck against a plate takes one. A
 /// rock of 0.3 m in a step of 0.01 s needs a change of some 10 m/s, as after a fall of 5 m: a pile gives
 /// none. A part of a machine, which its motors may start or stop within a step, has r of its thinnest shape: of its surface from
-/// its middle. Cost: some ns per rock that is awake; a round costs a search and a solve.
+/// its middle. Cost: some ns per rock; a round costs a search and a solve.
 namespace drawpoint::engine::detail {
 
 class ExtraReach {

@@ -43,14 +43,14 @@ void fail_solution(const std::string& when, const std::string& what) {
 }
 
 void check_solution(const SolvedRocks& solved, const std::string& when) {
-  solved.pool.blocks(static_cast<int>(solved.awake.size()), bodies_per_block, [&](int first, int last) {
-    for (int k = first; k < last; ++k) check(solved.awake[k], solved.problem.bodies[k + 1], when);
+  solved.pool.blocks(static_cast<int>(solved.present.size()), bodies_per_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) check(solved.present[k], solved.problem.bodies[k + 1], when);
   });
 }
 
 void move_rocks(std::vector<Rock>& rocks, const SolvedRocks& solved, double h) {
-  solved.pool.blocks(static_cast<int>(solved.awake.size()), bodies_per_block, [&](int first, int last) {
-    for (int k = first; k < last; ++k) move(rocks[solved.awake[k]], solved.problem.bodies[k + 1], h);
+  solved.pool.blocks(static_cast<int>(solved.present.size()), bodies_per_block, [&](int first, int last) {
+    for (int k = first; k < last; ++k) move(rocks[solved.present[k]], solved.problem.bodies[k + 1], h);
   });
 }
 

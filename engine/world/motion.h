@@ -11,9 +11,9 @@
 /// From the solution of a step to the motion of the rocks.
 namespace drawpoint::engine::detail {
 
-/// Rocks that are awake, ascending; rock awake[k] is body k + 1 of the problem.
+/// Rock present[k] is body k + 1 of the problem.
 struct SolvedRocks {
-  const std::vector<int>& awake;
+  const std::vector<int>& present;
   const ContactProblem& problem;
   const ThreadPool& pool;
 };

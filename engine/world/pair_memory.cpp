@@ -64,7 +64,6 @@ void PairMemory::begin_step(const std::vector<int>& slots, int most) {
   ++step_;
   slots_ = slots;
   pairs_.resize(static_cast<std::size_t>(std::max(most, static_cast<int>(pairs_.size()))));
-  loads_.resize(pairs_.size());
 }
 
 void PairMemory::store(const ContactProblem& problem, int k) {
@@ -72,7 +71,6 @@ void PairMemory::store(const ContactProblem& problem, int k) {
   RememberedPair& pair = pairs_[static_cast<std::size_t>(slot(k))];
   pair.a = solved.collider_a;
   pair.b = solved.collider_b;
-  pair.held = false;
   pair.solved = step_;
   pair.rolling = kept_share(problem, solved) * solved.start;
   pair.count = solved.count;
@@ -80,17 +78,6 @@ void PairMemory::store(const ContactProblem& problem, int k) {
     const ContactPoint& p = problem.points[static_cast<std::size_t>(solved.first + i)];
     pair.points[static_cast<std::size_t>(i)] = {p.feature, p.position, p.warm_start_fraction * p.start};
   }
-}
-
-void PairMemory::hold(int slot, const HeldLoad& load) {
-  pairs_[static_cast<std::size_t>(slot)].held = true;
-  loads_[static_cast<std::size_t>(slot)] = load;
-}
-
-void PairMemory::release(int slot) {
-  RememberedPair& pair = pairs_[static_cast<std::size_t>(slot)];
-  pair.held = false;
-  pair.solved = step_;
 }
 
 std::vector<int> PairMemory::in_order(const std::vector<int>& slots) const {
@@ -101,28 +88,18 @@ std::vector<int> PairMemory::in_order(const std::vector<int>& slots) const {
   return sorted;
 }
 
-std::vector<int> PairMemory::held() const {
-  std::vector<int> slots;
-  for (int slot = 0; slot < static_cast<int>(pairs_.size()); ++slot)
-    if (pair(slot).held) slots.push_back(slot);
-  return in_order(slots);
-}
-
 std::vector<std::byte> PairMemory::save(const ContactFinder& finder) const {
   ByteWriter out;
   std::vector<int> slots;
   for (int slot = 0; slot < static_cast<int>(pairs_.size()); ++slot) {
     const RememberedPair& pair = this->pair(slot);
-    if ((pair.held || (pair.solved == step_ && pair.a >= 0)) && finder.slot_of(pair.a, pair.b) == slot)
-      slots.push_back(slot);
+    if (pair.solved == step_ && pair.a >= 0 && finder.slot_of(pair.a, pair.b) == slot) slots.push_back(slot);
   }
   out.put_count(slots.size());
   for (const int slot : in_order(slots)) {
     const RememberedPair& pair = this->pair(slot);
     out.put(pair.a);
     out.put(pair.b);
-    out.put(pair.held);
-    out.put(pair.solved == step_);
     out.put(pair.rolling);
     out.put(pair.count);
     for (int k = 0; k < pair.count; ++k) {
@@ -131,15 +108,13 @@ std::vector<std::byte> PairMemory::save(const ContactFinder& finder) const {
       out.put(point.position);
       out.put(point.impulse);
     }
-    if (!pair.held) continue;
-    for (const Vector3d& v : {load(slot).impulse, load(slot).moment_a, load(slot).moment_b}) out.put(v);
   }
   return out.take();
 }
 
 PairMemory PairMemory::read(const ContactFinder& finder, std::span<const std::byte> bytes) {
   ByteReader in(bytes);
-  constexpr std::size_t least_size = 3 * sizeof(int) + 2 * sizeof(bool) + 3 * sizeof(double);
+  constexpr std::size_t least_size = 3 * sizeof(int) + 3 * sizeof(double);
   PairMemory memory;
   memory.begin_step({}, finder.slots());
   std::pair<int, int> last{-1, -1};
@@ -151,8 +126,7 @@ PairMemory PairMemory::read(const ContactFinder& finder, std::span<const std::by
       in.fail("holds pairs of contacts that are not in order");
     const int slot = finder.slot_of(pair.a, pair.b);
     if (slot < 0) in.fail("holds impulses of a pair that the contact finder does not know");
-    in.get(pair.held);
-    pair.solved = in.get<bool>() ? memory.step_ : 0;
+    pair.solved = memory.step_;
     in.get(pair.rolling);
     pair.count = in.get_int("the number of points of a pair", 0, static_cast<int>(pair.points.size()));
     for (int k = 0; k < pair.count; ++k) {
@@ -162,9 +136,6 @@ PairMemory PairMemory::read(const ContactFinder& finder, std::span<const std::by
       in.get(point.impulse);
     }
     memory.pairs_[static_cast<std::size_t>(slot)] = pair;
-    if (!pair.held) continue;
-    HeldLoad& load = memory.loads_[static_cast<std::size_t>(slot)];
-    for (Vector3d* v : {&load.impulse, &load.moment_a, &load.moment_b}) in.get(*v);
   }
   in.expect_end();
   return memory;

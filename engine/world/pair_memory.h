@@ -15,11 +15,8 @@
 /// What a world remembers of each pair of colliders: the impulses of the step that solved it last.
 ///
 /// A pair's slot is the one that the contact finder gave it (Manifold::slot), so nothing is looked up and nothing merged.
-/// A remembered pair is in one of three states:
-///   solved    in the last step: the next one starts from its impulses, so that a resting pile starts from its own load
-///   held      both sides stand still: its impulses stay as they are, with their sums, until one side thaws (freezing.h)
-///   outdated  neither: the slot is free for the next pair that the finder puts there
-/// A point of the next step takes the impulse of the point with its feature, else of the nearest one left within
+/// A pair that was solved in the last step starts the next one from its impulses, so that a resting pile starts from its
+/// own load; the slot of any other is free for the next pair that the finder puts there. A point of the next step takes the impulse of the point with its feature, else of the nearest one left within
 /// constants::match_distance.
 namespace drawpoint::engine::detail {
 
@@ -30,19 +27,11 @@ struct PairMemoryPoint {
 };
 
 struct RememberedPair {
-  int a = -1, b = -1;  ///< colliders
-  bool held = false;
+  int a = -1, b = -1;       ///< colliders
   std::int64_t solved = 0;  ///< number of the step that solved it last
   Eigen::Vector3d rolling = Eigen::Vector3d::Zero();
   int count = 0;  ///< of its points
   std::array<PairMemoryPoint, 4> points;
-};
-
-/// What goes through a pair over a step; of a held pair, the step that solved it last.
-struct HeldLoad {
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< on B [N s]
-  Eigen::Vector3d moment_a = Eigen::Vector3d::Zero(),
-                  moment_b = Eigen::Vector3d::Zero();  ///< about each centre [N m s]
 };
 
 class PairMemory {
@@ -76,13 +65,6 @@ class PairMemory {
   int slot(int k) const { return slots_[static_cast<std::size_t>(k)]; }
   const RememberedPair& pair(int slot) const { return pairs_[static_cast<std::size_t>(slot)]; }
 
-  void hold(int slot, const HeldLoad& load);
-  /// The next step starts from what was held.
-  void release(int slot);
-  const HeldLoad& load(int slot) const { return loads_[static_cast<std::size_t>(slot)]; }
-  /// Slots of the held pairs, in the order of their colliders.
-  std::vector<int> held() const;
-
   /// What the next steps start from, of the pairs that the finder remembers. Reading throws std::runtime_error for what
   /// cannot be; the finder must have been restored before.
   std::vector<std::byte> save(const ContactFinder& finder) const;
@@ -92,7 +74,6 @@ class PairMemory {
   std::vector<int> in_order(const std::vector<int>& slots) const;
 
   std::vector<RememberedPair> pairs_;  // by slot
-  std::vector<HeldLoad> loads_;        // by slot
   std::vector<int> slots_;             // by pair of the last problem
   std::int64_t step_ = 0;
 };

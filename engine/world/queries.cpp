@@ -56,45 +56,29 @@ PairImpulse solved_pair(const ContactProblem& problem, const ContactPair& pair) 
   return {pair.collider_a, pair.collider_b, centre.position(), impulse, moment};
 }
 
-PairImpulse held_pair(const detail::RememberedPair& pair, const detail::HeldLoad& load,
-                      const Vector3d& origin_b) {
-  Centre centre;
-  for (int k = 0; k < pair.count; ++k) {
-    const detail::PairMemoryPoint& point = pair.points[static_cast<std::size_t>(k)];
-    centre.add(point.position, point.impulse);
-  }
-  const Vector3d position = centre.position();
-  return {pair.a, pair.b, position, load.impulse, load.moment_b - (position - origin_b).cross(load.impulse)};
-}
-
 }  // namespace
 
-// The solved pairs of colliders that `of` wants, then the held ones of these slots.
+// The pairs of colliders that `of` wants.
 template <class Wanted>
-std::vector<PairForce> World::Impl::forces_of(const Wanted& of, const std::vector<int>& held) const {
+std::vector<PairForce> World::Impl::forces_of(const Wanted& of) const {
   std::vector<PairForce> forces;
   if (last_step == 0) return forces;
-  const auto add = [&](const PairImpulse& pair) {
-    forces.push_back({scene.owner(pair.collider_a), scene.owner(pair.collider_b), pair.position,
-                      pair.impulse / last_step, pair.moment / last_step});
-  };
-  for (const ContactPair& pair : contacts.problem().pairs)
-    if (of(pair.collider_a) || of(pair.collider_b)) add(solved_pair(contacts.problem(), pair));
-  const detail::PairMemory& memory = contacts.memory();
-  for (const int slot : held)
-    add(held_pair(memory.pair(slot), memory.load(slot), scene.origin_of(scene.surface(memory.pair(slot).b))));
+  for (const ContactPair& pair : contacts.problem().pairs) {
+    if (!of(pair.collider_a) && !of(pair.collider_b)) continue;
+    const PairImpulse solved = solved_pair(contacts.problem(), pair);
+    forces.push_back({scene.owner(solved.collider_a), scene.owner(solved.collider_b), solved.position,
+                      solved.impulse / last_step, solved.moment / last_step});
+  }
   return forces;
 }
 
 std::vector<PairForce> World::Impl::pair_forces() const {
-  return forces_of([](int) { return true; }, contacts.memory().held());
+  return forces_of([](int) { return true; });
 }
 
 Wrench World::Impl::wrench_on(const SurfaceOwner& body, const Vector3d& about) const {
-  const std::vector<int> held =
-      body.owner == Owner::rock ? freezing.held_contacts(body.index) : std::vector<int>{};
   Wrench sum;
-  for (const PairForce& pair : forces_of([&](int collider) { return scene.owner(collider) == body; }, held)) {
+  for (const PairForce& pair : forces_of([&](int collider) { return scene.owner(collider) == body; })) {
     const double sign = (pair.b == body ? 1 : 0) - (pair.a == body ? 1 : 0);
     sum.force += sign * pair.force;
     sum.moment += sign * (pair.moment + (pair.position - about).cross(pair.force));

@@ -70,6 +70,7 @@ int Scene::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const V
       add_surface("World::add_rock", {{Owner::rock, index}, body.material, radius_about_origin(*body.shape)},
                   rock_collider(body, index), pose);
   rocks_.push_back({body, pose, velocity, angular_velocity, true, id});
+  present_.push_back(index);
   extra_reach_.add(*body.shape);
   return index;
 }
@@ -96,6 +97,7 @@ Rock& Scene::present_rock(int rock, const char* place) {
 void Scene::remove_rock(int rock) {
   finder_.remove(rocks_[rock].collider);
   rocks_[rock].present = false;
+  std::erase(present_, rock);
 }
 
 void Scene::attach(ArticulatedBody* machine) {
@@ -155,8 +157,6 @@ void Scene::hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& po
   surroundings_.add(pose.translation());
 }
 
-void Scene::set_moves(int rock, bool moves) { finder_.set_moves(rocks_[rock].collider, moves); }
-
 const SuperBody* Scene::linearise(double h) {
   prescribed_.reset();
   if (!machine_) return nullptr;
@@ -215,11 +215,11 @@ double Scene::speculative_margin_of(const Surface& surface, double h) const {
   return resolution * std::ceil(std::max(0.0, way - 0.5 * options_.contacts.margin) / resolution);
 }
 
-void Scene::place_colliders(const std::vector<int>& awake, double h) {
-  moves_.resize(awake.size());
-  pool_->blocks(static_cast<int>(awake.size()), rocks_per_block, [&](int first, int last) {
+void Scene::place_colliders(double h) {
+  moves_.resize(present_.size());
+  pool_->blocks(static_cast<int>(present_.size()), rocks_per_block, [&](int first, int last) {
     for (int k = first; k < last; ++k) {
-      const Rock& rock = rocks_[awake[k]];
+      const Rock& rock = rocks_[present_[k]];
       moves_[k] = {rock.collider, rock.pose, speculative_margin_of(surfaces_[rock.collider], h)};
     }
   });
@@ -230,8 +230,8 @@ void Scene::place_colliders(const std::vector<int>& awake, double h) {
   finder_.move(moves_);
 }
 
-const std::vector<Manifold>& Scene::find_contacts(const std::vector<int>& awake, double h) {
-  place_colliders(awake, h);
+const std::vector<Manifold>& Scene::find_contacts(double h) {
+  place_colliders(h);
   return finder_.find();
 }
 
@@ -284,6 +284,9 @@ ContactFinder Scene::finder_for(const std::vector<Rock>& rocks) const {
 void Scene::replace(std::vector<Rock> rocks, ContactFinder finder) {
   finder_ = std::move(finder);
   rocks_ = std::move(rocks);
+  present_.clear();
+  for (std::size_t k = 0; k < rocks_.size(); ++k)
+    if (rocks_[k].present) present_.push_back(static_cast<int>(k));
 }
 
 }  // namespace drawpoint::engine::detail

@@ -51,12 +51,9 @@ class Scene {
   const Rock& rock(int rock, const char* place) const;
   const Rock& present_rock(int rock, const char* place) const;
 
-  /// Finds the contacts of the rocks that are awake, ascending, and the machine's parts with everything, in a step of
-  /// h [s]. Valid until the next call.
-  const std::vector<Manifold>& find_contacts(const std::vector<int>& awake, double h);
+  /// Finds the contacts of rocks and machine parts with everything, in a step of h [s]. Valid until the next call.
+  const std::vector<Manifold>& find_contacts(double h);
   const FinderTimes& finder_times() const { return finder_.times(); }
-  /// Between two colliders that do not move nothing is searched.
-  void set_moves(int rock, bool moves);
 
   /// The machine's super-body for the coming step of h [s]; nullptr without a machine that contacts move.
   /// Stays as it is until the next call, whatever becomes of the machine.
@@ -64,6 +61,8 @@ class Scene {
 
   std::vector<Rock>& rocks() { return rocks_; }
   const std::vector<Rock>& rocks() const { return rocks_; }
+  /// Numbers of the rocks that were not removed, ascending.
+  const std::vector<int>& present() const { return present_; }
   const Surface& surface(int collider) const { return surfaces_[static_cast<std::size_t>(collider)]; }
   const MaterialTable& materials() const { return materials_; }
   ArticulatedBody* machine() const { return machine_; }
@@ -108,7 +107,7 @@ class Scene {
                   const Eigen::Isometry3d& pose);
   void check_materials(const char* place, const SurfaceOwner& owner, int kind) const;
   void hash_surface(int id, const Shape& shape, const Eigen::Isometry3d& pose);
-  void place_colliders(const std::vector<int>& awake, double h);
+  void place_colliders(double h);
   double speculative_margin_of(const Surface& surface, double h) const;
 
   WorldOptions options_;
@@ -119,6 +118,7 @@ class Scene {
   std::array<std::vector<bool>, 3> kinds_;  // of the surfaces so far, by their owner
   int joined_surfaces_ = 0;                 // that are no rocks
   std::vector<Rock> rocks_;
+  std::vector<int> present_;
   ExtraReach extra_reach_;
   ArticulatedBody* machine_ = nullptr;
   std::optional<PrescribedMotion> prescribed_;

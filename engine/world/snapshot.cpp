@@ -15,7 +15,7 @@
 namespace drawpoint::engine {
 namespace {
 
-constexpr std::uint64_t state_mark = 0x366574617473'7044;  // "Dpstate6": the version is the last digit
+constexpr std::uint64_t state_mark = 0x376574617473'7044;  // "Dpstate7": the version is the last digit
 
 void add(StateHash& hash, const WorldOptions& o) {
   hash.add(o.step);
@@ -25,10 +25,6 @@ void add(StateHash& hash, const WorldOptions& o) {
     hash.add(static_cast<std::uint64_t>(x));
   hash.add(o.solver.tolerance);
   hash.add(o.warm_start);
-  for (double x :
-       {o.freezing.on ? 1.0 : 0.0, o.freezing.hold, o.freezing.distance, o.freezing.tolerance,
-        o.freezing.average, o.freezing.impact, o.freezing.nudge, static_cast<double>(o.freezing.spread)})
-    hash.add(x);
   for (double x : {o.contacts.margin, o.contacts.slack, o.contacts.reuse_distance, o.contacts.reuse_angle,
                    o.contacts.hysteresis})
     hash.add(x);
@@ -44,32 +40,6 @@ void add(StateHash& hash, const Material& m) {
 void add(StateHash& hash, const MaterialTable& table) {
   for (int a = 0; a < table.kinds(); ++a)
     for (int b = a; b < table.kinds(); ++b) add(hash, table.of(a, b));
-}
-
-void save_freezing(const FreezingState& state, ByteWriter& out) {
-  out.put_count(state.rocks.size());
-  for (const FreezingState::Stand& stand : state.rocks) {
-    out.put(stand.frozen);
-    out.put(stand.calm);
-    out.put(stand.anchor);
-    out.put(stand.impulse);
-    out.put(stand.moment);
-  }
-}
-
-FreezingState restored_freezing(ByteReader& in, std::size_t rocks) {
-  FreezingState state;
-  if (in.get_count(149) != rocks) in.fail("holds another number of standing rocks");
-  state.rocks.resize(rocks);
-  for (FreezingState::Stand& stand : state.rocks) {
-    in.get(stand.frozen);
-    in.get(stand.calm);
-    if (stand.calm < 0) in.fail("holds a negative number of steps");
-    in.get(stand.anchor);
-    in.get(stand.impulse);
-    in.get(stand.moment);
-  }
-  return state;
 }
 
 // No step leaves a rock farther or faster than this; beyond, squares overflow in the next one.
@@ -168,7 +138,6 @@ std::vector<std::byte> World::save() const {
     out.put(rock.velocity);
     out.put(rock.angular_velocity);
   }
-  save_freezing(impl_->freezing.state(), out);
   const std::vector<double> machine = this->machine() ? this->machine()->state() : std::vector<double>();
   out.put_count(machine.size());
   for (double x : machine) out.put(x);
@@ -197,7 +166,6 @@ void World::restore(std::span<const std::byte> state) {
     in.get(rock.angular_velocity);
     check_motion(rock, in);
   }
-  const FreezingState stands = restored_freezing(in, rocks.size());
   std::vector<double> machine(in.get_count(sizeof(double)));
   for (double& x : machine) in.get(x);
   const std::span<const std::byte> pairs = in.get_bytes(in.get_count(1)),
@@ -206,18 +174,11 @@ void World::restore(std::span<const std::byte> state) {
   ContactFinder finder = impl_->scene.finder_for(rocks);
   finder.restore(contacts);
   detail::PairMemory memory = detail::PairMemory::read(finder, pairs);
-  Freezing freezing(impl_->options.freezing, impl_->options.step, impl_->options.gravity);
-  for (std::size_t k = 0; k < rocks.size(); ++k) freezing.add(static_cast<int>(k), rocks[k]);
-  for (std::size_t k = 0; k < rocks.size(); ++k)
-    if (!rocks[k].present) freezing.remove(static_cast<int>(k), memory);
-  freezing.restore(stands, memory);
-
   ArticulatedBody* const attached = impl_->scene.machine();
   if (!attached && !machine.empty()) in.fail("holds a machine; there is none here:");
   if (attached) attached->set_state(machine);
   impl_->scene.replace(std::move(rocks), std::move(finder));
   impl_->contacts.memory() = std::move(memory);
-  impl_->freezing = std::move(freezing);
   impl_->time = time;
   impl_->last_step = last_step;
   impl_->steps = static_cast<long>(steps);

@@ -7,8 +7,8 @@
 #include <drawpoint/engine/solver/contact_problem.hpp>
 #include <vector>
 
-/// The bodies of a step's problem: the world, then the rocks that are awake, and what pairs ask of them, kept
-/// in a few lines of memory.
+/// The bodies of a step's problem: the world, then the rocks, and what pairs ask of them, kept in a few
+/// lines of memory.
 namespace drawpoint::engine::detail {
 
 class StepBodies {
@@ -16,14 +16,13 @@ class StepBodies {
   StepBodies(const WorldOptions& options, const Scene& scene) : options_(options), scene_(scene) {}
 
   /// Writes the bodies of problem.
-  void fill(const std::vector<int>& awake, const ThreadPool& pool, ContactProblem& problem);
+  void fill(const ThreadPool& pool, ContactProblem& problem);
 
-  /// In the problem; frozen rocks are part of the world.
+  /// In the problem.
   int index(const Surface& surface) const {
     if (surface.owner == Owner::part) return machine_part(surface.index);
     return surface.owner == Owner::rock ? body_of_rock_[static_cast<std::size_t>(surface.index)] : world;
   }
-  /// Frozen rocks stand, as the world does.
   RigidMotion motion(const Surface& surface) const {
     const int body = index(surface);
     return body >= 0 ? motions_[static_cast<std::size_t>(body)] : scene_.motion_of(surface);

@@ -13,9 +13,7 @@ struct StepReport {
   double last_change = 0;                ///< of the solver's last iteration, relative to the normal load
   double complementarity = 0, cone = 0;  ///< residual of the contact law, relative to the normal load
   double max_overlap = 0;                ///< [m]
-  int awake = 0;                         ///< rocks that were solved
-  /// 1, and one more for each time that the load on frozen rocks changed too much, or that a rock was carried
-  /// farther from its way than contacts had been looked for.
+  /// 1, and one more for each time that a rock was carried farther from its way than contacts had been looked for.
   int solves = 0;
   int computed = 0;  ///< pairs of shapes whose contact was computed anew, in all searches of the step
   int refused = 0;   ///< of these, answers of FCL that were wrong (FinderTimes::refused)

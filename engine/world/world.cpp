@@ -27,11 +27,10 @@ World::Impl::Impl(const WorldOptions& o, const MaterialTable& materials)
       pool(std::make_shared<const ThreadPool>(o.threads)),
       scene(options, materials, pool),
       contacts(options, scene, pool),
-      solver(options.solver, pool),
-      freezing(options.freezing, options.step, options.gravity) {}
+      solver(options.solver, pool) {}
 
 const std::vector<Manifold>& World::Impl::find_contacts(StepReport& report) {
-  const std::vector<Manifold>& manifolds = scene.find_contacts(freezing.awake(), contacts.problem().step);
+  const std::vector<Manifold>& manifolds = scene.find_contacts(contacts.problem().step);
   report.broad_s += scene.finder_times().broad;
   report.narrow_s += scene.finder_times().narrow;
   report.computed += scene.finder_times().computed;
@@ -40,7 +39,7 @@ const std::vector<Manifold>& World::Impl::find_contacts(StepReport& report) {
 }
 
 SolverReport World::Impl::solve(const std::vector<Manifold>& manifolds, StepReport& report) {
-  contacts.fill(manifolds, freezing.awake());
+  contacts.fill(manifolds);
   if (before_solve) before_solve(contacts.problem());
   const auto start = std::chrono::steady_clock::now();
   const SolverReport solved = solver.solve(contacts.problem());
@@ -52,52 +51,9 @@ SolverReport World::Impl::solve(const std::vector<Manifold>& manifolds, StepRepo
 // The solution as it is before anything has moved.
 void World::Impl::check_solution(const SuperBodySolution& solved) const {
   const std::string when = "step " + std::to_string(steps + 1) + " at t = " + std::to_string(time) + " s";
-  detail::check_solution({freezing.awake(), contacts.problem(), *pool}, when);
+  detail::check_solution({scene.present(), contacts.problem(), *pool}, when);
   if (scene.machine() && !(solved.velocity.allFinite() && solved.mean_velocity.allFinite()))
     detail::fail_solution(when, "the machine's speeds come out not finite");
-}
-
-void World::Impl::thaw(const std::vector<int>& rocks) {
-  for (const int rock : rocks) scene.set_moves(rock, true);
-  freezing.thaw(rocks, contacts.memory());
-}
-
-void World::Impl::thaw_all() {
-  std::vector<int> rocks;
-  for (std::size_t k = 0; k < scene.rocks().size(); ++k)
-    if (scene.rocks()[k].present && freezing.frozen(static_cast<int>(k)))
-      rocks.push_back(static_cast<int>(k));
-  thaw(rocks);
-}
-
-const std::vector<Manifold>& World::Impl::with_thawed_near_machine(const std::vector<Manifold>& manifolds,
-                                                                   StepReport& report) {
-  if (!options.freezing.on) return manifolds;
-  const std::vector<int> near = freezing.near_machine(manifolds);
-  if (near.empty()) return manifolds;
-  thaw(near);
-  return find_contacts(report);
-}
-
-// Whether the step must be solved again: frozen rocks took up more than they may, and are awake now.
-bool World::Impl::thaw_struck(int round) {
-  if (!options.freezing.on) return false;
-  freezing.weigh(contacts.problem());
-  const std::vector<int> rocks = freezing.struck(options.freezing.spread << std::min(round - 1, 8));
-  thaw(rocks);
-  return !rocks.empty();
-}
-
-void World::Impl::settle_frozen() {
-  if (!options.freezing.on) return;
-  std::vector<Rock>& rocks = scene.rocks();
-  thaw(freezing.unbalanced());
-  thaw(freezing.nudged(rocks, contacts.problem()));
-  for (const int rock : freezing.freeze(rocks, contacts.problem(), contacts.memory())) {
-    scene.set_moves(rock, false);
-    rocks[rock].velocity.setZero();
-    rocks[rock].angular_velocity.setZero();
-  }
 }
 
 StepReport World::Impl::step(double h) {
@@ -110,10 +66,9 @@ StepReport World::Impl::step(double h) {
   report.machine_s = scene.machine() ? seconds_since(start) : 0;
   SolverReport solved;
   do {
-    solved = solve(with_thawed_near_machine(find_contacts(report), report), report);
+    solved = solve(find_contacts(report), report);
     check_solution(solved.machine);
-  } while (thaw_struck(report.solves) ||
-           scene.extra_reach().grow(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h) ||
+  } while (scene.extra_reach().grow(scene.rocks(), {scene.present(), contacts.problem(), *pool}, h) ||
            scene.reach_of_parts_grows(solved.machine, h));
   if (scene.machine()) {
     const auto advance_start = std::chrono::steady_clock::now();
@@ -122,12 +77,10 @@ StepReport World::Impl::step(double h) {
   }
   contacts.keep_impulses();  // from here on nothing can fail
   report.max_overlap = contacts.deepest_overlap();
-  detail::move_rocks(scene.rocks(), {freezing.awake(), contacts.problem(), *pool}, h);
+  detail::move_rocks(scene.rocks(), {scene.present(), contacts.problem(), *pool}, h);
   ++steps;
   time += h;
   last_step = h;
-  report.awake = static_cast<int>(freezing.awake().size());
-  settle_frozen();
   report.manifolds = static_cast<int>(contacts.problem().pairs.size());
   report.points = static_cast<int>(contacts.problem().points.size());
   report.iterations = solved.iterations;
@@ -147,22 +100,17 @@ World& World::operator=(World&&) noexcept = default;
 
 int World::add_rock(const RockBody& body, const Eigen::Isometry3d& pose, const Vector3d& velocity,
                     const Vector3d& angular_velocity) {
-  const int rock = impl_->scene.add_rock(body, pose, velocity, angular_velocity);
-  impl_->freezing.add(rock, rocks().back());
-  return rock;
+  return impl_->scene.add_rock(body, pose, velocity, angular_velocity);
 }
 
 void World::remove_rock(int rock) {
   impl_->scene.present_rock(rock, "remove_rock");
-  const std::vector<int> neighbours = impl_->freezing.remove(rock, impl_->contacts.memory());
   impl_->scene.remove_rock(rock);
-  impl_->thaw(neighbours);
 }
 
 void World::set_rock_velocity(int rock, const Vector3d& velocity, const Vector3d& angular_velocity) {
   Rock& r = impl_->scene.present_rock(rock, "set_rock_velocity");
   detail::check_velocity("World::set_rock_velocity", velocity, angular_velocity);
-  if (impl_->freezing.frozen(rock)) impl_->thaw({rock});
   r.velocity = velocity;
   r.angular_velocity = angular_velocity;
 }
@@ -181,19 +129,10 @@ void World::add_part_shape(int part, std::shared_ptr<const Shape> shape, const E
 StepReport World::step() { return impl_->step(impl_->options.step); }
 
 StepReport World::step(double h) {
-  if (impl_->options.freezing.on && h != impl_->options.step)
-    throw std::invalid_argument(
-        "engine::World::step: freezing is on, and its rules count steps of options().step; switch it off, or "
-        "call step()");
   detail::check_step("World::step", h);
   return impl_->step(h);
 }
 
-bool World::frozen(int rock) const {
-  impl_->scene.rock(rock, "frozen");
-  return impl_->freezing.frozen(rock);
-}
-void World::thaw_all() { impl_->thaw_all(); }
 const std::vector<Rock>& World::rocks() const { return impl_->scene.rocks(); }
 const Rock& World::rock(int rock) const { return impl_->scene.rock(rock, "rock"); }
 double World::time() const { return impl_->time; }

@@ -63,10 +63,9 @@ class World {
   /// machine and the time are then as before the step.
   StepReport step();
   /// A step of h [s], 1e-9 to 0.1, in place of options().step; the impulses that it starts from are scaled with h.
-  /// Throws std::invalid_argument with freezing on, whose rules count steps.
   StepReport step(double h);
 
-  /// What all bodies put on each other in the last step, frozen ones included; in no order that says anything.
+  /// What all bodies put on each other in the last step; in no order that says anything.
   std::vector<PairForce> pair_forces() const;
   /// Of all contacts on the rock about its centre, and on the machine's part about its origin: mean over the last step.
   Wrench rock_wrench(int rock) const;
@@ -74,11 +73,6 @@ class World {
   /// The first surface within `most` [m] on the ray, whose direction must be a unit vector; shapes that the origin is in are
   /// not hit. Cost: linear in the bodies, 30 ns for a rock that the ray passes by.
   std::optional<RayHit> cast_ray(const Ray& ray, double most = 1e3) const;
-
-  /// Whether a rock stands still and is not solved (freezing_options.hpp). Throws std::invalid_argument for a
-  /// rock that is not there.
-  bool frozen(int rock) const;
-  void thaw_all();
 
   /// All that later steps depend on, as bytes: rocks, machine, time, remembered contacts and impulses. The
   /// scene itself (options, materials, surroundings, kinds of rocks, machine) is not in it but its hashes.
@@ -97,7 +91,7 @@ class World {
   /// Later steps are solved with these: to go on from one state at another accuracy. They belong to the options that a
   /// saved state is compared with. Throws std::invalid_argument for options out of range and then changes nothing.
   void set_solver(const SolverOptions& solver);
-  /// Of the last step, with its impulses. Bodies are the world, then the rocks that are awake; sides that
+  /// Of the last step, with its impulses. Bodies are the world, then the rocks; sides that
   /// stand still are the world.
   const ContactProblem& problem() const;
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <drawpoint/engine/world/contact_assembly.h>
-#include <drawpoint/engine/world/freezing.h>
 #include <drawpoint/engine/world/scene.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/solver.hpp>
@@ -11,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-/// The pipeline of a step and its owners: the scene, the assembly of its contacts, the solver, freezing.
+/// The pipeline of a step and its owners: the scene, the assembly of its contacts, the solver.
 namespace drawpoint::engine {
 
 struct World::Impl {
@@ -24,22 +23,14 @@ struct World::Impl {
 
   std::vector<PairForce> pair_forces() const;
   template <class Wanted>
-  std::vector<PairForce> forces_of(const Wanted& of, const std::vector<int>& held) const;
+  std::vector<PairForce> forces_of(const Wanted& of) const;
   Wrench wrench_on(const SurfaceOwner& body, const Eigen::Vector3d& about) const;
-
-  void thaw(const std::vector<int>& rocks);
-  void thaw_all();
-  const std::vector<Manifold>& with_thawed_near_machine(const std::vector<Manifold>& manifolds,
-                                                        StepReport& report);
-  bool thaw_struck(int round);
-  void settle_frozen();
 
   WorldOptions options;
   std::shared_ptr<const ThreadPool> pool;
   detail::Scene scene;
   detail::ContactAssembly contacts;
   ContactSolver solver;
-  Freezing freezing;
   Observer before_solve;
   long steps = 0;
   double time = 0;
@@ -50,7 +41,6 @@ namespace detail {
 
 /// For tests of what is inside.
 struct WorldAccess {
-  static const Freezing& freezing(const World& world) { return world.impl_->freezing; }
   static const PairMemory& memory(const World& world) { return world.impl_->contacts.memory(); }
 };
 

@@ -5,7 +5,6 @@
 #include <drawpoint/engine/base/eigen.hpp>
 #include <drawpoint/engine/collision/contact_finder_options.hpp>
 #include <drawpoint/engine/solver/solver_options.hpp>
-#include <drawpoint/engine/world/freezing_options.hpp>
 
 /// How a world is stepped.
 namespace drawpoint::engine {
@@ -19,7 +18,6 @@ struct WorldOptions {
   /// then find again each step: a pile creeps.
   double warm_start = 1;
   ContactFinderOptions contacts;
-  FreezingOptions freezing;
 };
 
 }  // namespace drawpoint::engine

@@ -57,7 +57,6 @@ TEST_F(ScenarioCommands, PileDefaultsAreTheEngines) {
   EXPECT_EQ(j.at("iterations"), options.solver.iterations);
   EXPECT_EQ(j.at("tolerance"), options.solver.tolerance);
   EXPECT_EQ(j.at("threads"), options.threads);
-  EXPECT_EQ(j.at("freeze"), options.freezing.on ? "on" : "off");
 }
 
 // The pile on which versions and engines are compared keeps its rock, the upper bound of what blasted ore may have
@@ -79,13 +78,6 @@ TEST_F(ScenarioCommands, PileHashTellsRunsApart) {
   for (const char* flags : {" --seed 2", " --rolling 0", " --spinning 0.1", " --iterations 10",
                             " --substeps 2", " --dt 0.004", " --tolerance 0.02"})
     EXPECT_NE(hash(flags), once) << flags;
-}
-
-// After 1.5 s a thin layer of rocks has stood still for longer than the 0.5 s that freezing asks for.
-TEST_F(ScenarioCommands, PileFreezesWhenTold) {
-  const std::string settled = pile + " --rocks 40 --settle 150 --steps 20 --dig 5 --json";
-  EXPECT_LT(run(settled + " --freeze on").json().at("awake").get<int>(), 40);
-  EXPECT_EQ(run(settled + " --freeze off").json().at("awake"), 40);
 }
 
 TEST_F(ScenarioCommands, PileWithoutJsonPrintsATable) {
@@ -113,7 +105,7 @@ TEST_F(ScenarioCommands, TableOfEqualMassesStands) {
 TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
   const Ended run = this->run(study +
                               " --rocks 20 --seeds 2 --settings 10x1x5,10x4x1+50 --reference 10x1x20 --json"
-                              " --reference-method batched --freeze on --jobs 2");
+                              " --reference-method batched --jobs 2");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json rows = run.json().at("configurations");
   ASSERT_EQ(rows.size(), 4u);
@@ -123,10 +115,7 @@ TEST_F(ScenarioCommands, StudyComparesWithItsReference) {
   EXPECT_EQ(rows[2].at("iterations"), 5);
   EXPECT_EQ(rows[3].at("setting"), "10x4x1+50");
   EXPECT_EQ(rows[3].at("iteration_budget"), 50);
-  for (const nlohmann::json& row : rows) {
-    EXPECT_EQ(row.at("method"), "batched");
-    EXPECT_EQ(row.at("freeze"), "on");
-  }
+  for (const nlohmann::json& row : rows) EXPECT_EQ(row.at("method"), "batched");
   EXPECT_TRUE(rows[2].at("drag_n").at("half_width").is_number());
 }
 
@@ -186,7 +175,6 @@ TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
   refused(pile + " --iterations 0", "--iterations: \"0\"", "1 to 1e+06");
   refused(pile + " --threads 0", "--threads: \"0\"", "1 to 256");
   refused(pile + " --method fastest", "\"fastest\"", "sequential, batched");
-  refused(pile + " --freeze maybe", "maybe", "on,off");
   refused(pile + " --rock 5", "--rock", "--help");
   refused(pile + " --rolling -1", "--rolling: \"-1\"", "0 to 2");
   refused(fill + " --piles x --materials gravel", "gravel", "calibrated,lindmark2016");

@@ -83,9 +83,7 @@ const Meanings& of_the_solver() {
       {"iterations", {"1", "per substep, at least"}},
       {"iteration_budget", {"1", "iterations times contact points of a substep, at most"}},
       {"tolerance", {"1", "change of the normal load at which iterations end"}},
-      {"warm_start", {"1", "share of the last impulses that a step starts with"}},
-      {"freezing", {"1", "1: rocks at rest are not solved"}},
-      {"freezing_tolerance", {"1", "of the balance of a rock at rest, relative to the load it carries"}}};
+      {"warm_start", {"1", "share of the last impulses that a step starts with"}}};
   return meanings;
 }
 

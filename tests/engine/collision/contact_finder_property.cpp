@@ -195,7 +195,7 @@ TEST_P(ContactFinding, SkipsPairsThatMustNotTouch) {
   EXPECT_EQ(pairs(a, b), 1u);
 }
 
-TEST_P(ContactFinding, FollowsAddingRemovingFreezingAndWaking) {
+TEST_P(ContactFinding, FollowsAddingAndRemoving) {
   const auto cube = share(box({0.5, 0.5, 0.5}));
   ContactFinder finder(options());
   finder.add(collider_of(share(HalfSpace{Vector3d::UnitZ(), 0}), -1, false));
@@ -208,12 +208,6 @@ TEST_P(ContactFinding, FollowsAddingRemovingFreezingAndWaking) {
     return result;
   };
   using Pairs = std::vector<std::pair<int, int>>;
-  EXPECT_EQ(pairs(), (Pairs{{0, low}, {low, high}}));
-  finder.set_moves(low, false);
-  EXPECT_EQ(pairs(), (Pairs{{low, high}}));
-  finder.set_moves(high, false);
-  EXPECT_EQ(pairs(), Pairs{});
-  finder.set_moves(low, true);
   EXPECT_EQ(pairs(), (Pairs{{0, low}, {low, high}}));
   finder.remove(high);
   EXPECT_EQ(pairs(), (Pairs{{0, low}}));
@@ -262,7 +256,7 @@ TEST(ContactFinder, RefusesBadInput) {
   EXPECT_NE(message_of([&] { finder.set_pose(id, skew); }).find("collider 0 has axes"), std::string::npos);
 }
 
-// What find() gave is read while colliders are frozen, moved, added and removed for the next step: it stays,
+// What find() gave is read while colliders are moved, added and removed for the next step: it stays,
 // bit for bit, until the next find().
 TEST(ContactFinder, ManifoldsStayUntilTheNextSearch) {
   Heap heap(40, 8);
@@ -271,7 +265,6 @@ TEST(ContactFinder, ManifoldsStayUntilTheNextSearch) {
   const std::vector<Manifold> kept = found;
   ASSERT_GT(kept.size(), 20u);
   const std::vector<std::pair<const char*, std::function<void()>>> calls{
-      {"set_moves", [&] { finder.set_moves(3, false); }},
       {"set_pose",
        [&] {
          finder.set_pose(4, pose_at({0, 0, 50}));

@@ -21,11 +21,10 @@ namespace {
 
 constexpr int rocks = 120;
 
-// Steps from creeping to throwing, with rocks that freeze, thaw and are taken away on the way.
+// Steps from creeping to throwing, with rocks that are taken away on the way.
 void step(RockHeap& heap, int k) {
   constexpr double steps[] = {1e-6, 2e-4, 5e-3, 5e-4, 0, 0.04, 1e-3};
   heap.shake(steps[k % 7], steps[(k + 2) % 7]);
-  heap.finder().set_moves(1 + (7 * k) % 60, k % 3 == 0);
   if (k == 9) heap.finder().remove(100), heap.drop(99);
 }
 

@@ -137,7 +137,6 @@ TEST(SettledPile, BelongsToItsSetting) {
       {"sizes", [](Scenario& s) { s.pile.sizes = granular::blasted_ore_with_fines; }},
       {"step", [](Scenario& s) { s.world.step *= 0.5; }},
       {"method", [](Scenario& s) { s.world.solver.method = Method::sequential; }},
-      {"freezing", [](Scenario& s) { s.world.freezing.on = !s.world.freezing.on; }},
       {"damping time", [](Scenario& s) { s.materials.rock_rock.damping_time = 0.1; }},
       {"normal law", [](Scenario& s) { s.materials.rock_terrain.law = NormalLaw::hertz; }}};
   const Scenario own = small_pile(20e3);

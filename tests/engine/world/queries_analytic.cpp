@@ -79,18 +79,6 @@ TEST(PairForces, OfATowerAtRest) {
   expect_tower_at_rest(world);
 }
 
-// Contacts of rocks that are frozen, which no step solves, are told like all others: frozen in balance within half the
-// tolerance of 0.1, at rest in fact nearly so.
-TEST(PairForces, OfATowerThatIsFrozen) {
-  WorldOptions options;
-  options.freezing.on = true;
-  World world = tower(options);
-  run(world, 4);
-  ASSERT_TRUE(world.frozen(0) && world.frozen(1));
-  EXPECT_TRUE(world.problem().pairs.empty());
-  expect_tower_at_rest(world);
-}
-
 // On the part as the part itself feels it: the sum of the pairs' single-precision impulses is the solver's own sum but for
 // round-off of 1e-6.
 TEST(PartWrench, IsWhatTheBodyFeels) {
@@ -163,9 +151,4 @@ TEST(StepOfALength, IsRefusedOutsideItsRange) {
   World world = tower();
   for (double h : {0.0, -0.01, 0.2, std::nan("")}) EXPECT_THROW(world.step(h), std::invalid_argument);
   EXPECT_EQ(world.time(), 0);
-  WorldOptions options;
-  options.freezing.on = true;
-  World freezing = tower(options);
-  EXPECT_NO_THROW(freezing.step(options.step));
-  EXPECT_THROW(freezing.step(0.005), std::invalid_argument);
 }
