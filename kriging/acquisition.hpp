@@ -218,7 +218,7 @@ inline doe::Criterion cross_validation_error(const Model& model) {
   const detail::ModelState& s = model.state();
   if (s.X.rows() == 0)
     return [](const Eigen::MatrixXd& X) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(X.rows()); };
-  Eigen::VectorXd error = detail::left_out_errors(s.L, s.gls);
+  Eigen::VectorXd error = detail::left_out(s.L, s.gls, s.X).error;
   for (double& e : error) e = s.y_scale * std::abs(e);
   return [input = s.input, runs = s.X, levels = s.correlation.levels,
           error](const Eigen::MatrixXd& X) -> Eigen::VectorXd {

@@ -234,7 +234,7 @@ inline Validation validate_on(const TransformedModel& model, const ComparedRuns&
 inline Eigen::VectorXd refitted_scores(const ComparedRuns& runs, const WayToFit& way) {
   Eigen::VectorXd scores(runs.y.size());
   const Eigen::Index n = runs.X.rows();
-  for (const std::vector<Eigen::Index>& out : folds_of(n, std::min<Eigen::Index>(5, n), 1)) {
+  for (const std::vector<Eigen::Index>& out : folds_of(runs.X, 5, 1)) {
     const std::vector<Eigen::Index> in = rows_besides(out, n);
     const TransformedModel model = way.fitter(rows_of(runs.X, in), entries_of(runs.y, in), runs.noise_of(in));
     const Validation v = validate_on(model, runs, way.noise, in, out);

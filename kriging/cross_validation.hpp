@@ -5,12 +5,11 @@
 /// Estimates of the error on runs that are not there: leave-one-out, k-fold and hold-out, and a
 /// measure made of one.
 ///
-/// leave_one_out(model): closed form, θ and λ as fitted, β estimated anew without each run. With P = R⁻¹ −
-/// R⁻¹F(FᵀR⁻¹F)⁻¹FᵀR⁻¹ the error is (P y)ᵢ/Pᵢᵢ and the variance of the run s²/Pᵢᵢ, its noise included
-/// (Dubrule 1983, Mathematical Geology 15). Cost n³/3, no refits. The s² is that of all runs, and what is
-/// unknown of θ and λ is left out. θ and λ have seen the run, so the error is estimated somewhat low. k_fold
-/// and hold_out fit anew without the runs that they predict: honest, at the cost of the fits. Runs are shared
-/// out at random, by the seed.
+/// leave_one_out(model): closed form (left_out.hpp), θ and λ as fitted, β estimated anew without each run.
+/// Cost n³/3, no refits. The s² is that of all runs, and what is unknown of θ and λ is left out. θ and λ have
+/// seen the run, so the error is estimated somewhat low. k_fold and hold_out fit anew without the runs that
+/// they predict: honest, at the cost of the fits. Repeats are left out together, since one gives the others
+/// away: what is shared out at random, by the seed, are distinct points with all their runs.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/detail/left_out.hpp>
+#include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <optional>
 #include <stdexcept>
@@ -40,12 +40,12 @@ inline Validation leave_one_out(const Model& model) {
     v.variance = v.observation_variance = Eigen::VectorXd::Constant(n, s.constant_variance);
     return detail::scored(std::move(v));
   }
-  const Eigen::VectorXd P = detail::diagonal_of_P(s.L, s.gls);
-  const Eigen::VectorXd error = detail::entry_quotients(s.gls.alpha, P), noise = detail::added_noise(s);
+  const detail::LeftOut out = detail::left_out(s.L, s.gls, s.X);
+  const Eigen::VectorXd noise = detail::added_noise(s);
   v.predicted = v.variance = v.observation_variance = s.observed;
   for (Eigen::Index i = 0; i < n; ++i) {
-    v.predicted[i] = s.observed[i] - s.y_scale * error[i];
-    v.observation_variance[i] = model.process_variance() / P[i];
+    v.predicted[i] = s.observed[i] - s.y_scale * out.error[i];
+    v.observation_variance[i] = model.process_variance() * out.variance[i];
     v.variance[i] = std::max(v.observation_variance[i] - model.process_variance() * noise[i], 0.0);
   }
   return detail::scored(std::move(v));
@@ -66,13 +66,36 @@ inline std::vector<Eigen::Index> rows_besides(const std::vector<Eigen::Index>& o
   return in;
 }
 
-/// The rows 0..n-1 dealt out at random to sorted folds.
-inline std::vector<std::vector<Eigen::Index>> folds_of(Eigen::Index n, Eigen::Index folds, doe::Seed seed) {
-  const std::vector<Eigen::Index> order = shuffled(n, seed);
-  std::vector<std::vector<Eigen::Index>> all(static_cast<std::size_t>(folds));
-  for (std::size_t i = 0; i < order.size(); ++i) all[i % all.size()].push_back(order[i]);
+/// The rows of X dealt out at random to sorted folds, equal rows to the same; at most as many as there are
+/// distinct rows.
+inline std::vector<std::vector<Eigen::Index>> folds_of(const Eigen::MatrixXd& X, Eigen::Index folds,
+                                                       doe::Seed seed) {
+  const std::vector<std::vector<Eigen::Index>> sites = sites_of(X);
+  const auto count = static_cast<Eigen::Index>(sites.size());
+  const std::vector<Eigen::Index> order = shuffled(count, seed);
+  std::vector<std::vector<Eigen::Index>> all(static_cast<std::size_t>(std::min(folds, count)));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::vector<Eigen::Index>& site = sites[static_cast<std::size_t>(order[i])];
+    std::vector<Eigen::Index>& fold = all[i % all.size()];
+    fold.insert(fold.end(), site.begin(), site.end());
+  }
   for (std::vector<Eigen::Index>& fold : all) std::sort(fold.begin(), fold.end());
   return all;
+}
+
+/// Sites at random until they hold this share of n runs; sorted. One site is left at least.
+inline std::vector<Eigen::Index> share_of_runs(const std::vector<std::vector<Eigen::Index>>& sites,
+                                               double share, Eigen::Index n, doe::Seed seed) {
+  const auto count = std::clamp<Eigen::Index>(std::llround(share * static_cast<double>(n)), 1, n - 1);
+  std::vector<Eigen::Index> order = shuffled(static_cast<Eigen::Index>(sites.size()), seed), out;
+  order.pop_back();
+  for (const Eigen::Index k : order) {
+    if (static_cast<Eigen::Index>(out.size()) >= count) break;
+    const std::vector<Eigen::Index>& site = sites[static_cast<std::size_t>(k)];
+    out.insert(out.end(), site.begin(), site.end());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 /// Fits without the runs of `out`, sorted, and writes its predictions of them into v.
@@ -104,38 +127,42 @@ struct SplitOptions {
   doe::Seed seed = 1;  ///< of which runs are left out together
 };
 
-/// Every run predicted by a model of the other folds. X: n x d, y: n; 2 <= folds <= n. Throws
-/// std::invalid_argument for other folds, unequal lengths, and as the fitter.
+/// Every run predicted by a model of the other folds. X: n x d, y: n; 2 <= folds <= number of distinct rows.
+/// Throws std::invalid_argument for other folds, unequal lengths, and as the fitter.
 template <class F>
 Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds, const F& fitter,
                   const SplitOptions& options = {}) {
   detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::k_fold: ");
-  if (folds < 2 || folds > X.rows())
-    throw std::invalid_argument("kriging::k_fold: folds is " + std::to_string(folds) +
-                                "; allowed is 2 to the " + std::to_string(X.rows()) + " runs; use 5");
+  const std::size_t points = detail::sites_of(X).size();
+  if (folds < 2 || static_cast<std::size_t>(folds) > points)
+    throw std::invalid_argument(
+        "kriging::k_fold: folds is " + std::to_string(folds) + "; allowed is 2 to the " +
+        std::to_string(points) +
+        (points == static_cast<std::size_t>(X.rows()) ? " runs" : " distinct points") + "; use 5");
   Validation v = detail::blank_validation(y);
-  for (const std::vector<Eigen::Index>& out : detail::folds_of(X.rows(), folds, options.seed))
+  for (const std::vector<Eigen::Index>& out : detail::folds_of(X, folds, options.seed))
     detail::predict_without(out, X, fitter, v);
   return detail::scored(std::move(v));
 }
 
-/// A share of the runs, at least one, predicted by a model of the others. X: n x d, y: n; 0 < share < 1.
-/// Throws std::invalid_argument for another share, fewer than two runs, unequal lengths, and as the fitter.
+/// A share of the runs, at least one, and their repeats, predicted by a model of the others. X: n x d, y: n;
+/// 0 < share < 1. Throws std::invalid_argument for another share, fewer than two distinct rows, unequal
+/// lengths, and as the fitter.
 template <class F>
 Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double share, const F& fitter,
                     const SplitOptions& options = {}) {
   detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::hold_out: ");
-  if (!(share > 0 && share < 1) || X.rows() < 2)
+  const auto sites = detail::sites_of(X);
+  const auto points = static_cast<Eigen::Index>(sites.size());
+  if (!(share > 0 && share < 1) || points < 2) {
+    const std::string kind = points == X.rows() ? " runs" : " distinct points";
     throw std::invalid_argument("kriging::hold_out: share is " + detail::text(share) + " of " +
-                                std::to_string(X.rows()) +
-                                " runs; allowed are numbers between 0 and 1 of 2 runs or more; use 0.2");
-  const Eigen::Index n = X.rows();
-  const auto count = std::clamp<Eigen::Index>(std::llround(share * static_cast<double>(n)), 1, n - 1);
-  std::vector<Eigen::Index> out = detail::shuffled(n, options.seed);
-  out.resize(static_cast<std::size_t>(count));
-  std::sort(out.begin(), out.end());
+                                std::to_string(points) + kind + "; allowed are numbers between 0 and 1 of 2" +
+                                kind + " or more; use 0.2");
+  }
+  const std::vector<Eigen::Index> out = detail::share_of_runs(sites, share, X.rows(), options.seed);
   Validation all = detail::blank_validation(y);
   detail::predict_without(out, X, fitter, all);
   return detail::scored({.observed = detail::entries_of(all.observed, out),
@@ -152,14 +179,14 @@ concept LeaveOneOutInClosedForm = requires(const S& s) {
 
 namespace detail {
 
-/// Leave-one-out in closed form where the surrogate has one, else by a fit a run.
+/// Leave-one-out in closed form where the surrogate has one, else by a fit per distinct point.
 template <class F>
 Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter,
                         const SplitOptions& options) {
   const auto model = fitter(X, y);
   if constexpr (LeaveOneOutInClosedForm<std::remove_cvref_t<decltype(model)>>)
     if (const std::optional<Validation> v = leave_one_out(model)) return *v;
-  return k_fold(X, y, static_cast<int>(X.rows()), fitter, options);
+  return k_fold(X, y, static_cast<int>(sites_of(X).size()), fitter, options);
 }
 
 }  // namespace detail

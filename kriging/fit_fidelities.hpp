@@ -100,7 +100,7 @@ inline void check_runs_of_level(const std::vector<FidelityLevel>& levels, std::s
 }
 
 inline Index distinct_places(const FidelityLevel& level) {
-  return static_cast<Index>(groups_of_rows(level.X).size());
+  return static_cast<Index>(sites_of(level.X).size());
 }
 
 /// "5 runs at 3 places": places only where there are fewer.

@@ -11,8 +11,7 @@
 /// Ankenman, Nelson, Staum 2010, Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling".
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <map>
+#include <drawpoint/kriging/detail/sites.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,24 +27,6 @@ struct Replicates {
   Eigen::VectorXi count;           ///< runs of each point
 };
 
-namespace detail {
-
-/// For each distinct row of X the indices of its rows, in the order of the first.
-inline std::vector<std::vector<Eigen::Index>> groups_of_rows(const Eigen::MatrixXd& X) {
-  std::map<std::vector<double>, std::size_t> known;
-  std::vector<std::vector<Eigen::Index>> groups;
-  for (Eigen::Index i = 0; i < X.rows(); ++i) {
-    std::vector<double> row(static_cast<std::size_t>(X.cols()));
-    for (Eigen::Index k = 0; k < X.cols(); ++k) row[k] = X(i, k);
-    const auto [place, fresh] = known.try_emplace(row, groups.size());
-    if (fresh) groups.emplace_back();
-    groups[place->second].push_back(i);
-  }
-  return groups;
-}
-
-}  // namespace detail
-
 /// X: n x d, y: n; rows are repeats when they are equal. Throws std::invalid_argument when the sizes differ,
 /// a number is not finite, or the repeats do not suffice.
 inline Replicates replicates(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
@@ -58,7 +39,7 @@ inline Replicates replicates(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
            " entries; give one response a run");
   if (!X.allFinite() || !y.allFinite())
     reject("X or y holds a number that is not finite; allowed are finite numbers; leave failed runs out");
-  const auto groups = detail::groups_of_rows(X);
+  const auto groups = detail::sites_of(X);
   const auto points = static_cast<Eigen::Index>(groups.size());
   if (points == X.rows())
     reject("no two rows of X are equal; allowed is one repeated point or more; use Noise::nugget");

@@ -31,7 +31,8 @@ inline constexpr double clearly_better = 0.5;
 inline double predictive_error(Likelihood& likelihood, const Eigen::VectorXd& p,
                                const Eigen::VectorXd& share) {
   if (!std::isfinite(likelihood.value(p))) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd error = left_out_errors(likelihood.cholesky(), likelihood.least_squares());
+  const Eigen::VectorXd error =
+      left_out(likelihood.cholesky(), likelihood.least_squares(), likelihood.problem().X).error;
   return dot(share, entry_products(error, error));
 }
 

@@ -167,7 +167,7 @@ class Likelihood {
   }
 
   void add_noise(Eigen::MatrixXd& R) const {
-    const double floor = in_.noise.size() ? detail::noise_floor : 0.0;
+    const double floor = in_.noise.size() || in_.known_noise > 0 ? detail::noise_floor : 0.0;
     for (Eigen::Index i = 0; i < runs(); ++i) R(i, i) += nugget_ * noise_weight(i) + floor;
   }
 

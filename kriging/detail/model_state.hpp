@@ -45,7 +45,7 @@ struct ModelState {
 /// What the diagonal of R has beyond that of C: n entries.
 inline Eigen::VectorXd added_noise(const ModelState& s) {
   if (s.noise.size()) return affine(s.noise, s.nugget, noise_floor);
-  return Eigen::VectorXd::Constant(s.X.rows(), s.nugget);
+  return Eigen::VectorXd::Constant(s.X.rows(), s.nugget + (s.known_noise > 0 ? noise_floor : 0.0));
 }
 
 /// Finds β, α and s² anew from L, F and y, and the likelihood with them.

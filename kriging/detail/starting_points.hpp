@@ -33,8 +33,10 @@ inline double log_uniform(doe::RandomStream& random, double lower, double upper)
   return std::log(lower) + random.uniform() * std::log(upper / lower);
 }
 
-/// (ln θ, exponents, weights, ln λ) inside the box.
-inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, const ParameterPlaces& places) {
+/// (ln θ, exponents, weights, ln λ) inside the box. Known noise leaves the process variance to be drawn, in
+/// units of the response's.
+inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, const ParameterPlaces& places,
+                                 double known_noise) {
   const Eigen::Index m = box.lower.size(), of_weights = places.weight(0);
   const auto d = static_cast<double>(places.weights ? 1 : places.variables());
   const double common = log_uniform(random, 0.1, 1.0) + 0.5 * std::log(d);
@@ -43,7 +45,8 @@ inline Eigen::VectorXd candidate(doe::RandomStream& random, const Box& box, cons
     p[k] = -std::log(8.0) - 2.0 * (common + log_uniform(random, 0.5, 4.0));
   for (Eigen::Index k = places.theta_count; k < of_weights; ++k) p[k] = 1.5 + 0.49 * random.uniform();
   for (Eigen::Index k = of_weights; k + 1 < m; ++k) p[k] = log_uniform(random, 0.3, 3.0);
-  p[m - 1] = log_uniform(random, 1e-8, 0.3);
+  p[m - 1] = known_noise > 0 ? std::log(known_noise) - log_uniform(random, 0.3, 100.0)
+                             : log_uniform(random, 1e-8, 0.3);
   return moved(box, p, 0.0, p);
 }
 
@@ -77,7 +80,7 @@ inline std::vector<RankedPoint> ranked_candidates(Likelihood& likelihood, const 
   std::vector<RankedPoint> all(count), ranked;
   std::vector<double> values;
   for (RankedPoint& c : all) {
-    c.p = candidate(random, box, likelihood.places());
+    c.p = candidate(random, box, likelihood.places(), likelihood.problem().known_noise);
     c.value = likelihood.value(c.p);
     values.push_back(c.value);
   }

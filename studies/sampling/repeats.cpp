@@ -22,7 +22,7 @@ Eigen::MatrixXd repeatable_points(const doe::Evaluations& runs, const Failures& 
   const Eigen::MatrixXd X = runs.X();
   const std::vector<bool> avoided = failures.avoided(X);
   std::vector<Eigen::Index> rows;
-  for (const auto& group : kriging::detail::groups_of_rows(X))
+  for (const auto& group : kriging::detail::sites_of(X))
     if (!avoided[static_cast<std::size_t>(group.front())]) rows.push_back(group.front());
   return X(rows, Eigen::all);
 }

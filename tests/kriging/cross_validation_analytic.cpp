@@ -7,6 +7,7 @@
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <set>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
@@ -77,6 +78,55 @@ TEST(LeaveOneOut, EqualsTheRefitsWithTrendsAndNoise) {
                     0.01 * (weighted ? noise[i] / noise.mean() : 1.0), 1e-9);
       }
     }
+}
+
+// A repeat gives the others of its point away, so points are left out with all their runs: as a refit without
+// them predicts, at the same θ and λ, to the round-off of the test above.
+TEST(LeaveOneOut, OfRepeatsEqualsTheRefitsWithoutTheirPoint) {
+  const MatrixXd points = reference::design(12, 2, 3);
+  const std::vector<Eigen::Index> place{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 4, 4, 7, 0};
+  const MatrixXd X = points(place, Eigen::all);
+  VectorXd y = reference::values(wave, X);
+  doe::RandomStream random(6);
+  for (double& value : y) value += 0.05 * random.normal();
+  FitOptions options;
+  options.lower = VectorXd::Zero(2);
+  options.upper = VectorXd::Ones(2);
+  options.theta_lower = options.theta_upper = 1.3;
+  options.nugget_lower = options.nugget_upper = 0.01;
+  for (const Trend trend : {Trend::constant, Trend::linear}) {
+    options.trend = trend;
+    const Model model = fit(X, y, options);
+    const Validation v = leave_one_out(model);
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      std::vector<Eigen::Index> others;
+      for (std::size_t k = 0; k < place.size(); ++k)
+        if (place[k] != place[i]) others.push_back(static_cast<Eigen::Index>(k));
+      const auto row = static_cast<Eigen::Index>(i);
+      const Model other = fit(X(others, Eigen::all), y(others), options);
+      const Prediction p = other.predict(X.row(row));
+      EXPECT_NEAR(v.predicted[row], p.mean[0], 1e-9) << i;
+      EXPECT_NEAR(v.variance[row] / model.process_variance(), p.variance[0] / other.process_variance(), 1e-9);
+    }
+  }
+}
+
+// White noise over 20 points with 4 runs each: a new point is missed by the noise and what the mean is off,
+// √(1 + 1/80), and the mean of 80 squares scatters by √(2/80): 0.16, of which three are 0.24 of the error.
+TEST(CrossValidation, RepeatsDoNotMakeNoiseAModel) {
+  const MatrixXd points = reference::design(20, 2, 4);
+  MatrixXd X(80, 2);
+  VectorXd y(80);
+  doe::RandomStream random(8);
+  for (Eigen::Index i = 0; i < 80; ++i) {
+    X.row(i) = points.row(i % 20);
+    y[i] = random.normal();
+  }
+  EXPECT_NEAR(leave_one_out(fit(X, y)).rmse, 1.006, 0.24);
+  for (const int folds : {5, 20}) EXPECT_NEAR(k_fold(X, y, folds, fitter).rmse, 1.006, 0.24) << folds;
+  const Validation out = hold_out(X, y, 0.2, fitter);
+  EXPECT_EQ(out.observed.size(), 16) << "four points with four runs each";
+  EXPECT_THROW(k_fold(X, y, 21, fitter), std::invalid_argument) << "there are 20 points";
 }
 
 TEST(LeaveOneOut, OfAConstantModelIsTheConstant) {

@@ -348,6 +348,41 @@ TEST(KnownNoise, OfRunsThatAreAllExactIsNone) {
   EXPECT_NO_THROW(with_modelled_noise(options, r.X));
 }
 
+// Noise that is known to be small is as good as none, whatever the unit: the error of a fit that is told
+// nothing by a tenth at most, intervals of 95 % that hold 90 and more of 1500 places of three designs.
+TEST(KnownNoise, ThatIsSmallSpoilsNothing) {
+  const auto smooth = [](const VectorXd& x) { return std::sin(3 * x[0]) + x[1] * x[1] * x[0] + 0.5 * x[1]; };
+  for (const double unit : {1.0, 1e8, 1e-8})
+    for (const double deviation : {1e-3, 1e-5, 1e-6, 1e-8, 1e-12}) {
+      double of_known = 0, of_none = 0;
+      int held = 0;
+      for (const doe::Seed seed : {1, 2, 3}) {
+        doe::RandomStream random(seed);
+        const auto places = [&](Eigen::Index n) {
+          MatrixXd X(n, 2);
+          for (double& x : X.reshaped()) x = random.uniform();
+          return X;
+        };
+        const MatrixXd X = places(40), P = places(500);
+        VectorXd y(40);
+        for (Eigen::Index i = 0; i < 40; ++i) y[i] = unit * (smooth(X.row(i)) + deviation * random.normal());
+        FitOptions options{.lower = VectorXd::Zero(2), .upper = VectorXd::Ones(2)};
+        const VectorXd none = fit(X, y, options).mean(P);
+        options.noise = Noise::known;
+        options.noise_variance = VectorXd::Constant(40, unit * unit * deviation * deviation);
+        const Prediction known = fit(X, y, options).predict(P);
+        for (Eigen::Index i = 0; i < 500; ++i) {
+          const double truth = unit * smooth(P.row(i)), error = known.mean[i] - truth;
+          of_known += error * error;
+          of_none += (none[i] - truth) * (none[i] - truth);
+          held += std::abs(error) <= 1.96 * std::sqrt(known.variance[i]);
+        }
+      }
+      EXPECT_LT(std::sqrt(of_known), 1.1 * std::sqrt(of_none)) << deviation << " of " << unit;
+      EXPECT_GT(held, 0.9 * 1500) << deviation << " of " << unit;
+    }
+}
+
 TEST(KnownNoise, IsRefusedWhereItCannotBe) {
   const Runs r = runs(12, 1);
   const TransformedModel model = told().fitter(r.X, r.y, r.noise_variance);
