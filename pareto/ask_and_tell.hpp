@@ -65,11 +65,12 @@ class Search {
   /// outcomes: one per row of ask(), in that order; a wrong count of values or a value that is not finite
   /// counts as a failure. Calls `progress` last, at the end of a generation; it may save the search. Throws
   /// std::invalid_argument for another number of outcomes, where the first of the search that has values has
-  /// another number than the problem has responses, and once the search has ended.
+  /// another number than the problem has responses, once the search has ended, and for outcomes that are
+  /// told a second time: without ask() or seeds() since the last tell(), but after restore().
   void tell(std::vector<doe::Outcome> outcomes);
 
-  /// The best points so far, in rising order of the minimised objectives. Before the end `stopped_by` is
-  /// `stopped`.
+  /// The best points so far, in rising order of the minimised objectives, each once. Before the end
+  /// `stopped_by` is `stopped`.
   Front front() const;
 
   /// Whole or not at all: a fault leaves the old file. Throws std::runtime_error when it cannot be written.

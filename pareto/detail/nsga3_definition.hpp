@@ -17,6 +17,7 @@
 #include <drawpoint/pareto/detail/compiled.hpp>
 #include <drawpoint/pareto/detail/directed.hpp>
 #include <drawpoint/pareto/detail/evolution.hpp>
+#include <drawpoint/pareto/detail/roles.hpp>
 #include <drawpoint/pareto/nsga3.hpp>
 
 namespace drawpoint::pareto {
@@ -29,7 +30,11 @@ class Normalisation {
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& Y, const std::vector<int>& first) {
     const Eigen::RowVectorXd best = Y.colwise().minCoeff();
     ideal_ = ideal_.size() == 0 ? best : ideal_.cwiseMin(best);
-    keep_extremes(Y);
+    extremes_ = extremes_.rows() == 0 ? Y : stacked(extremes_, Y);
+    unit_ = extremes_.colwise().maxCoeff() - ideal_;
+    for (double& u : unit_)
+      if (!(u > 0.0)) u = 1.0;  // an objective that does not vary
+    keep_extremes();
     const Eigen::MatrixXd front = Y(first, Eigen::all);
     const Eigen::RowVectorXd worst = front.colwise().maxCoeff() - ideal_;
     Eigen::RowVectorXd scale = intercepts();
@@ -37,7 +42,7 @@ class Normalisation {
       if (!(scale[j] > 1e-6 * worst[j]) || scale[j] > 1e6 * worst[j]) scale = worst;
     for (double& s : scale)
       if (!(s > 0.0)) s = 1.0;  // an objective that does not vary
-    return (Y.rowwise() - ideal_) * scale.cwiseInverse().asDiagonal();
+    return over(Y.rowwise() - ideal_, scale);
   }
 
   template <class Self, class Stream>
@@ -47,18 +52,20 @@ class Normalisation {
   }
 
  private:
+  /// In units of the objectives' ranges, so that no unit of theirs counts.
+  Eigen::MatrixXd offsets() const { return over(extremes_.rowwise() - ideal_, unit_); }
+
   /// By objective the point that lies nearest to its axis, among the old extremes and the new points.
-  void keep_extremes(const Eigen::MatrixXd& Y) {
-    const Eigen::Index m = Y.cols();
-    const Eigen::MatrixXd all = extremes_.rows() == 0 ? Y : stacked(extremes_, Y);
-    const Eigen::MatrixXd offset = all.rowwise() - ideal_;
+  void keep_extremes() {
+    const Eigen::Index m = extremes_.cols();
+    const Eigen::MatrixXd offset = offsets();
     Eigen::MatrixXd next(m, m);
     for (Eigen::Index j = 0; j < m; ++j) {
       Eigen::RowVectorXd weight = Eigen::RowVectorXd::Constant(m, 1e6);
       weight[j] = 1.0;
       Eigen::Index row;
       (offset * weight.asDiagonal()).rowwise().maxCoeff().minCoeff(&row);
-      next.row(j) = all.row(row);
+      next.row(j) = extremes_.row(row);
     }
     extremes_ = next;
   }
@@ -66,12 +73,12 @@ class Normalisation {
   /// Where the plane through the extremes meets the axes; not positive where there is no plane.
   Eigen::RowVectorXd intercepts() const {
     const Eigen::Index m = ideal_.size();
-    const Eigen::FullPivLU<Eigen::MatrixXd> plane(extremes_.rowwise() - ideal_);
+    const Eigen::FullPivLU<Eigen::MatrixXd> plane(offsets());
     if (plane.rank() < m) return Eigen::RowVectorXd::Zero(m);
-    return plane.solve(Eigen::VectorXd::Ones(m)).cwiseInverse().transpose();
+    return plane.solve(Eigen::VectorXd::Ones(m)).cwiseInverse().transpose().cwiseProduct(unit_);
   }
 
-  Eigen::RowVectorXd ideal_;
+  Eigen::RowVectorXd ideal_, unit_;
   Eigen::MatrixXd extremes_;
 };
 

@@ -35,6 +35,11 @@ inline Eigen::RowVectorXd signs_of(const Roles& role) {
                                               static_cast<Eigen::Index>(role.signs.size()));
 }
 
+/// Each column over its range, also where the inverse of the range is infinite.
+inline Eigen::MatrixXd over(const Eigen::MatrixXd& Y, const Eigen::RowVectorXd& range) {
+  return Y.array().rowwise() / range.array();
+}
+
 /// Of a limit, 0 where it is met.
 inline double violation(const doe::Response& response, double value) {
   const double excess = response.goal == doe::Goal::at_most ? value - response.limit : response.limit - value;

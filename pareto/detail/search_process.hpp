@@ -39,7 +39,10 @@ class SearchProcess {
   const doe::Problem& problem() const { return problem_; }
   const SearchOptions& options() const { return setting_.search; }
   bool done() const { return ended_ || setting_.search.stop.stop_requested(); }
-  Eigen::MatrixXd ask() const { return breeder_.space().natural(asked_.topRows(asked())); }
+  Eigen::MatrixXd ask() const {
+    told_ = false;
+    return breeder_.space().natural(asked_.topRows(asked()));
+  }
   std::vector<doe::Seed> seeds() const;
   void tell(std::vector<doe::Outcome> outcomes);
   Front front() const;
@@ -56,6 +59,7 @@ class SearchProcess {
     fields(*this, in);
     read(in);
     course_.forget_unused();
+    told_ = false;
     if (ended_ && in.rules_differ()) ended_ = course_.end(generation_, evaluations_ + per_generation());
   }
 
@@ -127,9 +131,11 @@ class SearchProcess {
   Eigen::RowVectorXd largest_;
   std::optional<StopReason> ended_;
   std::optional<SearchProgress> news_;  // of the generation that ended, until the caller has been told
+  mutable bool told_ = false;           // and nobody has asked for the next points since
 };
 
 inline std::vector<doe::Seed> SearchProcess::seeds() const {
+  told_ = false;
   std::vector<doe::Seed> seeds;
   for (Eigen::Index i = 0; i < asked(); ++i)
     seeds.push_back(doe::run_seed(setting_.search.seed, static_cast<std::uint64_t>(evaluations_ + i), 0));
@@ -155,7 +161,12 @@ inline void SearchProcess::tell(std::vector<doe::Outcome> outcomes) {
     throw std::invalid_argument("pareto::Search::tell: " + std::to_string(outcomes.size()) +
                                 " outcomes for " + std::to_string(asked_.rows()) +
                                 " points; give one per row of ask()");
+  if (told_)
+    throw std::invalid_argument(
+        "pareto::Search::tell: outcomes were told twice for the points of one ask(); the next points are "
+        "others: call ask() and give their outcomes");
   take_in(outcomes);
+  told_ = true;
   evaluations_ += static_cast<int>(outcomes.size());
   Population told = assess(problem_, std::move(asked_), outcomes);
   const Eigen::RowVectorXd largest = told.violations.colwise().maxCoeff();
@@ -163,6 +174,20 @@ inline void SearchProcess::tell(std::vector<doe::Outcome> outcomes) {
   news_.reset();
   asked_ = next(std::move(told));
   if (news_ && setting_.search.progress) setting_.search.progress(*news_);
+}
+
+/// Of points in the order of their objectives, those that are no copy of one before them: same X, same
+/// responses. Copies stand next to each other but for points that tie in all objectives.
+inline std::vector<int> without_copies(const std::vector<int>& order, const Eigen::MatrixXd& X,
+                                       const Eigen::MatrixXd& responses) {
+  std::vector<int> kept;
+  for (const int i : order) {
+    const bool copy = std::any_of(kept.rbegin(), kept.rend(), [&](int k) {
+      return X.row(k) == X.row(i) && responses.row(k) == responses.row(i);
+    });
+    if (!copy) kept.push_back(i);
+  }
+  return kept;
 }
 
 /// Without a feasible point: why there is none.
@@ -187,8 +212,9 @@ inline Front SearchProcess::front() const {
   Front front;
   for (const int j : role.objectives) front.objectives.push_back(problem_.responses[j].name);
   const Population points = evaluations_ == 0 ? assess(problem_, asked_.topRows(0), {}) : best();
-  const std::vector<int> order = sorted_points(points.Y).order;
-  front.X = breeder_.space().natural(points.U(order, Eigen::all));
+  const Eigen::MatrixXd X = breeder_.space().natural(points.U);
+  const std::vector<int> order = without_copies(sorted_points(points.Y).order, X, points.responses);
+  front.X = X(order, Eigen::all);
   front.responses = points.responses(order, Eigen::all);
   front.Y = front.responses(Eigen::all, role.objectives);
   front.evaluations = evaluations_;

@@ -15,6 +15,7 @@
 
 #include <drawpoint/pareto/detail/compiled.hpp>
 #include <drawpoint/pareto/detail/evolution.hpp>
+#include <drawpoint/pareto/detail/roles.hpp>
 #include <drawpoint/pareto/hypervolume.hpp>
 #include <drawpoint/pareto/sms_emoa.hpp>
 
@@ -50,7 +51,7 @@ class VolumeSurvival {
     Eigen::RowVectorXd range = Y.colwise().maxCoeff() - low;
     for (double& r : range)
       if (r <= 0.0) r = 1.0;
-    const Eigen::MatrixXd scaled = (Y.rowwise() - low) * range.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd scaled = over(Y.rowwise() - low, range);
     const Eigen::VectorXd reference = Eigen::VectorXd::Constant(Y.cols(), 1.0 + reference_offset_);
     check_volume_input("pareto::sms_emoa: ", scaled, reference);
     Boxes left = boxes(scaled, reference);

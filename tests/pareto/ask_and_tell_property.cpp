@@ -340,6 +340,35 @@ TEST_P(DrivenSearches, RefuseOutcomesThatDoNotFit) {
   EXPECT_EQ(text({}), "pareto::Search::tell: the search has ended (generations); ask done() first");
 }
 
+// What is told once more would be taken for the outcomes of the next points, which nobody has seen.
+TEST_P(DrivenSearches, RefuseOutcomesThatAreToldTwice) {
+  const auto search = made(), other = made();
+  const std::vector<doe::Outcome> outcomes(search->seeds().size(), doe::Outcome({1.0, 2.0, 0.0}));
+  for (Search* one : {search.get(), other.get()}) one->tell(outcomes);
+  for (const std::size_t count : {outcomes.size(), std::size_t{1}})  // a steady state asks for one
+    EXPECT_THROW(search->tell({outcomes.begin(), outcomes.begin() + static_cast<std::ptrdiff_t>(count)}),
+                 std::invalid_argument);
+  expect_equal(finish(*search, noisy), finish(*other, noisy));
+}
+
+// Of a problem with four designs a front has at most four points, each once.
+TEST(Fronts, HoldEachPointOnce) {
+  const doe::Problem whole{
+      .variables = {doe::integer_variable("a", "1", 0, 1), doe::integer_variable("b", "1", 0, 1)},
+      .responses = {{"f", "1", doe::Goal::minimize}, {"g", "1", doe::Goal::minimize}}};
+  const auto f = [](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return Eigen::Vector2d(x[0], 1 - x[0] + x[1]);
+  };
+  SearchOptions options;
+  options.population = 20;
+  options.stopping.generations = 5;
+  for (const Front& front : {nsga2(f, whole, {.search = options}), nsga3(f, whole, {.search = options}),
+                             sms_emoa(f, whole, {.search = options}), moead(f, whole, {.search = options})}) {
+    EXPECT_EQ(front.X.rows(), 2);
+    EXPECT_EQ(front.responses, (Eigen::Matrix2d() << 0, 1, 1, 0).finished());
+  }
+}
+
 TEST_P(DrivenSearches, TakeFaultyOutcomesForFailures) {
   const auto search = made();
   std::vector<doe::Outcome> outcomes(20, doe::Outcome({1.0, NAN, 0.0}));

@@ -185,3 +185,23 @@ TEST(Searches, BadOptionsAreNamed) {
 }
 
 }  // namespace
+
+// Units of objectives are no reason for another choice. Powers of two change no digit, so the same points must
+// come out to the bit; a range whose inverse is infinite must not end the search.
+TEST_P(Searches, DoNotFollowUnits) {
+  const auto bowls = [](const Eigen::RowVector3d& unit) {
+    return [unit](const Eigen::VectorXd& x) -> doe::Outcome {
+      const double rest = (x[2] - 0.5) * (x[2] - 0.5), a = x[0] * M_PI_2, b = x[1] * M_PI_2;
+      return {unit[0] * (1 + rest) * std::cos(a) * std::cos(b),
+              unit[1] * (1 + rest) * std::cos(a) * std::sin(b), unit[2] * (1 + rest) * std::sin(a)};
+    };
+  };
+  doe::Problem problem{.variables = {{"a", "1", 0, 1}, {"b", "1", 0, 1}, {"c", "1", 0, 1}}, .responses = {}};
+  for (const char* name : {"f", "g", "h"}) problem.responses.push_back({name, "1", doe::Goal::minimize});
+  const Front front = GetParam().search(bowls({1, 1, 1}), problem, {});
+  for (const Eigen::RowVector3d& power : {Eigen::RowVector3d(0, 13, 27), Eigen::RowVector3d(-80, 0, -27)})
+    EXPECT_EQ(GetParam().search(bowls(power.unaryExpr([](double p) { return std::exp2(p); })), problem, {}).X,
+              front.X)
+        << "units of 2^" << power;
+  EXPECT_NO_THROW(GetParam().search(bowls({1, 1, 1e-310}), problem, {}));
+}
