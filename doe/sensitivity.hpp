@@ -17,7 +17,8 @@
 /// ⟨⟩ is the mean over i, f has its mean taken off, V is the variance over A and B. Intervals by bootstrap
 /// over i (percentiles); estimates may fall a little outside [0, 1]. The pairs come from a scrambled Sobol'
 /// sequence in 2d dimensions while it has them, whose error is smaller than the intervals say, else from
-/// random points. A pair with a failed run is left out whole. The noise of a noisy black box counts as one
+/// random points. A pair with a failed run is left out whole, and
+/// the status says when that is more than a few. The noise of a noisy black box counts as one
 /// more input that interacts with all. Sources: Saltelli, Annoni, Azzini, Campolongo, Ratto, Tarantola 2010,
 /// Comput. Phys. Commun. 181, table 2; Saltelli 2002, ibid. 145 (second order); Jansen 1999, ibid. 117;
 /// Martinez 2011 (GdR Ondes and Mascot Num).
@@ -61,6 +62,7 @@ struct IndexEstimates {
 
 enum class SensitivityStatus {
   estimated,
+  runs_lost,          ///< failures took more than a twentieth of what is averaged: see the message
   constant_response,  ///< no variance to explain: the indices are 0
   too_few_runs        ///< fewer than two pairs without a failure: the indices are NaN
 };
@@ -69,6 +71,8 @@ inline std::string_view to_string(SensitivityStatus status) {
   switch (status) {
     case SensitivityStatus::estimated:
       return "estimated";
+    case SensitivityStatus::runs_lost:
+      return "runs_lost";
     case SensitivityStatus::constant_response:
       return "constant_response";
     case SensitivityStatus::too_few_runs:
@@ -218,6 +222,14 @@ inline SobolIndices indices_of(std::string response, Eigen::MatrixXd Y, const So
     result.message = "all responses equal " + number_text(result.mean) + ": there is no variance to explain";
     fill(result, d, 0.0, options);
     return result;
+  }
+  if (20 * (options.samples - Y.rows()) > options.samples) {
+    result.status = SensitivityStatus::runs_lost;
+    result.message =
+        std::to_string(options.samples - Y.rows()) + " of " + std::to_string(options.samples) +
+        " pairs of points are left out, each for a failed run: the indices are of the part of the "
+        "box where runs succeed, over which the inputs are not independent, so that their sums "
+        "mean little; narrow the box, or give failed runs a value";
   }
   const double size = Y.cwiseAbs().maxCoeff();  // whose square may leave the range
   Y = (Y / size).array() - result.mean / size;

@@ -48,6 +48,21 @@ inline std::vector<std::string> filled_in(const std::vector<std::string>& comman
   return words;
 }
 
+/// The first word of whole numbers with a comma between two digits, such as 3,14: one number with a decimal
+/// comma, or two.
+inline std::string_view ambiguous_word(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  for (std::size_t from = 0; (from = text.find_first_not_of(blanks, from)) != text.npos;) {
+    const std::string_view word = text.substr(from, text.find_first_of(blanks, from) - from);
+    const auto digit = [&](std::size_t at) { return at < word.size() && word[at] >= '0' && word[at] <= '9'; };
+    for (std::size_t at = 1; at + 1 < word.size(); ++at)
+      if (word[at] == ',' && digit(at - 1) && digit(at + 1) && word.find_first_of(".eE") == word.npos)
+        return word;
+    from += word.size();
+  }
+  return {};
+}
+
 /// Numbers parted by blanks, commas or line breaks; nothing when there are none or something else.
 inline std::optional<Eigen::VectorXd> numbers_in(std::string_view text) {
   constexpr std::string_view gaps = " ,\t\r\n";
@@ -76,10 +91,15 @@ inline Outcome outcome_of(const ProcessEnd& end) {
     if (from == std::string_view::npos) return Failure{"the run's process gave no reason"};
     return Failure{std::string(reply.substr(from, last + 1 - from))};
   }
+  const bool whole = !end.timed_out && end.wait_status == 0;
+  if (const std::string_view word = ambiguous_word(reply); whole && !word.empty())
+    return Failure{"the run's process wrote \"" + std::string(word) +
+                   "\", which may be one number with a decimal comma or several; write decimal points, and "
+                   "blanks or line breaks between numbers"};
   const std::optional<Eigen::VectorXd> values = numbers_in(reply);
-  if (values && !end.timed_out && end.wait_status == 0) return *values;
+  if (values && whole) return *values;
   std::string reason = "the run's process " + describe(end);
-  if (!end.timed_out && end.wait_status == 0)
+  if (whole)
     reason += reply.empty() ? " without values on file descriptor 3" : " and wrote what are no numbers";
   return Failure{reason};
 }

@@ -72,6 +72,19 @@ TEST(ProcessPool, WhateverEndsARunIsItsReason) {
   EXPECT_EQ(none.rows.front().outcome.reason(), "the run's process could not be started");
 }
 
+// One response of 3.14 or two of 3 and 14: nobody can tell.
+TEST(ProcessPool, ADecimalCommaFailsTheRun) {
+  for (const char* text : {"3,14", "1 2,5", "10,20,30"})
+    EXPECT_NE(reason_of("echo " + std::string(text) + " >&3").find("decimal comma"), std::string::npos)
+        << text;
+  for (const char* text : {"3,", "3.0", "3e0", "3"}) {
+    const Eigen::MatrixXd X{{0.5}};
+    const Evaluations runs =
+        evaluate(shell("echo " + std::string(text) + " >&3"), support::unit_problem(1), X);
+    EXPECT_EQ(runs.rows.front().outcome.values()[0], 3.0) << text;
+  }
+}
+
 TEST(ProcessPool, WhatARunPrintsIsKept) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("process_pool_" + std::to_string(::getpid()));
