@@ -15,10 +15,12 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <exception>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -47,6 +49,11 @@ template <class F>
 concept BatchFunction = requires(const F& f, const Eigen::MatrixXd& X, std::span<const Seed> seeds) {
   { f(X, seeds) } -> std::convertible_to<std::vector<Outcome>>;
 };
+
+/// Means of a model, which says so by `static constexpr bool predicts = true`. They may leave the ranges that
+/// runs keep, and count as the nearest value within.
+template <class F>
+concept Predictor = bool(std::remove_cvref_t<F>::predicts);
 
 template <class F>
 concept BlackBox = PointFunction<F> || SeededFunction<F> || StoppableFunction<F> || BatchFunction<F>;
@@ -126,6 +133,37 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
   return outcome;
 }
 
+/// The same of what F returned: a prediction is moved into its range first.
+template <class F>
+Outcome checked_of(Outcome outcome, const Problem& problem) {
+  if constexpr (Predictor<F>) {
+    if (outcome.failed() || outcome.values().size() != static_cast<Eigen::Index>(problem.responses.size()))
+      return checked(std::move(outcome), problem);
+    Eigen::VectorXd values = outcome.values();
+    for (Eigen::Index j = 0; j < values.size(); ++j)
+      if (!std::isnan(values[j]))
+        values[j] = within_range(problem.responses[static_cast<std::size_t>(j)], values[j]);
+    return checked(Outcome(std::move(values)), problem);
+  } else {
+    return checked(std::move(outcome), problem);
+  }
+}
+
+/// A model of another number of variables is a mistake of the program, not a failed run. Throws
+/// std::invalid_argument.
+template <class F>
+void check_variables(const F& f, Eigen::Index variables) {
+  if constexpr (Predictor<F> && requires {
+                  { f.variables() } -> std::convertible_to<std::optional<Eigen::Index>>;
+                }) {
+    const std::optional<Eigen::Index> own = f.variables();
+    if (own && *own != variables)
+      throw std::invalid_argument("doe: a surrogate of " + std::to_string(*own) +
+                                  " variables is asked for points of " + std::to_string(variables) +
+                                  "; fit it to the variables of the problem, in their order");
+  }
+}
+
 /// Whether black box and problem belong together: the first run that gives values, in the order of the runs,
 /// tells. A wrong count there is a mistake of the program; one among good runs is a failed run.
 class FirstValues {
@@ -178,13 +216,13 @@ Outcome call(const F& f, const Problem& problem, const Eigen::VectorXd& x, Seed 
   if constexpr (BatchFunction<F>) {
     auto rows = call_rows(f, x.transpose(), std::span<const Seed>(&seed, 1));
     if (auto* failure = std::get_if<Failure>(&rows)) return std::move(*failure);
-    return checked(std::move(std::get<0>(rows).front()), problem);
+    return checked_of<F>(std::move(std::get<0>(rows).front()), problem);
   } else if constexpr (StoppableFunction<F>) {
-    return checked(guarded<Outcome>([&]() -> Outcome { return f(x, seed, stop); }), problem);
+    return checked_of<F>(guarded<Outcome>([&]() -> Outcome { return f(x, seed, stop); }), problem);
   } else if constexpr (SeededFunction<F>) {
-    return checked(guarded<Outcome>([&]() -> Outcome { return f(x, seed); }), problem);
+    return checked_of<F>(guarded<Outcome>([&]() -> Outcome { return f(x, seed); }), problem);
   } else {
-    return checked(guarded<Outcome>([&]() -> Outcome { return f(x); }), problem);
+    return checked_of<F>(guarded<Outcome>([&]() -> Outcome { return f(x); }), problem);
   }
 }
 
@@ -198,7 +236,7 @@ std::vector<Outcome> call_batch(const F& f, const Problem& problem, const Eigen:
     auto rows = call_rows(f, X, seeds);
     if (auto* failure = std::get_if<Failure>(&rows)) return std::vector<Outcome>(n, Outcome(*failure));
     outcomes = std::move(std::get<0>(rows));
-    for (Outcome& outcome : outcomes) outcome = checked(std::move(outcome), problem);
+    for (Outcome& outcome : outcomes) outcome = checked_of<F>(std::move(outcome), problem);
   } else {
     outcomes.reserve(n);
     for (std::size_t i = 0; i < n; ++i) outcomes.push_back(call(f, problem, X.row(i).transpose(), seeds[i]));

@@ -252,6 +252,7 @@ Evaluations evaluate(const F& f, const Problem& problem, const Eigen::MatrixXd& 
                      const EvaluateOptions& options = {}) {
   require_black_box<F>();
   if constexpr (BlackBox<F>) {
+    detail::check_variables(f, static_cast<Eigen::Index>(problem.variables.size()));
     return detail::evaluated(f, problem, X, options);
   } else {
     return {};  // so that the message above stands alone

@@ -68,6 +68,8 @@ struct Response {
 struct Problem {
   std::vector<Variable> variables;
   std::vector<Response> responses;
+  /// Whether equal points give equal responses, whatever the seed: a model then meets the runs.
+  bool deterministic = false;
 };
 
 /// A surrogate's prediction as a value that the response can have. Of a normal prediction whose part outside

@@ -5,11 +5,12 @@
 /// A problem as JSON, for stores, reports and programs in other languages:
 ///
 ///     {"variables": [{"name", "unit", "lower", "upper", "kind", "levels"}, ...],
-///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error"}, ...]}
+///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error"}, ...],
+///      "deterministic": true}
 ///
 /// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a
 /// real variable, "levels" for one that is not categorical, "limit", bounds and "standard_error" where there
-/// are none. Numbers are the shortest text that reads back as the same double. This is the only header of the
+/// are none, "deterministic" where it is false. Numbers are the shortest text that reads back as the same double. This is the only header of the
 /// module that needs nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
 
 #include <cmath>
@@ -39,7 +40,9 @@ inline nlohmann::json to_json(const Problem& problem) {
     if (!r.standard_error.empty()) entry["standard_error"] = r.standard_error;
     responses.push_back(std::move(entry));
   }
-  return {{"variables", std::move(variables)}, {"responses", std::move(responses)}};
+  nlohmann::json json{{"variables", std::move(variables)}, {"responses", std::move(responses)}};
+  if (problem.deterministic) json["deterministic"] = true;
+  return json;
 }
 
 /// Throws nlohmann::json::exception if the text is not what to_json wrote. A kind or goal of an unknown name
@@ -61,6 +64,7 @@ inline Problem problem_from_json(const nlohmann::json& json) {
          r.value("upper", std::numeric_limits<double>::infinity()),
          {},
          r.value("standard_error", std::string{})});
+  problem.deterministic = json.value("deterministic", false);
   return problem;
 }
 

@@ -32,6 +32,7 @@ class AnySurrogate {
   }
   Eigen::VectorXd mean(const Eigen::MatrixXd& X) const { return held_->mean(X); }
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+  static constexpr bool predicts = true;  ///< for doe::Predictor
 
   /// Derivatives of the mean at one point x of d entries; empty when the surrogate has none.
   std::optional<Eigen::VectorXd> mean_gradient(const Eigen::VectorXd& x) const {

@@ -86,6 +86,7 @@ class FidelityModel {
 
   /// The mean at one point x of d entries.
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+  static constexpr bool predicts = true;  ///< for doe::Predictor
 
   /// Derivatives of the latent mean and variance at one point x of d entries. Throws as predict.
   PredictionGradient gradient(const Eigen::VectorXd& x) const {

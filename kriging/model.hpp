@@ -51,6 +51,7 @@ class Model {
 
   /// The mean at one point x of d entries: a model is a black box itself.
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+  static constexpr bool predicts = true;  ///< for doe::Predictor
 
   /// Derivatives of the latent mean and variance at one point x of d entries; 0 by a category, which has
   /// none. Cost n² + n d². Throws as predict.

@@ -83,9 +83,7 @@ inline Eigen::VectorXd noise_variance_at(const TransformedModel& noise, const Ei
 inline FitOptions with_modelled_noise(const FitOptions& known, const Eigen::MatrixXd& X) {
   if (known.noise != Noise::known)
     throw std::invalid_argument("kriging::with_modelled_noise: noise is " +
-                                std::string(known.noise == Noise::nugget   ? "nugget"
-                                            : known.noise == Noise::pooled ? "pooled"
-                                                                           : "proportional") +
+                                std::string(to_string(known.noise)) +
                                 "; allowed is known; give noise_variance with it");
   detail::check_noise(known, X.rows());
   FitOptions of_noise = known;

@@ -24,7 +24,27 @@ enum class Noise {
   known,         ///< the variance of each run, FitOptions::noise_variance; λ follows from s²
   pooled,        ///< the same everywhere, on the scale that is fitted: each of noise_variance estimates it
   proportional,  ///< the variance of each run up to a common factor, which is estimated as λ
+  /// That there is none, as of a simulator without chance: the model meets the runs, λ is at most 1e-6, and the
+  /// likelihood alone is maximised. Where few runs per variable let a rough response pass for noise, intervals
+  /// then hold what they say (docs/measurements/kriging.md).
+  none,
 };
+
+inline std::string_view to_string(Noise noise) {
+  switch (noise) {
+    case Noise::nugget:
+      return "nugget";
+    case Noise::known:
+      return "known";
+    case Noise::pooled:
+      return "pooled";
+    case Noise::proportional:
+      return "proportional";
+    case Noise::none:
+      return "none";
+  }
+  return "unknown";
+}
 
 /// What is maximised.
 enum class Estimation {
@@ -95,7 +115,7 @@ struct FitOptions {
   Basis basis = {};  ///< Trend::user only
 
   Noise noise = Noise::nugget;
-  /// Unit of y squared, one entry per run, >= 0, not all 0; none with Noise::nugget.
+  /// Unit of y squared, one entry per run, >= 0, not all 0; empty with Noise::nugget and none.
   Eigen::VectorXd noise_variance = {};
 
   /// 0: all cores. They share the matrix work of 500 runs or more; results do not depend on them.

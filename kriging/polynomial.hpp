@@ -83,6 +83,7 @@ class Polynomial {
   Eigen::VectorXd mean(const Eigen::MatrixXd& X) const { return means(terms_at(X)); }
 
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+  static constexpr bool predicts = true;  ///< for doe::Predictor
 
   /// Derivatives of the mean at one point x of d entries. Throws as predict.
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {

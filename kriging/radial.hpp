@@ -176,6 +176,7 @@ class Radial {
   }
 
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+  static constexpr bool predicts = true;  ///< for doe::Predictor
 
   /// Derivatives of the mean at one point x of d entries. Cost n d. Throws as predict.
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {

@@ -64,6 +64,14 @@ class Surrogates {
     return y;
   }
 
+  static constexpr bool predicts = true;  ///< for doe::Predictor
+  /// Of the first member that knows.
+  std::optional<Eigen::Index> variables() const {
+    for (const AnySurrogate& member : members_)
+      if (const std::optional<Eigen::Index> d = member.variables()) return d;
+    return std::nullopt;
+  }
+
   const std::vector<AnySurrogate>& members() const { return members_; }
 
  private:

@@ -98,6 +98,7 @@ class TransformedModel {
 
   /// The mean at one point x of d entries.
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
+  static constexpr bool predicts = true;  ///< for doe::Predictor
 
   /// Its derivatives at one point x of d entries.
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const {

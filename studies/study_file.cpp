@@ -72,6 +72,13 @@ class Section {
     return value.get<int>();
   }
 
+  bool truth(const char* key, bool otherwise) const {
+    if (!has(key)) return otherwise;
+    const json& value = object_[key];
+    if (!value.is_boolean()) wrong(key, value, "true or false");
+    return value.get<bool>();
+  }
+
   std::vector<std::string> texts(const char* key) const {
     const json& list = needed(key, "a list of texts");
     std::vector<std::string> all;
@@ -159,6 +166,7 @@ doe::Problem problem_from(const Section& in) {
   doe::Problem problem;
   for (const Section& entry : in.sections("variables")) problem.variables.push_back(variable_from(entry));
   for (const Section& entry : in.sections("responses")) problem.responses.push_back(response_from(entry));
+  problem.deterministic = in.truth("deterministic", false);
   return problem;
 }
 
@@ -233,7 +241,8 @@ Study study_from(const std::string& word) {
   const auto [file, expected] = parsed_word(word);
   const json content = parsed(file);
   const Section in(content, file, "");
-  in.allow_only({"name", "about", "variables", "responses", "command", "attempts", "time_limit", "defaults"});
+  in.allow_only({"name", "about", "variables", "responses", "deterministic", "command", "attempts",
+                 "time_limit", "defaults"});
   Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
   const bool elsewhere = !in.has("command");

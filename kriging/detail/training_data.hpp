@@ -176,9 +176,10 @@ inline void check_run_noise(const Eigen::VectorXd& noise_variance, Index n, cons
 
 inline void check_noise(const FitOptions& options, Eigen::Index n) {
   const Eigen::VectorXd& v = options.noise_variance;
-  if (options.noise == Noise::nugget) {
+  if (options.noise == Noise::nugget || options.noise == Noise::none) {
     if (v.size() > 0)
-      reject("noise_variance is given but noise is nugget; set noise to known, pooled or proportional");
+      reject("noise_variance is given but noise is " + std::string(to_string(options.noise)) +
+             "; set noise to known, pooled or proportional");
     return;
   }
   check_run_noise(v, n, "kriging::fit: ");
@@ -277,7 +278,7 @@ inline void set_trend(TrainingData& data, const Eigen::MatrixXd& X, TrendFunctio
 }
 
 inline void set_noise(TrainingData& data, const FitOptions& options) {
-  if (options.noise == Noise::nugget) return;
+  if (options.noise == Noise::nugget || options.noise == Noise::none) return;
   const double mean = mean_of(options.noise_variance);
   data.noise_unit = mean;
   if (options.noise != Noise::pooled) data.noise = affine(options.noise_variance, 1.0 / mean);

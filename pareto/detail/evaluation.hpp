@@ -28,6 +28,7 @@ std::optional<std::vector<doe::Outcome>> outcomes_of(const F& f, const doe::Prob
                                                      const Eigen::MatrixXd& X,
                                                      const std::vector<doe::Seed>& seeds, int threads,
                                                      const std::stop_token& stop) {
+  doe::detail::check_variables(f, X.cols());
   if constexpr (doe::BatchFunction<F>) {
     return doe::detail::call_batch(f, problem, X, seeds);
   } else {

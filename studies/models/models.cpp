@@ -16,6 +16,7 @@ namespace {
 /// With noise that is estimated, or what the runs tell of theirs together.
 kriging::FitOptions default_fit(const doe::Problem& problem, const kriging::RunNoise& noise = {}) {
   kriging::FitOptions options;
+  if (problem.deterministic) options.noise = kriging::Noise::none;
   if (noise.noise == kriging::Noise::known) {
     options.noise = kriging::Noise::pooled;
     options.noise_variance = noise.variance;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
@@ -129,6 +130,29 @@ TEST(Surrogates, AreOneBlackBoxOfAllMeans) {
   }
   EXPECT_THROW(Surrogates({}), std::invalid_argument);
   EXPECT_THROW(Surrogates({a, fit(X.leftCols(1), X.col(1), fixed(1, 1e-4))}), std::invalid_argument);
+}
+
+// A mean below the range of its response is no failed run: it counts as the bound. A model of other variables is a mistake
+// of the program, refused before anything is evaluated.
+TEST(Surrogates, KeepTheRangesAndTheVariablesOfTheProblem) {
+  const MatrixXd X = reference::design(20, 2, 9);
+  const VectorXd low = X.col(0).array() - 0.5;
+  const Surrogates surrogates({fit(X, low, fixed(0.2, 1e-4)), fit(X, X.col(1), fixed(0.2, 1e-4))});
+  const doe::Problem problem{
+      .variables = {{"a", "1", 0, 1}, {"b", "1", 0, 1}},
+      .responses = {{.name = "f", .unit = "1", .goal = doe::Goal::minimize, .lower = 0.0}, {"g", "1"}}};
+  const doe::Evaluations runs = doe::evaluate(surrogates, problem, X);
+  for (std::size_t i = 0; i < runs.rows.size(); ++i) {
+    ASSERT_FALSE(runs.rows[i].outcome.failed()) << runs.rows[i].outcome.reason();
+    const double mean = surrogates.members()[0].mean(X.row(static_cast<Eigen::Index>(i)))[0];
+    EXPECT_EQ(runs.rows[i].outcome.values()[0], std::max(mean, 0.0));
+  }
+  const auto simulator = [](const VectorXd& x) { return VectorXd(Eigen::Vector2d(x[0] - 0.5, x[1])); };
+  EXPECT_TRUE(doe::evaluate(simulator, problem, Eigen::RowVector2d(0.1, 0.1)).rows[0].outcome.failed())
+      << "ranges hold for runs";
+  doe::Problem wider = problem;
+  wider.variables.push_back({"c", "1", 0, 1});
+  EXPECT_THROW(doe::evaluate(surrogates, wider, MatrixXd::Zero(3, 3)), std::invalid_argument);
 }
 
 // A set of kinds gives what its members give, the derivatives too.
