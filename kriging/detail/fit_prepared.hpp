@@ -43,8 +43,8 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
           data.structure};
 }
 
-/// Of the response's variance: where the process variance is searched beside known noise.
-inline constexpr double least_process_variance = 1e-6, most_process_variance = 1e8;
+/// Of the response's variance: up to where the process variance is searched beside known noise.
+inline constexpr double most_process_variance = 1e8;
 
 /// Bounds of the vₖ of a sum's weights: each may be e^10 times another.
 inline constexpr double weight_range = 10.0;
@@ -78,7 +78,8 @@ inline void bound_thetas(const ParameterPlaces& places, const FitOptions& option
   }
 }
 
-/// Bounds of (ln θ, exponents, weights, ln λ). Where the noise is known, λ says what the process variance is.
+/// Bounds of (ln θ, exponents, weights, ln λ). Where the noise is known, λ says what the process variance is,
+/// and small noise needs a small λ.
 inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood, const FitOptions& options) {
   const ParameterPlaces& places = likelihood.places();
   const Eigen::Index last = places.count() - 1;
@@ -90,10 +91,8 @@ inline Box parameter_box(const TrainingData& data, const Likelihood& likelihood,
   }
   box.lower[last] = std::log(options.nugget_lower);
   box.upper[last] = std::log(options.nugget_upper);
-  if (data.known_noise > 0 && box.lower[last] < box.upper[last]) {
-    box.lower[last] = std::log(data.known_noise / most_process_variance);
-    box.upper[last] = std::log(data.known_noise / least_process_variance);
-  }
+  if (data.known_noise > 0 && box.lower[last] < box.upper[last])
+    box.lower[last] = std::min(box.lower[last], std::log(data.known_noise / most_process_variance));
   fix_untold(data.X, likelihood.correlation(), places, box);
   return box;
 }

@@ -31,7 +31,9 @@ TEST(ProblemJson, EveryGoalAndKindComesBack) {
   for (const Goal goal : {Goal::minimize, Goal::maximize, Goal::at_most, Goal::at_least, Goal::record})
     problem.responses.push_back({std::string(to_string(goal)), "\"s\"", goal});
   problem.responses[2].limit = problem.responses[3].limit = 1.0 / 3.0;
+  problem.deterministic = true;
   const Problem back = problem_from_json(nlohmann::json::parse(to_json(problem).dump()));
+  EXPECT_TRUE(back.deterministic);
   ASSERT_EQ(back.variables.size(), problem.variables.size());
   for (std::size_t k = 0; k < back.variables.size(); ++k) {
     EXPECT_EQ(back.variables[k].name, problem.variables[k].name);
