@@ -141,7 +141,7 @@ Outcome checked_of(Outcome outcome, const Problem& problem) {
       return checked(std::move(outcome), problem);
     Eigen::VectorXd values = outcome.values();
     for (Eigen::Index j = 0; j < values.size(); ++j)
-      if (!std::isnan(values[j]))
+      if (std::isfinite(values[j]))
         values[j] = within_range(problem.responses[static_cast<std::size_t>(j)], values[j]);
     return checked(Outcome(std::move(values)), problem);
   } else {

@@ -277,7 +277,7 @@ inline std::size_t best_standing(const ComparedRuns& runs, const std::vector<Way
 inline void check_ways(const std::string& place, const Eigen::MatrixXd& X, const std::vector<WayToFit>& ways,
                        const RunNoise& noise) {
   if (ways.empty()) throw std::invalid_argument(place + "0 ways; allowed is 1 or more; name at least one");
-  if (noise.noise != Noise::nugget || noise.variance.size() > 0)
+  if ((noise.noise != Noise::nugget && noise.noise != Noise::none) || noise.variance.size() > 0)
     check_run_noise(noise.variance, X.rows(), place);
 }
 
@@ -327,7 +327,8 @@ inline FitChoice choose_refitted(const Eigen::MatrixXd& X, const Eigen::VectorXd
                                  const ResponseRange& range, const std::vector<WayToFit>& ways,
                                  const RunNoise& noise = {}) {
   detail::check_ways("kriging::choose_refitted: ", X, ways, noise);
-  if (X.rows() < 2) return {{{.name = ways[0].name}}, 0, ways[0].fitter(X, y, noise.variance)};
+  if (detail::sites_of(X).size() < 2)
+    return {{{.name = ways[0].name}}, 0, ways[0].fitter(X, y, noise.variance)};
   std::vector<Eigen::VectorXd> scores;
   for (const WayToFit& way : ways) scores.push_back(detail::refitted_scores({X, y, range, noise}, way));
   std::vector<FitStanding> table = detail::standings_of(ways, scores, detail::equal_shares(X.rows()));

@@ -184,9 +184,12 @@ template <class F>
 Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter,
                         const SplitOptions& options) {
   const auto model = fitter(X, y);
-  if constexpr (LeaveOneOutInClosedForm<std::remove_cvref_t<decltype(model)>>)
-    if (const std::optional<Validation> v = leave_one_out(model)) return *v;
-  return k_fold(X, y, static_cast<int>(sites_of(X).size()), fitter, options);
+  const auto points = static_cast<Eigen::Index>(sites_of(X).size());
+  using Fitted = std::remove_cvref_t<decltype(model)>;
+  if constexpr (LeaveOneOutInClosedForm<Fitted>)
+    if (std::same_as<Fitted, Model> || points == X.rows())  // others leave out one run of a point alone
+      if (const std::optional<Validation> v = leave_one_out(model)) return *v;
+  return k_fold(X, y, static_cast<int>(points), fitter, options);
 }
 
 }  // namespace detail

@@ -167,6 +167,10 @@ doe::Problem problem_from(const Section& in) {
   for (const Section& entry : in.sections("variables")) problem.variables.push_back(variable_from(entry));
   for (const Section& entry : in.sections("responses")) problem.responses.push_back(response_from(entry));
   problem.deterministic = in.truth("deterministic", false);
+  for (const doe::Response& r : problem.responses)
+    if (problem.deterministic && !r.standard_error.empty())
+      in.fail("deterministic is true, and response \"" + r.name +
+              "\" has a standard_error; leave one of them out");
   return problem;
 }
 

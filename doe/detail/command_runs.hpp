@@ -48,16 +48,19 @@ inline std::vector<std::string> filled_in(const std::vector<std::string>& comman
   return words;
 }
 
-/// The first word of whole numbers with a comma between two digits, such as 3,14: one number with a decimal
-/// comma, or two.
+/// The first word with a comma between two digits that may be a decimal comma, such as 3,14 or 1,5e-05: no point in the
+/// word and no exponent before the comma.
 inline std::string_view ambiguous_word(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   for (std::size_t from = 0; (from = text.find_first_not_of(blanks, from)) != text.npos;) {
     const std::string_view word = text.substr(from, text.find_first_of(blanks, from) - from);
     const auto digit = [&](std::size_t at) { return at < word.size() && word[at] >= '0' && word[at] <= '9'; };
-    for (std::size_t at = 1; at + 1 < word.size(); ++at)
-      if (word[at] == ',' && digit(at - 1) && digit(at + 1) && word.find_first_of(".eE") == word.npos)
-        return word;
+    for (std::size_t at = 1, start = 0; at + 1 < word.size(); ++at) {
+      if (word[at] != ',') continue;
+      const bool whole = word.substr(start, at - start).find_first_of("eE") == word.npos;
+      if (whole && digit(at - 1) && digit(at + 1) && word.find('.') == word.npos) return word;
+      start = at + 1;
+    }
     from += word.size();
   }
   return {};

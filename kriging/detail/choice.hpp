@@ -27,13 +27,14 @@ namespace drawpoint::kriging::detail {
 /// A maximum's mean square error below this share of the other's speaks for it.
 inline constexpr double clearly_better = 0.5;
 
-/// Σ shareᵢ eᵢ² at p, standardised; +∞ where R is singular.
+/// Σ shareᵢ eᵢ² at p, standardised; +∞ where R is singular or the trend rests on one site.
 inline double predictive_error(Likelihood& likelihood, const Eigen::VectorXd& p,
                                const Eigen::VectorXd& share) {
   if (!std::isfinite(likelihood.value(p))) return std::numeric_limits<double>::infinity();
   const Eigen::VectorXd error =
       left_out(likelihood.cholesky(), likelihood.least_squares(), likelihood.problem().X).error;
-  return dot(share, entry_products(error, error));
+  const double sum = dot(share, entry_products(error, error));
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 
 struct Choice {

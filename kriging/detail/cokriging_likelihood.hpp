@@ -38,7 +38,7 @@ struct CokrigingProblem {
 class CokrigingLikelihood {
  public:
   explicit CokrigingLikelihood(CokrigingProblem problem) : in_(std::move(problem)), f_(in_.correlation) {
-    if (in_.noise.size() > 0) floor_ = noise_floor;
+    if (in_.noise.size() > 0 || in_.known_noise > 0) floor_ = noise_floor;
     if (in_.noise.size() == 0) in_.noise = Eigen::VectorXd::Ones(in_.y.size());
   }
 

@@ -10,11 +10,13 @@
 /// neighborhood"). P y = α. Cost n³/3.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
 #include <drawpoint/kriging/detail/model_state.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
+#include <limits>
 #include <vector>
 
 namespace drawpoint::kriging::detail {
@@ -33,7 +35,10 @@ struct LeftOut {
   Eigen::VectorXd error, variance;  ///< n entries; variance over s², with the run's noise
 };
 
-/// A site of several runs, from the rows of L⁻ᵀ and of B.
+inline constexpr double least_pivot =
+    1e-12;  // of P's diagonal; below it the trend is not known without the site
+
+/// A site of several runs, from the rows of L⁻ᵀ and of B. NaN where the other sites do not tell the trend.
 inline void leave_site_out(const std::vector<Eigen::Index>& site, const Eigen::MatrixXd& rows,
                            const LeastSquares& gls, LeftOut& out) {
   const auto m = static_cast<Index>(site.size());
@@ -44,12 +49,20 @@ inline void leave_site_out(const std::vector<Eigen::Index>& site, const Eigen::M
       for (Index k = 0; k < rows.cols(); ++k) P(i, j) += rows(site[i], k) * rows(site[j], k);
       for (Index k = 0; k < gls.B.cols(); ++k) P(i, j) -= gls.B(site[i], k) * gls.B(site[j], k);
     }
-  Eigen::VectorXd error = entries_of(gls.alpha, site);
-  factor(block_of(P), 1);
-  solve_lower(P, error);
-  solve_lower_transposed(P, error);
-  inverse_transposed(P, inverse);
-  const Eigen::VectorXd variance = row_squares(inverse);
+  Eigen::VectorXd error = entries_of(gls.alpha, site), variance = error;
+  double largest = 0.0;
+  for (Index i = 0; i < m; ++i) largest = std::max(largest, P(i, i));
+  bool known = factor(block_of(P), 1);
+  for (Index i = 0; i < m; ++i) known = known && P(i, i) * P(i, i) > least_pivot * largest;
+  if (known) {
+    solve_lower(P, error);
+    solve_lower_transposed(P, error);
+    inverse_transposed(P, inverse);
+    variance = row_squares(inverse);
+  } else {
+    error.setConstant(std::numeric_limits<double>::quiet_NaN());
+    variance = error;
+  }
   for (Index i = 0; i < m; ++i) out.error[site[i]] = error[i], out.variance[site[i]] = variance[i];
 }
 

@@ -177,14 +177,14 @@ inline void SearchProcess::tell(std::vector<doe::Outcome> outcomes) {
 }
 
 /// Of points in the order of their objectives, those that are no copy of one before them: same X, same
-/// responses. Copies stand next to each other but for points that tie in all objectives.
-inline std::vector<int> without_copies(const std::vector<int>& order, const Eigen::MatrixXd& X,
-                                       const Eigen::MatrixXd& responses) {
+/// responses. Only points that tie in all objectives are compared.
+inline std::vector<int> without_copies(const std::vector<int>& order, const Eigen::MatrixXd& Y,
+                                       const Eigen::MatrixXd& X, const Eigen::MatrixXd& responses) {
   std::vector<int> kept;
   for (const int i : order) {
-    const bool copy = std::any_of(kept.rbegin(), kept.rend(), [&](int k) {
-      return X.row(k) == X.row(i) && responses.row(k) == responses.row(i);
-    });
+    bool copy = false;
+    for (auto k = kept.rbegin(); k != kept.rend() && !copy && Y.row(*k) == Y.row(i); ++k)
+      copy = X.row(*k) == X.row(i) && responses.row(*k) == responses.row(i);
     if (!copy) kept.push_back(i);
   }
   return kept;
@@ -213,7 +213,7 @@ inline Front SearchProcess::front() const {
   for (const int j : role.objectives) front.objectives.push_back(problem_.responses[j].name);
   const Population points = evaluations_ == 0 ? assess(problem_, asked_.topRows(0), {}) : best();
   const Eigen::MatrixXd X = breeder_.space().natural(points.U);
-  const std::vector<int> order = without_copies(sorted_points(points.Y).order, X, points.responses);
+  const std::vector<int> order = without_copies(sorted_points(points.Y).order, points.Y, X, points.responses);
   front.X = X(order, Eigen::all);
   front.responses = points.responses(order, Eigen::all);
   front.Y = front.responses(Eigen::all, role.objectives);

@@ -244,6 +244,8 @@ TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
   EXPECT_TRUE(contains(complaint(x + y + R"("command": [])"), "\"command\" is []; give a list of texts"));
   EXPECT_TRUE(contains(complaint(x + y + command + R"(, "attempts": 0)"), "a whole number from 1"));
   EXPECT_TRUE(contains(complaint(x + y + command + R"(, "time_limit": -1)"), "time_limit is -1"));
+  EXPECT_TRUE(contains(complaint(x + y + command + R"(, "deterministic": 1)"),
+                       "\"deterministic\" is 1; give true or false"));
   EXPECT_TRUE(contains(complaint(R"("variables": [{"name": "x", "lower": 1, "upper": 0}],)" + y + command),
                        "swap them"));
   EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " " + (place_ / "none.json").string()).err, "cannot be read"));

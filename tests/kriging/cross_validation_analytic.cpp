@@ -111,6 +111,18 @@ TEST(LeaveOneOut, OfRepeatsEqualsTheRefitsWithoutTheirPoint) {
   }
 }
 
+// A site without which the others do not tell the trend has no error that is known; the others have theirs.
+TEST(LeaveOneOut, OfTheOnlySiteThatTellsASlopeIsUnknown) {
+  MatrixXd X(6, 1);
+  X << 0, 0, 0, 1, 1, 1;
+  VectorXd y(6);
+  y << 1.0, 1.1, 0.9, 2.0, 2.2, 1.9;
+  FitOptions options;
+  options.trend = Trend::linear;
+  const Validation v = leave_one_out(fit(X, y, options));
+  for (Eigen::Index i = 0; i < 6; ++i) EXPECT_TRUE(std::isnan(v.predicted[i])) << v.predicted[i];
+}
+
 // White noise over 20 points with 4 runs each: a new point is missed by the noise and what the mean is off,
 // √(1 + 1/80), and the mean of 80 squares scatters by √(2/80): 0.16, of which three are 0.24 of the error.
 TEST(CrossValidation, RepeatsDoNotMakeNoiseAModel) {

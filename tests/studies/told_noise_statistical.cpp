@@ -12,6 +12,7 @@
 #include <drawpoint/doe/seed.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 using namespace drawpoint;
@@ -90,6 +91,22 @@ TEST(ToldNoise, IntervalsHoldOnBothSides) {
     EXPECT_LT(held[side], all[side]);
   }
   EXPECT_TRUE(suspects(fitted, {runs(60, 1), {problem(), {}}}).empty());
+}
+
+// A problem without chance: every way to fit takes the runs for exact, on each scale, and meets them.
+TEST(ExactRuns, AreMetByTheModelsOfAStudy) {
+  for (const double lower : {-std::numeric_limits<double>::infinity(), 0.0}) {
+    doe::Problem exact{.variables = {{"x", "1", 0, 1}, {"z", "1", 0, 1}},
+                       .responses = {{.name = "y", .unit = "t", .goal = doe::Goal::minimize, .lower = lower}},
+                       .deterministic = true};
+    doe::Evaluations table{exact, {}};
+    const Eigen::MatrixXd X = doe::latin_hypercube(exact, 30, {.seed = 1});
+    for (int i = 0; i < 30; ++i)
+      table.rows.push_back(
+          {i + 1, 0, 1, X.row(i), doe::Outcome(2 + std::sin(6 * X(i, 0)) + X(i, 1) * X(i, 1)), 0.0});
+    const Models fitted = fit_models({table, {exact, {}}});
+    EXPECT_LT((fitted.models[0].mean(X) - table.y("y")).cwiseAbs().maxCoeff(), 1e-3) << lower;
+  }
 }
 
 // Two samples per run tell each run's error to its own size and all of them together to a tenth: fits that know
