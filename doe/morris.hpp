@@ -38,9 +38,9 @@ namespace drawpoint::doe {
 struct MorrisOptions {
   Seed seed = 1;          ///< of the trajectories
   int trajectories = 10;  ///< r, 2 or more; 10 rank the inputs, some 50 give σ to a tenth
-  /// p of real inputs, even, 2 to 1000; 4 is usual. A step is p/(2(p − 1)) of the range: 2/3 with 4 levels, little
-  /// more than a half with many. What repeats itself over the step seems inert: with 64 levels the second input
-  /// of Ishigami's function, whose period is half of its range.
+  /// p of real inputs, even, 2 to 1000; 4 is usual. A step is p/(2(p − 1)) of the range: 2/3 with 4 levels,
+  /// little more than a half with many. What repeats itself over the step seems inert: with 64 levels the
+  /// second input of Ishigami's function, whose period is half of its range.
   int levels = 4;
   EvaluateOptions evaluate = {};
 };

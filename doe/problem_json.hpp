@@ -10,8 +10,9 @@
 ///
 /// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a
 /// real variable, "levels" for one that is not categorical, "limit", bounds and "standard_error" where there
-/// are none, "deterministic" where it is false. Numbers are the shortest text that reads back as the same double. This is the only header of the
-/// module that needs nlohmann-json (Debian: nlohmann-json3-dev); doe.hpp does not include it.
+/// are none, "deterministic" where it is false. Numbers are the shortest text that reads back as the same
+/// double. This is the only header of the module that needs nlohmann-json (Debian: nlohmann-json3-dev);
+/// doe.hpp does not include it.
 
 #include <cmath>
 #include <limits>

@@ -10,8 +10,9 @@
 /// commas between them, the shortest text that reads back as the same double; a word that is "{x}" alone
 /// becomes one word per number. The program writes its values to file descriptor 3 (in a shell, `>&3`), in
 /// the order of Problem::responses, parted by blanks, commas or line breaks; or, for a run that failed, the
-/// word "failure" and its reason. What may be a decimal comma, as in 3,14, fails the run. A program that ends in any other way is a Failure that says how: a signal,
-/// an exit code without values, the time limit. processes.hpp says in what surroundings it runs. Linux only.
+/// word "failure" and its reason. What may be a decimal comma, as in 3,14, fails the run. A program that ends
+/// in any other way is a Failure that says how: a signal, an exit code without values, the time limit.
+/// processes.hpp says in what surroundings it runs. Linux only.
 
 #include <Eigen/Core>
 #include <chrono>

@@ -17,11 +17,10 @@
 /// ⟨⟩ is the mean over i, f has its mean taken off, V is the variance over A and B. Intervals by bootstrap
 /// over i (percentiles); estimates may fall a little outside [0, 1]. The pairs come from a scrambled Sobol'
 /// sequence in 2d dimensions while it has them, whose error is smaller than the intervals say, else from
-/// random points. A pair with a failed run is left out whole, and
-/// the status says when that is more than a few. The noise of a noisy black box counts as one
-/// more input that interacts with all. Sources: Saltelli, Annoni, Azzini, Campolongo, Ratto, Tarantola 2010,
-/// Comput. Phys. Commun. 181, table 2; Saltelli 2002, ibid. 145 (second order); Jansen 1999, ibid. 117;
-/// Martinez 2011 (GdR Ondes and Mascot Num).
+/// random points. A pair with a failed run is left out whole, and the status says when that is more than a
+/// few. The noise of a noisy black box counts as one more input that interacts with all. Sources: Saltelli,
+/// Annoni, Azzini, Campolongo, Ratto, Tarantola 2010, Comput. Phys. Commun. 181, table 2; Saltelli 2002,
+/// ibid. 145 (second order); Jansen 1999, ibid. 117; Martinez 2011 (GdR Ondes and Mascot Num).
 
 #include <Eigen/Core>
 #include <algorithm>

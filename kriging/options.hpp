@@ -85,8 +85,8 @@ struct FitOptions {
   /// numbers, so one bound each. At the lower one the correlation across the range of an input is 1 − 5e-5: the
   /// input has no effect. A length scale of 0.01 at the upper one is shorter than runs can lie apart.
   PerVariable theta_lower = 1.2e-5, theta_upper = 1250.0;
-  /// > 0; equal bounds fix λ. Far below 1e-10 the matrix of some hundred smooth runs is singular to
-  /// round-off.
+  /// > 0; equal bounds fix λ. Known noise that is small takes λ below the lower bound. Far below 1e-10 the
+  /// matrix of some hundred smooth runs is singular to round-off.
   double nugget_lower = 1e-10, nugget_upper = 10.0;
 
   /// Local searches, >= 1. The likelihood of a smooth response has several maxima: on three published cases

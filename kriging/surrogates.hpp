@@ -65,7 +65,7 @@ class Surrogates {
   }
 
   static constexpr bool predicts = true;  ///< for doe::Predictor
-  /// Of the first member that knows.
+  /// Returns how many variables the members have, as the first that knows it says.
   std::optional<Eigen::Index> variables() const {
     for (const AnySurrogate& member : members_)
       if (const std::optional<Eigen::Index> d = member.variables()) return d;

@@ -37,10 +37,10 @@ namespace detail {
 class SearchProcess;
 }
 
-/// One of the methods above, wherever its kind plays no part. Not for several threads at once. A copy goes its own way from where the search
-/// stands, but for `stop` and `progress`, which both listen to and tell. A search takes on the kind of what is
-/// assigned to it, and may only be assigned to or destroyed once it was moved from. What problem() and
-/// options() refer to lasts until the search is assigned to or restored.
+/// One of the methods above, wherever its kind plays no part. Not for several threads at once. A copy goes
+/// its own way from where the search stands, but for `stop` and `progress`, which both listen to and tell. A
+/// search takes on the kind of what is assigned to it, and may only be assigned to or destroyed once it was
+/// moved from. What problem() and options() refer to lasts until the search is assigned to or restored.
 class Search {
  public:
   Search(const Search& other);

@@ -35,7 +35,7 @@ struct EngineFlags {
 };
 
 void add_engine_flags(CLI::App& app, EngineFlags& flags);
-/// Of these only --method, --narrow and --threads.
+/// Adds --method, --narrow and --threads alone.
 void add_method_flags(CLI::App& app, EngineFlags& flags);
 /// The world's options as the flags choose them; --threads holds for contact finding and solving.
 engine::WorldOptions world_options(const EngineFlags& flags);

@@ -48,8 +48,8 @@ inline std::vector<std::string> filled_in(const std::vector<std::string>& comman
   return words;
 }
 
-/// The first word with a comma between two digits that may be a decimal comma, such as 3,14 or 1,5e-05: no point in the
-/// word and no exponent before the comma.
+/// The first word with a comma between two digits that may be a decimal comma, such as 3,14 or 1,5e-05: no
+/// point in the word and no exponent before the comma.
 inline std::string_view ambiguous_word(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   for (std::size_t from = 0; (from = text.find_first_not_of(blanks, from)) != text.npos;) {

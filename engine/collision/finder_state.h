@@ -12,10 +12,11 @@
 /// The state of a contact finder as bytes.
 ///
 /// Saved is all that later results depend on: options, poses, motion bounds and boxes of the colliders, what
-/// has left its box, what the broad phase has yet to look up, and for each pair its contact, where the shapes stood and until when that holds. Not saved, because results do not depend on it:
-/// the shape of the box trees (the pairs are filtered by the exact boxes and sorted), the slots of the pairs
-/// (they are only storage), buffers of the workers (cleared before use), pairs with a removed collider (the
-/// next look-up drops them).
+/// has left its box, what the broad phase has yet to look up, and for each pair its contact, where the shapes
+/// stood and until when that holds. Not saved, because results do not depend on it: the shape of the box
+/// trees (the pairs are filtered by the exact boxes and sorted), the slots of the pairs (they are only
+/// storage), buffers of the workers (cleared before use), pairs with a removed collider (the next look-up
+/// drops them).
 ///
 /// A checksum over all bytes finds flipped ones; counts, indices and numbers are checked one by one all the
 /// same. Cost: 73 bytes per pair apart, 220 to 377 per contact.

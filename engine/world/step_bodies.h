@@ -18,7 +18,7 @@ class StepBodies {
   /// Writes the bodies of problem.
   void fill(const ThreadPool& pool, ContactProblem& problem);
 
-  /// In the problem.
+  /// Returns where the surface's body stands in the problem.
   int index(const Surface& surface) const {
     if (surface.owner == Owner::part) return machine_part(surface.index);
     return surface.owner == Owner::rock ? body_of_rock_[static_cast<std::size_t>(surface.index)] : world;

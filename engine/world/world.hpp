@@ -29,10 +29,6 @@
 /// Deterministic: the same calls give the same bits. Not thread-safe. Cost: linear in contacts.
 namespace drawpoint::engine {
 
-namespace detail {
-struct WorldAccess;
-}
-
 class World {
  public:
   /// Throws std::invalid_argument for options or materials out of range.
@@ -91,7 +87,7 @@ class World {
   /// Later steps are solved with these: to go on from one state at another accuracy. They belong to the options that a
   /// saved state is compared with. Throws std::invalid_argument for options out of range and then changes nothing.
   void set_solver(const SolverOptions& solver);
-  /// Of the last step, with its impulses. Bodies are the world, then the rocks; sides that
+  /// Returns the last step's problem with its impulses. Bodies are the world, then the rocks; sides that
   /// stand still are the world.
   const ContactProblem& problem() const;
 
@@ -104,7 +100,6 @@ class World {
 
  private:
   struct Impl;
-  friend struct detail::WorldAccess;
   std::unique_ptr<Impl> impl_;
 };
 

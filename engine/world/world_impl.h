@@ -37,12 +37,4 @@ struct World::Impl {
   double last_step = 0;  // [s]; 0 before the first
 };
 
-namespace detail {
-
-/// For tests of what is inside.
-struct WorldAccess {
-  static const PairMemory& memory(const World& world) { return world.impl_->contacts.memory(); }
-};
-
-}  // namespace detail
 }  // namespace drawpoint::engine

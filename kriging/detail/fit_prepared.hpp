@@ -43,7 +43,7 @@ inline LikelihoodProblem likelihood_problem(const TrainingData& data, const FitO
           data.structure};
 }
 
-/// Of the response's variance: up to where the process variance is searched beside known noise.
+/// The process variance is searched up to so many times the variance of the response, beside known noise.
 inline constexpr double most_process_variance = 1e8;
 
 /// Bounds of the vₖ of a sum's weights: each may be e^10 times another.

@@ -30,7 +30,7 @@ inline Eigen::VectorXd diagonal_of_P(Eigen::MatrixXd L, const LeastSquares& gls)
   return P;
 }
 
-/// Of each run without its site, standardised.
+/// How each run is missed by a prediction without its site, standardised.
 struct LeftOut {
   Eigen::VectorXd error, variance;  ///< n entries; variance over s², with the run's noise
 };
