@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/engine/solver/heavy_islands.h>
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <drawpoint/engine/base/constants.hpp>
-#include <numeric>
 
 namespace drawpoint::engine::detail {
 namespace {
@@ -25,15 +25,6 @@ Eigen::Vector3d relative_velocity(const ContactProblem& problem, const Eigen::Ve
     return V.tail<3>() + V.head<3>().cross(arm);
   };
   return at(pair.b, point.arm_b) - at(pair.a, point.arm_a);
-}
-
-bool can_move(const SolverBody& body) {
-  return body.inverse_mass > 0 || body.inverse_inertia.cwiseAbs().maxCoeff() > 0;
-}
-
-int root_of(std::vector<int>& parents, int node) {
-  while (parents[node] != node) node = parents[node] = parents[parents[node]];
-  return node;
 }
 
 }  // namespace
@@ -89,27 +80,6 @@ void ImpactStage::choose_points(const ContactProblem& problem) {
   }
 }
 
-void ImpactStage::find_groups(const ContactProblem& problem) {
-  const int bodies = static_cast<int>(problem.bodies.size());
-  std::vector<int> parents(static_cast<std::size_t>(bodies) + 1);  // the machine behind the bodies
-  std::iota(parents.begin(), parents.end(), 0);
-  const auto node = [&](int index) {
-    return index < 0 ? bodies : can_move(problem.bodies[index]) ? index : -1;
-  };
-  for (const ContactPair& pair : stage_.pairs) {
-    const int a = node(pair.a), b = node(pair.b);
-    if (a >= 0 && b >= 0) parents[root_of(parents, a)] = root_of(parents, b);
-  }
-  std::vector<int> number(parents.size(), -1);
-  group_.clear();
-  groups_ = 0;
-  for (const ContactPair& pair : stage_.pairs) {
-    int& group = number[root_of(parents, std::max({node(pair.a), node(pair.b), 0}))];
-    if (group < 0) group = groups_++;
-    group_.push_back(group);
-  }
-}
-
 void ImpactStage::solve(const ContactProblem& problem, const std::vector<double>& scales) {
   stage_.bodies = problem.bodies;
   for (ContactPoint& point : stage_.points) point.start.setZero();
@@ -117,7 +87,7 @@ void ImpactStage::solve(const ContactProblem& problem, const std::vector<double>
   std::vector<double> targets = targets_;
   for (std::size_t k = 0; k < stage_.pairs.size(); ++k)
     for (int p = stage_.pairs[k].first; p < stage_.pairs[k].first + stage_.pairs[k].count; ++p)
-      targets[p] *= scales[group_[k]];
+      targets[p] *= scales[groups_.of_pair[k]];
   SequentialIteration iteration(stage_, 1);
   iteration.set_bias_velocities(targets);
   double change = 1;
@@ -125,13 +95,14 @@ void ImpactStage::solve(const ContactProblem& problem, const std::vector<double>
     if (change <= constants::impact_tolerance * iteration.normal_load()) break;
     change = iteration.iteration();
   }
+  if (solvable_directly(stage_)) iteration.solve_directly();
   iteration.finish();
   solution_ = iteration.store();
 }
 
 // An impulse does the work p (u⁻ + u⁺) / 2.
 std::vector<bool> ImpactStage::groups_that_gain(const ContactProblem& problem) const {
-  std::vector<double> gain(groups_), turned_over(groups_);
+  std::vector<double> gain(groups_.count), turned_over(groups_.count);
   const Eigen::VectorXd none;
   for (std::size_t k = 0; k < stage_.pairs.size(); ++k) {
     const ContactPair& pair = stage_.pairs[k];
@@ -140,30 +111,30 @@ std::vector<bool> ImpactStage::groups_that_gain(const ContactProblem& problem) c
       const double before = point.impulse.dot(
           relative_velocity(problem, machine_ ? machine_->velocity_before : none, pair, point));
       const double after = point.impulse.dot(relative_velocity(stage_, solution_.velocity, pair, point));
-      gain[group_[k]] += 0.5 * (before + after);
-      turned_over[group_[k]] += std::abs(before);
+      gain[groups_.of_pair[k]] += 0.5 * (before + after);
+      turned_over[groups_.of_pair[k]] += std::abs(before);
     }
   }
-  std::vector<bool> gains(groups_);
-  for (int g = 0; g < groups_; ++g) gains[g] = gain[g] > round_off * turned_over[g];
+  std::vector<bool> gains(groups_.count);
+  for (int g = 0; g < groups_.count; ++g) gains[g] = gain[g] > round_off * turned_over[g];
   return gains;
 }
 
 // Bisection in the groups that gain; the others keep the whole of Newton's law.
 void ImpactStage::solve_without_gain(const ContactProblem& problem) {
-  std::vector<double> low(groups_, 1), high(groups_, 1);
+  std::vector<double> low(groups_.count, 1), high(groups_.count, 1);
   solve(problem, low);
   std::vector<bool> gains = groups_that_gain(problem);
   const std::vector<bool> gained = gains;
   if (std::none_of(gained.begin(), gained.end(), [](bool g) { return g; })) return;
-  for (int g = 0; g < groups_; ++g)
+  for (int g = 0; g < groups_.count; ++g)
     if (gained[g]) low[g] = 0;
   for (int k = 0; k < halvings; ++k) {
-    std::vector<double> middle(groups_);
-    for (int g = 0; g < groups_; ++g) middle[g] = 0.5 * (low[g] + high[g]);
+    std::vector<double> middle(groups_.count);
+    for (int g = 0; g < groups_.count; ++g) middle[g] = 0.5 * (low[g] + high[g]);
     solve(problem, middle);
     gains = groups_that_gain(problem);
-    for (int g = 0; g < groups_; ++g)
+    for (int g = 0; g < groups_.count; ++g)
       if (gained[g]) (gains[g] ? high : low)[g] = middle[g];
   }
   solve(problem, low);
@@ -174,7 +145,7 @@ void ImpactStage::run(ContactProblem& problem, const ThreadPool& pool) {
   ran_ = needed(problem, pool);
   if (!ran_) return;
   choose_points(problem);
-  find_groups(problem);
+  groups_ = find_islands(problem, stage_.pairs);
   stage_.step = problem.step;
   if (machine_) bare_ = struck_ = *machine_;
   bare_.rows.clear();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <drawpoint/engine/solver/islands.h>
 #include <drawpoint/engine/base/thread_pool.hpp>
 #include <drawpoint/engine/solver/contact_problem.hpp>
 
@@ -32,7 +33,6 @@ class ImpactStage {
   double normal_speed(const ContactProblem& problem, const ContactPair& pair,
                       const ContactPoint& point) const;
   void choose_points(const ContactProblem& problem);
-  void find_groups(const ContactProblem& problem);
   void solve(const ContactProblem& problem, const std::vector<double>& scales);  // scales: by group
   void solve_without_gain(const ContactProblem& problem);
   std::vector<bool> groups_that_gain(const ContactProblem& problem) const;
@@ -43,8 +43,7 @@ class ImpactStage {
   ContactProblem stage_;
   std::vector<int> members_;     // the problem's point of each of the stage's
   std::vector<double> targets_;  // of the stage's points [m/s]
-  std::vector<int> group_;       // by pair of the stage: of impacts that share bodies which can move
-  int groups_ = 0;
+  Islands groups_;               // of impacts that share bodies which can move
   SuperBodySolution solution_;
 };
 

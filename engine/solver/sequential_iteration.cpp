@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/base/cross_matrix.h>
 #include <drawpoint/engine/solver/contact_frame.h>
+#include <drawpoint/engine/solver/direct_solution.h>
 #include <drawpoint/engine/solver/sequential_iteration.h>
 #include <algorithm>
 #include <cassert>
@@ -219,6 +220,11 @@ void SequentialIteration::solve_pair(PairBlock& r) {
   r.impulse[0] = law::spin_step(before[0], u[0], r.inverse_nn, r.spinning_arm * load);
   r.step_tangents(u, before[0], r.rolling_arm * load);
   apply(r, r.impulse - before);
+}
+
+void SequentialIteration::solve_directly() {
+  assert(!problem_.machine && "machines have no direct solution");
+  DirectSolution(problem_.bodies, points_, pairs_, fastest_).solve();
 }
 
 void SequentialIteration::finish() {

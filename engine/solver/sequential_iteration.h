@@ -48,6 +48,8 @@ class SequentialIteration {
   void add_momentum(double share);
   /// Returns Σ|Δλ| over the points.
   double iteration();
+  /// Moves the impulses to where the iterations lead, at once; without a machine (direct_solution.h).
+  void solve_directly();
   /// Returns how far the last iteration moved the machine, as SuperBodyMotion::moved() does.
   double machine_moved() { return machine_.moved(); }
   /// Adds the substep's impulses and the machine's displacement to the step's.

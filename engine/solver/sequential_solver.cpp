@@ -49,9 +49,7 @@ double motion_change(const std::vector<SolverBody>& bodies, const std::vector<de
   return sum;
 }
 
-}  // namespace
-
-SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options) {
+SolverReport solve(ContactProblem& problem, const SolverOptions& options, bool directly) {
   const double h = problem.step / options.substeps;
   for (SolverBody& body : problem.bodies) body.displacement.setZero(), body.rotation_vector.setZero();
   detail::SequentialIteration iteration(problem, options.substeps);
@@ -85,6 +83,7 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
       moved = motion_change(problem.bodies, weights, last) + iteration.machine_moved();
       ++report.iterations;
     }
+    if (directly) iteration.solve_directly();
     iteration.finish();
     for (SolverBody& body : problem.bodies) {
       body.displacement += h * body.velocity;
@@ -101,6 +100,16 @@ SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& op
     if (!pushed[k]) detail::fly(body, body.velocity - body.external_velocity_change, problem.step);
   }
   return report;
+}
+
+}  // namespace
+
+SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options) {
+  return solve(problem, options, false);
+}
+
+SolverReport solve_directly(ContactProblem& problem, const SolverOptions& options) {
+  return solve(problem, options, true);
 }
 
 }  // namespace drawpoint::engine

@@ -13,4 +13,7 @@ namespace drawpoint::engine {
 
 SolverReport solve_sequentially(ContactProblem& problem, const SolverOptions& options);
 
+/// The same, with each substep's law solved by Newton's method after its iterations; without a machine.
+SolverReport solve_directly(ContactProblem& problem, const SolverOptions& options);
+
 }  // namespace drawpoint::engine

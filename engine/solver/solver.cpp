@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/solver/batch/batched_solver.h>
+#include <drawpoint/engine/solver/heavy_islands.h>
 #include <drawpoint/engine/solver/impact_stage.h>
 #include <drawpoint/engine/solver/problem_sizes.h>
 #include <drawpoint/engine/solver/sequential_solver.h>
@@ -54,7 +55,8 @@ ContactSolver::ContactSolver(const SolverOptions& options, std::shared_ptr<const
     : options_((check(options), options)),
       pool_(pool ? std::move(pool) : std::make_shared<const ThreadPool>(1)),
       batched_(std::make_unique<detail::BatchedSolver>(options, pool_)),
-      impacts_(std::make_unique<detail::ImpactStage>()) {}
+      impacts_(std::make_unique<detail::ImpactStage>()),
+      islands_(std::make_unique<detail::HeavyIslands>()) {}
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
@@ -67,8 +69,10 @@ SolverReport ContactSolver::solve(ContactProblem& problem) {
   check_step(problem.step);
   clear_pairs_without_points(problem);
   impacts_->run(problem, *pool_);
+  islands_->take(problem);
   SolverReport report =
       options_.method == Method::batched ? batched_->solve(problem) : solve_sequentially(problem, options_);
+  islands_->solve(problem, options_);
   impacts_->finish(problem, report.machine);
   return report;
 }

@@ -24,10 +24,13 @@
 /// `sequential` visits pairs in their order, in double precision: the reference.
 /// `batched` visits sets of pairs that share no body, sixteen pairs at a time, in single precision on
 /// velocities and impulses: the fast method. Both give the same bits for any number of threads.
+///
+/// Small groups of bodies whose masses differ by more than 3000 : 1 are solved by Newton's method, whichever it is.
 namespace drawpoint::engine {
 
 namespace detail {
 class BatchedSolver;
+class HeavyIslands;
 class ImpactStage;
 }  // namespace detail
 
@@ -51,6 +54,7 @@ class ContactSolver {
   std::shared_ptr<const ThreadPool> pool_;
   std::unique_ptr<detail::BatchedSolver> batched_;
   std::unique_ptr<detail::ImpactStage> impacts_;
+  std::unique_ptr<detail::HeavyIslands> islands_;
 };
 
 /// One solve, on its own. Throws std::invalid_argument for options out of range and a step that is not above
