@@ -169,12 +169,12 @@ class ContactFinder::Impl {
     return swept_[static_cast<std::size_t>(thread)].find(
         {items_.placed[m.collider_a], shape_a, items_.item[m.collider_a].cylinder},
         {items_.placed[m.collider_b], shape_b, items_.item[m.collider_b].cylinder}, h,
-        pairs_.state(m.slot).contact.feature, touch);
+        pairs_.held(m.slot).contact.feature, touch);
   }
 
   bool meets_face(const Manifold& m, int point, const Vector3d& shift) const {
     return detail::meets_face(m, items_.placed[m.collider_a], items_.placed[m.collider_b],
-                              pairs_.state(m.slot).contact, point, shift);
+                              pairs_.held(m.slot).contact, point, shift);
   }
 
   // A cylinder that turns about its axis stays where it is.
@@ -217,7 +217,7 @@ class ContactFinder::Impl {
         boxes_.set_plane(id, fat_.plane(items_, id));
     }
     boxes_.set_pending(state.pending);
-    pairs_.assign(state.entries, state.pairs);
+    pairs_.assign(state.entries, state.near, state.held);
   }
 
   const FinderTimes& times() const { return times_; }

@@ -91,8 +91,8 @@ class ContactFinder {
   /// Whether one of its shapes is a half-space, whose normal is the same wherever the other goes.
   bool with_half_space(const Manifold& manifold) const;
 
-  /// Each remembered pair has a slot of its own, below slots(), which its manifolds name; -1 for a pair that is not
-  /// remembered or has a removed collider. restore() gives slots anew.
+  /// Each contact has a slot of its own as long as it lasts, below slots(), which its manifolds name; -1 for a pair
+  /// without a contact or with a removed collider. restore() gives slots anew.
   int slots() const;
   int slot_of(int collider_a, int collider_b) const;
 

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t mark = 0x3630444e46435044;  // "DPCFND06"
+constexpr std::uint64_t mark = 0x3730444e46435044;  // "DPCFND07"
 
 std::array<double, 6> numbers_of(const ContactFinderOptions& o) {
   return {o.margin, o.slack, o.reuse_distance, o.reuse_angle, o.hysteresis, static_cast<double>(o.narrow)};
@@ -60,22 +60,33 @@ ColliderState read_collider(const FinderParts& parts, int id, ByteReader& in) {
   return state;
 }
 
-void save_pair(const PairEntry& entry, const PairState& state, bool with_plane, ByteWriter& out) {
-  const ConvexContact& c = state.contact;
-  out.put(entry.a), out.put(entry.b), out.put(entry.count), out.put(entry.limit);
-  out.put(c.normal), out.put(c.separation), out.put(c.support), out.put(c.normal_of_b);
-  out.put(static_cast<int>(c.feature.kind)), out.put(c.feature.a), out.put(c.feature.b);
-  for (int k = 0; k < entry.count; ++k) {
-    const Anchors& point = c.points[static_cast<std::size_t>(k)];
+void save_contact(const PairState& state, int count, ByteWriter& out) {
+  out.put(state.contact.normal), out.put(state.contact.normal_of_b);
+  for (int k = 0; k < count; ++k) {
+    const Anchors& point = state.contact.points[static_cast<std::size_t>(k)];
     out.put(point.on_a), out.put(point.on_b), out.put(point.feature);
   }
-  if (entry.count > 0) out.put(state.centre), out.put(state.orientation), out.put(state.margin);
-  if (!with_plane) return;
-  out.put(c.count);  // of the points that touched only which they were
-  for (int k = 0; k < c.count; ++k) out.put(c.points[static_cast<std::size_t>(k)].feature);
+  out.put(state.centre), out.put(state.orientation), out.put(state.margin);
 }
 
-constexpr std::size_t least_pair_size = 3 * 4 + 8 + 5 * 8 + 1 + 3 * 4;
+// Of a contact with a plane only which points touched.
+void save_touch(const PairState* state, ByteWriter& out) {
+  const int count = state ? state->contact.count : 0;
+  out.put(count);
+  for (int k = 0; k < count; ++k) out.put(state->contact.points[static_cast<std::size_t>(k)].feature);
+}
+
+void save_pair(const PairEntry& entry, const PairCache& pairs, bool with_plane, ByteWriter& out) {
+  const NearState& near = pairs.near(entry);
+  const PairState* held = near.held < 0 ? nullptr : &pairs.held(near.held);
+  out.put(entry.a), out.put(entry.b), out.put(entry.count), out.put(entry.limit);
+  out.put(near.normal), out.put(near.support);
+  out.put(static_cast<int>(near.feature.kind)), out.put(near.feature.a), out.put(near.feature.b);
+  if (entry.count > 0) save_contact(*held, entry.count, out);
+  if (with_plane) save_touch(held, out);
+}
+
+constexpr std::size_t least_pair_size = 3 * 4 + 8 + 4 * 8 + 3 * 4;
 
 Feature read_feature(const Placement& a, const Placement& b, ByteReader& in) {
   const int kind = in.get_int("the kind of a pair's axis", 0, 3);
@@ -94,7 +105,34 @@ Feature read_feature(const Placement& a, const Placement& b, ByteReader& in) {
   return feature;
 }
 
-PairEntry read_pair(const Items& items, ByteReader& in, PairState& state) {
+PairState read_contact(int count, ByteReader& in) {
+  PairState state;
+  ConvexContact& c = state.contact;
+  c.normal = in.get_vector("the normal of a pair");
+  if (!(std::abs(c.normal.norm() - 1) <= constants::restored_round_off))
+    in.fail("holds the normal of a pair that has no unit length");
+  c.normal_of_b = in.get<bool>("the owner of a normal");
+  c.count = count;
+  for (int k = 0; k < count; ++k) {
+    Anchors& point = c.points[static_cast<std::size_t>(k)];
+    point.on_a = in.get_vector("a point of a pair"), point.on_b = in.get_vector("a point of a pair");
+    point.feature = in.get<std::uint32_t>();
+  }
+  state.centre = in.get_vector("the stand of a pair");
+  state.orientation = in.get_rotation("the stand of a pair");
+  state.margin = in.get<double>("the margin of a pair");
+  return state;
+}
+
+PairState read_touch(ByteReader& in) {
+  PairState state;
+  ConvexContact& c = state.contact;
+  c.count = in.get_int("the number of points of a pair", 0, static_cast<int>(c.points.size()));
+  for (int k = 0; k < c.count; ++k) c.points[static_cast<std::size_t>(k)].feature = in.get<std::uint32_t>();
+  return state;
+}
+
+void read_pair(const Items& items, ByteReader& in, FinderState& state) {
   const int last = items.size() - 1;
   PairEntry entry{};
   entry.a = in.get_int("the first collider of a pair", 0, last);
@@ -104,45 +142,27 @@ PairEntry read_pair(const Items& items, ByteReader& in, PairState& state) {
   const bool apart_by_rule = ta.body == tb.body || (ta.family > 0 && ta.family == tb.family);
   if (!ta.alive || !tb.alive || (!a.hull && !b.hull) || apart_by_rule)
     in.fail("holds a pair that is of two colliders that cannot touch");
+  if (!state.entries.empty() &&
+      std::pair(state.entries.back().a, state.entries.back().b) >= std::pair(entry.a, entry.b))
+    in.fail("holds a pair that is out of order");
   entry.count = in.get_int("the number of points of a pair", 0, a.hull && b.hull ? 4 : 0);
   entry.limit = in.get_any_double();
   if (!(entry.limit < std::numeric_limits<double>::infinity()))
     in.fail("holds the limit of a pair that is not a number below infinity");
-  ConvexContact& c = state.contact;
-  c.normal = in.get_vector("the normal of a pair");
-  c.separation = in.get<double>("the separation of a pair"),
-  c.support = in.get<double>("the reach of a pair");
-  c.normal_of_b = in.get<bool>("the owner of a normal");
-  c.feature = read_feature(a, b, in);
-  c.count = entry.count;
-  for (int k = 0; k < entry.count; ++k) {
-    Anchors& point = c.points[static_cast<std::size_t>(k)];
-    point.on_a = in.get_vector("a point of a pair"), point.on_b = in.get_vector("a point of a pair");
-    point.feature = in.get<std::uint32_t>();
+  NearState near;
+  near.normal = in.get_vector("the normal of a pair");
+  near.support = in.get<double>("the reach of a pair");
+  near.feature = read_feature(a, b, in);
+  PairState held;
+  if (entry.count > 0) held = read_contact(entry.count, in);
+  if (!a.hull || !b.hull) held = read_touch(in);
+  if (held.contact.count > 0) {
+    held.contact.feature = near.feature;
+    near.held = static_cast<int>(state.held.size());
+    state.held.push_back(held);
   }
-  if (entry.count > 0) {
-    if (!(std::abs(c.normal.norm() - 1) <= constants::restored_round_off))
-      in.fail("holds the normal of a pair that has no unit length");
-    state.centre = in.get_vector("the stand of a pair"),
-    state.orientation = in.get_rotation("the stand of a pair");
-    state.margin = in.get<double>("the margin of a pair");
-  }
-  if (a.hull && b.hull) return entry;
-  c.count = in.get_int("the number of points of a pair", 0, static_cast<int>(c.points.size()));
-  for (int k = 0; k < c.count; ++k) c.points[static_cast<std::size_t>(k)].feature = in.get<std::uint32_t>();
-  return entry;
-}
-
-// Appends their states.
-std::vector<PairEntry> read_pairs(const Items& items, ByteReader& in, std::vector<PairState>& states) {
-  std::vector<PairEntry> entries;
-  for (std::size_t left = in.get_count(least_pair_size); left > 0; --left) {
-    const PairEntry entry = read_pair(items, in, states.emplace_back());
-    if (!entries.empty() && std::pair(entries.back().a, entries.back().b) >= std::pair(entry.a, entry.b))
-      in.fail("holds a pair that is out of order");
-    entries.push_back(entry);
-  }
-  return entries;
+  state.entries.push_back(entry);
+  state.near.push_back(near);
 }
 
 }  // namespace
@@ -166,7 +186,7 @@ std::vector<std::byte> save_state(const FinderParts& parts) {
   out.put_count(pairs);
   const auto save = [&](const PairEntry& e) {
     const bool with_plane = !parts.items.placed[e.a].hull || !parts.items.placed[e.b].hull;
-    save_pair(e, parts.pairs.state(e), with_plane, out);
+    save_pair(e, parts.pairs, with_plane, out);
   };
   for (const PairEntry& entry : parts.pairs.entries())
     if (alive(entry)) save(entry);
@@ -199,7 +219,7 @@ FinderState read_state(const FinderParts& parts, std::span<const std::byte> byte
   }
   for (std::size_t k = in.get_count(4); k > 0; --k)
     state.pending.push_back(in.get_int("a box to look up", 0, size - 1));
-  state.entries = read_pairs(parts.items, in, state.pairs);
+  for (std::size_t left = in.get_count(least_pair_size); left > 0; --left) read_pair(parts.items, in, state);
   in.expect_end();
   return state;
 }

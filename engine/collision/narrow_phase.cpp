@@ -18,7 +18,6 @@ using Eigen::Vector3d;
 
 // Pairs a block: some 20 µs of work, large against the hand-over of a block and small against a step.
 constexpr int block_size = 128;
-constexpr std::size_t apart_size = 64;  // of a pair state: what still_apart() reads, and whether it touches
 
 // Writes manifolds over those of the step before: to make them anew costs as much as to fill them.
 class Manifolds {
@@ -51,11 +50,12 @@ struct Stand {
   const Placement &small, &large;
 };
 
-void start_manifold(const Items& items, const PairEntry& entry, const Vector3d& normal, Manifold& manifold) {
+void start_manifold(const Items& items, const PairEntry& entry, int slot, const Vector3d& normal,
+                    Manifold& manifold) {
   const Traits &a = items.traits[entry.a], &b = items.traits[entry.b];
   manifold.collider_a = entry.a, manifold.collider_b = entry.b;
   manifold.body_a = a.body, manifold.body_b = b.body;
-  manifold.slot = entry.slot;
+  manifold.slot = slot;
   manifold.normal = normal;
   manifold.radius = 1 / (a.inverse_radius + b.inverse_radius);
   manifold.count = 0;
@@ -85,7 +85,7 @@ struct NarrowPhase::Worker {
       if (with_plane(items, entry))
         entry.limit = PairEntry::at_once;  // nothing is remembered of a plane
       else
-        refresh(items, entry, pairs.state(entry));
+        refresh(items, entry, pairs);
     }
     touching.list(first, last, [&](int k) {  // without a branch, as lists are made
       return static_cast<bool>((entries[k].count > 0) | (entries[k].limit == PairEntry::at_once));
@@ -94,9 +94,9 @@ struct NarrowPhase::Worker {
       prefetch_touching(items, pairs, i);
       PairEntry& entry = entries[touching.pairs[i]];
       if (entry.count > 0)
-        carry_along(items, entry, pairs.state(entry).contact, manifolds);
+        carry_along(items, entry, pairs, manifolds);
       else
-        touch_plane(items, entry, pairs.state(entry).contact, manifolds);
+        touch_plane(items, entry, pairs, manifolds);
     }
   }
 
@@ -108,10 +108,12 @@ struct NarrowPhase::Worker {
     if (i + first < moved.size) {
       const PairEntry& soon = entries[moved.pairs[i + first]];
       prefetch(&items.placed[soon.b], sizeof(Placement));
-      prefetch(&pairs.state(soon), soon.count > 0 ? sizeof(PairState) : apart_size);
+      prefetch(&pairs.near(soon), sizeof(NearState));
     }
     if (i + second < moved.size) {
-      const CollisionHull* hull = items.placed[entries[moved.pairs[i + second]].b].hull;
+      const PairEntry& next = entries[moved.pairs[i + second]];
+      if (const int held = pairs.near(next).held; held >= 0) prefetch(&pairs.held(held), sizeof(PairState));
+      const CollisionHull* hull = items.placed[next.b].hull;
       if (!hull) return;
       for (const auto* numbers : {&hull->x, &hull->y, &hull->z})
         prefetch(numbers->data(), static_cast<std::size_t>(numbers->size()) * sizeof(double));
@@ -120,12 +122,16 @@ struct NarrowPhase::Worker {
   }
 
   [[gnu::always_inline]] void prefetch_touching(const Items& items, const PairCache& pairs, int i) const {
-    constexpr int ahead = 4;  // pairs
-    if (i + ahead >= touching.size) return;
-    const PairEntry& soon = pairs.entries()[touching.pairs[i + ahead]];
+    constexpr int first = 8, second = 4;  // pairs ahead
+    const std::vector<PairEntry>& entries = pairs.entries();
+    if (i + first < touching.size)
+      prefetch(&pairs.near(entries[touching.pairs[i + first]]), sizeof(NearState));
+    if (i + second >= touching.size) return;
+    const PairEntry& soon = entries[touching.pairs[i + second]];
     prefetch(&items.placed[soon.b], sizeof(Placement));
-    prefetch(&pairs.state(soon).contact,
-             offsetof(ConvexContact, points) + static_cast<std::size_t>(soon.count) * sizeof(Anchors));
+    if (const int held = pairs.near(soon).held; held >= 0)
+      prefetch(&pairs.held(held).contact,
+               offsetof(ConvexContact, points) + static_cast<std::size_t>(soon.count) * sizeof(Anchors));
   }
 
   static double motion_of(const Items& items, const PairEntry& entry) {
@@ -140,22 +146,23 @@ struct NarrowPhase::Worker {
     return options.margin + items.speculative_margin[entry.a] + items.speculative_margin[entry.b];
   }
 
-  void refresh(const Items& items, PairEntry& entry, PairState& state) {
+  void refresh(const Items& items, PairEntry& entry, PairCache& pairs) {
     const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
     const double motion_bound = motion_of(items, entry);
     margin = margin_of(items, entry);
     const bool known = entry.limit != PairEntry::at_once;
-    if (known && entry.count > 0 && still_stands(a, b, motion_bound, entry, state)) return;
-    if (known && entry.count == 0 && still_apart(a, b, motion_bound, entry, state.contact)) return;
-    compute(items, motion_bound, entry, state);
+    NearState& near = pairs.near(entry);
+    if (known && entry.count > 0 && still_stands(a, b, motion_bound, entry, pairs.held(near.held))) return;
+    if (known && entry.count == 0 && still_apart(a, b, motion_bound, entry, near)) return;
+    compute(items, motion_bound, entry, near, pairs);
   }
 
   // The plane on A that separated the shapes last time.
   bool still_apart(const Placement& a, const Placement& b, double motion_bound, PairEntry& entry,
-                   const ConvexContact& contact) const {
-    const Vector3d normal = a.R * contact.normal;
+                   const NearState& plane) const {
+    const Vector3d normal = a.R * plane.normal;
     const double least = lowest(*b.hull, b.R.transpose() * normal).height + normal.dot(b.p - a.p);
-    const double separation = least - contact.support;
+    const double separation = least - plane.support;
     if (!(separation > margin + options.reuse_distance)) return false;
     entry.limit = motion_bound + (separation - margin);
     return true;
@@ -175,21 +182,29 @@ struct NarrowPhase::Worker {
     return true;
   }
 
-  void compute(const Items& items, double motion_bound, PairEntry& entry, PairState& state) {
+  void compute(const Items& items, double motion_bound, PairEntry& entry, NearState& near, PairCache& pairs) {
     const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
     ++computed;
     const HullPair pair{*a.hull, *b.hull, pose_against(a, b)};
-    const AxisQuery query{margin + options.reuse_distance, options.hysteresis, state.contact.feature, margin};
+    fresh.normal = near.normal, fresh.count = 0;  // where to look first
+    ConvexContact& contact = near.held < 0 ? fresh : pairs.held(near.held).contact;
+    const AxisQuery query{margin + options.reuse_distance, options.hysteresis, near.feature, margin};
     if (!fcl.on())
-      convex.find(pair, query, state.contact);
-    else if (!find_by_fcl(fcl, entry.a, entry.b, pair, query, convex, state.contact))
+      convex.find(pair, query, contact);
+    else if (!find_by_fcl(fcl, entry.a, entry.b, pair, query, convex, contact))
       ++refused;
-    round_off(items.item[entry.a].cylinder, items.item[entry.b].cylinder, pair, query.margin, state.contact);
-    entry.count = state.contact.count;
+    round_off(items.item[entry.a].cylinder, items.item[entry.b].cylinder, pair, query.margin, contact);
+    entry.count = contact.count;
+    near.feature = contact.feature;
     if (entry.count == 0) {
-      entry.limit = motion_bound + (state.contact.separation - margin);
+      near.normal = contact.normal, near.support = contact.support;
+      entry.limit = motion_bound + (contact.separation - margin);
+      pairs.let_go(near);
       return;
     }
+    const bool first = near.held < 0;
+    PairState& state = pairs.hold(near);
+    if (first) state.contact = fresh;
     const Stand now(a, b);
     state.centre = now.centre(), state.margin = margin;
     state.orientation = pair.X_AB.linear();
@@ -198,12 +213,14 @@ struct NarrowPhase::Worker {
   }
 
   // The remembered contact at the present poses.
-  void carry_along(const Items& items, const PairEntry& entry, const ConvexContact& contact,
+  void carry_along(const Items& items, const PairEntry& entry, const PairCache& pairs,
                    Manifolds& manifolds) const {
+    const int held = pairs.near(entry).held;
+    const ConvexContact& contact = pairs.held(held).contact;
     const Placement &a = items.placed[entry.a], &b = items.placed[entry.b];
     const double reported = margin_of(items, entry);
     Manifold& manifold = manifolds.add();
-    start_manifold(items, entry, (contact.normal_of_b ? b : a).R * contact.normal, manifold);
+    start_manifold(items, entry, held, (contact.normal_of_b ? b : a).R * contact.normal, manifold);
     for (int k = 0; k < contact.count; ++k) {
       const Anchors& anchors = contact.points[static_cast<std::size_t>(k)];
       const Vector3d on_a = a.at(anchors.on_a), on_b = b.at(anchors.on_b);
@@ -216,7 +233,7 @@ struct NarrowPhase::Worker {
   }
 
   // Half-spaces have closed forms; remembered is how long nothing can happen, and which points touched.
-  void touch_plane(const Items& items, PairEntry& entry, ConvexContact& last, Manifolds& manifolds) {
+  void touch_plane(const Items& items, PairEntry& entry, PairCache& pairs, Manifolds& manifolds) {
     const bool first = !items.placed[entry.a].hull;
     const int plane_id = first ? entry.a : entry.b, shape_id = first ? entry.b : entry.a;
     const Placement& shape = items.placed[shape_id];
@@ -229,16 +246,19 @@ struct NarrowPhase::Worker {
     if (height > margin) return;
     Eigen::Isometry3d X_WC;
     X_WC.linear() = shape.R, X_WC.translation() = shape.p, X_WC.makeAffine();
-    const KeptPoints kept = kept_points(last);
+    NearState& near = pairs.near(entry);
+    const KeptPoints kept =
+        near.held < 0 ? KeptPoints{.within = options.hysteresis} : kept_points(pairs.held(near.held).contact);
     if (const Cylinder* cylinder = items.item[shape_id].cylinder)
       plane_contact(plane, *cylinder, X_WC, margin, kept, clip);
     else
       plane_contact(plane, *shape.hull, X_WC, margin, kept, clip);
+    if (clip.empty()) return pairs.let_go(near);
+    ConvexContact& last = pairs.hold(near).contact;
     last.count = static_cast<int>(clip.size());
     for (std::size_t k = 0; k < clip.size(); ++k) last.points[k].feature = clip[k].feature;
-    if (clip.empty()) return;
     Manifold& manifold = manifolds.add();
-    start_manifold(items, entry, first ? plane.normal : Vector3d(-plane.normal), manifold);
+    start_manifold(items, entry, near.held, first ? plane.normal : Vector3d(-plane.normal), manifold);
     for (const ClipPoint& p : clip)
       manifold.points[static_cast<std::size_t>(manifold.count++)] = {p.position - 0.5 * p.gap * plane.normal,
                                                                      p.gap, p.feature};
@@ -267,6 +287,7 @@ struct NarrowPhase::Worker {
   List moved, touching;
   double margin = 0;  // of the pair at hand
   ConvexContactSearch convex;
+  ConvexContact fresh;  // of a pair that did not touch before
   std::vector<ClipPoint> clip;
   int computed = 0, refused = 0;
 };

@@ -63,7 +63,9 @@ PairMemory::Start PairMemory::start(int slot, int a, int b) const {
 void PairMemory::begin_step(const std::vector<int>& slots, int most) {
   ++step_;
   slots_ = slots;
-  pairs_.resize(static_cast<std::size_t>(std::max(most, static_cast<int>(pairs_.size()))));
+  const std::size_t size = std::max(static_cast<std::size_t>(most), pairs_.size());
+  if (size > pairs_.capacity()) pairs_.reserve(size + size / 8);  // of which there are many
+  pairs_.resize(size);
 }
 
 void PairMemory::store(const ContactProblem& problem, int k) {
