@@ -15,6 +15,21 @@ constexpr double last_bit = 0x1p-23;  // of single precision
 
 Eigen::Vector3d vector(const float (&v)[4]) { return {v[0], v[1], v[2]}; }
 
+using Four = Eigen::Array4f;
+
+Four four(const float (&v)[4]) { return Eigen::Map<const Four, Eigen::Aligned16>(v); }
+
+// By how much velocities, angular velocities differ from `before`, which they become, and how large they are.
+struct Watched {
+  Four moved = Four::Zero(), size = Four::Zero();
+
+  [[gnu::always_inline]] void add(const float (&now)[4], float (&before)[4], const float (&weight)[4]) {
+    moved += four(weight) * (four(now) - four(before)).abs();
+    size += four(weight) * four(now).abs();
+    Eigen::Map<Four, Eigen::Aligned16>{before} = four(now);
+  }
+};
+
 }  // namespace
 
 SolverReport BatchedSolver::solve(ContactProblem& problem) {
@@ -87,11 +102,17 @@ int BatchedSolver::most_parts() const {
 }
 
 template <class Work>
-void BatchedSolver::each_row(const Work& work) {
+void BatchedSolver::each_block_of_rows(const Work& work) {
   const int bodies = static_cast<int>(problem_->bodies.size());
   pool_->run((bodies + bodies_per_block - 1) / bodies_per_block, threads_, [&](int block) {
-    const int last = std::min(bodies, (block + 1) * bodies_per_block);
-    for (int k = block * bodies_per_block; k < last; ++k) work(k);
+    work(block * bodies_per_block, std::min(bodies, (block + 1) * bodies_per_block));
+  });
+}
+
+template <class Work>
+void BatchedSolver::each_row(const Work& work) {
+  each_block_of_rows([&](int first, int last) {
+    for (int row = first; row < last; ++row) work(row);
   });
 }
 
@@ -125,8 +146,11 @@ bool BatchedSolver::watches() const {
 void BatchedSolver::weigh() {
   weights_.resize(problem_->bodies.size());
   watched_.resize(problem_->bodies.size());
-  each_row(
-      [this](int row) { weights_[row] = MotionWeight::of(problem_->bodies[batches_.order().bodies[row]]); });
+  each_row([this](int row) {
+    const MotionWeight weight = MotionWeight::of(problem_->bodies[batches_.order().bodies[row]]);
+    for (int i = 0; i < 3; ++i)
+      weights_[row].velocity[i] = weight.mass, weights_[row].angular_velocity[i] = weight.turning;
+  });
 }
 
 void BatchedSolver::begin_to_watch() {
@@ -135,18 +159,16 @@ void BatchedSolver::begin_to_watch() {
 }
 
 void BatchedSolver::watch() {
-  const int rows = static_cast<int>(weights_.size());
-  changes_.assign(static_cast<std::size_t>(rows / bodies_per_block + 1), MotionChange());
-  each_row([this](int row) {
-    const BodyRow &now = batches_.bodies[row], before = std::exchange(watched_[row], now);
-    const MotionWeight& weight = weights_[row];
-    float moved = 0, size = 0;
-    for (int i = 0; i < 3; ++i) {
-      moved += weight.mass * std::abs(now.velocity[i] - before.velocity[i]) +
-               weight.turning * std::abs(now.angular_velocity[i] - before.angular_velocity[i]);
-      size += weight.mass * std::abs(now.velocity[i]) + weight.turning * std::abs(now.angular_velocity[i]);
+  changes_.assign(weights_.size() / bodies_per_block + 1, MotionChange());
+  each_block_of_rows([this](int first, int last) {
+    Watched watched;
+    for (int row = first; row < last; ++row) {
+      const BodyRow &now = batches_.bodies[row], &weight = weights_[row];
+      watched.add(now.velocity, watched_[row].velocity, weight.velocity);
+      watched.add(now.angular_velocity, watched_[row].angular_velocity, weight.angular_velocity);
     }
-    changes_[static_cast<std::size_t>(row / bodies_per_block)] += {moved, size * last_bit};
+    changes_[static_cast<std::size_t>(first / bodies_per_block)] = {watched.moved.sum(),
+                                                                    watched.size.sum() * last_bit};
   });
   MotionChange sum;
   for (const MotionChange& change : changes_) sum += change;

@@ -39,7 +39,9 @@ class BatchedSolver {
   void each_stage(const Kernel& kernel);  // for kernels that do
   int most_parts() const;
   template <class Work>
-  void each_row(const Work& work);  // of the bodies
+  void each_block_of_rows(const Work& work);  // of the bodies: from the first row to before the last
+  template <class Work>
+  void each_row(const Work& work);
   void run_substep(int number);
   bool stands() const;
   bool bodies_stand(const std::vector<BodyRow>& rows) const;
@@ -67,7 +69,7 @@ class BatchedSolver {
   PairBatches batches_;
   std::vector<BodyRow> travel_;        // by row: ∫ v dt, ∫ ω dt
   std::vector<BodyRow> previous_;      // by row: velocities that momentum goes on from
-  std::vector<MotionWeight> weights_;  // by row
+  std::vector<BodyRow> weights_;       // by row, of each component
   std::vector<BodyRow> watched_;       // by row: velocities after the last iteration
   std::vector<MotionChange> changes_;  // by block of rows
   std::vector<char> touched_;          // by body: in a pair
