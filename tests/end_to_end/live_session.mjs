@@ -24,17 +24,20 @@ await until("document.querySelector('#runs .xtitle')?.textContent === 'run'");
 const {responses, rows} = await evaluate("fetch('/state.json?epoch=&since=0').then((answer) => answer.json())");
 const done = rows.filter((row) => row[3]).length;
 assert.ok(done > 0 && responses[0].done === done);
-await until(`[${done}, ${done + 1}].includes(document.querySelectorAll('#runs .point').length)`);  // one more where the last run is ringed
+// One more where the last run is ringed.
+await until(`[${done}, ${done + 1}].includes(document.querySelectorAll('#runs .point').length)`);
 console.log(`best: ${await text('#best tbody tr')}`);
 await until("document.querySelector('#last figure')", 60000);
-console.log(`last run: ${await evaluate("[...document.querySelectorAll('#last figure')].map((f) => f.querySelector('h3').textContent).join(', ')")}`);
+const titles = "[...document.querySelectorAll('#last figure')].map((f) => f.querySelector('h3').textContent)";
+console.log(`last run: ${(await evaluate(titles)).join(', ')}`);
 const link = await evaluate("document.querySelector('#best a').href");
 assert.match(link, /\/run\/\d+$/);
 await page.send('Page.navigate', {url: link});
 await until('document.documentElement?.dataset.ready === "true" && document.querySelector("#simulation")', 60000);
 console.log(`page of the best run: ${await evaluate('document.title')}`);
 
-const {errors} = page, requests = page.requests();
+const {errors} = page,
+  requests = page.requests();
 await page.close();
 console.log(`console errors: ${errors.length}, requests elsewhere: ${requests.length}`);
 for (const line of [...errors, ...requests]) console.error(line);

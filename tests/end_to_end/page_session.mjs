@@ -17,12 +17,17 @@ process.once('exit', () => rmSync(downloads, {recursive: true, force: true}));
 const page = await openPage(resolve(process.argv[2]), {downloads});
 const {evaluate, until, click, drag, press, type, wheel, choose} = page;
 const one = (selector) => `document.querySelector(${JSON.stringify(selector)})`;
-const button = (within, text) => `[...document.querySelectorAll(${JSON.stringify(within + ' button')})].find((b) => b.textContent.startsWith(${JSON.stringify(text)}))`;
+const button = (within, text) =>
+  `[...document.querySelectorAll(${JSON.stringify(within + ' button')})].find((b) => ` +
+  `b.textContent.startsWith(${JSON.stringify(text)}))`;
 const text = (element) => evaluate(`(${element}).textContent`);
 const count = (selector) => evaluate(`document.querySelectorAll(${JSON.stringify(selector)}).length`);
 
 async function step(name, needs, does) {
-  if (!(await evaluate(`Boolean(${needs})`))) { console.log(`${name}: not on this page`); return; }
+  if (!(await evaluate(`Boolean(${needs})`))) {
+    console.log(`${name}: not on this page`);
+    return;
+  }
   try {
     console.log(`${name}: ${await does()}`);
   } catch (error) {
@@ -31,7 +36,11 @@ async function step(name, needs, does) {
 }
 
 /// Numbers of the first rows of a table's column.
-const column = (table, k) => evaluate(`[...document.querySelectorAll(${JSON.stringify(table + ' tbody tr')})].map((row) => row.children[${k}].textContent)`);
+const column = (table, k) =>
+  evaluate(
+    `[...document.querySelectorAll(${JSON.stringify(table + ' tbody tr')})].map((row) => ` +
+      `row.children[${k}].textContent)`,
+  );
 
 const seen = new Set();
 /// A file that the page saves, not one of before: {name, text}.
@@ -44,7 +53,9 @@ async function saved(ending) {
   return {name, text: readFileSync(join(downloads, name), 'utf8')};
 }
 
-const front = '#front .whole-table', bar = '.selection', axes = '#designs .parallel svg';
+const front = '#front .whole-table',
+  bar = '.selection',
+  axes = '#designs .parallel svg';
 const selected = async () => (await text(one(bar))).match(/Selected: (.*?)Clear/)?.[1];
 
 console.log(`${page.product}, ${await evaluate('document.title')}`);
@@ -68,34 +79,51 @@ await step('colours', one('button.theme'), async () => {
 // Before anything is opened that paper would then show.
 await step('paper', one('#summary'), async () => {
   const sheets = [];
-  for (const [name, paperWidth, paperHeight] of [['letter', 8.5, 11], ['A4', 8.27, 11.69]]) {
+  for (const [name, paperWidth, paperHeight] of [
+    ['letter', 8.5, 11],
+    ['A4', 8.27, 11.69],
+  ]) {
     const {data} = await page.send('Page.printToPDF', {paperWidth, paperHeight, printBackground: true});
-    const count = Buffer.from(data, 'base64').toString('latin1').match(/\/Type\s*\/Page\b(?!s)/g).length;
+    const count = Buffer.from(data, 'base64')
+      .toString('latin1')
+      .match(/\/Type\s*\/Page\b(?!s)/g).length;
     assert.ok(count <= mostSheets, `${count} sheets of ${name}`);
     sheets.push(`${count} sheets of ${name}`);
   }
   return sheets.join(', ');
 });
-await step('what to do next', one('ol.next'), async () => (await evaluate("[...document.querySelectorAll('ol.next li')].map((item) => item.textContent)")).join(' '));
+await step('what to do next', one('ol.next'), async () =>
+  (await evaluate("[...document.querySelectorAll('ol.next li')].map((item) => item.textContent)")).join(' '),
+);
 await step('table, sorted', one(front), async () => {
   await click(`document.querySelectorAll('${front} th button')[1]`);
   const up = await column(front, 1);
-  assert.deepEqual(up, [...up].sort((a, b) => a - b));
+  assert.deepEqual(
+    up,
+    [...up].sort((a, b) => a - b),
+  );
   await click(`document.querySelectorAll('${front} th button')[1]`);
   const down = await column(front, 1);
-  assert.deepEqual(down, [...down].sort((a, b) => b - a));
+  assert.deepEqual(
+    down,
+    [...down].sort((a, b) => b - a),
+  );
   assert.ok(Number(down[0]) > Number(up[0]));
   return `from ${up[0]}, then from ${down[0]}`;
 });
 await step('table, filtered', one(front), async () => {
-  const before = await text(button(front, 'Copy')), wanted = (await column(front, 1))[0];
+  const before = await text(button(front, 'Copy')),
+    wanted = (await column(front, 1))[0];
   await click(one(front + ' input[type=search]'));
   await type(wanted);
   await until(`${button(front, 'Copy')}.textContent !== "${before}"`);
   const after = await text(button(front, 'Copy'));
   await evaluate(`${one(front + ' input[type=search]')}.select()`);
   await press('Home');
-  await evaluate(`(() => { const box = ${one(front + ' input[type=search]')}; box.value = ''; box.dispatchEvent(new Event('input')); })()`);
+  await evaluate(
+    `(() => { const box = ${one(front + ' input[type=search]')}; box.value = ''; box.dispatchEvent(new ` +
+      `Event('input')); })()`,
+  );
   await until(`${button(front, 'Copy')}.textContent === "${before}"`);
   return `${after} for "${wanted}", then ${before} again`;
 });
@@ -117,8 +145,10 @@ await step('row, marked', one(front), async () => {
 });
 /// The place of a point of the front in the first trade-off, as shares of the plot's area; the point farthest
 /// right.
-const inPlot = () => evaluate(`(() => {
-  const {_fullData: traces, _fullLayout: {xaxis, yaxis}} = document.querySelector('#front .js-plotly-plot'), {x, y} = traces.find((t) => t.name === 'front');
+const inPlot = () =>
+  evaluate(`(() => {
+  const {_fullData: traces, _fullLayout: {xaxis, yaxis}} = document.querySelector('#front ' +
+    '.js-plotly-plot'), {x, y} = traces.find((t) => t.name === 'front');
   const k = x.reduce((best, value, i) => (value > x[best] ? i : best), 0);
   return [xaxis.l2p(x[k]) / xaxis._length, yaxis.l2p(y[k]) / yaxis._length];
 })()`);
@@ -132,7 +162,11 @@ await step('point, clicked', area, async () => {
   await click(area, await inPlot());
   await until(`${one(bar)}.textContent.includes('Marked: ')`);
   const marked = (await text(one(bar))).match(/Marked: ([^(]*\d+)/)[1];
-  const seen = await evaluate(`(() => { const row = document.querySelector('#front tr[data-selected]'), r = row?.getBoundingClientRect(), f = row?.closest('table').parentElement.getBoundingClientRect(); return Boolean(r) && r.top >= f.top && r.bottom <= f.bottom + 1; })()`);
+  const seen = await evaluate(
+    `(() => { const row = document.querySelector('#front tr[data-selected]'), r = row?.getBoundingClientRect(), ` +
+      `f = row?.closest('table').parentElement.getBoundingClientRect(); return Boolean(r) && r.top >= f.top && ` +
+      `r.bottom <= f.bottom + 1; })()`,
+  );
   assert.ok(seen, 'its row is not in view in the table');
   await click(button(bar, 'Take mark away'));
   return marked;
@@ -145,7 +179,11 @@ await step('figure, saved', area, async () => {
   return `${name}, ${figure.length} characters`;
 });
 await step('line of a design, pointed at and clicked', one(axes), async () => {
-  const middle = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), [a, b] = [...document.querySelectorAll('${axes} line')].filter((l) => l.x1.baseVal.value === l.x2.baseVal.value).map((l) => l.x1.baseVal.value); return 0.5 * (a + b) / r.width; })()`);
+  const middle = await evaluate(
+    `(() => { const r = ${one(axes)}.getBoundingClientRect(), [a, b] = [...document.querySelectorAll('${axes} ` +
+      `line')].filter((l) => l.x1.baseVal.value === l.x2.baseVal.value).map((l) => l.x1.baseVal.value); return ` +
+      `0.5 * (a + b) / r.width; })()`,
+  );
   const label = '#designs .parallel .label';
   let share = 0.2;
   for (; share < 0.95; share += 0.01) {
@@ -155,10 +193,10 @@ await step('line of a design, pointed at and clicked', one(axes), async () => {
   }
   await page.settled();
   const said = await text(one(label + ' b'));
-  assert.equal(await count(axes + ' polyline') > 0, true);
+  assert.equal((await count(axes + ' polyline')) > 0, true);
   const [x, y] = await page.place(one(axes), [middle, share]);
   await page.mouse('mousePressed', [x, y]);
-  await page.mouse('mouseMoved', [x + 1, y]);  // as a hand does
+  await page.mouse('mouseMoved', [x + 1, y]); // as a hand does
   await page.mouse('mouseReleased', [x + 1, y]);
   await until(`${one(bar)}.textContent.includes('Marked: ${said}')`);
   await click(button(bar, 'Take mark away'));
@@ -174,7 +212,10 @@ async function selectedBy(element, from, to) {
   return after;
 }
 await step('brush of an axis', one(axes), async () => {
-  const x = await evaluate(`(() => { const r = ${one(axes)}.getBoundingClientRect(), l = document.querySelector('${axes} line').getBoundingClientRect(); return (l.left + l.width / 2 - r.left) / r.width; })()`);
+  const x = await evaluate(
+    `(() => { const r = ${one(axes)}.getBoundingClientRect(), l = document.querySelector('${axes} ` +
+      `line').getBoundingClientRect(); return (l.left + l.width / 2 - r.left) / r.width; })()`,
+  );
   return selectedBy(one(axes), [x, 0.3], [x, 0.6]);
 });
 await step('box in a trade-off', area, () => selectedBy(area, [0.1, 0.1], [0.7, 0.9]));
@@ -210,13 +251,19 @@ await step('nested contours', one('#surfaces details summary'), async () => {
   return `${await count('#surfaces details .contour')} plots`;
 });
 await step('runs side by side', one('#runs details summary'), async () => {
-  if (!(await evaluate("document.querySelector('#runs details').open"))) await click(one('#runs details summary'));  // a marked run opens it
+  // A marked run opens it.
+  if (!(await evaluate("document.querySelector('#runs details').open"))) await click(one('#runs details summary'));
   for (const k of [0, 1]) await click(`document.querySelectorAll('#runs details tbody input[type=checkbox]')[${k}]`);
   await until(one('#runs .comparison table'));
-  const heads = await evaluate("[...document.querySelectorAll('#runs .comparison th')].map((h) => h.textContent).filter(Boolean)");
+  const heads = await evaluate(
+    "[...document.querySelectorAll('#runs .comparison th')].map((h) => h.textContent).filter(Boolean)",
+  );
   for (const k of [2, 3]) await click(`document.querySelectorAll('#runs details tbody input[type=checkbox]')[${k}]`);
   await until("document.querySelectorAll('#runs .comparison th').length === 8");
-  assert.ok(await evaluate("document.querySelectorAll('#runs details tbody input[type=checkbox]')[4].disabled"), 'a fifth can be ticked');
+  assert.ok(
+    await evaluate("document.querySelectorAll('#runs details tbody input[type=checkbox]')[4].disabled"),
+    'a fifth can be ticked',
+  );
   await click(button('#runs .comparison', 'Clear'));
   await until(`!${one('#runs .comparison table')}`);
   return heads.join(', ');
@@ -234,10 +281,15 @@ await step('run on a surface, pointed at and clicked', one(dot), async () => {
   return said;
 });
 
-const scene = '#simulation .replay', clock = one(scene + ' .player .note');
+const scene = '#simulation .replay',
+  clock = one(scene + ' .player .note');
 const seconds = async () => Number((await text(clock)).split(' ')[0]);
 /// Of the pixels that the scene shows: a camera that moves or a body that goes changes it.
-const picture = () => evaluate(`(() => { let sum = 0; for (const c of ${one(scene + ' canvas')}.toDataURL()) sum = (31 * sum + c.charCodeAt(0)) % 1e9; return sum; })()`);
+const picture = () =>
+  evaluate(
+    `(() => { let sum = 0; for (const c of ${one(scene + ' canvas')}.toDataURL()) sum = (31 * sum + ` +
+      `c.charCodeAt(0)) % 1e9; return sum; })()`,
+  );
 const changes = async (act) => {
   const before = await picture();
   await act();
@@ -284,7 +336,8 @@ await step('click in a plot of the scene', one(scene + ' .scene-plot canvas'), a
   const before = await seconds();
   await click(one(scene + ' .scene-plot canvas'), [0.3, 0.5]);
   assert.notEqual(await seconds(), before);
-  return `to ${await seconds()} s; ${(await evaluate(`[...document.querySelectorAll('${scene} .scene-plot > div')].map((d) => d.textContent)`)).join('; ')}`;
+  const plots = `[...document.querySelectorAll('${scene} .scene-plot > div')].map((d) => d.textContent)`;
+  return `to ${await seconds()} s; ${(await evaluate(plots)).join('; ')}`;
 });
 await step('plot of the scene, saved', button(scene + ' .scene-plot', 'SVG'), async () => {
   await click(button(scene + ' .scene-plot', 'SVG'));
@@ -308,7 +361,8 @@ await step('cycles', one('.cycles select'), async () => {
   return names.join(', ');
 });
 
-const {errors} = page, requests = page.requests();
+const {errors} = page,
+  requests = page.requests();
 await page.close();
 console.log(`console errors: ${errors.length}, requests: ${requests.length}`);
 for (const line of [...errors, ...requests]) console.error(line);

@@ -7,6 +7,9 @@
 export function bandOutline({at, optimistic, median, pessimistic}, worst) {
   const known = at.map((_, i) => i).filter((i) => optimistic[i] !== null);
   const back = [...known].reverse();
-  return {x: [...known, ...back].map((i) => at[i]), y: [...known.map((i) => optimistic[i]), ...back.map((i) => pessimistic[i] ?? worst)],
-    median: {x: known.map((i) => at[i]), y: known.map((i) => median[i])}};
+  return {
+    x: [...known, ...back].map((i) => at[i]),
+    y: [...known.map((i) => optimistic[i]), ...back.map((i) => pessimistic[i] ?? worst)],
+    median: {x: known.map((i) => at[i]), y: known.map((i) => median[i])},
+  };
 }

@@ -5,13 +5,18 @@
 
 export function choose(data, designs) {
   const listeners = [];
-  const middle = data.problem.variables.map((v) => (v.kind ? Math.floor(0.5 * (v.lower + v.upper)) : 0.5 * (v.lower + v.upper)));
+  const middle = data.problem.variables.map((v) =>
+    v.kind ? Math.floor(0.5 * (v.lower + v.upper)) : 0.5 * (v.lower + v.upper),
+  );
   const state = {
     x: [...middle],
     /// {set, index} of the marked design, or null.
     mark: null,
     onchange: (listener) => listeners.push(listener),
-    move(x) { state.x = [...x]; listeners.forEach((f) => f(state)); },
+    move(x) {
+      state.x = [...x];
+      listeners.forEach((f) => f(state));
+    },
     pick(set, index) {
       state.mark = {set, index};
       state.move(designs[set][index].x);

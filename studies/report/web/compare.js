@@ -19,13 +19,31 @@ export function comparing(data, designs) {
       box.checked = picked.includes(i);
       box.disabled = picked.length === most && !box.checked;
     }
-    node.replaceChildren(...picked.length ? comparison(data, picked.map((i) => designs.runs[i]), clear)
-      : [el('p', {class: 'note'}, `Tick up to ${most} runs to see them side by side.`)]);
+    node.replaceChildren(
+      ...(picked.length
+        ? comparison(
+            data,
+            picked.map((i) => designs.runs[i]),
+            clear,
+          )
+        : [el('p', {class: 'note'}, `Tick up to ${most} runs to see them side by side.`)]),
+    );
   };
-  const clear = () => { picked = []; update(); };
+  const clear = () => {
+    picked = [];
+    update();
+  };
   const box = (i) => {
-    const made = el('input', {type: 'checkbox', checked: picked.includes(i), disabled: picked.length === most && !picked.includes(i), 'aria-label': `Compare run ${designs.runs[i].run}`,
-      onchange: () => { picked = made.checked ? [...picked, i] : picked.filter((k) => k !== i); update(); }});
+    const made = el('input', {
+      type: 'checkbox',
+      checked: picked.includes(i),
+      disabled: picked.length === most && !picked.includes(i),
+      'aria-label': `Compare run ${designs.runs[i].run}`,
+      onchange: () => {
+        picked = made.checked ? [...picked, i] : picked.filter((k) => k !== i);
+        update();
+      },
+    });
     boxes.set(i, made);
     return made;
   };
@@ -34,20 +52,35 @@ export function comparing(data, designs) {
 }
 
 function comparison({problem}, runs, clear) {
-  const columns = [{title: '', text: true}, ...runs.flatMap((r, i) => [{title: `Run ${r.run}`}, ...i ? [{title: 'difference'}] : []])];
-  const line = (title, of, {shown = number, missing = 'n/a', levels = false} = {}) => [title, ...runs.flatMap((r, i) => {
-    const value = of(r);
-    return [value == null ? {value: null, shown: missing} : levels ? shown(value) : {value, shown: shown(value)}, ...i ? [difference(value, of(runs[0]), shown, levels)] : []];
-  })];
-  const words = (title, of) => [title, ...runs.flatMap((r, i) => [of(r), ...i ? [''] : []])];
-  const rows = [words('kind', (r) => r.kind),
-    ...problem.variables.map((v, k) => line(labelled(v), (r) => r.x[k], {shown: (value) => setting(value, v), levels: Boolean(v.levels)})),
+  const columns = [
+    {title: '', text: true},
+    ...runs.flatMap((r, i) => [{title: `Run ${r.run}`}, ...(i ? [{title: 'difference'}] : [])]),
+  ];
+  const line = (title, of, {shown = number, missing = 'n/a', levels = false} = {}) => [
+    title,
+    ...runs.flatMap((r, i) => {
+      const value = of(r);
+      return [
+        value == null ? {value: null, shown: missing} : levels ? shown(value) : {value, shown: shown(value)},
+        ...(i ? [difference(value, of(runs[0]), shown, levels)] : []),
+      ];
+    }),
+  ];
+  const words = (title, of) => [title, ...runs.flatMap((r, i) => [of(r), ...(i ? [''] : [])])];
+  const rows = [
+    words('kind', (r) => r.kind),
+    ...problem.variables.map((v, k) =>
+      line(labelled(v), (r) => r.x[k], {shown: (value) => setting(value, v), levels: Boolean(v.levels)}),
+    ),
     ...problem.responses.map((response, j) => line(labelled(response), (r) => r.y?.[j], {missing: 'failed'})),
-    line('time [s]', (r) => r.seconds)];
+    line('time [s]', (r) => r.seconds),
+  ];
   if (anyBreaks(runs)) rows.push(words('limits', (r) => brokenText(problem, r)));
   if (runs.some((r) => !r.y)) rows.push(words('failed, because', (r) => (r.y ? '' : r.reason)));
-  return [el('div', {class: 'tools'}, el('h3', {}, 'Side by side'), el('button', {type: 'button', onclick: clear}, 'Clear')),
-    table(columns, rows, {name: 'Side by side', sortable: false}).node];
+  return [
+    el('div', {class: 'tools'}, el('h3', {}, 'Side by side'), el('button', {type: 'button', onclick: clear}, 'Clear')),
+    table(columns, rows, {name: 'Side by side', sortable: false}).node,
+  ];
 }
 
 function difference(value, reference, shown, levels) {

@@ -3,7 +3,9 @@
 // Panels of a run of several cycles.
 
 /// Numbers of the cycles that panels name.
-export const cyclesOf = (panels) => [...new Set(panels.map((panel) => panel.cycle).filter((cycle) => cycle !== undefined))];
+export const cyclesOf = (panels) => [
+  ...new Set(panels.map((panel) => panel.cycle).filter((cycle) => cycle !== undefined)),
+];
 
 /// Scenes that have their bodies from another one, with them.
 export function withBodies(panels) {

@@ -9,9 +9,11 @@ import {endScenes} from './scene.js';
 
 /// figures(): makes what makes a figure of a panel. A cycle's figures are made when it is chosen.
 export function oneCycleAtATime(data, figures) {
-  const panels = withBodies(data.illustrations), cycles = cyclesOf(panels);
+  const panels = withBodies(data.illustrations),
+    cycles = cyclesOf(panels);
   const whole = panels.filter((panel) => panel.cycle === undefined).map(figures());
-  const before = figureNumber(), shown = el('div', {class: 'cycle'});
+  const before = figureNumber(),
+    shown = el('div', {class: 'cycle'});
   let chosen = 0;
   const show = (k) => {
     chosen = k;
@@ -25,12 +27,19 @@ export function oneCycleAtATime(data, figures) {
   const go = (by) => show(chosen + by);
   const back = el('button', {type: 'button', onclick: () => go(-1)}, 'Cycle before');
   const on = el('button', {type: 'button', onclick: () => go(1)}, 'Cycle after');
-  const choice = select('Cycle', cycles.map(String), 0, show), box = choice.querySelector('select');
+  const choice = select('Cycle', cycles.map(String), 0, show),
+    box = choice.querySelector('select');
   const update = () => {
     box.value = String(chosen);
     back.disabled = chosen === 0;
     on.disabled = chosen === cycles.length - 1;
   };
   show(0);
-  return el('div', {}, whole, el('div', {class: 'controls cycles'}, choice, back, on, el('span', {class: 'note'}, data.left_out)), shown);
+  return el(
+    'div',
+    {},
+    whole,
+    el('div', {class: 'controls cycles'}, choice, back, on, el('span', {class: 'note'}, data.left_out)),
+    shown,
+  );
 }

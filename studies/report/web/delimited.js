@@ -10,7 +10,12 @@ export const csv = (rows) => rows.map((row) => row.map((value) => quoted(field(v
 export const tsv = (rows) => rows.map((row) => row.map((value) => onOneLine(field(value))).join('\t') + '\n').join('');
 
 /// A name for a file from words.
-export const fileName = (...words) => words.join(' ').toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_|_$/g, '');
+export const fileName = (...words) =>
+  words
+    .join(' ')
+    .toLowerCase()
+    .replace(/[^\p{L}\p{N}]+/gu, '_')
+    .replace(/^_|_$/g, '');
 
 export function download(name, text, type) {
   const address = URL.createObjectURL(new Blob([text], {type}));

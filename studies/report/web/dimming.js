@@ -3,15 +3,14 @@
 // The points of a plot that stand for designs: a click marks the design, and those that are not selected are
 // dimmed. This writes to the drawn points: for ten thousand of them that takes a tenth of the time in which
 // Plotly restyles the plot.
-/* global Plotly */
 
 import {whenResting} from './frames.js';
 import {colour} from './theme.js';
 
 const dimmed = 0.15;
-const still = 4;     // px that a press may move
-const late = 300;    // ms after a press in which a plot says what was clicked
-const many = 2000;  // points from which on a plot waits until the selection rests, and has points without edges
+const still = 4; // px that a press may move
+const late = 300; // ms after a press in which a plot says what was clicked
+const many = 2000; // points from which on a plot waits until the selection rests, and has points without edges
 
 /// A trace whose i-th point is design indices[i] of the set, or its i-th design.
 export const link = (set, indices = null, opacity = 1) => ({set, index: (i) => (indices ? indices[i] : i), opacity});
@@ -23,18 +22,19 @@ export const movingLink = (set, indices) => ({set, index: (i) => indices()[i], o
 /// links the plot again after it was taken apart (Plotly.purge) and drawn.
 export function linkPoints(box, links, {chosen, selection}) {
   const large = box.querySelectorAll('.point').length > many;
-  const apply = () => box.querySelectorAll('.scatterlayer .trace').forEach((trace) => {
-    const known = links[trace.__data__[0].trace.index];
-    if (!known) return;
-    const shareOf = ({__data__}) => (selection.has(known.set, known.index(__data__.i)) ? '1' : String(dimmed));
-    for (const bar of trace.querySelectorAll('.errorbar')) bar.style.opacity = shareOf(bar);
-    for (const node of trace.querySelectorAll('.point')) {
-      const share = shareOf(node);
-      if (node.style.fillOpacity === share) continue;
-      node.style.fillOpacity = share;  // not opacity, for which a browser composes each point on its own
-      if (!large) node.style.strokeOpacity = share;
-    }
-  });
+  const apply = () =>
+    box.querySelectorAll('.scatterlayer .trace').forEach((trace) => {
+      const known = links[trace.__data__[0].trace.index];
+      if (!known) return;
+      const shareOf = ({__data__}) => (selection.has(known.set, known.index(__data__.i)) ? '1' : String(dimmed));
+      for (const bar of trace.querySelectorAll('.errorbar')) bar.style.opacity = shareOf(bar);
+      for (const node of trace.querySelectorAll('.point')) {
+        const share = shareOf(node);
+        if (node.style.fillOpacity === share) continue;
+        node.style.fillOpacity = share; // not opacity, for which a browser composes each point on its own
+        if (!large) node.style.strokeOpacity = share;
+      }
+    });
   selection.onchange(large ? whenResting(apply) : apply);
   const clicked = oncePerPress(box, chosen.pick);
   const listen = () => {
@@ -55,31 +55,56 @@ function oncePerPress(box, pick) {
   const released = (mine, e) => {
     if (press !== mine) return;
     if (Math.hypot(e.clientX - mine.x, e.clientY - mine.y) >= still) press = null;
-    else if (mine.design) { press = null; pick(...mine.design); }
-    else setTimeout(() => { if (press === mine) press = null; }, late);
+    else if (mine.design) {
+      press = null;
+      pick(...mine.design);
+    } else
+      setTimeout(() => {
+        if (press === mine) press = null;
+      }, late);
     mine.up = true;
   };
-  box.addEventListener('pointerdown', ({clientX: x, clientY: y}) => {
-    const mine = press = {x, y, design: null, up: false};
-    addEventListener('pointerup', (e) => released(mine, e), {capture: true, once: true});
-  }, {capture: true});
+  box.addEventListener(
+    'pointerdown',
+    ({clientX: x, clientY: y}) => {
+      const mine = (press = {x, y, design: null, up: false});
+      addEventListener('pointerup', (e) => released(mine, e), {capture: true, once: true});
+    },
+    {capture: true},
+  );
   return (...design) => {
-    if (!press?.up) { if (press) press.design ??= design; return; }
+    if (!press?.up) {
+      if (press) press.design ??= design;
+      return;
+    }
     press = null;
     pick(...design);
   };
 }
 
 /// The same of points that have opacities of their own.
-export const dimmedBy = (selection, {set, index}, opacity) => (selection.active ? opacity.map((o, i) => (selection.has(set, index(i)) ? o : dimmed * o)) : opacity);
+export const dimmedBy = (selection, {set, index}, opacity) =>
+  selection.active ? opacity.map((o, i) => (selection.has(set, index(i)) ? o : dimmed * o)) : opacity;
 
 /// The same as Plotly's marker.opacity, where the picture is to be saved and not drawn here.
 export const opacities = (selection, {set, index, opacity}, count, saved) =>
-  (saved && selection.active ? Array.from({length: count}, (_, i) => (selection.has(set, index(i)) ? opacity : dimmed * opacity)) : opacity);
+  saved && selection.active
+    ? Array.from({length: count}, (_, i) => (selection.has(set, index(i)) ? opacity : dimmed * opacity))
+    : opacity;
 
 /// A ring around a point of the plot, as a shape: it moves without the points being drawn again.
-export const ring = (x, y) => ({type: 'circle', xsizemode: 'pixel', ysizemode: 'pixel', xanchor: x, yanchor: y, x0: -9, x1: 9, y0: -9, y1: 9,
-  line: {color: colour.accent, width: 2.5}});
+export const ring = (x, y) => ({
+  type: 'circle',
+  xsizemode: 'pixel',
+  ysizemode: 'pixel',
+  xanchor: x,
+  yanchor: y,
+  x0: -9,
+  x1: 9,
+  y0: -9,
+  y1: 9,
+  line: {color: colour.accent, width: 2.5},
+});
 
 /// Draws the rings again when another design is marked.
 export function ringMarked(box, chosen, rings) {

@@ -24,12 +24,13 @@ export const setting = (value, {levels, kind, lower, upper}) => {
 };
 export const settingWithUnit = (value, item) => setting(value, item) + (hasUnit(item.unit) ? ' ' + item.unit : '');
 /// Of an axis along a variable: the names of its levels.
-export const ticks = ({levels}) => (levels ? {tickvals: levels.map((_, i) => i), ticktext: levels.map((name) => plain(pretty(name)))} : {});
+export const ticks = ({levels}) =>
+  levels ? {tickvals: levels.map((_, i) => i), ticktext: levels.map((name) => plain(pretty(name)))} : {};
 /// In a hover text, the place along 'x' or 'y' as its axis says it: with names and whole numbers as they are.
 export const place = ({kind}, along, digits = 3) => (kind ? `%{${along}}` : `%{${along}:.${digits}g}`);
 export const withUnit = (value, item) => number(value) + (hasUnit(item.unit) ? ' ' + item.unit : '');
 
 /// Text for Plotly, which reads a little markup and its own %{...} patterns.
-export const plain = (text) => String(text).replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;')
-  .replaceAll('%{', '% {');
+export const plain = (text) =>
+  String(text).replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('%{', '% {');
 export const axisLabel = (item) => plain(labelled(item));

@@ -7,13 +7,16 @@ export function oncePerFrame(f) {
   const later = () => {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; f(); });
+    requestAnimationFrame(() => {
+      waiting = false;
+      f();
+    });
   };
   later.now = f;
   return later;
 }
 
-const rest = 150;  // ms
+const rest = 150; // ms
 
 /// f once nothing has asked for it for a moment.
 export function whenResting(f) {

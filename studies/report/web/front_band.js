@@ -12,6 +12,8 @@ export function bandTraces({front}, objectives, a, b) {
   if (!band) return [];
   const values = [...band.pessimistic.filter((value) => value !== null), ...front.Y.map((y) => y[b])];
   const {median, ...outline} = bandOutline(band, (objectives[b].goal === 'maximize' ? Math.min : Math.max)(...values));
-  return [{...outline, mode: 'lines', fill: 'toself', fillcolor: colour.band, line: {width: 0}, hoverinfo: 'skip'},
-    {...median, mode: 'lines', line: {color: colour.front, width: 1.2, dash: 'dot'}, hoverinfo: 'skip'}];
+  return [
+    {...outline, mode: 'lines', fill: 'toself', fillcolor: colour.band, line: {width: 0}, hoverinfo: 'skip'},
+    {...median, mode: 'lines', line: {color: colour.front, width: 1.2, dash: 'dot'}, hoverinfo: 'skip'},
+  ];
 }

@@ -6,7 +6,8 @@
 export const words = (t, label) => `${t.toFixed(2)} s` + (label ? `, ${label}` : '');
 
 export function inscription(context, t, label) {
-  const size = Math.max(11, Math.round(context.canvas.height / 36)), text = words(t, label);
+  const size = Math.max(11, Math.round(context.canvas.height / 36)),
+    text = words(t, label);
   context.font = `${size}px sans-serif`;
   context.textBaseline = 'middle';
   context.fillStyle = 'rgba(255, 255, 255, 0.82)';

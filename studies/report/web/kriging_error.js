@@ -11,16 +11,25 @@ const normal95 = 1.959963984540054;
 const slopes = {
   gaussian: (theta, _, h) => -theta * h * h,
   power_exponential: (theta, p, h) => -theta * h ** p,
-  matern32: (theta, _, h) => { const u = Math.sqrt(6 * theta) * h; return -(u * u) / (2 * (1 + u)); },
-  matern52: (theta, _, h) => { const u = Math.sqrt(10 * theta) * h; return (-(u * u) * (1 + u)) / (6 * (1 + u + (u * u) / 3)); },
+  matern32: (theta, _, h) => {
+    const u = Math.sqrt(6 * theta) * h;
+    return -(u * u) / (2 * (1 + u));
+  },
+  matern52: (theta, _, h) => {
+    const u = Math.sqrt(10 * theta) * h;
+    return (-(u * u) * (1 + u)) / (6 * (1 + u + (u * u) / 3));
+  },
 };
 
 /// (x) => the ends of the interval that holds the mean with 95 %, or null where the model does not know.
 export function meanInterval(surface) {
   if (!surface.error) return null;
-  const z = scaledMean(surface), back = meanResponse(surface), deviation = scaledDeviation(surface);
+  const z = scaledMean(surface),
+    back = meanResponse(surface),
+    deviation = scaledDeviation(surface);
   return (x) => {
-    const middle = z(x), half = normal95 * deviation(x);
+    const middle = z(x),
+      half = normal95 * deviation(x);
     return [back(middle - half), back(middle + half)];
   };
 }
@@ -32,7 +41,8 @@ export function scaledDeviation(surface) {
   return (x) => {
     L ??= cholesky(surface);
     const s = x.map((value, k) => (value - centre[k]) * factor[k]);
-    const r = X.map((run) => correlation(surface, s, run)), f = terms.map(([a, b]) => (a < 0 ? 1 : s[a]) * (b < 0 ? 1 : s[b]));
+    const r = X.map((run) => correlation(surface, s, run)),
+      f = terms.map(([a, b]) => (a < 0 ? 1 : s[a]) * (b < 0 ? 1 : s[b]));
     const rest = Math.max(1 - square(solved(L, r)) + square(trendPart(error, f, r)), 0);
     return Math.sqrt(error.process_variance * rest + square(parameterPart(surface, s, f, r)));
   };
@@ -49,7 +59,8 @@ function correlation({correlation: family, theta, exponent, levels = []}, s, run
 
 /// L with L Lᵀ = R, row by row.
 function cholesky(surface) {
-  const {X, error} = surface, L = [];
+  const {X, error} = surface,
+    L = [];
   X.forEach((run, i) => {
     const row = new Float64Array(i + 1);
     for (let j = 0; j <= i; ++j) {
@@ -78,7 +89,9 @@ function solved(L, r) {
 /// f T⁻¹ − r B.
 function trendPart({B, T}, f, r) {
   const v = [];
-  f.forEach((value, j) => { v.push((value - v.reduce((sum, known, i) => sum + known * T[i][j], 0)) / T[j][j]); });
+  f.forEach((value, j) => {
+    v.push((value - v.reduce((sum, known, i) => sum + known * T[i][j], 0)) / T[j][j]);
+  });
   return v.map((value, j) => value - r.reduce((sum, c, i) => sum + c * B[i][j], 0));
 }
 
@@ -87,13 +100,20 @@ function parameterPart({correlation: family, theta, exponent, levels = [], X, we
   const {theta_spread: byTheta, exponent_spread: byExponent, alpha_effects: alpha, beta_effects: beta} = error;
   const W = Array((byTheta[0] ?? []).length).fill(0);
   if (!W.length) return W;
-  const add = (share, row) => row.forEach((value, c) => { W[c] += share * value; });
-  const inTheta = s.map(() => 0), inExponent = s.map(() => 0);
-  X.forEach((run, i) => s.forEach((at, k) => {
-    const h = distanceIn(levels, k, at, run[k]), slope = weights[i] * r[i] * slopes[family](theta[k], exponent[k], h);
-    inTheta[k] += slope;
-    if (h > 0) inExponent[k] += slope * Math.log(h);
-  }));
+  const add = (share, row) =>
+    row.forEach((value, c) => {
+      W[c] += share * value;
+    });
+  const inTheta = s.map(() => 0),
+    inExponent = s.map(() => 0);
+  X.forEach((run, i) =>
+    s.forEach((at, k) => {
+      const h = distanceIn(levels, k, at, run[k]),
+        slope = weights[i] * r[i] * slopes[family](theta[k], exponent[k], h);
+      inTheta[k] += slope;
+      if (h > 0) inExponent[k] += slope * Math.log(h);
+    }),
+  );
   byTheta.forEach((row, k) => add(inTheta[k], row));
   byExponent.forEach((row, k) => add(inExponent[k], row));
   alpha.forEach((row, i) => add(r[i], row));

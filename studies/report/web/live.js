@@ -9,11 +9,13 @@ import {bestPlots, runsPlot} from './live_plots.js';
 import {connection, keep, lags, nothingKept, pause, question} from './live_state.js';
 import {best, failures, last, progress, running, standing} from './live_tables.js';
 
-const patience = 15000;  // with an answer [ms]
+const patience = 15000; // with an answer [ms]
 const page = document.getElementById('live');
 const note = el('p', {class: 'caution', role: 'status', hidden: true});
 const content = el('div');
-let kept = nothingKept, heard = null, parts = null;
+let kept = nothingKept,
+  heard = null,
+  parts = null;
 
 /// An element whose content is built anew when what it shows has changed.
 function slot(build) {
@@ -32,14 +34,38 @@ function slot(build) {
 function layOut(state) {
   const key = JSON.stringify(state.problem);
   if (parts?.key === key) return;
-  const of = {standing: slot(standing), progress: slot(progress), best: slot(best), failures: slot(failures), running: slot(running), last: slot(last)};
-  parts = {key, of, curves: bestPlots(state.problem), runs: runsPlot(state.problem), figures: lastFigures(), rows: null, ended: -1};
-  content.replaceChildren(of.standing.node,
+  const of = {
+    standing: slot(standing),
+    progress: slot(progress),
+    best: slot(best),
+    failures: slot(failures),
+    running: slot(running),
+    last: slot(last),
+  };
+  parts = {
+    key,
+    of,
+    curves: bestPlots(state.problem),
+    runs: runsPlot(state.problem),
+    figures: lastFigures(),
+    rows: null,
+    ended: -1,
+  };
+  content.replaceChildren(
+    of.standing.node,
     section('progress', 'Progress', null, of.progress.node, of.running.node),
-    section('best', 'Best so far', 'Single runs, as simulated; objectives among the runs that keep all limits. What the models predict beyond them, the command front says.', of.best.node, el('div', {class: 'block'}, parts.curves.node)),
+    section(
+      'best',
+      'Best so far',
+      'Single runs, as simulated; objectives among the runs that keep all limits. What the models predict ' +
+        'beyond them, the command front says.',
+      of.best.node,
+      el('div', {class: 'block'}, parts.curves.node),
+    ),
     section('runs', 'The runs', null, el('div', {class: 'block'}, parts.runs.node)),
     section('failures', 'Failures', null, of.failures.node),
-    section('last', 'The last run', null, of.last.node, parts.figures.node));
+    section('last', 'The last run', null, of.last.node, parts.figures.node),
+  );
 }
 
 function showStudy(state) {
@@ -60,7 +86,8 @@ function showStudy(state) {
 }
 
 function show(state) {
-  if (!page.querySelector('header')) page.replaceChildren(pageHeader('Drawpoint study, live', state.study, state.about), el('main', {}, note, content));
+  if (!page.querySelector('header'))
+    page.replaceChildren(pageHeader('Drawpoint study, live', state.study, state.about), el('main', {}, note, content));
   kept = keep(kept, state);
   if (state.problem) return showStudy(state);
   parts = null;

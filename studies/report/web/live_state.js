@@ -28,7 +28,9 @@ export const lags = (kept, {ended}) => ended !== undefined && kept.since < ended
 /// Best so far over the number of runs that have ended: steps through improvements [ended, run, value], up to
 /// now.
 export function curve(improvements, ended) {
-  const x = improvements.map(([at]) => at), y = improvements.map(([, , value]) => value), runs = improvements.map(([, run]) => run);
+  const x = improvements.map(([at]) => at),
+    y = improvements.map(([, , value]) => value),
+    runs = improvements.map(([, run]) => run);
   if (x.length && ended > x[x.length - 1]) {
     x.push(ended);
     y.push(y[y.length - 1]);
@@ -49,14 +51,19 @@ const two = (value) => String(value).padStart(2, '0');
 /// Local time of day; another day is named.
 export function clock(date, today = new Date()) {
   const time = `${two(date.getHours())}:${two(date.getMinutes())}`;
-  return date.toDateString() === today.toDateString() ? time : `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ${time}`;
+  return date.toDateString() === today.toDateString()
+    ? time
+    : `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ${time}`;
 }
 
 /// heard: when the server answered last, or null. Empty while connected.
 export function connection(heard, connected, now = new Date()) {
   if (connected) return '';
   if (!heard) return 'The server does not answer. Is the command live still running?';
-  return `No longer connected since ${clock(heard, now)}: what stands below is how it was then. The study itself may go on; start the command live again, on the same port, to follow it here.`;
+  return (
+    `No longer connected since ${clock(heard, now)}: what stands below is how it was then. The study ` +
+    `itself may go on; start the command live again, on the same port, to follow it here.`
+  );
 }
 
 /// Until the next question [ms]: quickly while there is more, slowly where nothing happens.
@@ -68,14 +75,18 @@ export function pause(kind, connected, more) {
 
 /// The axes that runs can be shown along: name as of a variable or response, and the value of a row.
 export function axesOf({variables, responses}) {
-  return [...own(responses).map(({response: item, j}) => ({item, of: ([, , , y]) => (y ? y[j] : null)})),
+  return [
+    ...own(responses).map(({response: item, j}) => ({item, of: ([, , , y]) => (y ? y[j] : null)})),
     ...variables.map((item, k) => ({item, of: ([, , x]) => x[k]})),
-    {item: {name: 'run', unit: '1'}, of: ([run]) => run}];
+    {item: {name: 'run', unit: '1'}, of: ([run]) => run},
+  ];
 }
 
 /// Which two of these a study's runs are shown along first: two objectives, or one over the runs.
+/** @type {(problem: any) => number[]} */
 export function firstAxes(problem) {
-  const axes = axesOf(problem), objectives = axes.map(({item}, i) => (/^(min|max)imize$/.test(item.goal) ? i : -1)).filter((i) => i >= 0);
+  const axes = axesOf(problem),
+    objectives = axes.map(({item}, i) => (/^(min|max)imize$/.test(item.goal) ? i : -1)).filter((i) => i >= 0);
   if (objectives.length >= 2) return [objectives[0], objectives[1]];
   return [axes.length - 1, objectives[0] ?? 0];
 }

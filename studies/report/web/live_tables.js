@@ -8,31 +8,81 @@ import {clock, totals} from './live_state.js';
 import {own} from './responses.js';
 import {table} from './table.js';
 
-const card = (label, value, note = null, unit = null) => el('div', {class: 'card'}, el('span', {class: 'label'}, label),
-  el('span', {class: 'value'}, value, unit ? el('small', {}, ' ' + unit) : null), note ? el('span', {class: 'note'}, note) : null);
+const card = (label, value, note = null, unit = null) =>
+  el(
+    'div',
+    {class: 'card'},
+    el('span', {class: 'label'}, label),
+    el('span', {class: 'value'}, value, unit ? el('small', {}, ' ' + unit) : null),
+    note ? el('span', {class: 'note'}, note) : null,
+  );
 
 /// The number of a run, and the way to its page where runs have logs.
-const runLink = (run, state) => (state.logged === null ? String(run) : el('a', {href: '/run/' + run, target: '_blank', rel: 'noopener'}, String(run)));
+const runLink = (run, state) =>
+  state.logged === null ? String(run) : el('a', {href: '/run/' + run, target: '_blank', rel: 'noopener'}, String(run));
 
 export function standing({standing: {kind, text, next}, program, folder}) {
-  const words = {absent: 'waiting', unreadable: 'not readable', working: 'at work', stopped: 'stopped', ended: 'finished'};
-  return el('div', {class: 'block standing ' + kind}, el('p', {}, el('span', {class: 'grade'}, words[kind]), ' ' + text),
-    next ? el('p', {class: 'next'}, el('code', {}, `${program} ${next}`)) : null, el('p', {class: 'note'}, 'Folder: ' + folder));
+  const words = {
+    absent: 'waiting',
+    unreadable: 'not readable',
+    working: 'at work',
+    stopped: 'stopped',
+    ended: 'finished',
+  };
+  return el(
+    'div',
+    {class: 'block standing ' + kind},
+    el('p', {}, el('span', {class: 'grade'}, words[kind]), ' ' + text),
+    next ? el('p', {class: 'next'}, el('code', {}, `${program} ${next}`)) : null,
+    el('p', {class: 'note'}, 'Folder: ' + folder),
+  );
 }
 
 export function progress(state) {
-  const sum = totals(state.counts), ended = sum.done + sum.failed;
+  const sum = totals(state.counts),
+    ended = sum.done + sum.failed;
   const share = (count) => (state.total ? `width:${(100 * count) / state.total}%` : 'width:0');
-  const bar = el('div', {class: 'bar', role: 'img', 'aria-label': state.progress}, ['done', 'failed', 'running'].map((name) => el('span', {class: name, style: share(sum[name])})));
+  const bar = el(
+    'div',
+    {class: 'bar', role: 'img', 'aria-label': state.progress},
+    ['done', 'failed', 'running'].map((name) => el('span', {class: name, style: share(sum[name])})),
+  );
   const kinds = Object.entries(state.counts).filter(([, of]) => Object.values(of).some((n) => n > 0));
   const states = ['done', 'failed', 'running', 'planned'];
-  return [el('div', {class: 'cards narrow'},
-    card('Runs ended', String(ended), `${sum.running} running or waiting, ${sum.planned} planned`, 'of ' + state.total),
-    card('Failed', String(sum.failed), ended ? `${number((100 * sum.failed) / ended, 2)} % of those that ended` : null),
-    ...(state.runs_per_hour === null ? [] : [card('Pace', number(state.runs_per_hour), 'runs, since the first of the command at work', 'per hour'),
-      card('To go', state.left, 'for the runs that are planned, at this pace')]),
-    card('Time in runs', state.time, 'of all processes together')),
-  el('div', {class: 'block'}, bar, table([{title: 'Kind', text: true}, ...states.map((title) => ({title, format: String}))], kinds.map(([kind, of]) => [kind, ...states.map((name) => of[name])]), {sortable: false}).node)];
+  return [
+    el(
+      'div',
+      {class: 'cards narrow'},
+      card(
+        'Runs ended',
+        String(ended),
+        `${sum.running} running or waiting, ${sum.planned} planned`,
+        'of ' + state.total,
+      ),
+      card(
+        'Failed',
+        String(sum.failed),
+        ended ? `${number((100 * sum.failed) / ended, 2)} % of those that ended` : null,
+      ),
+      ...(state.runs_per_hour === null
+        ? []
+        : [
+            card('Pace', number(state.runs_per_hour), 'runs, since the first of the command at work', 'per hour'),
+            card('To go', state.left, 'for the runs that are planned, at this pace'),
+          ]),
+      card('Time in runs', state.time, 'of all processes together'),
+    ),
+    el(
+      'div',
+      {class: 'block'},
+      bar,
+      table(
+        [{title: 'Kind', text: true}, ...states.map((title) => ({title, format: String}))],
+        kinds.map(([kind, of]) => [kind, ...states.map((name) => of[name])]),
+        {sortable: false},
+      ).node,
+    ),
+  ];
 }
 
 const design = (x, variables) => variables.map((v, k) => `${pretty(v.name)} ${settingWithUnit(x[k], v)}`).join(', ');
@@ -43,7 +93,8 @@ export function best(state) {
   const rows = own(responses).map(({response: r, j}) => {
     const {lowest, highest, done, within, best: found} = state.responses[j];
     const span = done ? `${number(lowest)} to ${number(highest)}` : 'none yet';
-    if (r.limit != null) return [labelled(r), `${goals[r.goal]} ${number(r.limit)}`, `kept by ${within} of ${done}`, '', span, ''];
+    if (r.limit != null)
+      return [labelled(r), `${goals[r.goal]} ${number(r.limit)}`, `kept by ${within} of ${done}`, '', span, ''];
     if (!found) return [labelled(r), goals[r.goal], r.goal === 'record' ? '' : 'none yet', '', span, ''];
     const [run, , x, y] = found;
     return [labelled(r), goals[r.goal], withUnit(y[j], r), runLink(run, state), span, design(x, variables)];
@@ -55,24 +106,70 @@ export function best(state) {
 export function failures(state) {
   if (!state.failures.length) return el('p', {class: 'note'}, 'No run has failed.');
   const rows = state.failures.map(({reason, times, run}) => [times, runLink(run, state), reason]);
-  return el('div', {class: 'block'}, table([{title: 'Times', format: String}, {title: 'Last run'}, {title: 'Message', text: true}], rows, {sortable: false}).node,
-    state.more_failures ? el('p', {class: 'note'}, `${state.more_failures} more messages are left out; the command status has them all.`) : null);
+  return el(
+    'div',
+    {class: 'block'},
+    table([{title: 'Times', format: String}, {title: 'Last run'}, {title: 'Message', text: true}], rows, {
+      sortable: false,
+    }).node,
+    state.more_failures
+      ? el('p', {class: 'note'}, `${state.more_failures} more messages are left out; the command status has them all.`)
+      : null,
+  );
 }
 
 export function running(state) {
   const {variables} = state.problem;
   if (!state.running.length) return null;
   const rows = state.running.map(({run, kind, x, started}) => [run, kind, ...x, clock(new Date(started))]);
-  return el('details', {class: 'block'}, el('summary', {}, `Running or waiting now: ${totals(state.counts).running}`),
-    table([{title: 'Run', format: String}, {title: 'Kind', text: true}, ...variables.map((v) => ({title: labelled(v), format: (value) => setting(value, v)})), {title: 'Since', text: true}], rows, {sortable: false, tall: true}).node);
+  return el(
+    'details',
+    {class: 'block'},
+    el('summary', {}, `Running or waiting now: ${totals(state.counts).running}`),
+    table(
+      [
+        {title: 'Run', format: String},
+        {title: 'Kind', text: true},
+        ...variables.map((v) => ({title: labelled(v), format: (value) => setting(value, v)})),
+        {title: 'Since', text: true},
+      ],
+      rows,
+      {sortable: false, tall: true},
+    ).node,
+  );
 }
 
 export function last(state) {
   if (!state.last) return el('p', {class: 'note'}, 'No run has ended yet.');
-  const {run, kind, x, y, reason, seconds, finished} = state.last, {variables, responses} = state.problem;
-  const inputs = table([{title: 'Variable', text: true}, {title: 'Value', text: true}], variables.map((v, k) => [labelled(v), setting(x[k], v)]), {sortable: false});
-  const outputs = table([{title: 'Response', text: true}, {title: 'Value', text: true}], responses.map((r, j) => [labelled(r), y === null ? 'none' : number(y[j], 4)]), {sortable: false});
-  return el('div', {class: 'block'}, el('p', {}, 'Run ', runLink(run, state), `, ${kind}, ended at ${clock(new Date(finished))} after ${number(seconds)} s.`),
+  const {run, kind, x, y, reason, seconds, finished} = state.last,
+    {variables, responses} = state.problem;
+  const inputs = table(
+    [
+      {title: 'Variable', text: true},
+      {title: 'Value', text: true},
+    ],
+    variables.map((v, k) => [labelled(v), setting(x[k], v)]),
+    {sortable: false},
+  );
+  const outputs = table(
+    [
+      {title: 'Response', text: true},
+      {title: 'Value', text: true},
+    ],
+    responses.map((r, j) => [labelled(r), y === null ? 'none' : number(y[j], 4)]),
+    {sortable: false},
+  );
+  return el(
+    'div',
+    {class: 'block'},
+    el(
+      'p',
+      {},
+      'Run ',
+      runLink(run, state),
+      `, ${kind}, ended at ${clock(new Date(finished))} after ${number(seconds)} s.`,
+    ),
     y === null ? el('p', {class: 'caution'}, 'It failed: ' + reason) : null,
-    el('div', {class: 'columns'}, inputs.node, outputs.node));
+    el('div', {class: 'columns'}, inputs.node, outputs.node),
+  );
 }

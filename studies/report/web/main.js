@@ -20,7 +20,8 @@ import {selectionBar} from './selection_bar.js';
 const data = JSON.parse(document.getElementById('report-data').textContent);
 const page = document.getElementById('report');
 /// What the sections of a report share; rows: by set of designs, what shows the row of one in its table.
-const shared = {make: figures(), ...data.replay ? {} : sharing(collect(data))};
+/** @type {any} */
+const shared = {make: figures(), ...(data.replay ? {} : sharing(collect(data)))};
 
 function sharing(designs) {
   return {designs, chosen: choose(data, designs), selection: selecting(designs), rows: {}};
@@ -39,9 +40,16 @@ function attempt(build) {
   }
 }
 
-const builders = data.replay ? [oneRun, panels, facts] : [summary, asked, findings, panels, contrasts, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
+const builders = data.replay
+  ? [oneRun, panels, facts]
+  : [summary, asked, findings, panels, contrasts, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
 const sections = builders.map(attempt).filter(Boolean);
-page.replaceChildren(header(data), navigation(sections.filter((s) => s.id)), Object.assign(document.createElement('main'), {id: 'main'}), data.replay ? '' : selectionBar(shared));
+page.replaceChildren(
+  header(data),
+  navigation(sections.filter((s) => s.id)),
+  Object.assign(document.createElement('main'), {id: 'main'}),
+  data.replay ? '' : selectionBar(shared),
+);
 document.getElementById('main').append(...sections);
 window.dispatchEvent(new Event('resize'));
 document.documentElement.dataset.ready = 'true';

@@ -23,13 +23,21 @@ export function figures() {
 /// Two in a row. make: of figures().
 export function contrasts(data, {make}) {
   if (!(data.contrasts ?? []).length) return null;
-  return section('contrasts', 'Runs side by side', 'Chosen by the data of all runs: each figure says which run it is, and why.',
-    el('div', {class: 'columns contrasts'}, data.contrasts.map(make)));
+  return section(
+    'contrasts',
+    'Runs side by side',
+    'Chosen by the data of all runs: each figure says which run it is, and why.',
+    el('div', {class: 'columns contrasts'}, data.contrasts.map(make)),
+  );
 }
 
 export function panels(data, {make}) {
   if (!data.illustrations.length) return null;
-  const node = section('simulation', 'Inside one simulation', 'One run, looked at closely: check here whether the physics behind the figures makes sense.');
+  const node = section(
+    'simulation',
+    'Inside one simulation',
+    'One run, looked at closely: check here whether the physics behind the figures makes sense.',
+  );
   if (cyclesOf(data.illustrations).length > 1 || data.left_out) node.append(oneCycleAtATime(data, figures));
   else node.append(...withBodies(data.illustrations).map(make));
   return node;

@@ -7,7 +7,10 @@ export function trace({set, i}, axes, pen) {
   let down = false;
   for (const {x, y, values} of axes) {
     const value = values[set][i];
-    if (Number.isNaN(value)) { down = false; continue; }
+    if (Number.isNaN(value)) {
+      down = false;
+      continue;
+    }
     if (down) pen.lineTo(x, y(value));
     else pen.moveTo(x, y(value));
     down = true;
@@ -17,6 +20,9 @@ export function trace({set, i}, axes, pen) {
 /// The corners (x, y) of a line, in pieces where values are missing.
 export function piecesOf(axes, line) {
   const pieces = [];
-  trace(line, axes, {moveTo: (x, y) => pieces.push([[x, y]]), lineTo: (x, y) => pieces[pieces.length - 1].push([x, y])});
+  trace(line, axes, {
+    moveTo: (x, y) => pieces.push([[x, y]]),
+    lineTo: (x, y) => pieces[pieces.length - 1].push([x, y]),
+  });
   return pieces.filter((piece) => piece.length > 1);
 }

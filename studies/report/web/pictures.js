@@ -25,7 +25,9 @@ function viewOf({scene, camera, width, height}) {
 }
 
 function picture(canvas) {
-  return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('it made no PNG'))), 'image/png'));
+  return new Promise((resolve, reject) =>
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('it made no PNG'))), 'image/png'),
+  );
 }
 
 /// While a picture is sent, the next is drawn.

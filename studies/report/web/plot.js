@@ -2,30 +2,50 @@
 // SPDX-License-Identifier: Apache-2.0
 // One look for all plots. A plot is drawn from a function that builds it, so that it can be drawn again in
 // other colours.
-/* global Plotly */
 
 import {fileName} from './delimited.js';
 import {el} from './dom.js';
 import {colour, onPaper, onTheme} from './theme.js';
 
 export const axis = (title, more = {}) => ({
-  title: {text: title, font: {size: 13}, standoff: 8}, gridcolor: colour.grid, linecolor: colour.axis, zeroline: false, ticks: 'outside',
-  ticklen: 4, tickcolor: colour.axis, mirror: false, showline: true, automargin: true, ...more,
+  title: {text: title, font: {size: 13}, standoff: 8},
+  gridcolor: colour.grid,
+  linecolor: colour.axis,
+  zeroline: false,
+  ticks: 'outside',
+  ticklen: 4,
+  tickcolor: colour.axis,
+  mirror: false,
+  showline: true,
+  automargin: true,
+  ...more,
 });
 
 const base = () => ({
-  font: {family: 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif', size: 12, color: colour.ink},
-  paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', margin: {l: 56, r: 16, t: 24, b: 48}, uirevision: 'kept',
+  font: {
+    family: 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif',
+    size: 12,
+    color: colour.ink,
+  },
+  paper_bgcolor: 'rgba(0,0,0,0)',
+  plot_bgcolor: 'rgba(0,0,0,0)',
+  margin: {l: 56, r: 16, t: 24, b: 48},
+  uirevision: 'kept',
   modebar: {bgcolor: 'rgba(0,0,0,0)', color: colour.guide, activecolor: colour.ink},
   hoverlabel: {bgcolor: colour.paper, bordercolor: colour.guide, font: {color: colour.ink, size: 12}, align: 'left'},
   legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom', font: {size: 12}, traceorder: 'normal'},
-  newselection: {line: {color: colour.ink, width: 1.2, dash: 'dot'}}, activeselection: {fillcolor: colour.guide, opacity: 0.12},
+  newselection: {line: {color: colour.ink, width: 1.2, dash: 'dot'}},
+  activeselection: {fillcolor: colour.guide, opacity: 0.12},
 });
 
 // Without a pointer that hovers, Plotly would show its buttons all the time, over the titles.
-const config = {responsive: true, displayModeBar: matchMedia('(hover: hover)').matches ? 'hover' : false, displaylogo: false,
+const config = {
+  responsive: true,
+  displayModeBar: matchMedia('(hover: hover)').matches ? 'hover' : false,
+  displaylogo: false,
   modeBarButtonsToRemove: ['toImage', 'lasso2d', 'select2d', 'autoScale2d', 'sendDataToCloud'],
-  modeBarButtonsToAdd: [{name: 'Save as SVG', title: 'Save as SVG', icon: Plotly.Icons.camera, click: save}]};
+  modeBarButtonsToAdd: [{name: 'Save as SVG', title: 'Save as SVG', icon: Plotly.Icons.camera, click: save}],
+};
 
 const drawn = new Map();
 
@@ -68,10 +88,19 @@ function save(box) {
     return {data: traces, layout: {...base(), ...own, paper_bgcolor: colour.paper}};
   });
   for (const [key, seen] of Object.entries(box.layout)) {
-    if (/^[xy]axis/.test(key) && seen.range) Object.assign(layout[key] ??= {}, {range: [...seen.range], autorange: false});
+    if (/^[xy]axis/.test(key) && seen.range)
+      Object.assign((layout[key] ??= {}), {range: [...seen.range], autorange: false});
     if (/^scene/.test(key) && seen.camera) layout[key] = {...layout[key], camera: seen.camera};
   }
-  return Plotly.downloadImage({data, layout}, {format: 'svg', filename: fileName(document.title, box.getAttribute('aria-label')), width: box.clientWidth, height: box.clientHeight});
+  return Plotly.downloadImage(
+    {data, layout},
+    {
+      format: 'svg',
+      filename: fileName(document.title, box.getAttribute('aria-label')),
+      width: box.clientWidth,
+      height: box.clientHeight,
+    },
+  );
 }
 
 let turn = 0;
@@ -80,7 +109,10 @@ let turn = 0;
 /// its width.
 function redrawAll(now) {
   const mine = ++turn;
-  const again = (box) => { redraw(box); if (now) Plotly.Plots.resize(box); };
+  const again = (box) => {
+    redraw(box);
+    if (now) Plotly.Plots.resize(box);
+  };
   const distance = (box) => Math.abs(box.getBoundingClientRect().top - 0.5 * innerHeight);
   const waiting = [...drawn.keys()].sort((a, b) => distance(a) - distance(b));
   const next = () => {

@@ -15,7 +15,8 @@ function words(text, Kind, read) {
 
 /// Last place of a rising list whose value is at most v, in [from, to); from - 1 where there is none.
 function lastUpTo(list, v, from, to) {
-  let low = from - 1, high = to;
+  let low = from - 1,
+    high = to;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (list[middle] <= v) low = middle;
@@ -27,7 +28,8 @@ function lastUpTo(list, v, from, to) {
 export class Poses {
   constructor(scene) {
     const {counts, frames, data, origin, scale} = scene.poses;
-    Object.assign(this, {origin, scale});
+    this.origin = origin;
+    this.scale = scale;
     this.times = scene.frames.map((frame) => frame.t);
     this.values = words(data, Int16Array, 'getInt16');
     this.frames = words(frames, Uint16Array, 'getUint16');
@@ -50,11 +52,13 @@ export class Poses {
     const a = 7 * at;
     if (at < this.first[body] || values[a] === absent) return false;
     const goes = at + 1 < this.end[body] && values[a + 7] !== absent;
-    const b = goes ? a + 7 : a, before = times[frames[at]];
+    const b = goes ? a + 7 : a,
+      before = times[frames[at]];
     const f = goes ? Math.min(1, Math.max(0, (t - before) / (times[frames[at + 1]] - before))) : 0;
     let dot = 0;
     for (let i = 3; i < 7; ++i) dot += values[a + i] * values[b + i];
-    const g = dot < 0 ? -f : f, mix = (i, share) => (1 - f) * values[a + i] + share * values[b + i];
+    const g = dot < 0 ? -f : f,
+      mix = (i, share) => (1 - f) * values[a + i] + share * values[b + i];
     position.set(origin[0] + scale * mix(0, f), origin[1] + scale * mix(1, f), origin[2] + scale * mix(2, f));
     quaternion.set(mix(4, g), mix(5, g), mix(6, g), mix(3, g)).normalize();
     return true;

@@ -13,7 +13,7 @@ import {colour, onTheme} from './theme.js';
 
 const directions = {side: [0, -1, 0.02], above: [-0.001, 0, 1]};
 
-const shown = new Map();  // by their elements, what ends them
+const shown = new Map(); // by their elements, what ends them
 
 /// For what is taken out of the page: its scenes stop, and their place on the graphics card is free again.
 export function endScenes(node) {
@@ -34,7 +34,10 @@ export function sceneViewer(panel) {
     const area = el('div', {class: 'replay', tabindex: '0'}, stage);
     const {node, plots, end} = player(panel, times, view, area);
     area.append(node, plots ?? '');
-    shown.set(area, () => { end(); view.end(); });
+    shown.set(area, () => {
+      end();
+      view.end();
+    });
     return area;
   } catch (error) {
     return el('p', {class: 'caution'}, 'The scene needs WebGL, which this browser does not offer: ' + error.message);
@@ -48,7 +51,8 @@ export class View {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer.shadowMap.enabled = true;
     this.scene = new THREE.Scene();
-    this.scene.background = new THREE.Color(colour.sky);
+    this.sky = new THREE.Color(colour.sky);
+    this.scene.background = this.sky;
     this.followed = panel.follow ?? null;
     this.following = false;
     this.parts = groups(panel);
@@ -56,12 +60,20 @@ export class View {
     this.setTime(poses.times[panel.poster_frame ?? 0] ?? poses.times[0], false);
     const {centre, radius} = this.extent();
     this.scene.add(...lights(centre, radius));
-    this.home = panel.camera ?? {eye: centre.clone().add(new THREE.Vector3(-1.2, -1.6, 0.9).multiplyScalar(radius)).toArray(), target: centre.toArray()};
+    this.home = panel.camera ?? {
+      eye: centre
+        .clone()
+        .add(new THREE.Vector3(-1.2, -1.6, 0.9).multiplyScalar(radius))
+        .toArray(),
+      target: centre.toArray(),
+    };
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.01 * radius, 40 * radius);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.look(this.home.eye);
-    this.controls.addEventListener('change', () => { if (!this.shifting) this.render(); });
+    this.controls.addEventListener('change', () => {
+      if (!this.shifting) this.render();
+    });
     this.endTheme = onTheme(() => this.tint());
   }
 
@@ -93,8 +105,8 @@ export class View {
   }
 
   look(eye) {
-    this.camera.position.set(...eye);
-    this.controls.target.set(...this.home.target);
+    this.camera.position.fromArray(eye);
+    this.controls.target.fromArray(this.home.target);
     this.controls.update();
     this.render();
   }
@@ -116,7 +128,7 @@ export class View {
   }
 
   shift(way) {
-    this.shifting = true;  // whoever shifts draws
+    this.shifting = true; // whoever shifts draws
     this.camera.position.add(way);
     this.controls.target.add(way);
     this.controls.update();
@@ -124,7 +136,8 @@ export class View {
   }
 
   keepUp() {
-    const now = this.anchor(), way = now.clone().sub(this.anchored);
+    const now = this.anchor(),
+      way = now.clone().sub(this.anchored);
     this.anchored = now;
     this.shift(way);
   }
@@ -134,21 +147,31 @@ export class View {
   see(camera) {
     if (camera === 'follow') this.following = true;
     const target = new THREE.Vector3(...this.home.target);
-    const distance = target.distanceTo(new THREE.Vector3(...this.home.eye)), way = directions[camera];
-    this.look(way ? target.add(new THREE.Vector3(...way).normalize().multiplyScalar(distance)).toArray() : this.home.eye);
+    const distance = target.distanceTo(new THREE.Vector3(...this.home.eye)),
+      way = directions[camera];
+    this.look(
+      way ? target.add(new THREE.Vector3(...way).normalize().multiplyScalar(distance)).toArray() : this.home.eye,
+    );
     if (this.following) this.follow(true);
   }
 
   setTime(t, draw = true) {
-    const place = this.place = this.poses.place(t), matrix = new THREE.Matrix4();
-    const position = new THREE.Vector3(), turn = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
+    const place = (this.place = this.poses.place(t)),
+      matrix = new THREE.Matrix4();
+    const position = new THREE.Vector3(),
+      turn = new THREE.Quaternion(),
+      one = new THREE.Vector3(1, 1, 1);
     for (const {mesh, members, edges} of this.parts) {
       members.forEach((body, i) => {
         const there = this.poses.read(body, place, position, turn);
         if (there) matrix.compose(position, turn, one);
         else matrix.makeScale(0, 0, 0);
         mesh.setMatrixAt(i, matrix);
-        if (edges[i]) { edges[i].matrix.copy(matrix); edges[i].matrixWorldNeedsUpdate = true; edges[i].visible = there; }
+        if (edges[i]) {
+          edges[i].matrix.copy(matrix);
+          edges[i].matrixWorldNeedsUpdate = true;
+          edges[i].visible = there;
+        }
       });
       mesh.instanceMatrix.needsUpdate = true;
     }
@@ -165,9 +188,11 @@ export class View {
   }
 
   tint() {
-    this.scene.background.set(colour.sky);
+    this.sky.set(colour.sky);
     this.render();
   }
 
-  render() { this.renderer.render(this.scene, this.camera); }
+  render() {
+    this.renderer.render(this.scene, this.camera);
+  }
 }

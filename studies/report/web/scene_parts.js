@@ -4,12 +4,13 @@
 
 import * as THREE from 'three';
 
-const mostOutlined = 4;  // shapes of fewer bodies than this get their edges drawn: machine parts, not rocks
+const mostOutlined = 4; // shapes of fewer bodies than this get their edges drawn: machine parts, not rocks
 
 export function geometry({vertices, faces}) {
   const corners = [];
   for (const face of faces)
-    for (let k = 1; k + 1 < face.length; ++k) corners.push(...vertices[face[0]], ...vertices[face[k]], ...vertices[face[k + 1]]);
+    for (let k = 1; k + 1 < face.length; ++k)
+      corners.push(...vertices[face[0]], ...vertices[face[k]], ...vertices[face[k + 1]]);
   const g = new THREE.BufferGeometry();
   g.setAttribute('position', new THREE.Float32BufferAttribute(corners, 3));
   g.computeVertexNormals();
@@ -31,7 +32,13 @@ export function groups(panel) {
 function build(panel, {shape, opacity, members}) {
   const shell = opacity < 1;
   const surface = geometry(panel.shapes[shape]);
-  const material = new THREE.MeshLambertMaterial({color: '#ffffff', transparent: shell, opacity, depthWrite: !shell, side: THREE.DoubleSide});
+  const material = new THREE.MeshLambertMaterial({
+    color: '#ffffff',
+    transparent: shell,
+    opacity,
+    depthWrite: !shell,
+    side: THREE.DoubleSide,
+  });
   const mesh = new THREE.InstancedMesh(surface, material, members.length);
   mesh.frustumCulled = false;
   mesh.castShadow = !shell;
@@ -43,8 +50,14 @@ function build(panel, {shape, opacity, members}) {
 
 function outlines(surface, count, shell) {
   const edges = new THREE.EdgesGeometry(surface, 20);
-  const material = new THREE.LineBasicMaterial({color: shell ? '#7d8a95' : '#20262c', transparent: true, opacity: shell ? 0.45 : 0.35});
-  return Array.from({length: count}, () => Object.assign(new THREE.LineSegments(edges, material), {matrixAutoUpdate: false, frustumCulled: false}));
+  const material = new THREE.LineBasicMaterial({
+    color: shell ? '#7d8a95' : '#20262c',
+    transparent: true,
+    opacity: shell ? 0.45 : 0.35,
+  });
+  return Array.from({length: count}, () =>
+    Object.assign(new THREE.LineSegments(edges, material), {matrixAutoUpdate: false, frustumCulled: false}),
+  );
 }
 
 /// Sun and sky; the sun's shadow covers the sphere given.
@@ -55,7 +68,14 @@ export function lights(centre, radius) {
   sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
   sun.shadow.normalBias = 0.02;
-  Object.assign(sun.shadow.camera, {left: -radius, right: radius, top: radius, bottom: -radius, near: 0.1, far: 5 * radius});
+  Object.assign(sun.shadow.camera, {
+    left: -radius,
+    right: radius,
+    top: radius,
+    bottom: -radius,
+    near: 0.1,
+    far: 5 * radius,
+  });
   const sky = new THREE.HemisphereLight('#eef4fa', '#9a8c7c', 1.7);
   sky.position.set(0, 0, 1);
   return [sun, sun.target, sky];

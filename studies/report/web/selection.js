@@ -3,20 +3,22 @@
 // Which designs are selected: those within a range on each restricted axis and, if there is one, in the area
 // drawn in a projection. Every view reads this one state and dims the rest.
 
-const sets = ['runs', 'front'];
+const selected = (flags) => flags.reduce((sum, flag) => sum + flag, 0);
 
 export function selecting({axes, runs, front}) {
   const sizes = {runs: runs.length, front: front.length};
   const listeners = [];
   const ranges = new Map();
-  let area = null, flags = null, counts = sizes;
+  let area = null,
+    flags = null,
+    counts = sizes;
 
   const update = () => {
     flags = null;
     counts = sizes;
     if (ranges.size || area) {
-      flags = Object.fromEntries(sets.map((set) => [set, within(set)]));
-      counts = Object.fromEntries(sets.map((set) => [set, flags[set].reduce((sum, flag) => sum + flag, 0)]));
+      flags = {runs: within('runs'), front: within('front')};
+      counts = {runs: selected(flags.runs), front: selected(flags.front)};
     }
     listeners.forEach((f) => f(state));
   };
@@ -35,10 +37,16 @@ export function selecting({axes, runs, front}) {
     sizes,
     ranges,
     onchange: (listener) => listeners.push(listener),
-    get active() { return flags !== null; },
-    get counts() { return counts; },
+    get active() {
+      return flags !== null;
+    },
+    get counts() {
+      return counts;
+    },
     /// Who drew the area, if there is one.
-    get areaOwner() { return area?.owner ?? null; },
+    get areaOwner() {
+      return area?.owner ?? null;
+    },
     has: (set, i) => flags === null || flags[set][i] === 1,
     /// range: [low, high], or null for all.
     setRange(axis, range) {
@@ -47,8 +55,15 @@ export function selecting({axes, runs, front}) {
       update();
     },
     /// area: {owner, runs: Set of indices, front: Set of indices}, or null for none.
-    setArea(drawn) { area = drawn; update(); },
-    clear() { ranges.clear(); area = null; update(); },
+    setArea(drawn) {
+      area = drawn;
+      update();
+    },
+    clear() {
+      ranges.clear();
+      area = null;
+      update();
+    },
   };
   return state;
 }

@@ -4,7 +4,8 @@
 
 /// Index of the last sample up to time, or the first one.
 export function sampleAt(t, time) {
-  let low = 0, high = t.length;
+  let low = 0,
+    high = t.length;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (t[middle] <= time) low = middle;
@@ -15,7 +16,8 @@ export function sampleAt(t, time) {
 
 /// The last sample up to time, which holds for a step beyond the end; null where there is none.
 export function valueAt({t, y}, time) {
-  const last = t.length - 1, step = last > 0 ? (t[last] - t[0]) / last : 0;
+  const last = t.length - 1,
+    step = last > 0 ? (t[last] - t[0]) / last : 0;
   return last < 0 || time < t[0] || time > t[last] + step ? null : y[sampleAt(t, time)];
 }
 
@@ -23,7 +25,9 @@ export function valueAt({t, y}, time) {
 /// times: no peak is lost. Parts without a sample give nothing.
 export function peaksKept({t, y}, [from, to], count) {
   const kept = [];
-  let column = -1, low = 0, high = 0;
+  let column = -1,
+    low = 0,
+    high = 0;
   const close = () => {
     if (column < 0) return;
     const pair = low === high ? [low] : low < high ? [low, high] : [high, low];

@@ -7,7 +7,7 @@ import {el} from './dom.js';
 import {tableTools} from './table_tools.js';
 
 const pageSize = 100;
-const printed = 12;  // rows on paper; style.css hides the others
+const printed = 12; // rows on paper; style.css hides the others
 
 const order = (a, b) => {
   if (Array.isArray(a) && Array.isArray(b)) return order(a[0], b[0]);
@@ -23,12 +23,27 @@ const order = (a, b) => {
 /// copy. onpick(row index) makes the rows selectable. passes(row index) tells whether a row is selected. Returns
 /// {node, mark(row index), show(row index), refresh()}.
 export function table(columns, rows, {name = null, onpick = null, passes = null, sortable = true, tall = false} = {}) {
-  const body = el('tbody'), cut = el('p', {class: 'note cut'});
+  const body = el('tbody'),
+    cut = el('p', {class: 'note cut'});
   const heads = columns.map((column, c) => head(column, sortable && !column.control ? () => sort(c) : null));
-  const frame = el('div', {class: tall ? 'table tall' : 'table', tabindex: tall ? 0 : null, role: tall ? 'region' : null, 'aria-label': tall ? name ?? 'Table' : null},
-    el('table', {class: onpick ? 'selectable' : null}, el('thead', {}, el('tr', {}, heads)), body));
+  const frame = el(
+    'div',
+    {
+      class: tall ? 'table tall' : 'table',
+      tabindex: tall ? 0 : null,
+      role: tall ? 'region' : null,
+      'aria-label': tall ? (name ?? 'Table') : null,
+    },
+    el('table', {class: onpick ? 'selectable' : null}, el('thead', {}, el('tr', {}, heads)), body),
+  );
   const sorted = rows.map((_, i) => i);
-  let by = null, down = false, wanted = '', shown = sorted, first = 0, marked = -1, texts = null;
+  let by = null,
+    down = false,
+    wanted = '',
+    shown = sorted,
+    first = 0,
+    marked = -1,
+    texts = null;
 
   const sort = (c) => {
     down = by === c && !down;
@@ -40,7 +55,10 @@ export function table(columns, rows, {name = null, onpick = null, passes = null,
   };
   const text = (i) => {
     texts ??= [];
-    return texts[i] ??= columns.map((column, c) => (column.control ? '' : said(rows[i][c], column))).join('\n').toLowerCase();
+    return (texts[i] ??= columns
+      .map((column, c) => (column.control ? '' : said(rows[i][c], column)))
+      .join('\n')
+      .toLowerCase());
   };
   const passing = () => {
     const found = wanted ? sorted.filter((i) => text(i).includes(wanted)) : sorted;
@@ -48,13 +66,47 @@ export function table(columns, rows, {name = null, onpick = null, passes = null,
     const inside = found.filter(passes);
     return [inside.length === found.length ? found : [...inside, ...found.filter((i) => !passes(i))], inside];
   };
-  const exported = () => [columns.flatMap((column) => (column.control ? [] : column.parts?.map((p) => p.title) ?? [column.title])),
-    ...passing()[1].map((i) => columns.flatMap((column, c) => (column.control ? [] : column.parts?.map((p) => p.of(rows[i][c])) ?? [raw(rows[i][c])])))];
-  const tools = name === null ? null : tableTools(name, {onfilter: (value) => { wanted = value.trim().toLowerCase(); refresh(); }, rows: exported});
-  const pages = pager((step) => { first += step * pageSize; draw(); frame.scrollTop = 0; });
+  const exported = () => [
+    columns.flatMap((column) => (column.control ? [] : (column.parts?.map((p) => p.title) ?? [column.title]))),
+    ...passing()[1].map((i) =>
+      columns.flatMap((column, c) =>
+        column.control ? [] : (column.parts?.map((p) => p.of(rows[i][c])) ?? [raw(rows[i][c])]),
+      ),
+    ),
+  ];
+  const tools =
+    name === null
+      ? null
+      : tableTools(name, {
+          onfilter: (value) => {
+            wanted = value.trim().toLowerCase();
+            refresh();
+          },
+          rows: exported,
+        });
+  const pages = pager((step) => {
+    first += step * pageSize;
+    draw();
+    frame.scrollTop = 0;
+  });
 
-  const line = (i) => el('tr', {'data-row': i, 'data-selected': i === marked, class: passes && !passes(i) ? 'dimmed' : null, tabindex: onpick ? 0 : null},
-    columns.map((column, c) => el('td', {class: column.text ? 'text' : null}, column.control ? column.control(i) : content(rows[i][c], column))));
+  const line = (i) =>
+    el(
+      'tr',
+      {
+        'data-row': i,
+        'data-selected': i === marked,
+        class: passes && !passes(i) ? 'dimmed' : null,
+        tabindex: onpick ? 0 : null,
+      },
+      columns.map((column, c) =>
+        el(
+          'td',
+          {class: column.text ? 'text' : null},
+          column.control ? column.control(i) : content(rows[i][c], column),
+        ),
+      ),
+    );
   const draw = () => {
     const last = Math.min(shown.length, first + pageSize);
     body.replaceChildren(...shown.slice(first, last).map(line));
@@ -76,7 +128,10 @@ export function table(columns, rows, {name = null, onpick = null, passes = null,
   const show = (index) => {
     if (!shown.includes(index)) tools?.clear();
     const page = Math.floor(shown.indexOf(index) / pageSize) * pageSize;
-    if (page !== first) { first = page; draw(); }
+    if (page !== first) {
+      first = page;
+      draw();
+    }
     scrollTo(frame, body.querySelector(`tr[data-row="${index}"]`), heads[0]);
   };
   if (onpick) pickRows(body, onpick);
@@ -85,22 +140,33 @@ export function table(columns, rows, {name = null, onpick = null, passes = null,
 }
 
 function head(column, onclick) {
-  return el('th', {scope: 'col', class: column.text ? 'text' : null}, onclick ? el('button', {type: 'button', onclick}, column.title) : column.title);
+  return el(
+    'th',
+    {scope: 'col', class: column.text ? 'text' : null},
+    onclick ? el('button', {type: 'button', onclick}, column.title) : column.title,
+  );
 }
 
 function pickRows(body, onpick) {
   const pick = (e) => {
     const row = e.target.closest('tr');
-    if (row && !e.target.closest('input')) { e.preventDefault(); onpick(Number(row.dataset.row)); }
+    if (row && !e.target.closest('input')) {
+      e.preventDefault();
+      onpick(Number(row.dataset.row));
+    }
   };
   body.addEventListener('click', pick);
-  body.addEventListener('keydown', (e) => { if (e.key === 'Enter' || e.key === ' ') pick(e); });
+  body.addEventListener('keydown', (e) => {
+    if (e.key === 'Enter' || e.key === ' ') pick(e);
+  });
 }
 
 /// Within the frame only: the page stays where the reader is.
 function scrollTo(frame, row, head) {
-  const above = head.offsetHeight, top = row.offsetTop - above;
-  if (top < frame.scrollTop || row.offsetTop + row.offsetHeight > frame.scrollTop + frame.clientHeight) frame.scrollTop = top - above;
+  const above = head.offsetHeight,
+    top = row.offsetTop - above;
+  if (top < frame.scrollTop || row.offsetTop + row.offsetHeight > frame.scrollTop + frame.clientHeight)
+    frame.scrollTop = top - above;
 }
 
 function pager(onstep) {
@@ -117,6 +183,7 @@ function pager(onstep) {
   return {node, update};
 }
 
+/** @type {(value: any, column?: {format?: (value: number) => string, missing?: string}) => string} */
 function said(value, {format, missing = 'n/a'} = {}) {
   if (value instanceof Node) return value.textContent;
   if (value === null || value === undefined) return missing;

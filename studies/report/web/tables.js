@@ -6,15 +6,23 @@ import {labelled, setting} from './format.js';
 import {whenResting} from './frames.js';
 import {table} from './table.js';
 
-const many = 2000;  // rows from which on a table waits until the selection rests
+const many = 2000; // rows from which on a table waits until the selection rests
 
 /// Of a variable: whole numbers and levels as such, in a copy too.
-export const inputColumn = (v) => ({title: labelled(v), format: (value) => setting(value, v),
-  parts: v.kind ? [{title: labelled(v), of: (value) => v.levels?.[Math.round(value)] ?? Math.round(value)}] : undefined});
+export const inputColumn = (v) => ({
+  title: labelled(v),
+  format: (value) => setting(value, v),
+  parts: v.kind ? [{title: labelled(v), of: (value) => v.levels?.[Math.round(value)] ?? Math.round(value)}] : undefined,
+});
 
 /// A table of some runs: row k is run indices[k].
 export function tableOfRuns(columns, rows, indices, name, {chosen, selection}) {
-  const made = table(columns, rows, {name, tall: true, onpick: (k) => chosen.toggle('runs', indices[k]), passes: (k) => selection.has('runs', indices[k])});
+  const made = table(columns, rows, {
+    name,
+    tall: true,
+    onpick: (k) => chosen.toggle('runs', indices[k]),
+    passes: (k) => selection.has('runs', indices[k]),
+  });
   selection.onchange(made.refresh);
   followMark(made, chosen, () => (chosen.mark?.set === 'runs' ? indices.indexOf(chosen.mark.index) : -1));
   return made.node;
