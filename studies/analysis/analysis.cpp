@@ -7,6 +7,7 @@
 #include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/left_out.h>
 
 #include <algorithm>
 #include <limits>
@@ -67,9 +68,10 @@ void contrast(ReportInput& input, const Study& study, const std::vector<const Ru
 Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
+  summary.left_out = left_out_texts(runs);
   summary.confirming = confirming_command(study);
   for (const auto& run : runs) {
-    if (run.status == Status::failed) ++summary.failed;
+    if (run.status == Status::failed && !run.left_out) ++summary.failed;
     if (has_ended(run))
       ++summary.ended[run.kind];
     else

@@ -9,7 +9,9 @@
 #include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/models/unevenness.h>
 #include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/printed_text.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/left_out.h>
 
 #include <algorithm>
 #include <map>
@@ -85,6 +87,7 @@ void add_models(ReportInput& input, doe::Seed seed) {
 }
 
 void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
+  for (std::string& sentence : left_out_texts(runs)) input.warnings.push_back(std::move(sentence));
   const auto missing = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
     return run.status == Status::planned || run.status == Status::running;
   });
@@ -104,12 +107,15 @@ void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
 
 std::string failure_warning(const ReportInput& input) {
   std::map<std::string, int> reasons;
+  std::map<std::string, std::string> first;  // of the reasons that differ in the name of a log alone
   for (const auto* table : {&input.training, &input.validation}) {
     for (const auto& row : table->rows) {
-      if (row.outcome.failed()) ++reasons[row.outcome.reason()];
+      if (!row.outcome.failed()) continue;
+      const std::string& reason = row.outcome.reason();
+      ++reasons[first.emplace(without_log_name(reason), reason).first->second];
     }
   }
-  const int most = 5;  // crashes name their output, so their reasons differ
+  const int most = 5;
   int shown = 0;
   std::string text;
   for (const auto& [reason, count] : reasons) {

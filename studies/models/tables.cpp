@@ -15,7 +15,7 @@ doe::Outcome stored_outcome(const Run& run) {
 Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem) {
   Tables tables{.training = {.problem = problem, .rows = {}}, .validation = {.problem = problem, .rows = {}}};
   for (const auto& run : runs) {
-    if (run.status != Status::done && run.status != Status::failed) continue;
+    if (!has_ended(run) || run.left_out) continue;
     auto& table = run.kind == Kind::validation ? tables.validation : tables.training;
     table.rows.push_back({run.id, run.replicate, run.seed, run.x, stored_outcome(run), run.seconds});
   }

@@ -238,6 +238,29 @@ TEST_F(SlurmArray, WhereSlurmRefusesAnArrayHalfOfItIsTried) {
   expect_nothing_left();
 }
 
+/// A stand-in for squeue that knows of no task: each is taken for lost while it is at work.
+TEST_F(SlurmArray, AReplyCountsHoweverLateItComes) {
+  fs::create_directories(place_ / "blind");
+  std::ofstream(place_ / "blind" / "squeue") << "#!/bin/sh\n";
+  fs::permissions(place_ / "blind" / "squeue", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((place_ / "blind").string() + ":" + path).c_str(), 1);
+  SlurmOptions hasty = options();
+  hasty.reply_delay = 0.5;
+  hasty.submissions = 8;
+  SlurmJobs jobs(hasty);
+  jobs.start(counted(71, "sleep 3; echo done >&3"));
+  std::vector<ProcessEnd> ends;
+  while (jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(1s)) ends.push_back(end);
+  jobs.forget();
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].reply, "done\n") << describe(ends[0]);
+  EXPECT_GT(starts(71), 1) << "it was submitted again";
+  expect_nothing_left();
+}
+
 TEST_F(SlurmArray, ArraysAreAsSmallAsIsAsked) {
   SlurmOptions small = options();
   small.per_array = 2;

@@ -52,6 +52,10 @@ TEST_F(ImportedPoints, AreTakenByNameWhateverElseTheTableHolds) {
   EXPECT_TRUE(runs[1].kind == Kind::imported && runs[1].status == Status::done);
 }
 
+TEST_F(ImportedPoints, RoundOffBelowABoundIsTheBound) {
+  EXPECT_EQ(imported("speed,lining,wear\n2,0,-1.1e-16\n").at(0).y[0], 0.0);
+}
+
 TEST_F(ImportedPoints, AreTakenOnce) {
   const std::string table = "\xEF\xBB\xBFspeed,lining,wear\r\n2,0,1\r\n3,0,1\r\n";
   const auto first = imported(table);
@@ -75,7 +79,13 @@ TEST_F(ImportedPoints, AreRefusedWithTheirPlace) {
   has("speed,lining,wear\n2,wood,1\n", "\"wood\" is no number for \"lining\"");
   has("speed,lining,wear\n2,0.5,1\n", "whole numbers from 0 to 1");
   has("speed,lining,wear\n2,0,-1\n", "\"wear\" is -1, which lies outside of its range");
-  has("speed,lining,wear\n2,0\n", "line 2: it has 2 fields");
+  has("speed,lining,wear\n2,0\n", "line 2: it has 2 fields, and the first line has 3");
+  has("speed,lining,wear\n2,0,1\n2,5,0,1\n", "line 3: it has 4 fields, and the first line has 3");
+  has("speed,lining,wear\n2,0,1,\n", "numbers take a decimal point");
+  has("speed,lining,wear,wear\n2,0,1,1\n", "the column \"wear\" stands there twice");
+  has("speed,lining,wear,note,note\n2,0,1,,\n", "the column \"note\" stands there twice");
+  has("speed,lining,wear,speed [m/s]\n2,0,1,3\n", "are of one quantity; remove one");
+  has("speed,lining,wear\n2,0,-1e-12\n", "lies outside of its range");
   has("speed,lining,wear\n", "no row with a point");
   has("", "no first line");
   std::filesystem::remove(file());
