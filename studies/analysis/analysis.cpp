@@ -104,6 +104,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   Summary summary = summary_of(study, runs);
   summary.adaptive_wanted = store.sampling().points;
   ReportInput input = input_of(study, store, runs);
+  summary.thinned = input.warnings;
   input.command = command;
   input.going_on.folder = out_option(folder);
   summary.confirmations = input.confirmations;

@@ -48,6 +48,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.about = study.about;
   input.problem = study.problem;
   Tables tables = tables_of(runs, study.problem);
+  input.warnings = tables.thinned;
   input.training = std::move(tables.training);
   input.validation = std::move(tables.validation);
   input.kinds = kinds_of(runs);
@@ -62,7 +63,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
 }
 
 void add_models(ReportInput& input, doe::Seed seed) {
-  const Tables tables{input.training, input.validation};
+  const Tables tables{.training = input.training, .validation = input.validation};
   if (const std::string failed = failure_warning(input); !failed.empty())
     input.warnings.push_back("Runs that failed are left out of the models. " + failed + ".");
   Models fitted = fit_models(tables);

@@ -135,6 +135,7 @@ std::string text(const Summary& summary) {
     result += "; " + std::to_string(made) + " adaptive runs, " + std::to_string(summary.adaptive_wanted) +
               " adaptive points wanted";
   result += "\n";
+  for (const std::string& text : summary.thinned) result += "  " + text + "\n";
   for (const std::string& run : summary.left_out) result += "  caution: " + run + "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) result += error_text(summary, response, value);

@@ -24,6 +24,7 @@ struct Summary {
   std::map<Kind, int> ended = {};                              ///< runs of each kind, failed ones among them
   int failed = 0;                                              ///< of all kinds
   std::vector<std::string> left_out = {};                      ///< of the models: which runs, and why
+  std::vector<std::string> thinned = {};                       ///< runs that are too many for models
   int unfinished = 0;                                          ///< planned or running
   std::vector<Headline> headlines = {};                        ///< what the study says first
   std::vector<Finding> findings = {};                          ///< in the study's order
