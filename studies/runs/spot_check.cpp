@@ -79,6 +79,10 @@ void spot_check(const Store& store, const Folder& folder, const Settings& settin
   const doe::ProcessEnd end = made_again(*run, store, folder, settings);
   const doe::Outcome outcome = run_end(end, folder.printed(checked_id)).outcome;
   drop_unfinished_log(folder, checked_id);
+  if (end.timed_out) {
+    dprintf(message_descriptor, "%s: stopped by the time limit before it could be compared\n", name.c_str());
+    return;
+  }
   if (const std::string text = complaint(*run, outcome, store.identity().problem); !text.empty())
     throw std::runtime_error(
         "studies: " + name + " does not come out as it is stored in " + folder.path.string() + ": " + text +

@@ -168,8 +168,7 @@ TEST_F(HostileProgram, StreamsAreTakenForFiles) {
       R"(grep -q '"seed": 7' || exit 9; echo thinking; echo '{"values": {"y": 0.25}}')";
   const std::string streams = R"(, "exchange": "streams")";
   EXPECT_EQ(run(study(program, streams) + " evaluate --x=0.5 --seed 7 --json").json()["values"]["y"], 0.25);
-  EXPECT_EQ(reason_of("echo no JSON", streams).substr(0, 58),
-            "the program \"sh\" crashed: its reply is no JSON, whose num");
+  EXPECT_TRUE(contains(reason_of("echo no JSON", streams), "crashed: its reply is no JSON"));
   EXPECT_EQ(reason_of("true", streams), "the program \"sh\" crashed: it wrote no reply");
   EXPECT_EQ(run(study(R"(grep -q '"seed": 7' && )" + good_reply) + " evaluate --x=0.5 --seed 7").code, 0)
       << "the request is on standard input with files, too";
