@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <exception>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -25,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+#include <drawpoint/doe/detail/round_off.hpp>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
 
@@ -110,11 +112,11 @@ constexpr void require_black_box() {
 
 namespace detail {
 
-/// The outcome itself when it has one finite value within its range per response, else the Failure that says
-/// what is wrong.
+/// The outcome, moved to bounds that it misses by round-off (detail/round_off.hpp), when it has one finite value
+/// within its range per response, else the Failure that says what is wrong.
 inline Outcome checked(Outcome outcome, const Problem& problem) {
   if (outcome.failed()) return outcome;
-  const Eigen::VectorXd& values = outcome.values();
+  Eigen::VectorXd values = outcome.values();
   const auto expected = static_cast<Eigen::Index>(problem.responses.size());
   if (values.size() != expected)
     return Outcome::refused(Outcome::Given::wrong_count, "returned " + std::to_string(values.size()) +
@@ -125,12 +127,13 @@ inline Outcome checked(Outcome outcome, const Problem& problem) {
     const std::string is = "response \"" + r.name + "\" is ";
     if (!std::isfinite(values[j]))
       return Outcome::refused(Outcome::Given::one_per_response, is + number_text(values[j]));
+    values[j] = without_round_off(r, values[j]);
     if (values[j] < r.lower || values[j] > r.upper)
       return Outcome::refused(Outcome::Given::one_per_response,
                               is + with_unit(values[j], r.unit) + ", outside its range " +
                                   number_text(r.lower) + " to " + with_unit(r.upper, r.unit));
   }
-  return outcome;
+  return Outcome(std::move(values));
 }
 
 /// The same of what F returned: a prediction is moved into its range first.
@@ -189,6 +192,11 @@ template <class Result, class Body>
 Result guarded(const Body& body) {
   try {
     return body();
+  } catch (const std::bad_alloc&) {
+    return Result(Failure{"memory ran out; make the run need less, or run fewer at a time"});
+  } catch (const std::out_of_range& e) {  // whose words name a function of the standard library
+    return Result(
+        Failure{std::string("the black box reached beyond the end of a list or table: ") + e.what()});
   } catch (const std::exception& e) {
     return Result(Failure{std::string("exception: ") + e.what()});
   } catch (...) {

@@ -6,7 +6,8 @@
 ///
 /// A child is started by fork and exec in a process group of its own (a Ctrl-C in the terminal reaches the
 /// parent only, which then decides), with one thread (OMP_NUM_THREADS and its like are 1), with nothing on
-/// standard input, with standard output and error in a file, and with file descriptor 3 as the reply channel.
+/// standard input, with standard output and error in a file, and with file descriptor 3 as the reply channel,
+/// which takes 16 MiB at most: who writes more is killed.
 /// It is killed by the kernel if the thread that started it dies, and what it has started too
 /// (orphan_reaper.hpp), unless that left its process group. Linux only. One thread at a time may use a
 /// pool. process_pool.hpp makes a black box of it.
@@ -14,7 +15,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,6 +34,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/orphan_reaper.hpp>
+#include <drawpoint/doe/detail/start_process.hpp>
 
 namespace drawpoint::doe {
 
@@ -44,7 +45,9 @@ struct Process {
   std::vector<std::string> arguments = {};  ///< without the program name
   /// File for what the child prints, removed if it stays empty; no name: where this process prints.
   std::filesystem::path output = "/dev/null";
-  double time_limit = 0.0;  ///< [s] before it is killed; 0 means none
+  double time_limit = 0.0;                    ///< [s] before it is killed; 0 means none
+  std::filesystem::path input = "/dev/null";  ///< file for its standard input
+  bool errors_apart = false;  ///< standard error goes where this process prints, whatever `output` is
 };
 
 /// How a child ended.
@@ -54,13 +57,17 @@ struct ProcessEnd {
   int wait_status = 0;     ///< as from waitpid
   bool timed_out = false;  ///< killed because of its time limit
   double time_limit = 0.0;
-  double seconds = 0.0;   ///< wall time
-  std::string told = {};  ///< in place of wait_status, where there is none: how it ended, in words
+  double seconds = 0.0;          ///< wall time
+  std::string told = {};         ///< in place of wait_status, where there is none: how it ended, in words
+  std::string not_started = {};  ///< why the system could not start it, in its words; empty: it was started
+};
+
+/// The system has no process or no file descriptor for one more child.
+struct NoProcess : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 namespace detail {
-
-inline constexpr int reply_channel = 3;
 
 inline std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> result;
@@ -81,46 +88,24 @@ inline std::vector<std::string> single_threaded_environment() {
   return result;
 }
 
-/// Between fork and exec: only calls that are safe after fork. 127 is the shell's code for "could not start".
-[[noreturn]] inline void become(char** arguments, char** environment, const char* output, int reply,
-                                pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);  // the parent died before the line above took effect
-  setpgid(0, 0);
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0) _exit(127);
-  if (output[0] != '\0') {
-    const int file = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(127);
-  }
-  if (reply == reply_channel) {
-    fcntl(reply, F_SETFD, 0);
-  } else if (dup2(reply, reply_channel) < 0) {
-    _exit(127);
-  }
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  ::signal(SIGPIPE, SIG_DFL);
-  execvpe(arguments[0], arguments, environment);
-  _exit(127);
-}
-
 inline void remove_if_empty(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return;  // /dev/null
   if (std::filesystem::file_size(file, ignored) == 0 && !ignored) std::filesystem::remove(file, ignored);
 }
 
-inline std::runtime_error cannot_start(const std::string& what, int error) {
-  return std::runtime_error("doe::ProcessPool: " + what + ": " + std::strerror(error) +
-                            "; run fewer processes at a time");
+inline NoProcess cannot_start(const std::string& what, int error) {
+  return NoProcess("doe::ProcessPool: " + what + ": " + std::strerror(error) +
+                   "; run fewer processes at a time");
 }
+
+inline constexpr std::size_t largest_reply = std::size_t{16} << 20;
 
 }  // namespace detail
 
 /// "ended by signal SIGSEGV (Segmentation fault)", "ended with exit code 3", ...
 inline std::string describe(const ProcessEnd& end) {
+  if (!end.not_started.empty()) return "could not be started: " + end.not_started;
   if (!end.told.empty()) return end.told;
   if (end.timed_out) {
     char text[64];
@@ -136,8 +121,9 @@ inline std::string describe(const ProcessEnd& end) {
     if (signal == SIGKILL) text += ", often because memory ran out";
     return text;
   }
-  if (WEXITSTATUS(end.wait_status) == 127) return "could not be started";
-  return "ended with exit code " + std::to_string(WEXITSTATUS(end.wait_status));
+  const int code = WEXITSTATUS(end.wait_status);
+  return "ended with exit code " + std::to_string(code) +
+         (code == 127 ? ", a shell's for a program that it does not find" : "");
 }
 
 class ProcessPool {
@@ -153,7 +139,7 @@ class ProcessPool {
   bool full() const { return running() >= jobs_; }
   int running() const { return static_cast<int>(children_.size()); }
 
-  /// Starts a child. Requires !full(). Throws std::runtime_error if the system gives no process or pipe.
+  /// Starts a child. Requires !full(). Throws NoProcess if the system gives no process or pipe.
   void start(const Process& process) {
     assert(!full());
     std::vector<std::string> words = {process.executable};
@@ -162,11 +148,14 @@ class ProcessPool {
     auto arguments = detail::pointers(words);
     auto environment = detail::pointers(settings);
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw detail::cannot_start("no pipe for a process", errno);
+    detail::SharedTrouble trouble = detail::shared_trouble();
+    if (!trouble || pipe2(ends, O_CLOEXEC) != 0) throw detail::cannot_start("no pipe for a process", errno);
     const pid_t parent = getpid();
     const pid_t pid = fork();
     if (pid == 0)
-      detail::become(arguments.data(), environment.data(), process.output.c_str(), ends[1], parent);
+      detail::become(arguments.data(), environment.data(),
+                     {process.input.c_str(), process.output.c_str(), process.errors_apart, ends[1]}, parent,
+                     trouble.get());
     const int fork_error = errno;
     close(ends[1]);
     if (pid < 0) {
@@ -176,7 +165,8 @@ class ProcessPool {
     setpgid(pid, pid);  // also here: whichever of the two comes first
     reaper_.add(pid);
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
-    children_.push_back({process.id, pid, ends[0], {}, process.output, Clock::now(), process.time_limit});
+    children_.push_back({process.id, pid, ends[0], std::move(trouble), process.executable, process.output,
+                         Clock::now(), process.time_limit});
   }
 
   /// Children that have ended since the last call, in order of id; waits at most `patience` for the first
@@ -216,21 +206,34 @@ class ProcessPool {
     std::int64_t id;
     pid_t pid;
     int reply_descriptor;
-    std::string reply;
+    detail::SharedTrouble trouble;
+    std::string program;
     std::filesystem::path output;
     Clock::time_point started;
     double time_limit;
+    std::string reply = {};
     bool timed_out = false;
     bool reply_closed = false;
+    bool says_too_much = false;
 
     double seconds() const { return std::chrono::duration<double>(Clock::now() - started).count(); }
 
     void read_reply() {
       char buffer[4096];
       ssize_t count = 0;
-      while ((count = read(reply_descriptor, buffer, sizeof buffer)) > 0)
+      while (!says_too_much && (count = read(reply_descriptor, buffer, sizeof buffer)) > 0) {
         reply.append(buffer, static_cast<std::size_t>(count));
+        says_too_much = reply.size() > detail::largest_reply;
+      }
       reply_closed = count == 0;
+    }
+
+    ProcessEnd end(int status) {
+      ProcessEnd end{id, says_too_much ? "" : std::move(reply), status, timed_out, time_limit, seconds()};
+      if (says_too_much) end.told = "was stopped, for its reply is longer than 16 MiB";
+      if (trouble->step != detail::StartTrouble::none)
+        end.not_started = detail::why_not_started(program, *trouble);
+      return end;
     }
   };
 
@@ -239,8 +242,8 @@ class ProcessPool {
     std::vector<Child*> owners;
     bool one_is_ending = false;
     for (Child& child : children_) {
-      one_is_ending = one_is_ending || child.reply_closed;
-      if (child.reply_closed) continue;
+      one_is_ending = one_is_ending || child.reply_closed || child.says_too_much;
+      if (child.reply_closed || child.says_too_much) continue;
       open_replies.push_back({child.reply_descriptor, POLLIN, 0});
       owners.push_back(&child);
     }
@@ -253,6 +256,7 @@ class ProcessPool {
 
   void enforce_time_limits() {
     for (Child& child : children_) {
+      if (child.says_too_much) kill(-child.pid, SIGKILL);
       if (child.time_limit <= 0.0 || child.timed_out || child.seconds() < child.time_limit) continue;
       child.timed_out = true;
       kill(-child.pid, SIGKILL);
@@ -272,8 +276,7 @@ class ProcessPool {
       child.read_reply();
       close(child.reply_descriptor);
       detail::remove_if_empty(child.output);
-      ends.push_back(
-          {child.id, std::move(child.reply), status, child.timed_out, child.time_limit, child.seconds()});
+      ends.push_back(child.end(status));
       return true;
     };
     children_.erase(std::remove_if(children_.begin(), children_.end(), ended), children_.end());

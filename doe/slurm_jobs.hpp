@@ -12,7 +12,10 @@
 /// name, as they must the programs and where these write; nothing else is needed, no accounting and no
 /// database. A reply appears complete or not at all. A task that ends without one is submitted again: its
 /// node was lost, or something with more right took it (NODE_FAIL, BOOT_FAIL, PREEMPTED), or Slurm knows no
-/// more of it. One that was cancelled, ran out of memory or out of the time that Slurm gives has failed.
+/// more of it. One that was cancelled, ran out of memory or out of the time that Slurm gives has failed. A
+/// reply counts however late it comes, that of an earlier submission, too. Where Slurm refuses an array, as
+/// beyond a limit on jobs submitted, half of it is tried. Variables of the environment that change what its
+/// commands do (SBATCH_*, SQUEUE_*, SCANCEL_*, SACCT_*) are not followed: `options` say what is meant.
 ///
 /// If the caller dies, or goes, tasks run on. Whoever then makes a SlurmJobs of the same folder and starts
 /// the same processes (id, words, output, time limit) gets their ends and no second task; an array of which
@@ -25,7 +28,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -45,7 +47,8 @@ namespace drawpoint::doe {
 
 struct SlurmOptions {
   std::filesystem::path folder = {};  ///< shared by all nodes; made where it is not there, empty at the end
-  int at_once = 0;                    ///< tasks of an array at a time; 0: as many as the cluster gives
+  int at_once = 0;                    ///< tasks at a time; 0: as many as the cluster gives
+  int per_array = 0;                  ///< tasks of one job array; 0: as many as Slurm takes, up to 1000
   std::vector<std::string> options = {};  ///< words for sbatch, such as "--partition=short", "--mem=2G"
   int submissions = 3;                    ///< of one task, before it counts as failed
   double poll = 5.0;                      ///< [s] between two questions to Slurm
@@ -60,7 +63,8 @@ class SlurmJobs {
   /// folder.
   explicit SlurmJobs(SlurmOptions options)
       : options_(checked(std::move(options))),
-        most_tasks_(most_tasks()),
+        most_tasks_(most_tasks(options_.per_array)),
+        tasks_now_(most_tasks_),
         folder_(options_.folder),
         earlier_(folder_.take_over()) {}
   SlurmJobs(const SlurmJobs&) = delete;
@@ -113,7 +117,10 @@ class SlurmJobs {
   void forget() {
     for (const auto& [id, place] : std::exchange(given_, {})) folder_.remove(place);
     std::set<std::string> needed;
-    for (const auto& [id, task] : tasks_) needed.insert(task.place.array);
+    for (const auto& [id, task] : tasks_) {
+      needed.insert(task.place.array);
+      for (const Place& place : task.former) needed.insert(place.array);
+    }
     for (const auto& [script, place] : earlier_) needed.insert(place.array);
     const std::set<std::string> arrays = folder_.arrays();
     for (const std::string& array : arrays)
@@ -162,6 +169,7 @@ class SlurmJobs {
     Process process;
     std::string script;
     Place place = {};                                    // no array: not submitted
+    std::vector<Place> former = {};                      // of submissions before, whose replies still count
     int submissions = 0;                                 // by this object
     Clock::time_point ended = Clock::time_point::max();  // first seen without a reply
   };
@@ -173,6 +181,8 @@ class SlurmJobs {
     if (options.folder.empty()) reject("no folder; name one that all nodes reach");
     if (options.at_once < 0)
       reject("at_once is " + std::to_string(options.at_once) + "; allowed is 0 or more");
+    if (options.per_array < 0)
+      reject("per_array is " + std::to_string(options.per_array) + "; allowed is 0 or more");
     if (options.submissions < 1)
       reject("submissions is " + std::to_string(options.submissions) + "; allowed is 1 or more");
     const auto reject_clusters = [&](const std::string& word) {
@@ -182,14 +192,14 @@ class SlurmJobs {
     };
     for (const std::string& word : options.options)
       if (word.starts_with("-M") || word.starts_with("--clusters")) reject_clusters(word);
-    if (std::getenv("SBATCH_CLUSTERS") != nullptr) reject_clusters("SBATCH_CLUSTERS");
     if (!(options.poll > 0.0)) reject("poll is " + std::to_string(options.poll) + " s; allowed is above 0 s");
     return options;
   }
 
-  static int most_tasks() {
+  static int most_tasks(int wanted) {
     try {
-      return std::min(detail::most_tasks_per_array(), 1000);
+      const int most = std::min(detail::most_tasks_per_array(), 1000);
+      return wanted > 0 ? std::min(most, wanted) : most;
     } catch (const detail::SlurmError& e) {
       throw std::runtime_error(std::string("doe::SlurmJobs: there is no Slurm cluster here: ") + e.what());
     }
@@ -205,20 +215,44 @@ class SlurmJobs {
     forget();
   }
 
-  /// As many arrays as there is room for.
+  int with_slurm() const { return running() - static_cast<int>(queue_.size()); }
+
+  /// As many arrays as there is room for; one at a time where the tasks at a time have a bound, which Slurm keeps
+  /// for one array alone.
   void submit() {
     constexpr int most_waiting = 2000;  // with Slurm at a time: queues of clusters have bounds
     if (Clock::now() < next_submission_) return;
     while (!queue_.empty()) {
-      const int waiting = running() - static_cast<int>(queue_.size());
-      const int count = std::min(static_cast<int>(queue_.size()), most_tasks_);
-      if (waiting > 0 && waiting + count > most_waiting) return;
+      const int count = std::min(static_cast<int>(queue_.size()), tasks_now_);
+      if (with_slurm() > 0 && (options_.at_once > 0 || with_slurm() + count > most_waiting)) return;
       const std::vector<std::int64_t> ids(queue_.begin(), queue_.begin() + count);
-      if (!submit(ids)) return;
-      queue_.erase(queue_.begin(), queue_.begin() + count);
+      if (submit(ids)) {
+        queue_.erase(queue_.begin(), queue_.begin() + count);
+        tasks_now_ = std::min(2 * tasks_now_, most_tasks_);
+      } else if (count > 1) {
+        tasks_now_ = count / 2;
+      } else {
+        next_submission_ = Clock::now() + seconds(options_.poll);
+        return;
+      }
     }
   }
 
+  /// Not one task is taken: a limit while others of ours are there, or trouble that is borne for a while.
+  void bear_refusal(const detail::SlurmError& error) {
+    if (with_slurm() > 0) {
+      refused_ = Clock::time_point::max();
+      return;
+    }
+    if (accepted_) return bear(error, refused_);
+    std::string ignored;
+    for (const std::string& name : detail::slurm_variables()) ignored += (ignored.empty() ? "" : ", ") + name;
+    throw std::runtime_error(
+        std::string("doe::SlurmJobs: Slurm takes no job: ") + error.what() +
+        (ignored.empty() ? "" : "; not followed is what the environment says: " + ignored));
+  }
+
+  /// Whether Slurm has, or may have, taken the array.
   bool submit(const std::vector<std::int64_t>& ids) {
     std::vector<std::string> scripts;
     for (const std::int64_t id : ids) scripts.push_back(tasks_.at(id).script);
@@ -229,10 +263,7 @@ class SlurmJobs {
     } catch (const detail::SlurmError& e) {
       if (detail::is_cancelled(array)) {
         folder_.remove(array);
-        if (!accepted_)
-          throw std::runtime_error(std::string("doe::SlurmJobs: Slurm takes no job: ") + e.what());
-        bear(e, refused_);
-        next_submission_ = Clock::now() + seconds(options_.poll);
+        if (ids.size() == 1) bear_refusal(e);
         return false;
       }  // it may have taken the array all the same: squeue will tell
     }
@@ -250,8 +281,10 @@ class SlurmJobs {
 
   std::map<Place, std::int64_t> ids_by_place() const {
     std::map<Place, std::int64_t> ids;
-    for (const auto& [id, task] : tasks_)
+    for (const auto& [id, task] : tasks_) {
       if (!task.place.array.empty()) ids[task.place] = id;
+      for (const Place& place : task.former) ids[place] = id;
+    }
     return ids;
   }
 
@@ -263,12 +296,14 @@ class SlurmJobs {
     std::vector<ProcessEnd> ends;
     for (const auto& [place, text] : folder_.replies_of(wanted)) {
       const std::int64_t id = ids.at(place);
+      if (!tasks_.contains(id)) continue;  // another submission has replied, too
       const Process& process = tasks_.at(id).process;
       const std::optional<ProcessEnd> end = detail::end_in(text, process);
       if (!end) continue;  // not all of it is seen yet
       detail::remove_if_empty(process.output);
       ends.push_back(*end);
       given_[id] = place;
+      std::erase(queue_, id);  // where it was about to be submitted again
       tasks_.erase(id);
     }
     return ends;
@@ -322,11 +357,12 @@ class SlurmJobs {
     const bool of_another_time = task.submissions == 0;  // what became of it then does not count
     if (of_another_time || (!final_word.contains(state) && task.submissions < options_.submissions)) {
       folder_.remove_script(task.place);
+      task.former.push_back(task.place);
       task.place = {};
       queue_.push_back(task.process.id);
       return;
     }
-    std::string how = "ended without a reply, Slurm's state " + state;
+    std::string how = "ended without a reply, Slurm's state " + state + detail::meaning_of(state);
     if (task.submissions > 1) how += ", submitted " + std::to_string(task.submissions) + " times";
     ends.push_back({.id = task.process.id, .told = how});
   }
@@ -346,6 +382,7 @@ class SlurmJobs {
 
   SlurmOptions options_;
   int most_tasks_;  // of one array
+  int tasks_now_;   // of the next array: less after Slurm has refused one
   detail::TaskFolder folder_;
   std::map<std::string, Place> earlier_;  // by script
   std::map<std::int64_t, Task> tasks_;

@@ -3,10 +3,12 @@
 /// A study from a file, whose simulator is a program in any language: docs/writing-a-study.md.
 
 #include <drawpoint/studies/study_file.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +54,14 @@ int completed(std::vector<std::string> words) {
   return run_study(words, studies::study_from(words[1]));
 }
 
+/// As the process of a run, whose words begin with a checksum: to the study that waits at descriptor 3, that no
+/// run can be made.
+void refuse_runs(const std::string& reason) {
+  const std::string reply = nlohmann::json{{"failure", reason}, {"not_started", true}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (write(3, reply.data(), reply.size()) < 0) return;  // started by hand: nobody waits
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,6 +78,7 @@ int main(int argc, char** argv) {
     if (first == "complete") return completed({argv, argv + argc});
     return studies::run(argc, argv, studies::study_from(first));
   } catch (const std::exception& e) {
+    if (first[0] == '@') refuse_runs(e.what());
     std::fprintf(stderr, "external_program: %s\n", e.what());
     return 1;
   }

@@ -8,8 +8,8 @@
 ///                                      {.name = "my_study", .problem = problem, .black_box = f});
 ///     }
 ///
-/// The program has the commands run, confirm, ask, tell, status, live, fit, validate, front, compare, report,
-/// replay, export, evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one
+/// The program has the commands run, check, confirm, ask, tell, exclude, status, live, fit, validate, front,
+/// compare, report, replay, export, evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one
 /// thread, so that a crash is one failed run; each finished run is stored before the next one starts. Equal
 /// (x, seed) must give equal outcomes: a run that was lost is simply run again.
 ///
@@ -60,6 +60,9 @@ struct RunContext {
   OptionValues options = {};  ///< a value of every Study::options
   /// Takes where a long run is, in a few words for people. Empty where nobody listens.
   std::function<void(const std::string&)> progress = {};
+  /// Takes what passes between a run and its program, as "request" or "reply" and its text. Empty where nobody
+  /// looks.
+  std::function<void(const std::string& what, const std::string& text)> shows = {};
 };
 
 /// How many runs a study makes when the command line does not say.
@@ -154,6 +157,8 @@ struct Study {
   /// What makes the runs, such as another program and its checksum, or a model by a name that changes with what
   /// it simulates: a folder never mixes runs of two. Empty: this program, whatever its version.
   std::string simulator = {};
+  /// Said once, when a folder is begun: what counts as the simulator. Empty: nothing.
+  std::string simulator_note = {};
   /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for
   /// --version.
   std::vector<std::string> libraries = {};

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/simulator_files.h>
 #include <drawpoint/studies/study_file.h>
 #include <drawpoint/doe/detail/hash.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -80,9 +81,15 @@ class Section {
   }
 
   std::vector<std::string> texts(const char* key) const {
+    std::vector<std::string> all = texts_or_none(key);
+    if (all.empty()) wrong(key, object_[key], "a list of texts, [\"...\", ...]");
+    return all;
+  }
+
+  std::vector<std::string> texts_or_none(const char* key) const {
     const json& list = needed(key, "a list of texts");
     std::vector<std::string> all;
-    if (!list.is_array() || list.empty()) wrong(key, list, "a list of texts, [\"...\", ...]");
+    if (!list.is_array()) wrong(key, list, "a list of texts, [\"...\", ...]");
     for (const json& entry : list) {
       if (!entry.is_string()) wrong(key, entry, "texts alone in this list");
       all.push_back(entry.get<std::string>());
@@ -115,7 +122,7 @@ class Section {
 
  private:
   const json& needed(const char* key, const std::string& what) const {
-    if (!object_.contains(key)) fail("\"" + std::string(key) + "\" is missing; give " + what);
+    if (!object_.contains(key)) fail('"' + std::string(key) + "\" is missing; give " + what);
     return object_[key];
   }
 
@@ -183,18 +190,68 @@ std::string content_of(const fs::path& file) {
 struct Command {
   std::vector<std::string> words;
   std::string simulator;
+  std::string note =
+      {};  // what is taken as the program beside its own file, where the study file says nothing
 };
+
+/// Of the files that make the program beside those of its command: their names and checksum.
+std::string described(const SimulatorFiles& files, const fs::path& folder) {
+  constexpr std::size_t most_names = 5;
+  std::string names;
+  if (files.names.size() > most_names)
+    names = std::to_string(files.names.size()) + " files";
+  else
+    for (const fs::path& name : files.names)
+      names += (names.empty() ? "" : ", ") + name.lexically_relative(folder).string();
+  return names + " (checksum " + files.checksum + ")";
+}
+
+void add_files(const Section& in, const fs::path& folder, const std::vector<fs::path>& beside,
+               Command& command) {
+  try {
+    if (in.has("files")) {
+      const SimulatorFiles files = files_named(in.texts_or_none("files"), folder);
+      if (!files.names.empty()) command.simulator += "; files " + described(files, folder);
+      return;
+    }
+    const SimulatorFiles files = files_like(beside, folder);
+    if (files.names.empty() && files.note.empty()) return;
+    command.note = files.note;
+    if (files.names.empty()) return;
+    command.simulator += files_beside_it + described(files, folder);
+    command.note =
+        "the program is taken to be its own file and those beside it that end alike: " +
+        described(files, folder) +
+        "; runs after one of them has changed are another study's. \"files\" in the study file names "
+        "others, or [] none";
+  } catch (const std::runtime_error& e) {
+    in.fail(e.what());
+  }
+}
 
 Command command_from(const Section& in, const fs::path& folder) {
   Command command;
+  std::vector<fs::path> files;
   for (const std::string& word : in.texts("command")) {
     std::error_code ignored;
     const bool beside = !word.empty() && fs::is_regular_file(folder / word, ignored);
     command.words.push_back(beside ? (folder / word).string() : word);
     command.simulator += (command.simulator.empty() ? "" : " ") + word;
-    if (beside) command.simulator += " (checksum " + doe::detail::checksum(content_of(folder / word)) + ")";
+    if (!beside) continue;
+    command.simulator += " (checksum " + doe::detail::checksum(content_of(folder / word)) + ")";
+    files.push_back(folder / word);
   }
+  if (in.has("version")) command.simulator += "; version " + in.text("version");
+  add_files(in, folder, files, command);
   return command;
+}
+
+bool streams_from(const Section& in) {
+  const std::string exchange = in.text("exchange", "files");
+  if (exchange != "files" && exchange != "streams")
+    in.fail("\"exchange\" is \"" + exchange +
+            "\"; give \"files\" (names as the last two words) or \"streams\" (standard input and output)");
+  return exchange == "streams";
 }
 
 Defaults defaults_from(const Section& in) {
@@ -245,16 +302,18 @@ Study study_from(const std::string& word) {
   const auto [file, expected] = parsed_word(word);
   const json content = parsed(file);
   const Section in(content, file, "");
-  in.allow_only({"name", "about", "variables", "responses", "deterministic", "command", "attempts",
-                 "time_limit", "defaults"});
+  in.allow_only({"name", "about", "variables", "responses", "deterministic", "command", "exchange", "files",
+                 "version", "attempts", "time_limit", "defaults"});
   Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
   const bool elsewhere = !in.has("command");
-  if (elsewhere && (in.has("attempts") || in.has("time_limit")))
-    in.fail(
-        "attempts and time_limit are of a command, and there is none; give \"command\", or leave them out: "
-        "then runs are made elsewhere");
+  for (const char* key : {"attempts", "time_limit", "exchange", "files", "version"})
+    if (elsewhere && in.has(key))
+      in.fail("\"" + std::string(key) +
+              "\" is of a command, and there is none; give \"command\", or leave it out: then runs are made "
+              "elsewhere");
   const Command command = elsewhere ? Command{} : command_from(in, fs::absolute(file).parent_path());
+  study.simulator_note = command.note;
   const std::string checksum = doe::detail::checksum(content.dump() + command.simulator);
   if (!expected.empty() && expected != checksum)
     in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
@@ -263,7 +322,8 @@ Study study_from(const std::string& word) {
   if (elsewhere) return study;
   const ExternalProgram program{.command = command.words,
                                 .time_limit = in.number("time_limit", 0.0),
-                                .attempts = in.integer("attempts", 1, 1)};
+                                .attempts = in.integer("attempts", 1, 1),
+                                .streams = streams_from(in)};
   try {
     study.black_box = external_program(study.problem, program);
   } catch (const std::invalid_argument& e) {

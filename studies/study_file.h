@@ -9,7 +9,8 @@
 ///                    {"name": "lining", "kind": "categorical", "levels": ["steel", "rubber"]}],
 ///      "responses": [{"name": "reach", "unit": "m", "goal": "maximize"},
 ///                    {"name": "wear", "goal": "at_most", "limit": 3, "lower": 0}],
-///      "command": ["python3", "throw.py"], "attempts": 1, "time_limit": 60,
+///      "command": ["python3", "throw.py"], "exchange": "files", "attempts": 1, "time_limit": 60,
+///      "files": ["model/*.py"], "version": "2",
 ///      "defaults": {"runs": 40, "validation": 10, "adaptive": 0}}
 ///
 /// Needed are name, variables, responses and command; a variable has lower and upper unless it has levels, a
@@ -17,7 +18,9 @@
 /// the command that names a file beside the study file means that file, wherever the study is started.
 /// Unknown and repeated keys are refused, since they are mostly mistakes.
 ///
-/// The command and these files are what the study holds its runs to (Study::simulator), by their checksum.
+/// The command and these files are what the study holds its runs to (Study::simulator), by their checksum, with
+/// `version` and those that `files` names; without it, those that lie beside a program and end as it does
+/// (simulator_files.h).
 /// The processes of its runs are given the file's name with a checksum of all of it, "@CHECKSUM:FILE", and
 /// end where it no longer fits: the file was edited while the study ran.
 

@@ -6,15 +6,19 @@
 
 #include <poll.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,9 +31,28 @@ struct SlurmError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the command prints. Throws SlurmError when it fails, is not there, or says nothing for a minute.
+/// Variables of the environment that would change what a command of Slurm does: an SQUEUE_PARTITION hides
+/// tasks, an SBATCH_WAIT has sbatch wait for their end.
+inline std::vector<std::string> slurm_variables() {
+  constexpr std::string_view prefixes[] = {"SQUEUE_", "SBATCH_", "SCANCEL_", "SACCT_"};
+  std::vector<std::string> names;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    const std::string_view name = text.substr(0, text.find('='));
+    const bool plain = std::all_of(name.begin(), name.end(),
+                                   [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    if (plain && std::any_of(std::begin(prefixes), std::end(prefixes),
+                             [&](std::string_view prefix) { return name.starts_with(prefix); }))
+      names.emplace_back(name);
+  }
+  return names;
+}
+
+/// What the command prints, whatever the variables above say. Throws SlurmError when it fails, is not there, or says nothing for a minute.
 inline std::string slurm_answer(const std::vector<std::string>& words) {
-  std::vector<std::string> arguments = {"-c", "exec \"$@\" >&3 2>&3", "sh"};
+  std::string clean;
+  for (const std::string& name : slurm_variables()) clean += "unset " + name + "; ";
+  std::vector<std::string> arguments = {"-c", clean + "exec \"$@\" >&3 2>&3", "sh"};
   arguments.insert(arguments.end(), words.begin(), words.end());
   ProcessPool pool(1);
   pool.start({.executable = "sh", .arguments = std::move(arguments), .time_limit = 60.0});
@@ -111,6 +134,15 @@ inline bool is_over(const std::string& state) {
   static const std::set<std::string> over = {"COMPLETED", "FAILED",  "NODE_FAIL", "BOOT_FAIL",    "PREEMPTED",
                                              "CANCELLED", "TIMEOUT", "DEADLINE",  "OUT_OF_MEMORY"};
   return over.contains(state);
+}
+
+/// Of a state in which a task ended without a reply, what it means; empty: the state says it.
+inline std::string meaning_of(const std::string& state) {
+  if (state == "OUT_OF_MEMORY") return ": it needed more memory than Slurm gives it; ask for more with --mem";
+  if (state == "TIMEOUT") return ": Slurm's time limit ended it; ask for more with --time";
+  if (state == "DEADLINE") return ": its deadline passed";
+  if (state == "CANCELLED") return ": somebody cancelled it, as by scancel";
+  return "";
 }
 
 /// Until no task of these arrays runs, so that two processes of one run are never at work together; for a

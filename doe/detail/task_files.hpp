@@ -8,15 +8,15 @@
 ///     FOLDER/NAME/12.sh       the process that is task 12
 ///     FOLDER/NAME/12.reply    what it wrote to descriptor 3, then a line: exit code, start and end [s]
 
-#include <array>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <drawpoint/doe/processes.hpp>
 
@@ -57,9 +57,24 @@ inline std::string script_of_array(const std::filesystem::path& folder) {
          "\"$task.reply\"\n";
 }
 
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+/// Of a script or reply, which others write, too; of one that is longer than a reply may be, its last line.
+inline std::string text_of(const std::filesystem::path& name) {
+  constexpr std::size_t last_line = 256;
+  StrangerFile file(name);
+  if (!file.fault().empty()) return "";
+  if (file.size() <= largest_reply + last_line) return file.text(0, largest_reply + last_line);
+  const std::string tail = file.text(file.size() - last_line, last_line);
+  const std::size_t line = tail.rfind('\n', tail.size() - 2);
+  return line == tail.npos ? "" : tail.substr(line);
+}
+
+/// The number of a task by the name of its file; nothing for any other file.
+inline std::optional<int> task_number(const std::filesystem::path& file) {
+  const std::string stem = file.stem();
+  int number = 0;
+  const auto end = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  if (end.ec != std::errc() || end.ptr != stem.data() + stem.size() || number < 0) return std::nullopt;
+  return number;
 }
 
 /// Throws std::runtime_error when the disk does not take it.

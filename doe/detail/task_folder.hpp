@@ -10,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -50,9 +51,9 @@ class TaskFolder {
       }
       arrays_.insert(array);
       for (const auto& file : std::filesystem::directory_iterator(entry.path())) {
-        const std::string stem = file.path().stem();
-        if (file.path().extension() != ".sh" || stem == "task") continue;
-        const TaskPlace place{array, std::stoi(stem)};
+        const std::optional<int> number = task_number(file.path());
+        if (file.path().extension() != ".sh" || !number) continue;
+        const TaskPlace place{array, *number};
         const auto [found, is_new] = tasks.emplace(text_of(file.path()), place);
         if (!is_new && std::filesystem::exists(reply(place))) found->second = place;
       }
@@ -102,8 +103,9 @@ class TaskFolder {
     std::map<TaskPlace, std::string> texts;
     for (const std::string& array : arrays_) {
       for (const auto& file : std::filesystem::directory_iterator(folder(array))) {
-        if (file.path().extension() != ".reply") continue;
-        const TaskPlace place{array, std::stoi(file.path().stem())};
+        const std::optional<int> number = task_number(file.path());
+        if (file.path().extension() != ".reply" || !number) continue;
+        const TaskPlace place{array, *number};
         if (wanted.contains(place)) texts[place] = text_of(file.path());
       }
     }

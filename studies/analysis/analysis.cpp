@@ -7,6 +7,7 @@
 #include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/left_out.h>
 
 #include <algorithm>
 #include <limits>
@@ -67,9 +68,10 @@ void contrast(ReportInput& input, const Study& study, const std::vector<const Ru
 Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   Summary summary;
   summary.study = study.name;
+  summary.left_out = left_out_texts(runs);
   summary.confirming = confirming_command(study);
   for (const auto& run : runs) {
-    if (run.status == Status::failed) ++summary.failed;
+    if (run.status == Status::failed && !run.left_out) ++summary.failed;
     if (has_ended(run))
       ++summary.ended[run.kind];
     else
@@ -102,6 +104,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   Summary summary = summary_of(study, runs);
   summary.adaptive_wanted = store.sampling().points;
   ReportInput input = input_of(study, store, runs);
+  summary.thinned = input.warnings;
   input.command = command;
   input.going_on.folder = out_option(folder);
   summary.confirmations = input.confirmations;

@@ -9,7 +9,9 @@
 #include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/models/unevenness.h>
 #include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/printed_text.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/store/left_out.h>
 
 #include <algorithm>
 #include <map>
@@ -46,6 +48,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.about = study.about;
   input.problem = study.problem;
   Tables tables = tables_of(runs, study.problem);
+  input.warnings = tables.thinned;
   input.training = std::move(tables.training);
   input.validation = std::move(tables.validation);
   input.kinds = kinds_of(runs);
@@ -60,7 +63,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
 }
 
 void add_models(ReportInput& input, doe::Seed seed) {
-  const Tables tables{input.training, input.validation};
+  const Tables tables{.training = input.training, .validation = input.validation};
   if (const std::string failed = failure_warning(input); !failed.empty())
     input.warnings.push_back("Runs that failed are left out of the models. " + failed + ".");
   Models fitted = fit_models(tables);
@@ -85,6 +88,7 @@ void add_models(ReportInput& input, doe::Seed seed) {
 }
 
 void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
+  for (std::string& sentence : left_out_texts(runs)) input.warnings.push_back(std::move(sentence));
   const auto missing = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
     return run.status == Status::planned || run.status == Status::running;
   });
@@ -104,12 +108,15 @@ void add_warnings(ReportInput& input, const std::vector<Run>& runs) {
 
 std::string failure_warning(const ReportInput& input) {
   std::map<std::string, int> reasons;
+  std::map<std::string, std::string> first;  // of the reasons that differ in the name of a log alone
   for (const auto* table : {&input.training, &input.validation}) {
     for (const auto& row : table->rows) {
-      if (row.outcome.failed()) ++reasons[row.outcome.reason()];
+      if (!row.outcome.failed()) continue;
+      const std::string& reason = row.outcome.reason();
+      ++reasons[first.emplace(without_log_name(reason), reason).first->second];
     }
   }
-  const int most = 5;  // crashes name their output, so their reasons differ
+  const int most = 5;
   int shown = 0;
   std::string text;
   for (const auto& [reason, count] : reasons) {

@@ -95,6 +95,7 @@ std::string json_line(const Summary& summary) {
     line["runs"] = line["runs"].get<int>() + count;
   }
   line["failed"] = summary.failed;
+  line["left_out"] = summary.left_out;
   line["unfinished"] = summary.unfinished;
   line["adaptive_wanted"] = summary.adaptive_wanted;
   line["headlines"] = nlohmann::ordered_json::object();
@@ -134,6 +135,8 @@ std::string text(const Summary& summary) {
     result += "; " + std::to_string(made) + " adaptive runs, " + std::to_string(summary.adaptive_wanted) +
               " adaptive points wanted";
   result += "\n";
+  for (const std::string& text : summary.thinned) result += "  " + text + "\n";
+  for (const std::string& run : summary.left_out) result += "  caution: " + run + "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);
   for (const auto& [response, value] : summary.nrmse) result += error_text(summary, response, value);
   for (const auto& [response, why] : summary.flat) result += "  " + response + ": " + why + "\n";

@@ -23,6 +23,8 @@ struct Summary {
   std::string study = {};
   std::map<Kind, int> ended = {};                              ///< runs of each kind, failed ones among them
   int failed = 0;                                              ///< of all kinds
+  std::vector<std::string> left_out = {};                      ///< of the models: which runs, and why
+  std::vector<std::string> thinned = {};                       ///< runs that are too many for models
   int unfinished = 0;                                          ///< planned or running
   std::vector<Headline> headlines = {};                        ///< what the study says first
   std::vector<Finding> findings = {};                          ///< in the study's order
@@ -40,7 +42,7 @@ struct Summary {
   std::string error = {};                             ///< why there is none
 };
 
-/// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "unfinished",
+/// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "left_out", "unfinished",
 /// "adaptive_wanted", "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
 /// number or null}, "mean_error": {response: mean_error_json}, "flat": [{"response", "text"}], "front",
 /// "confirmed": {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round},

@@ -9,6 +9,7 @@
 #include <drawpoint/studies/live/server.h>
 #include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
+#include <drawpoint/studies/store/plain_text.h>
 #include <CLI/CLI.hpp>
 #include <drawpoint/doe/problem.hpp>
 
@@ -18,6 +19,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
@@ -27,9 +29,9 @@ namespace {
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
 /// Those that are told; prepare is for `run` alone.
-constexpr std::array<const char*, 15> commands = {
-    "run",     "confirm", "ask",    "tell",   "status",          "live",    "fit", "validate", "front",
-    "compare", "report",  "replay", "export", "rerun-responses", "evaluate"};
+constexpr std::array<const char*, 17> commands = {
+    "run",      "check", "confirm", "ask",    "tell",   "exclude", "status",          "live",    "fit",
+    "validate", "front", "compare", "report", "replay", "export",  "rerun-responses", "evaluate"};
 
 /// CLI11 would wrap a negative number around and cut a large one off.
 std::string seed_complaint(const std::string& text) {
@@ -172,8 +174,8 @@ void add_hours_option(CLI::App& command, Settings& settings) {
 void add_execution_options(CLI::App& command, Settings& settings) {
   command
       .add_option("--jobs", settings.jobs,
-                  "processes at a time (default: one per core; with --slurm: tasks of a job array at a time, "
-                  "as many as the cluster gives)")
+                  "processes at a time (default: one per core; with --slurm: tasks at a time, as many as the "
+                  "cluster gives)")
       ->check(CLI::Range(1, 4096));
   command
       .add_option("--time-limit", settings.time_limit,
@@ -181,6 +183,10 @@ void add_execution_options(CLI::App& command, Settings& settings) {
       ->check(seconds_complaint)
       ->capture_default_str();
   command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
+  command.add_flag("--keep-going", settings.keep_going,
+                   "go on though the first five runs of the study all fail alike");
+  command.add_flag("!--no-spot-check", settings.spot_check,
+                   "do not make one run again, on resume, to see that the simulator is the same");
   const std::string group = "On a Slurm cluster";
   auto* slurm =
       command
@@ -190,9 +196,19 @@ void add_execution_options(CLI::App& command, Settings& settings) {
               "nodes. Ctrl-C leaves the tasks running, and the same command takes them over")
           ->group(group);
   command
-      .add_option("--slurm-option", settings.slurm_options,
-                  "a word for sbatch, such as --slurm-option=--partition=short; repeatable")
+      .add_option(
+          "--slurm-option", settings.slurm_options,
+          "a word for sbatch, such as --slurm-option=--partition=short; repeatable. SBATCH_*, SQUEUE_*, "
+          "SCANCEL_* and SACCT_* of the environment are not followed")
       ->needs(slurm)
+      ->group(group);
+  command
+      .add_option(
+          "--slurm-array", settings.slurm_array,
+          "tasks of one job array at most (default: as many as Slurm takes, up to 1000; half where it "
+          "refuses them)")
+      ->needs(slurm)
+      ->check(CLI::Range(1, 1'000'000))
       ->group(group);
 }
 
@@ -307,8 +323,24 @@ void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
                    "table with the columns run and every response; status (done or failed), reason and "
                    "seconds if you like")
       ->required();
+  auto* replace =
+      tell->add_flag("--replace", settings.replace,
+                     "correct runs that have ended otherwise; what stood there is kept in the ledger");
+  tell->add_option("--why", settings.why, "with --replace: the reason, kept in the ledger")->needs(replace);
   show_example(*tell, app, study, " tell --file runs.csv");
   tell->callback([&] { parsed.action = [&] { return tell_command(study, settings); }; });
+}
+
+void define_exclude(CLI::App& app, Parsed& parsed, const Study& study) {
+  ExcludeSettings& settings = parsed.settings.exclude;
+  auto* exclude = app.add_subcommand(
+      "exclude", "leave a run out of models and report; without --run: list all corrections");
+  add_folder_options(*exclude, parsed.settings);
+  auto* run = exclude->add_option("--run", settings.run, "the run")->check(CLI::Range(1, 1'000'000'000));
+  exclude->add_option("--why", settings.why, "the reason, kept in the ledger")->needs(run);
+  exclude->add_flag("--undo", settings.undo, "take the run in again")->needs(run);
+  show_example(*exclude, app, study, " exclude --run 7 --why \"the belt had stopped\"");
+  exclude->callback([&] { parsed.action = [&] { return exclude_command(study, parsed.settings); }; });
 }
 
 void define_rerun_responses(CLI::App& app, Parsed& parsed, const Study& study) {
@@ -352,6 +384,18 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   add_study_options(*evaluate, study, parsed.point.options, false);
   show_example(*evaluate, app, study, " evaluate --run 7");
   evaluate->callback([&] { parsed.action = [&] { return evaluate_command(study, parsed.point); }; });
+  auto* check = app.add_subcommand(
+      "check", "make one run and show all of it: request, reply, what was printed; nothing is stored");
+  check
+      ->add_option("--x", parsed.point.x,
+                   "the point: " + names_of(study.problem) + " (default: the middle of the box)")
+      ->delimiter(',');
+  check->add_option("--seed", parsed.point.seed, "seed of this run")
+      ->check(seed_complaint)
+      ->capture_default_str();
+  add_study_options(*check, study, parsed.point.options, false);
+  show_example(*check, app, study, " check");
+  check->callback([&] { parsed.action = [&] { return check_command(study, parsed.point); }; });
   auto* prepare = app.add_subcommand("prepare", "fill the folder common to all runs")->group("");
   add_point_options(*prepare, parsed.point);
   add_study_options(*prepare, study, parsed.point.options, false);
@@ -375,6 +419,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   define_commands_that_run(app, parsed, study);
   define_asking_commands(app, parsed, study);
   define_reading_commands(app, study, parsed.settings, parsed.action);
+  define_exclude(app, parsed, study);
   define_rerun_responses(app, parsed, study);
   define_point_commands(app, parsed, study);
   const std::vector<std::string> typed = typed_words(argc, argv, study);
@@ -393,7 +438,8 @@ int parse_and_act(int argc, char** argv, const Study& study) {
 
 /// The words that std::invalid_argument and std::runtime_error carry, after the program's name.
 int complain(const Study& study, const char* what, int code) {
-  std::fprintf(stderr, "%s: %s\n", study.name.c_str(), what);
+  constexpr std::size_t most = 20000;
+  std::fprintf(stderr, "%s: %s\n", study.name.c_str(), plain_text(what, most).c_str());
   return code;
 }
 
@@ -418,6 +464,16 @@ int run(int argc, char** argv, const Study& study) {
     return complain(study, "studies: cannot write to standard output; is the disk full?", failure);
   } catch (const UsageError& e) {
     return complain(study, e.what(), wrong_usage);
+  } catch (const std::bad_alloc&) {
+    return complain(study,
+                    "studies: memory ran out; end other programs, give --jobs a smaller number, or take a "
+                    "machine with more. What is stored stays",
+                    failure);
+  } catch (const std::out_of_range& e) {
+    const std::string text =
+        std::string("studies: a fault of this program: it reached beyond the end of a list (") + e.what() +
+        "). What is stored stays; please report it with the command that was given";
+    return complain(study, text.c_str(), failure);
   } catch (const std::exception& e) {
     return complain(study, e.what(), failure);
   }

@@ -19,6 +19,8 @@ int confirm_command(const Study& study, const Settings& settings);
 int ask_command(const Study& study, const Settings& settings);
 /// Takes what came out of runs made elsewhere.
 int tell_command(const Study& study, const Settings& settings);
+/// Leaves a run out of all that is shown, with a reason, or lists the corrections of the folder.
+int exclude_command(const Study& study, const Settings& settings);
 /// What the output folder holds.
 int status_command(const Study& study, const Settings& settings);
 /// How each response is fitted, and how well runs are predicted without themselves.
@@ -44,6 +46,8 @@ int export_command(const Study& study, const Settings& settings);
 int rerun_responses_command(const Study& study, const Settings& settings);
 /// One run in this process.
 int evaluate_command(const Study& study, const PointSettings& settings);
+/// One run in this process, with all that passes between it and its program.
+int check_command(const Study& study, const PointSettings& settings);
 /// Study::prepare in this process, for `run`.
 int prepare_command(const Study& study, const PointSettings& settings);
 

@@ -64,7 +64,10 @@ int confirm_command(const Study& study, const Settings& settings) {
   open_store(study, Folder{settings.out});
   return work_in_folder(
       study, settings, [&](const Folder& folder) { return open_store(study, folder); },
-      [&](Store& store, const Folder& folder) { confirm_front(store, folder, settings); });
+      [&](Store& store, const Folder& folder) {
+        begin_runs(study, store, settings, true);
+        confirm_front(store, folder, settings);
+      });
 }
 
 }  // namespace drawpoint::studies

@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/one_run.h>
 #include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/printed_text.h>
+#include <drawpoint/studies/runs/run_ends.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/option_values.h>
+#include <drawpoint/studies/store/plain_text.h>
 #include <fcntl.h>
 #include <unistd.h>
 #include <drawpoint/doe/black_box.hpp>
+#include <drawpoint/doe/detail/stranger_file.hpp>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -24,31 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for the log of a run that nobody wants to keep.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "drawpoint-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("studies: cannot make a folder for the run log in " +
-                               fs::temp_directory_path().string() + ": " + std::strerror(errno) +
-                               "; name a file with --log");
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// The reply channel belongs to this process alone: a program that the black box starts must not keep it
 /// open.
 void keep_private(int descriptor) {
@@ -57,8 +33,8 @@ void keep_private(int descriptor) {
   }
 }
 
-void reply(int descriptor, const doe::Outcome& outcome) {
-  const std::string text = reply_text(outcome);
+void reply(int descriptor, const Made& made) {
+  const std::string text = reply_text(made.outcome, made.trouble);
   std::size_t written = 0;
   while (written < text.size()) {
     const ssize_t count = write(descriptor, text.data() + written, text.size() - written);
@@ -68,35 +44,15 @@ void reply(int descriptor, const doe::Outcome& outcome) {
   }
 }
 
-void print(const doe::Problem& problem, const doe::Outcome& outcome, bool as_json,
-           const std::optional<bool>& as_stored) {
-  if (as_json) {
-    nlohmann::json line = {{"failed", outcome.failed()}};
-    if (as_stored) line["as_stored"] = *as_stored;
-    if (outcome.failed()) line["reason"] = outcome.reason();
-    for (Eigen::Index i = 0; i < outcome.values().size(); ++i) {
-      line["values"][problem.responses[static_cast<std::size_t>(i)].name] = outcome.values()[i];
-    }
-    std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    return;
-  }
-  if (outcome.failed()) std::fprintf(stderr, "the run failed: %s\n", outcome.reason().c_str());
-  for (Eigen::Index i = 0; i < outcome.values().size(); ++i) {
-    const auto& response = problem.responses[static_cast<std::size_t>(i)];
-    std::printf("%s = %s\n", response.name.c_str(),
-                doe::detail::with_unit(outcome.values()[i], response.unit).c_str());
-  }
-}
-
 /// `as_stored`: whether a run that was made again came out as before.
-int pass_on(const Study& study, const PointSettings& settings, const doe::Outcome& outcome,
+int pass_on(const Study& study, const PointSettings& settings, const Made& made,
             const std::optional<bool>& as_stored = {}) {
   if (settings.result_descriptor >= 0) {
-    reply(settings.result_descriptor, outcome);
+    reply(settings.result_descriptor, made);
   } else {
-    print(study.problem, outcome, settings.json, as_stored);
+    print(study.problem, made.outcome, settings.json, as_stored);
   }
-  return as_stored ? !*as_stored : outcome.failed();
+  return as_stored ? !*as_stored : made.outcome.failed();
 }
 
 /// A run of a study, and what it takes to make it again.
@@ -123,6 +79,12 @@ RunToRepeat run_to_repeat(const Study& study, const PointSettings& given) {
   return stored;
 }
 
+/// But for what the run printed, which was kept in the folder alone.
+bool same_reason(const std::string& here, const std::string& stored) {
+  const std::string plain = plain_text(here);
+  return stored == plain || stored.starts_with(plain + printed_last_begins);
+}
+
 /// Empty where nothing is stored yet. Prints the answer.
 std::optional<bool> compare_with_stored(const Run& run, const doe::Outcome& outcome) {
   const std::string name = "run " + std::to_string(run.id);
@@ -134,40 +96,11 @@ std::optional<bool> compare_with_stored(const Run& run, const doe::Outcome& outc
     std::fprintf(stderr, "%s succeeds here; it is stored as failed: %s\n", name.c_str(), run.reason.c_str());
     return false;
   }
-  const bool same = outcome.failed() ? run.status == Status::failed && outcome.reason() == run.reason
-                                     : run.status == Status::done && outcome.values() == run.y;
+  const bool same = outcome.failed()
+                        ? run.status == Status::failed && same_reason(outcome.reason(), run.reason)
+                        : run.status == Status::done && outcome.values() == run.y;
   std::fprintf(stderr, same ? "%s: as stored, bit for bit\n" : "%s: not as stored\n", name.c_str());
   return same;
-}
-
-/// What a run by hand or the preparation is told.
-RunContext context_of(const Study& study, const PointSettings& settings, const fs::path& log,
-                      const fs::path& shared) {
-  check_options(study, settings.options);
-  return {.log = log, .shared = shared, .options = with_defaults(study.options, settings.options)};
-}
-
-/// The folder appears complete or not at all.
-void fill_shared(const Study& study, const PointSettings& settings, const fs::path& folder) {
-  const fs::path draft = folder.string() + ".unfinished";
-  fs::remove_all(draft);
-  fs::create_directories(draft);
-  study.prepare(context_of(study, settings, {}, draft));
-  fs::rename(draft, folder);
-}
-
-/// The shared folder for a run by hand: the one that is named, filled where it is not there yet, else one
-/// that is made for this run alone.
-fs::path shared_folder(const Study& study, const PointSettings& settings,
-                       std::optional<TemporaryFolder>& temporary) {
-  if (!settings.shared.empty() && (fs::exists(settings.shared) || !study.prepare)) return settings.shared;
-  if (settings.shared.empty() && !temporary) temporary.emplace();
-  const fs::path folder = settings.shared.empty() ? temporary->path() / "shared" : settings.shared;
-  if (study.prepare)
-    fill_shared(study, settings, folder);
-  else
-    fs::create_directory(folder);
-  return folder;
 }
 
 }  // namespace
@@ -190,15 +123,12 @@ int evaluate_command(const Study& study, const PointSettings& given) {
                  shared_folder(study, settings, temporary));
   if (context.log.has_parent_path()) fs::create_directories(context.log.parent_path());
   if (settings.result_descriptor >= 0)
-    fs::remove(context.log);  // what an attempt that was killed has left
+    doe::detail::clear_away(context.log);  // what an attempt that was killed has left
   else
     context.progress = [](const std::string& where) { std::fprintf(stderr, "%s\n", where.c_str()); };
-  const auto black_box = [&](const Eigen::VectorXd& point, doe::Seed seed) {
-    return study.black_box(point, seed, context);
-  };
-  const doe::Outcome outcome = doe::detail::call(black_box, study.problem, x, settings.seed);
-  return pass_on(study, settings, outcome,
-                 stored ? compare_with_stored(stored->run, outcome) : std::optional<bool>());
+  const Made made = make_run(study, x, settings.seed, context);
+  return pass_on(study, settings, made,
+                 stored ? compare_with_stored(stored->run, made.outcome) : std::optional<bool>());
 }
 
 int prepare_command(const Study& study, const PointSettings& settings) {
@@ -207,7 +137,7 @@ int prepare_command(const Study& study, const PointSettings& settings) {
     if (study.prepare) study.prepare(context_of(study, settings, {}, settings.shared));
     return Eigen::VectorXd(0);
   });
-  return pass_on(study, settings, outcome);
+  return pass_on(study, settings, {outcome});
 }
 
 }  // namespace drawpoint::studies

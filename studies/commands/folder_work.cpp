@@ -7,11 +7,14 @@
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/runs/spot_check.h>
 #include <drawpoint/studies/runs/workers.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -52,6 +55,15 @@ int work_in_folder(const Study& study, const Settings& settings,
     dprintf(STDERR_FILENO, "%s%s", resume_message(folder).c_str(), slurm_message(folder).c_str());
     return 130;
   }
+}
+
+void begin_runs(const Study& study, const Store& store, const Settings& settings, bool more) {
+  const int messages = message_descriptor(settings);
+  const std::vector<Run> runs = store.runs();
+  const bool resumes = std::any_of(runs.begin(), runs.end(), has_ended);
+  if (!resumes && !study.simulator_note.empty()) dprintf(messages, "%s\n", study.simulator_note.c_str());
+  if (!resumes || (!more && std::all_of(runs.begin(), runs.end(), has_ended))) return;
+  spot_check(store, Folder{settings.out}, settings, messages);
 }
 
 int conclude(const Study& study, const Store& store, const Folder& folder, const Settings& settings) {

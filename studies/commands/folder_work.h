@@ -18,6 +18,10 @@ int work_in_folder(const Study& study, const Settings& settings,
                    const std::function<Store(const Folder& folder)>& open,
                    const std::function<void(Store& store, const Folder& folder)>& work);
 
+/// Before the runs of a command: says what counts as the simulator where none was made yet, else tries whether it
+/// is the one of before. `more`: further runs will come, whatever is planned now.
+void begin_runs(const Study& study, const Store& store, const Settings& settings, bool more);
+
 /// Fits, searches, writes the report and prints the result. Returns the exit code.
 int conclude(const Study& study, const Store& store, const Folder& folder, const Settings& settings);
 

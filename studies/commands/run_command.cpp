@@ -4,11 +4,12 @@
 #include <drawpoint/studies/commands/folder_work.h>
 #include <drawpoint/studies/commands/planning.h>
 #include <drawpoint/studies/runs/execution.h>
+#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
+#include <vector>
 
 namespace drawpoint::studies {
 
@@ -25,6 +26,8 @@ int run_command(const Study& study, const Settings& settings) {
   return work_in_folder(
       study, settings, [&](const Folder& folder) { return plan_study(study, folder, settings); },
       [&](Store& store, const Folder& folder) {
+        const std::vector<Run> runs = store.runs();
+        begin_runs(study, store, settings, store.sampling().points > count_points(runs, Kind::adaptive));
         do {
           carry_out_runs(store, folder, settings, messages);
         } while (add_batch(store, seconds_left(), messages));

@@ -21,6 +21,7 @@ std::string as_json(const Store& store, const Counts& counts) {
   line["adaptive_wanted"] = store.sampling().points;
   line["seconds"] = counts.seconds;
   line["failures"] = counts.failures;
+  line["corrections"] = store.corrections().size();
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -36,6 +37,8 @@ void print(const Store& store, const Folder& folder, const Counts& counts) {
   if (store.sampling().points > 0)
     std::printf("adaptive points: %d of %d wanted\n", counts.adaptive_points, store.sampling().points);
   std::printf("time in runs: %s\n", duration_text(counts.seconds).c_str());
+  if (const std::size_t corrections = store.corrections().size(); corrections > 0)
+    std::printf("corrections by hand: %zu; the command exclude lists them\n", corrections);
   for (const auto& [reason, times] : counts.failures)
     std::printf("failed %d times: %s\n", times, reason.c_str());
 }

@@ -12,14 +12,19 @@
 namespace drawpoint::studies {
 
 int tell_command(const Study& study, const Settings& settings) {
+  if (settings.replace && settings.why.find_first_not_of(" \t\n") == std::string::npos)
+    throw UsageError("tell --replace: say why with --why TEXT; it is kept in the ledger of corrections");
   const Folder folder{settings.out};
   open_store(study, folder);  // refused before anything is locked
   make_writable(folder);
   const FolderLock lock(folder);
   Store store = open_store(study, folder);
-  const auto [told, left_alone] = told_outcomes(settings.told, store.identity().problem, store.runs());
+  const auto [told, left_alone] =
+      told_outcomes(settings.told, store.identity().problem, store.runs(), settings.replace);
   for (const ToldOutcome& outcome : told) {
-    if (outcome.y.size() > 0)
+    if (outcome.replaces)
+      store.replace(outcome.run, outcome.y, outcome.reason, outcome.seconds, settings.why);
+    else if (outcome.y.size() > 0)
       store.save_done(outcome.run, outcome.y, outcome.seconds);
     else
       store.save_failed(outcome.run, outcome.reason, outcome.seconds);
@@ -31,15 +36,23 @@ int tell_command(const Study& study, const Settings& settings) {
     return run.status == Status::planned || run.status == Status::running;
   });
   const auto taken = static_cast<long>(told.size());
+  const auto replaced =
+      std::count_if(told.begin(), told.end(), [](const ToldOutcome& o) { return o.replaces; });
   if (settings.json) {
     print_json({{"study", study.name},
                 {"done", taken - failed},
                 {"failed", failed},
+                {"replaced", replaced},
                 {"left_alone", left_alone},
                 {"waiting", waiting}});
     return 0;
   }
   std::printf("%ld runs taken: %ld done, %ld failed\n", taken, taken - failed, static_cast<long>(failed));
+  if (replaced > 0)
+    std::printf(
+        "%ld of them had ended otherwise; what stood there is in the ledger, which the command exclude "
+        "lists\n",
+        static_cast<long>(replaced));
   if (left_alone > 0) std::printf("%d rows say neither done nor failed and are left alone\n", left_alone);
   if (waiting > 0)
     std::printf("%ld more are asked for\n", static_cast<long>(waiting));

@@ -17,9 +17,14 @@ constexpr loopback::Manners manners_of_frames = {.patience = std::chrono::second
 httplib::Server::HandlerWithResponse gate_of_frames(int port, const std::string& place) {
   return [port, place](const httplib::Request& request, httplib::Response& response) {
     if (loopback::refused_by_host(request, response, port)) return httplib::Server::HandlerResponse::Handled;
-    if (request.path.starts_with(place)) return httplib::Server::HandlerResponse::Unhandled;
-    loopback::refuse(response, 404, "There is nothing to see here.");
-    return httplib::Server::HandlerResponse::Handled;
+    if (!request.path.starts_with(place)) {
+      loopback::refuse(response, 404, "There is nothing to see here.");
+      return httplib::Server::HandlerResponse::Handled;
+    }
+    const bool asks = request.method == "GET" || request.method == "HEAD";
+    if (!asks && loopback::refused_by_body(request, response, manners_of_frames.largest_body))
+      return httplib::Server::HandlerResponse::Handled;
+    return httplib::Server::HandlerResponse::Unhandled;
   };
 }
 
@@ -49,9 +54,9 @@ struct FrameServer::Listening : loopback::Listener {
 FrameServer::FrameServer(std::function<std::string(const std::string& nonce)> page,
                          std::shared_ptr<FrameInbox> inbox)
     : inbox_(std::move(inbox)) {
-  const auto server = std::make_shared<httplib::Server>();
+  const auto server = std::make_shared<loopback::BoundedServer>(manners_of_frames);
   const std::string place = std::string("/").append(loopback::random_word()).append("/");
-  loopback::set_manners(*server, manners_of_frames);
+  loopback::set_manners(*server);
   set_routes_of_frames(*server, place, std::move(page), inbox_);
   const int port = loopback::bind(*server, 0);
   if (port <= 0)

@@ -76,7 +76,7 @@ void set_routes(httplib::Server& server, Site& site) {
   }));
 }
 
-int bound(httplib::Server& server, int port) {
+int bound(loopback::BoundedServer& server, int port) {
   const int got = loopback::bind(server, port);
   if (got > 0) return got;
   const int error = errno;
@@ -94,8 +94,8 @@ int bound(httplib::Server& server, int port) {
 }  // namespace
 
 void serve(Site& site, int port, const std::function<void(int port)>& started) {
-  const auto server = std::make_shared<httplib::Server>();
-  loopback::set_manners(*server, manners);
+  const auto server = std::make_shared<loopback::BoundedServer>(manners);
+  loopback::set_manners(*server);
   set_routes(*server, site);
   const int got = bound(*server, port);
   server->set_pre_routing_handler(gate(got));

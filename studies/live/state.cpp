@@ -5,6 +5,7 @@
 #include <drawpoint/studies/live/standing.h>
 #include <drawpoint/studies/live/state.h>
 #include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/runs/printed_text.h>
 #include <drawpoint/studies/store/times.h>
 
 #include <algorithm>
@@ -73,14 +74,15 @@ void add_failures(ordered_json& state, const Contents& contents, const Counts& c
   std::map<std::string, std::int64_t> last;
   for (const std::size_t i : contents.ended) {
     const Run& run = contents.runs[i];
-    if (run.status == Status::failed) last[run.reason] = run.id;
+    if (run.status == Status::failed) last[without_log_name(run.reason)] = run.id;
   }
   const auto failures = failures_of(counts);
   const std::size_t shown = std::min(failures.size(), most_failures);
   state["failures"] = ordered_json::array();
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [reason, times] = failures[i];
-    state["failures"].push_back({{"reason", shortened(reason)}, {"times", times}, {"run", last[reason]}});
+    state["failures"].push_back(
+        {{"reason", shortened(reason)}, {"times", times}, {"run", last[without_log_name(reason)]}});
   }
   state["more_failures"] = failures.size() - shown;
 }

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <random>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -18,7 +21,6 @@ namespace {
 constexpr const char* address = "127.0.0.1";
 constexpr std::chrono::milliseconds glance(10);
 constexpr std::chrono::seconds time_to_answer(3);  // what is being answered when the server is to end
-constexpr std::size_t threads = 32;                // slow clients hold one each
 
 void answer_exceptions(httplib::Server& server) {
   server.set_exception_handler(
@@ -35,17 +37,12 @@ void answer_exceptions(httplib::Server& server) {
 
 }  // namespace
 
-void set_manners(httplib::Server& server, const Manners& manners) {
+void set_manners(httplib::Server& server) {
   server.set_default_headers({{"Cache-Control", "no-store"},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Referrer-Policy", "no-referrer"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
                               {"X-Frame-Options", "DENY"}});
-  server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
-  server.set_keep_alive_max_count(1);
-  server.set_keep_alive_timeout(manners.patience.count());
-  server.set_read_timeout(manners.patience.count());
-  server.set_payload_max_length(manners.largest_body);
   // Without SO_REUSEPORT, which the library sets: two servers could have one port.
   server.set_socket_options([](int socket) {
     const int yes = 1;
@@ -54,10 +51,14 @@ void set_manners(httplib::Server& server, const Manners& manners) {
   answer_exceptions(server);
 }
 
-int bind(httplib::Server& server, int port) {
+int bind(BoundedServer& server, int port) {
   errno = 0;
-  if (port == 0) return server.bind_to_any_port(address);
-  return server.bind_to_port(address, port) ? port : -1;
+  if (port == 0)
+    port = server.bind_to_any_port(address);
+  else if (!server.bind_to_port(address, port))
+    return -1;
+  if (port > 0) server.queue_connections();
+  return port;
 }
 
 bool refused_by_host(const httplib::Request& request, httplib::Response& response, int port) {
@@ -74,11 +75,27 @@ bool refused_by_host(const httplib::Request& request, httplib::Response& respons
   return true;
 }
 
+bool refused_by_body(const httplib::Request& request, httplib::Response& response, std::size_t largest) {
+  const std::string text = request.get_header_value("Content-Length");
+  std::size_t length = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), length);
+  const bool told = request.get_header_value_count("Content-Length") == 1 && end.ec == std::errc() &&
+                    end.ptr == text.data() + text.size();
+  const bool packed = request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding") ||
+                      request.is_multipart_form_data();
+  if (told && !packed && length <= largest) return false;
+  refuse(response, 413,
+         "A body of a length in digits, at most " + std::to_string(largest) +
+             " bytes, sent as it is: nothing else is taken.");
+  return true;
+}
+
 void give(httplib::Response& response, int status, const std::string& type, std::string body) {
   response.status = status;
   const std::size_t length = body.size();
   response.set_content_provider(length, type.c_str(),
                                 [body = std::move(body)](std::size_t at, std::size_t count, auto& sink) {
+                                  if (at > body.size() || count > body.size() - at) return false;
                                   return sink.write(body.data() + at, count);
                                 });
 }

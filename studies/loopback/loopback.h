@@ -3,27 +3,28 @@
 #pragma once
 /// What the servers on 127.0.0.1 share: whom they answer, how, and how they end.
 
+#include <drawpoint/studies/loopback/bounded_server.h>
 #include <httplib.h>
 
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <string>
 
 namespace drawpoint::studies::loopback {
 
-struct Manners {
-  std::chrono::seconds patience;  ///< with a client that does not say what it wants
-  std::size_t largest_body;       ///< of what is sent here [byte]
-};
-void set_manners(httplib::Server& server, const Manners& manners);
+/// What every answer says, and how a port is taken.
+void set_manners(httplib::Server& server);
 
 /// A port of 127.0.0.1 that is free where `port` is 0; -1 with errno where it cannot be had.
-int bind(httplib::Server& server, int port);
+int bind(BoundedServer& server, int port);
 
 /// Whether the question was not for 127.0.0.1 or localhost with this port; then it has been refused. A page
 /// of the web whose name is turned to this machine (DNS rebinding) asks for another host.
 bool refused_by_host(const httplib::Request& request, httplib::Response& response, int port);
+
+/// Whether a body follows whose length is not said in digits, or is above what the server takes, or that is
+/// packed; then it has been refused.
+bool refused_by_body(const httplib::Request& request, httplib::Response& response, std::size_t largest);
 
 /// By its length, so that nothing is compressed: a page of megabytes would take seconds.
 void give(httplib::Response& response, int status, const std::string& type, std::string body);

@@ -63,7 +63,7 @@ CheckedRuns check_predictions(const std::vector<Run>& runs, const doe::Problem& 
       points_of_round = 0;
     }
     ++points_of_round;
-    const bool ended = has_ended(run);
+    const bool ended = has_ended(run) && !run.left_out;
     // Models of one run know no interval; that it holds is no success.
     if (!ended || !run.predicted.allFinite() || !run.lower.allFinite() || !run.upper.allFinite()) continue;
     CheckedRun checked = checked_run(run, problem);

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/counts.h>
 #include <drawpoint/studies/runs/plan.h>
+#include <drawpoint/studies/runs/printed_text.h>
+
+#include <map>
+#include <string>
 
 namespace drawpoint::studies {
 
@@ -20,9 +24,11 @@ int Counts::of(Status status) const {
 
 Counts count(const std::vector<Run>& runs) {
   Counts counts;
+  std::map<std::string, std::string> first;  // of the reasons that differ in the name of a log alone
   for (const auto& run : runs) {
     ++counts.by_kind[run.kind][run.status];
-    if (run.status == Status::failed) ++counts.failures[run.reason];
+    if (run.status == Status::failed)
+      ++counts.failures[first.emplace(without_log_name(run.reason), run.reason).first->second];
     counts.seconds += run.seconds;
   }
   counts.adaptive_points = count_points(runs, Kind::adaptive);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/tables.h>
+#include <drawpoint/studies/models/thinning.h>
 
 namespace drawpoint::studies {
 namespace {
@@ -15,10 +16,15 @@ doe::Outcome stored_outcome(const Run& run) {
 Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem) {
   Tables tables{.training = {.problem = problem, .rows = {}}, .validation = {.problem = problem, .rows = {}}};
   for (const auto& run : runs) {
-    if (run.status != Status::done && run.status != Status::failed) continue;
+    if (!has_ended(run) || run.left_out) continue;
     auto& table = run.kind == Kind::validation ? tables.validation : tables.training;
     table.rows.push_back({run.id, run.replicate, run.seed, run.x, stored_outcome(run), run.seconds});
   }
+  const std::size_t training = tables.training.rows.size(), validation = tables.validation.rows.size();
+  for (doe::Evaluations* table : {&tables.training, &tables.validation}) thin(*table, runs);
+  for (const std::string& text : {thinned_text(training, tables.training.rows.size(), "training"),
+                                  thinned_text(validation, tables.validation.rows.size(), "validation")})
+    if (!text.empty()) tables.thinned.push_back(text);
   return tables;
 }
 

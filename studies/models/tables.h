@@ -7,14 +7,16 @@
 #include <drawpoint/doe/evaluations.hpp>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace drawpoint::studies {
 
-/// The runs that ended, failed ones among them, in order of id.
+/// The runs that ended, failed ones among them, in order of id; of thousands some (thinning.h).
 struct Tables {
-  doe::Evaluations training;    ///< what models are fitted to: all but the validation runs
-  doe::Evaluations validation;  ///< independent of the models
+  doe::Evaluations training;              ///< what models are fitted to: all but the validation runs
+  doe::Evaluations validation;            ///< independent of the models
+  std::vector<std::string> thinned = {};  ///< a sentence per table that has not all runs
 };
 
 Tables tables_of(const std::vector<Run>& runs, const doe::Problem& problem);

@@ -4,18 +4,15 @@
 /// Carries out the planned runs of a study: processes of this very program, several at a time, each finished
 /// run stored at once.
 ///
-/// A child that ends without an outcome (a signal, exit, a time limit) is a failed run with that reason. A
-/// run that fails while the disk is full does not count: it is planned again and the study stops, because the
-/// next ones would fail too.
+/// A child that ends without an outcome (a signal, exit, a time limit) is a failed run with that reason. The
+/// study stops where the next runs would fail too: the disk is full, the program cannot be started (such runs
+/// do not count, and are planned again), or the first few all failed alike (first_failures.h).
 
+#include <drawpoint/studies/runs/run_ends.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/store/folder.h>
 #include <drawpoint/studies/store/store.h>
-#include <drawpoint/doe/outcome.hpp>
-#include <drawpoint/doe/processes.hpp>
 #include <drawpoint/studies/study.hpp>
-
-#include <string>
 
 namespace drawpoint::studies {
 
@@ -26,12 +23,7 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
                     int message_descriptor);
 
 /// Until no run is planned. Requires an InterruptGuard. Throws Interrupted after a signal, with all children
-/// ended.
+/// ended, std::runtime_error where the study stops.
 void carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor);
-
-/// What a child says through its reply channel.
-std::string reply_text(const doe::Outcome& outcome);
-/// The outcome of a child that has ended; `printed` is named in the reason of a crash if the file exists.
-doe::Outcome outcome_of(const doe::ProcessEnd& end, const std::filesystem::path& printed);
 
 }  // namespace drawpoint::studies

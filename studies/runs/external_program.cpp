@@ -1,18 +1,21 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/program_trouble.h>
+#include <drawpoint/studies/runs/strict_json.h>
+#include <drawpoint/studies/store/plain_text.h>
 #include <signal.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
+#include <drawpoint/doe/detail/stranger_file.hpp>
 #include <drawpoint/doe/processes.hpp>
 #include <drawpoint/studies/external_program.hpp>
 
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -24,11 +27,12 @@ namespace drawpoint::studies {
 namespace {
 
 namespace fs = std::filesystem;
+using doe::detail::clear_away;
 using nlohmann::json;
 
 // For the program to end by itself; less than a study's own.
 constexpr std::chrono::milliseconds program_time_to_end(1000);
-constexpr int could_not_start = 127;  // the shell's code, doe/processes.hpp
+constexpr std::size_t largest_reply = std::size_t{16} << 20;  // [byte]
 
 /// Thrown to leave a run after a signal.
 struct Stopped {
@@ -61,11 +65,12 @@ class Exchange {
  public:
   explicit Exchange(const fs::path& log)
       : request_(fs::absolute(log).string() + ".request.json"),
-        reply_(fs::absolute(log).string() + ".reply.json") {}
+        reply_(fs::absolute(log).string() + ".reply.json") {
+    clear_away(request_);  // of an attempt that was killed
+  }
   ~Exchange() {
-    std::error_code ignored;
-    fs::remove(request_, ignored);
-    fs::remove(reply_, ignored);
+    clear_away(request_);
+    clear_away(reply_);
   }
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
@@ -105,27 +110,31 @@ struct Crash {
 };
 using Attempt = std::variant<doe::Outcome, Crash>;
 
+/// JSON in a few words, for a message.
+std::string brief(const json& value) {
+  return plain_text(value.dump(-1, ' ', false, json::error_handler_t::replace), 200);
+}
+
 Attempt values_of(const doe::Problem& problem, const json& values) {
   Eigen::VectorXd y(static_cast<Eigen::Index>(problem.responses.size()));
   for (std::size_t j = 0; j < problem.responses.size(); ++j) {
     const std::string& name = problem.responses[j].name;
     if (!values.contains(name)) return Crash{"its reply has no value for \"" + name + "\""};
     if (!values[name].is_number())
-      return Crash{"its reply has " + values[name].dump() + " for \"" + name + "\", which is no number"};
+      return Crash{"its reply has " + brief(values[name]) + " for \"" + name + "\", which is no number"};
     y[static_cast<Eigen::Index>(j)] = values[name].get<double>();
   }
   return doe::Outcome(y);
 }
 
-Attempt reply_in(const fs::path& file, const doe::Problem& problem) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return Crash{"it wrote no reply"};
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+Attempt reply_of(const std::string& text, const doe::Problem& problem) {
   json reply;
   try {
-    reply = json::parse(text);
+    reply = strict_json(text);
   } catch (const json::exception& e) {  // NaN and Infinity too, which some languages write as JSON
-    return Crash{std::string("its reply is no JSON, whose numbers are finite: ") + e.what()};
+    return Crash{plain_text(std::string("its reply is no JSON, whose numbers are finite: ") + e.what())};
+  } catch (const std::runtime_error& e) {
+    return Crash{plain_text(std::string("in its reply ") + e.what())};
   }
   const bool failed = reply.is_object() && reply.contains("failure");
   if (failed == (reply.is_object() && reply.contains("values")))
@@ -133,7 +142,33 @@ Attempt reply_in(const fs::path& file, const doe::Problem& problem) {
   if (!failed && reply["values"].is_object()) return values_of(problem, reply["values"]);
   if (!failed || !reply["failure"].is_string() || reply["failure"].get<std::string>().empty())
     return Crash{"its reply has " + std::string(failed ? "no text as failure" : "no object as values")};
-  return doe::Outcome(doe::Failure{reply["failure"].get<std::string>()});
+  return doe::Outcome(doe::Failure{plain_text(reply["failure"].get<std::string>())});
+}
+
+/// The last line that is not empty; what stands before it is passed on as printed.
+std::string reply_among(const std::string& printed) {
+  const std::size_t last = printed.find_last_not_of(" \t\r\n");
+  if (last == std::string::npos) return "";
+  const std::size_t line = printed.rfind('\n', last);
+  const std::size_t from = line == std::string::npos ? 0 : line + 1;
+  std::fwrite(printed.data(), 1, from, stdout);
+  std::fflush(stdout);
+  return printed.substr(from, last + 1 - from);
+}
+
+Attempt reply_in(const fs::path& name, const doe::Problem& problem, const ExternalProgram& program,
+                 const RunContext& context) {
+  doe::detail::StrangerFile file(name);
+  if (file.missing() || (file.fault().empty() && file.size() == 0 && program.streams))
+    return Crash{"it wrote no reply"};
+  if (!file.fault().empty()) return Crash{"what it left as its reply " + file.fault()};
+  if (file.size() > largest_reply)
+    return Crash{"its reply has " + std::to_string(file.size()) + " bytes; allowed are " +
+                 std::to_string(largest_reply)};
+  const std::string text = file.text(0, largest_reply);
+  const std::string reply = program.streams ? reply_among(text) : text;
+  if (context.shows) context.shows("reply", reply);
+  return reply_of(reply, problem);
 }
 
 /// Throws Stopped after a signal, the program having been given the time to end.
@@ -152,35 +187,58 @@ doe::ProcessEnd run_to_end(const doe::Process& process) {
   return ends.front();
 }
 
-Attempt attempt(const doe::Problem& problem, const ExternalProgram& program, const Exchange& files) {
-  std::vector<std::string> words(program.command.begin() + 1, program.command.end());
-  words.push_back(files.request().string());
-  words.push_back(files.reply().string());
-  std::error_code ignored;
-  fs::remove(files.reply(), ignored);
+doe::Process process_for(const ExternalProgram& program, const Exchange& files) {
+  doe::Process process{.executable = program.command.front(),
+                       .arguments = {program.command.begin() + 1, program.command.end()},
+                       .output = {},
+                       .time_limit = program.time_limit,
+                       .input = files.request()};
+  if (program.streams) {
+    process.output = files.reply();
+    process.errors_apart = true;
+  } else {
+    process.arguments.push_back(files.request().string());
+    process.arguments.push_back(files.reply().string());
+  }
+  return process;
+}
+
+[[noreturn]] void cannot_start(const ExternalProgram& program, const std::string& why) {
+  throw ProgramTrouble(ProgramTrouble::Kind::not_started,
+                       "the program \"" + program.command.front() + "\" could not be started: " + why);
+}
+
+/// What can be seen before: a wrong line would start the wrong interpreter, or none.
+void check_start(const ExternalProgram& program) {
+  const std::string complaint =
+      doe::detail::interpreter_complaint(doe::detail::program_file(program.command.front()));
+  if (!complaint.empty()) cannot_start(program, complaint);
+}
+
+Attempt attempt(const doe::Problem& problem, const ExternalProgram& program, const Exchange& files,
+                const RunContext& context) {
+  clear_away(files.reply());
   std::fflush(stdout);
-  const doe::ProcessEnd end = run_to_end({.executable = program.command.front(),
-                                          .arguments = words,
-                                          .output = {},
-                                          .time_limit = program.time_limit});
-  if (!end.timed_out && WIFEXITED(end.wait_status) && WEXITSTATUS(end.wait_status) == could_not_start)
-    return doe::Outcome(doe::Failure{"the program \"" + program.command.front() + "\" could not be started"});
-  if (end.wait_status != 0 || end.timed_out) return Crash{"it " + doe::describe(end)};
-  return reply_in(files.reply(), problem);
+  const doe::ProcessEnd end = run_to_end(process_for(program, files));
+  if (!end.not_started.empty()) cannot_start(program, end.not_started);
+  if (end.wait_status != 0 || end.timed_out || !end.told.empty()) return Crash{"it " + doe::describe(end)};
+  return reply_in(files.reply(), problem, program, context);
 }
 
 doe::Outcome outcome_of_attempts(const doe::Problem& problem, const ExternalProgram& program,
-                                 const Exchange& files) {
+                                 const Exchange& files, const RunContext& context) {
   std::string reason;
   for (int k = 1; k <= program.attempts; ++k) {
-    const Attempt result = attempt(problem, program, files);
+    const Attempt result = attempt(problem, program, files, context);
     if (const auto* outcome = std::get_if<doe::Outcome>(&result)) return *outcome;
     reason = std::get<Crash>(result).reason;
-    std::fprintf(stderr, "attempt %d of %d: %s\n", k, program.attempts, reason.c_str());
+    // Not after the last one: the last words are the program's.
+    if (k < program.attempts)
+      std::fprintf(stderr, "attempt %d of %d: %s\n", k, program.attempts, reason.c_str());
   }
   std::string text = "the program \"" + program.command.front() + "\" crashed";
   if (program.attempts > 1) text += " in each of " + std::to_string(program.attempts) + " attempts, at last";
-  return doe::Failure{text + ": " + reason};
+  throw ProgramTrouble(ProgramTrouble::Kind::crashed, text + ": " + reason);
 }
 
 void check(const ExternalProgram& program) {
@@ -203,9 +261,12 @@ StudyFunction external_program(const doe::Problem& problem, const ExternalProgra
   doe::check(problem);
   return [problem, program](const Eigen::VectorXd& x, doe::Seed seed, const RunContext& context) {
     try {
+      check_start(program);
       const Exchange files(context.log);
-      doe::write_file(files.request(), request_text(problem, x, seed, context));
-      return outcome_of_attempts(problem, program, files);
+      const std::string request = request_text(problem, x, seed, context);
+      doe::write_file(files.request(), request);
+      if (context.shows) context.shows("request", request);
+      return outcome_of_attempts(problem, program, files, context);
     } catch (const Stopped& stopped) {  // as if the signal had found nobody to note it
       ::signal(stopped.signal, SIG_DFL);
       ::raise(stopped.signal);

@@ -5,8 +5,10 @@
 #include <drawpoint/studies/runs/point_table.h>
 #include <drawpoint/studies/runs/settings.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <set>
+#include <vector>
 
 namespace drawpoint::studies {
 namespace {
@@ -34,17 +36,25 @@ Run run_from(const doe::detail::CsvRecord& record, const ImportedColumns& column
   run.y.resize(static_cast<Eigen::Index>(columns.responses.size()));
   for (std::size_t k = 0; k < columns.variables.size(); ++k)
     run.x[static_cast<Eigen::Index>(k)] =
-        variable_from(field_of(record, columns.variables[k], place), problem.variables[k], place);
+        variable_from(record[columns.variables[k]], problem.variables[k], place);
   for (std::size_t k = 0; k < columns.responses.size(); ++k)
     run.y[static_cast<Eigen::Index>(k)] =
-        response_from(field_of(record, columns.responses[k], place), problem.responses[k], place);
+        response_from(record[columns.responses[k]], problem.responses[k], place);
   return run;
 }
 
-bool is_among(const Run& run, const std::vector<Run>& runs) {
-  return std::any_of(runs.begin(), runs.end(), [&](const Run& other) {
-    return other.kind == Kind::imported && other.x == run.x && other.y == run.y;
-  });
+/// Point and values, by which a row is known again.
+std::vector<double> key_of(const Run& run) {
+  std::vector<double> key(run.x.begin(), run.x.end());
+  key.insert(key.end(), run.y.begin(), run.y.end());
+  return key;
+}
+
+std::set<std::vector<double>> keys_of_imported(const std::vector<Run>& runs) {
+  std::set<std::vector<double>> keys;
+  for (const Run& run : runs)
+    if (run.kind == Kind::imported) keys.insert(key_of(run));
+  return keys;
 }
 
 }  // namespace
@@ -53,14 +63,16 @@ std::vector<Run> imported_runs(const std::filesystem::path& file, const doe::Pro
                                const std::vector<Run>& existing) {
   ImportedColumns columns;
   std::vector<Run> runs;
+  const std::set<std::vector<double>> known = keys_of_imported(existing);
+  const std::int64_t points = count_points(existing, Kind::imported);
   int rows = 0;
   const auto take = [&](const doe::detail::CsvRecord& record, const TablePlace& place) {
-    if (columns.status && *columns.status < record.size() && record[*columns.status] != "done") return;
+    if (columns.status && record[*columns.status] != "done") return;
     Run run = run_from(record, columns, problem, place);
     ++rows;
-    if (is_among(run, existing)) return;
+    if (known.contains(key_of(run))) return;
     run.id = static_cast<std::int64_t>(existing.size() + runs.size()) + 1;
-    run.point = count_points(existing, Kind::imported) + static_cast<std::int64_t>(runs.size()) + 1;
+    run.point = points + static_cast<std::int64_t>(runs.size()) + 1;
     runs.push_back(std::move(run));
   };
   const TablePlace end = read_table(

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/runs/point_table.h>
 #include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/doe/detail/round_off.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 namespace drawpoint::studies {
@@ -26,7 +28,22 @@ std::string text_of(const std::filesystem::path& file, const std::string& option
   return text;
 }
 
+/// A quantity may have the name of a column that ask and export give.
+bool is_of_ask(const std::string& name) {
+  static const std::set<std::string> columns = {"run",  "kind",   "point",  "replicate",
+                                                "seed", "status", "reason", "seconds"};
+  return columns.contains(name);
+}
+
 }  // namespace
+
+TableHeader::TableHeader(doe::detail::CsvRecord names, TablePlace place)
+    : names_(std::move(names)), place_(std::move(place)) {
+  std::set<std::string> seen;
+  for (const std::string& name : names_)
+    if (!name.empty() && !seen.insert(name).second)
+      place_.fail("the column \"" + name + "\" stands there twice; remove one");
+}
 
 void TablePlace::fail(const std::string& what) const {
   throw UsageError(option + " " + file + ", line " + std::to_string(line) + ": " + what);
@@ -35,15 +52,15 @@ void TablePlace::fail(const std::string& what) const {
 std::optional<std::size_t> TableHeader::find_bare(const std::string& name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end()) return std::nullopt;
-  if (std::find(found + 1, names_.end(), name) != names_.end())
-    place_.fail("the column \"" + name + "\" stands there twice; remove one");
   return static_cast<std::size_t>(found - names_.begin());
 }
 
 std::optional<std::size_t> TableHeader::find(const std::string& name, const std::string& unit) const {
   const std::string whole = name + " [" + unit + "]";
-  if (const auto with_unit = find_bare(whole)) return with_unit;
-  if (const auto bare = find_bare(name)) return bare;
+  const auto with_unit = find_bare(whole), bare = find_bare(name);
+  if (with_unit && bare && !is_of_ask(name))
+    place_.fail("the columns \"" + name + "\" and \"" + whole + "\" are of one quantity; remove one");
+  if (with_unit || bare) return with_unit ? with_unit : bare;
   for (const std::string& other : names_)
     if (other.rfind(name + " [", 0) == 0 && other.back() == ']')
       place_.fail("the column \"" + other + "\" is not in " + (unit.empty() ? "pure numbers" : unit) +
@@ -69,18 +86,15 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
   while (const auto record = reader.next()) {
     place.line = reader.line();
     if (record->size() == 1 && record->front().empty()) continue;  // an empty line
+    if (record->size() != header->size())
+      place.fail("it has " + std::to_string(record->size()) + " fields, and the first line has " +
+                 std::to_string(header->size()) +
+                 "; numbers take a decimal point, and a text with a comma stands in quotes");
     row(*record, place);
   }
   place.line = reader.line();
   if (!reader.fault().empty()) place.fail(reader.fault());
   return place;
-}
-
-const std::string& field_of(const doe::detail::CsvRecord& record, std::size_t column,
-                            const TablePlace& place) {
-  if (column >= record.size())
-    place.fail("it has " + std::to_string(record.size()) + " fields, fewer than the first line");
-  return record[column];
 }
 
 double number_from(const std::string& text, const std::string& name, const TablePlace& place) {
@@ -109,7 +123,7 @@ double variable_from(const std::string& text, const doe::Variable& variable, con
 }
 
 double response_from(const std::string& text, const doe::Response& response, const TablePlace& place) {
-  const double value = number_from(text, response.name, place);
+  const double value = doe::detail::without_round_off(response, number_from(text, response.name, place));
   if (value < response.lower || value > response.upper)
     place.fail("\"" + response.name + "\" is " + doe::detail::with_unit(value, response.unit) +
                ", which lies outside of its range");

@@ -3,8 +3,8 @@
 #pragma once
 /// Tables of points and responses that people and other programs write, read with the place of every fault.
 ///
-/// Comma-separated, the first line with names, "speed" or "speed [m/s]"; columns of other names are left
-/// alone.
+/// Comma-separated, the first line with names, "speed" or "speed [m/s]", none of them twice; columns of other
+/// names are left alone. Every row is as long as the first line: decimal commas make it longer.
 
 #include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -28,8 +28,8 @@ struct TablePlace {
 /// The first line of a table.
 class TableHeader {
  public:
-  TableHeader(doe::detail::CsvRecord names, TablePlace place)
-      : names_(std::move(names)), place_(std::move(place)) {}
+  /// Throws UsageError for a name that stands there twice.
+  TableHeader(doe::detail::CsvRecord names, TablePlace place);
 
   /// The quantity's column, named with its unit or, where there is no such, by its bare name; nothing where
   /// there is none. Throws UsageError where it is in another unit, or stands there twice.
@@ -54,8 +54,6 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
 
 // Fields of a row. They throw UsageError with the place for what cannot be.
 
-const std::string& field_of(const doe::detail::CsvRecord& record, std::size_t column,
-                            const TablePlace& place);
 double number_from(const std::string& text, const std::string& name, const TablePlace& place);
 /// A categorical variable has the name of a level or its number, from 0.
 /// The same, whatever the box of the study.

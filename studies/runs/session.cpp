@@ -5,6 +5,7 @@
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <drawpoint/doe/detail/task_files.hpp>
+#include <drawpoint/studies/external_program.hpp>
 
 #include <optional>
 #include <stdexcept>
@@ -193,7 +194,7 @@ std::string named(const std::string& simulator) {
 
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
   const std::string& stored = store.identity().simulator;
-  if (stored == study.simulator) return;
+  if (stored == study.simulator || study.simulator.starts_with(stored + files_beside_it)) return;
   throw UsageError(
       "studies: the runs of " + folder.path.string() + " were made by " + named(stored) +
       ", and new ones would be by " + named(study.simulator) +

@@ -35,6 +35,13 @@ struct AskSettings {
   bool confirm = false;           ///< points of the front in place of an adaptive batch
 };
 
+/// Options of `exclude`.
+struct ExcludeSettings {
+  std::optional<std::int64_t> run = {};  ///< empty: the ledger is shown
+  std::string why = {};
+  bool undo = false;  ///< taken in again
+};
+
 /// Options of `export`; of `ask` but for `what`.
 struct ExportSettings {
   std::string what = {};            ///< runs, which empty stands for, or front
@@ -92,6 +99,9 @@ struct Settings {
   ConfirmSettings confirm = {};
   AskSettings ask = {};
   std::filesystem::path told = {};  ///< of tell: the table
+  bool replace = false;             ///< of tell: runs that have ended otherwise are corrected
+  std::string why = {};             ///< with replace
+  ExcludeSettings exclude = {};
   ExportSettings exported = {};
   FrontSettings front = {};
   ReplaySettings replay = {};
@@ -101,8 +111,11 @@ struct Settings {
   std::optional<int> jobs = {};     ///< processes or tasks at a time, 1 or more; empty: all there are
   bool slurm = false;               ///< runs are tasks on a Slurm cluster
   std::vector<std::string> slurm_options = {};  ///< words for sbatch
+  int slurm_array = 0;                          ///< tasks of one job array; 0: as many as Slurm takes
   double time_limit = 0.0;                      ///< [s] a run may take; 0 means no limit
   bool retry_failed = false;
+  bool keep_going = false;  ///< though the first runs all fail alike
+  bool spot_check = true;   ///< on resume, one run is made again and compared
   bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
   std::string program = {};                     ///< what was typed before the command, for advice
   std::string command = {};                     ///< the command line as typed, for the report

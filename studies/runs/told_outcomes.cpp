@@ -44,12 +44,13 @@ TellingColumns telling_columns(const TableHeader& header, const doe::Problem& pr
 /// One table for one study.
 class Telling {
  public:
-  Telling(const doe::Problem& problem, const std::vector<Run>& runs) : problem_(problem), runs_(runs) {}
+  Telling(const doe::Problem& problem, const std::vector<Run>& runs, bool replace)
+      : problem_(problem), runs_(runs), replace_(replace) {}
 
   void start(const TableHeader& header) { columns_ = telling_columns(header, problem_); }
 
   void take(const doe::detail::CsvRecord& record, const TablePlace& place) {
-    const std::string status = columns_.status ? field_of(record, *columns_.status, place) : "done";
+    const std::string status = columns_.status ? record[*columns_.status] : "done";
     if (status != "done" && status != "failed") {
       ++told_.left_alone;
       return;
@@ -58,18 +59,18 @@ class Telling {
     if (!seen_.insert(run.id).second)
       place.fail("run " + std::to_string(run.id) + " is told twice; leave one out");
     check_point(run, record, place);
-    const ToldOutcome outcome = outcome_of(run, status == "failed", record, place);
-    if (run.status == Status::planned || run.status == Status::running)
-      told_.outcomes.push_back(outcome);
-    else
-      check_same(run, outcome, place);
+    ToldOutcome outcome = outcome_of(run, status == "failed", record, place);
+    if (has_ended(run) && is_same(run, outcome)) return;
+    outcome.replaces = has_ended(run);
+    if (outcome.replaces && !replace_) refuse_other(run, place);
+    told_.outcomes.push_back(outcome);
   }
 
   const Told& told() const { return told_; }
 
  private:
   const Run& run_of(const doe::detail::CsvRecord& record, const TablePlace& place) const {
-    const double number = number_from(field_of(record, columns_.run, place), "run", place);
+    const double number = number_from(record[columns_.run], "run", place);
     if (number != std::floor(number) || number < 1 || number > static_cast<double>(runs_.size()))
       place.fail("\"run\" is " + doe::detail::number_text(number) + "; the study has runs 1 to " +
                  std::to_string(runs_.size()) + ", those that ask gives");
@@ -80,8 +81,7 @@ class Telling {
     for (std::size_t k = 0; k < problem_.variables.size(); ++k) {
       if (!columns_.variables[k]) continue;
       const doe::Variable& variable = problem_.variables[k];
-      const double told =
-                       level_or_number_from(field_of(record, *columns_.variables[k], place), variable, place),
+      const double told = level_or_number_from(record[*columns_.variables[k]], variable, place),
                    asked = run.x[static_cast<Eigen::Index>(k)];
       // A spreadsheet may keep fewer digits.
       if (!(std::abs(told - asked) <= 1e-6 * (variable.upper - variable.lower)))
@@ -94,32 +94,38 @@ class Telling {
   ToldOutcome outcome_of(const Run& run, bool failed, const doe::detail::CsvRecord& record,
                          const TablePlace& place) const {
     ToldOutcome outcome{.run = run.id};
-    if (columns_.seconds && !field_of(record, *columns_.seconds, place).empty())
+    if (columns_.seconds && !record[*columns_.seconds].empty())
       outcome.seconds = number_from(record[*columns_.seconds], "seconds", place);
     if (outcome.seconds < 0)
       place.fail("\"seconds\" is " + doe::detail::number_text(outcome.seconds) +
                  "; allowed are numbers from 0 on");
     if (failed) {
-      if (columns_.reason) outcome.reason = field_of(record, *columns_.reason, place);
+      if (columns_.reason) outcome.reason = record[*columns_.reason];
       if (outcome.reason.empty()) outcome.reason = "told to have failed";
       return outcome;
     }
     outcome.y.resize(static_cast<Eigen::Index>(columns_.responses.size()));
     for (std::size_t k = 0; k < columns_.responses.size(); ++k)
       outcome.y[static_cast<Eigen::Index>(k)] =
-          response_from(field_of(record, columns_.responses[k], place), problem_.responses[k], place);
+          response_from(record[columns_.responses[k]], problem_.responses[k], place);
     return outcome;
   }
 
-  void check_same(const Run& run, const ToldOutcome& outcome, const TablePlace& place) const {
+  static bool is_same(const Run& run, const ToldOutcome& outcome) {
     const bool failed = outcome.y.size() == 0;
-    if (failed ? run.status == Status::failed : run.status == Status::done && run.y == outcome.y) return;
+    return failed ? run.status == Status::failed && !run.left_out
+                  : run.status == Status::done && run.y == outcome.y;
+  }
+
+  [[noreturn]] static void refuse_other(const Run& run, const TablePlace& place) {
     place.fail("run " + std::to_string(run.id) +
-               " has ended otherwise before, and what is stored stays; leave the row out");
+               " has ended otherwise before, and what is stored stays; leave the row out, or correct the run "
+               "with --replace --why TEXT");
   }
 
   const doe::Problem& problem_;
   const std::vector<Run>& runs_;
+  bool replace_;
   TellingColumns columns_;
   std::set<std::int64_t> seen_;
   Told told_;
@@ -128,8 +134,8 @@ class Telling {
 }  // namespace
 
 Told told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
-                   const std::vector<Run>& runs) {
-  Telling telling(problem, runs);
+                   const std::vector<Run>& runs, bool replace) {
+  Telling telling(problem, runs, replace);
   read_table(
       file, "--file", [&](const TableHeader& header) { telling.start(header); },
       [&](const doe::detail::CsvRecord& record, const TablePlace& place) { telling.take(record, place); });

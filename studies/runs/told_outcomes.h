@@ -19,6 +19,7 @@ namespace drawpoint::studies {
 /// `y` is empty where the run failed.
 struct ToldOutcome {
   std::int64_t run = 0;
+  bool replaces = false;  ///< what is stored of a run that has ended
   Eigen::VectorXd y = {};
   std::string reason = {};
   double seconds = 0.0;
@@ -31,8 +32,8 @@ struct Told {
 
 /// Runs that have ended as the table says are left out.
 /// Throws UsageError that names file, line and column for a number that is no run, a run told twice, one that
-/// has ended otherwise, and values that cannot be.
+/// has ended otherwise unless `replace` is set, and values that cannot be.
 Told told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
-                   const std::vector<Run>& runs);
+                   const std::vector<Run>& runs, bool replace = false);
 
 }  // namespace drawpoint::studies

@@ -6,12 +6,17 @@
 #include <drawpoint/studies/store/folder.h>
 #include <drawpoint/studies/store/store.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 namespace drawpoint::studies {
 
-/// Of a file's bytes, as Run::log has it. Throws std::runtime_error if it cannot be read.
+/// The most bytes that the log of a run may have: 4 GiB.
+inline constexpr std::uintmax_t largest_log = std::uintmax_t{4} << 30;
+
+/// Of a file's bytes, as Run::log has it. Throws std::runtime_error if it cannot be read; what is no file
+/// blocks nobody.
 std::string file_checksum(const std::filesystem::path& file);
 
 enum class LogState {

@@ -4,6 +4,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <drawpoint/studies/store/columns.h>
+#include <drawpoint/studies/store/left_out.h>
+#include <drawpoint/studies/store/plain_text.h>
 #include <drawpoint/studies/store/row_checksum.h>
 #include <drawpoint/studies/store/rows.h>
 #include <drawpoint/studies/store/store_errors.h>
@@ -29,6 +31,9 @@ constexpr int application_id = 0x44727770;
 constexpr int schema_version = 5;
 constexpr int lock_patience = 30000;   // [ms] for another program that reads the file
 constexpr int reader_patience = 2000;  // [ms] of who only reads, and may ask again
+
+/// With room for what printed_last adds.
+std::string kept_reason(const std::string& reason) { return plain_text(reason, most_of_reason + 1000); }
 
 std::string now() { return utc_text(std::time(nullptr)); }
 
@@ -160,11 +165,13 @@ std::vector<Run> Store::runs() const {
         refuse(file_, "is damaged (run " + name + " is not there)");
       if (checksum != detail::row_checksum(run))
         refuse(file_, "is damaged (run " + name + " does not fit its checksum)");
+      run.reason = plain_text(run.reason, most_of_reason + 2000);  // stores of before kept all
       result.push_back(std::move(run));
     }
     const std::string kept = database_->execAndGet("SELECT value FROM study WHERE key = 'rows'").getString();
     if (kept != std::to_string(result.size()))
       refuse(file_, "is damaged (it holds " + std::to_string(result.size()) + " of " + kept + " runs)");
+    leave_out(result, read_corrections(), identity_.problem);
     return result;
   });
 }
@@ -233,7 +240,7 @@ void Store::add(const std::vector<Run>& runs) {
       };
       insert.bind(6, name_of(run.status));
       if (has_ended(run)) {
-        if (!run.reason.empty()) insert.bind(7, run.reason);
+        if (!run.reason.empty()) insert.bind(7, kept_reason(run.reason));
         insert.bind(8, run.seconds);
         insert.bind(9, run.started);
         insert.bind(10, run.finished);
@@ -270,32 +277,36 @@ void Store::mark_planned(std::int64_t id) {
   });
 }
 
-void Store::save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log) {
+void Store::write_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log) {
   std::string text = "UPDATE runs SET status = 'done', reason = NULL, seconds = ?, finished = ?, log = ?";
   for (const auto& column : columns_.y) text += ", " + column + " = ?";
-  change(id, [&] {
-    SQLite::Statement update(*database_, text + " WHERE id = ?");
-    update.bind(1, seconds);
-    update.bind(2, now());
-    update.bind(3, log);
-    for (int i = 0; i < y.size(); ++i) update.bind(4 + i, y[i]);
-    update.bind(4 + static_cast<int>(y.size()), id);
-    update.exec();
-  });
+  SQLite::Statement update(*database_, text + " WHERE id = ?");
+  update.bind(1, seconds);
+  update.bind(2, now());
+  update.bind(3, log);
+  for (int i = 0; i < y.size(); ++i) update.bind(4 + i, y[i]);
+  update.bind(4 + static_cast<int>(y.size()), id);
+  update.exec();
+}
+
+void Store::write_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log) {
+  SQLite::Statement update(
+      *database_,
+      "UPDATE runs SET status = 'failed', reason = ?, seconds = ?, finished = ?, log = ? WHERE id = ?");
+  update.bind(1, kept_reason(reason));
+  update.bind(2, seconds);
+  update.bind(3, now());
+  update.bind(4, log);
+  update.bind(5, id);
+  update.exec();
+}
+
+void Store::save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log) {
+  change(id, [&] { write_done(id, y, seconds, log); });
 }
 
 void Store::save_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log) {
-  change(id, [&] {
-    SQLite::Statement update(
-        *database_,
-        "UPDATE runs SET status = 'failed', reason = ?, seconds = ?, finished = ?, log = ? WHERE id = ?");
-    update.bind(1, reason);
-    update.bind(2, seconds);
-    update.bind(3, now());
-    update.bind(4, log);
-    update.bind(5, id);
-    update.exec();
-  });
+  change(id, [&] { write_failed(id, reason, seconds, log); });
 }
 
 void Store::plan_again(bool failed) {

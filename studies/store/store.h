@@ -11,6 +11,8 @@
 ///                        variable and each response, named as in the problem, and for each response what was
 ///                        predicted of the run before it was made, and the ends of its 95 % interval
 ///
+///     corrections        where there are any: number, run, what, why, before (JSON), made, checksum
+///
 /// Seeds are decimal text, because SQLite's integers have a sign. Times are UTC in ISO 8601. columns.h
 /// names the columns.
 ///
@@ -77,6 +79,18 @@ struct Run {
   double seconds = 0.0;
   std::string started, finished;
   std::string log;  ///< checksum of its log file; empty: it wrote none
+  /// No model sees it (left_out.h): it is `failed` here, whatever is stored.
+  bool left_out = false;
+};
+
+/// What somebody has put right, with what stood there before.
+struct Correction {
+  std::int64_t number = 0;  ///< 1, 2, ...
+  std::int64_t run = 0;
+  std::string what;  ///< left_out.h: exclude, include, replace
+  std::string why;
+  std::string before;  ///< status, reason, values and seconds as JSON
+  std::string made;    ///< UTC
 };
 
 /// Another program held the file for longer than the store waits: 30 s, of Access::read 2 s.
@@ -106,7 +120,9 @@ class Store {
   void complete_options(const OptionValues& options) {
     identity_.options.insert(options.begin(), options.end());
   }
-  std::vector<Run> runs() const;  ///< in order of id
+  /// In order of id. Those that are left out have failed, with the reason for that.
+  std::vector<Run> runs() const;
+  std::vector<Correction> corrections() const;  ///< in order of number
 
   void set_sampling(const Sampling& sampling);
   void add(const std::vector<Run>& runs);  ///< planned ones, or ones that have ended elsewhere; all or none
@@ -114,6 +130,12 @@ class Store {
   void mark_planned(std::int64_t id);
   void save_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log = {});
   void save_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log = {});
+  /// A run that has ended is left out from now on, or taken in again; enters the ledger.
+  void exclude(std::int64_t id, const std::string& why, bool take_back = false);
+  /// What is stored of a run that has ended becomes this; what stood there enters the ledger. `y` is empty where
+  /// it failed.
+  void replace(std::int64_t id, const Eigen::VectorXd& y, const std::string& reason, double seconds,
+               const std::string& why);
   /// Runs that were in flight when a process died become planned again; with `failed`, so do the failed ones.
   void plan_again(bool failed);
 
@@ -124,6 +146,11 @@ class Store {
   void read_identity();
   void seal_rows(const std::string& condition);
   void seal_study();
+  void write_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log);
+  void write_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log);
+  std::vector<Correction> read_corrections() const;
+  void write_correction(const Run& before, const std::string& what, const std::string& why);
+  Run stored_row(std::int64_t id) const;
   template <class F>
   void change(std::int64_t id, const F& f);
 

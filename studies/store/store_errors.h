@@ -17,6 +17,10 @@ namespace drawpoint::studies::detail {
 inline std::string advice(int code) {
   if (code == SQLITE_READONLY_ROLLBACK)
     return "a process died while it wrote there; the command status puts it in order";
+  if (code == SQLITE_READONLY_DBMOVED)
+    return "the folder was moved, or the file was taken out of it, while this command worked there; give the "
+           "same "
+           "command again with its new place as --out";
   switch (code & 0xff) {
     case SQLITE_FULL:
     case SQLITE_IOERR:

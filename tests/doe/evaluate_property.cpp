@@ -9,7 +9,9 @@
 #include <drawpoint/doe/uniform.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <limits>
+#include <new>
 #include <set>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::doe;
@@ -50,6 +52,39 @@ TEST(Evaluate, OneTwoAndEightThreadsGiveTheSameTable) {
     ASSERT_EQ(many.rows.size(), one.rows.size());
     for (std::size_t i = 0; i < one.rows.size(); ++i) expect_equal(one.rows[i], many.rows[i]);
   }
+}
+
+/// Bounds of 0 and 1, 0 alone, and 100 alone: the tolerance is 2.3e-13 of the larger bound, or of one unit.
+TEST(Evaluate, ABoundIsMissedByMoreThanRoundOff) {
+  const auto one = [](double lower, double upper, double value) {
+    Problem problem = support::unit_problem(1, 1);
+    problem.responses[0].lower = lower;
+    problem.responses[0].upper = upper;
+    return evaluate([=](const Eigen::VectorXd&) { return value; }, problem, Eigen::MatrixXd{{0.5}})
+        .rows.front()
+        .outcome;
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(one(0, 1, -1.1e-16).values()[0], 0.0);
+  EXPECT_EQ(one(0, infinity, 1 - 0.9 - 0.1).values()[0], 0.0);
+  EXPECT_EQ(one(0, 1, 1 + 2e-16).values()[0], 1.0);
+  EXPECT_EQ(one(0, 1, 0.3).values()[0], 0.3);
+  EXPECT_EQ(one(-infinity, 100, 100 + 2e-11).values()[0], 100.0);
+  EXPECT_TRUE(one(0, 1, -1e-12).failed());
+  EXPECT_TRUE(one(0, 1e-6, -1e-16).failed()) << "the scale is that of the bounds";
+  EXPECT_TRUE(one(-infinity, 100, 100 + 1e-9).failed());
+}
+
+TEST(Evaluate, WordsOfTheStandardLibraryAreNoReason) {
+  const auto reason = [](auto f) {
+    return evaluate(f, support::unit_problem(1, 1), Eigen::MatrixXd{{0.5}}).rows.front().outcome.reason();
+  };
+  EXPECT_EQ(reason([](const Eigen::VectorXd&) -> double { throw std::bad_alloc(); }),
+            "memory ran out; make the run need less, or run fewer at a time");
+  EXPECT_EQ(reason([](const Eigen::VectorXd&) -> double {
+              return std::vector<double>(3).at(5);
+            }).find("the black box reached beyond the end of a list or table: "),
+            0u);
 }
 
 TEST(Evaluate, EveryKindOfFailureIsDataWithItsReason) {

@@ -69,7 +69,8 @@ TEST(ProcessPool, WhateverEndsARunIsItsReason) {
             "the run's process stopped after 0.1 s, its time limit");
   const Eigen::MatrixXd X{{0.5}};
   const Evaluations none = evaluate(process_pool({"/no/such/program", "{x}"}), support::unit_problem(1), X);
-  EXPECT_EQ(none.rows.front().outcome.reason(), "the run's process could not be started");
+  EXPECT_EQ(none.rows.front().outcome.reason(),
+            "the run's process could not be started: No such file or directory");
 }
 
 // One response of 3.14 or two of 3 and 14: nobody can tell.

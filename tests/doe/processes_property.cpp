@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <drawpoint/tests/support/shell_processes.hpp>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -63,7 +66,63 @@ TEST_F(PoolTest, SaysHowAChildEnded) {
   EXPECT_EQ(describe(ends.at(2)), "ended by signal SIGSEGV (Segmentation fault)");
   EXPECT_EQ(describe(ends.at(3)), "ended by signal SIGABRT (Aborted)");
   EXPECT_EQ(describe(ends.at(4)), "stopped after 0.1 s, its time limit");
-  EXPECT_EQ(describe(ends.at(5)), "could not be started");
+  EXPECT_EQ(describe(ends.at(5)), "could not be started: No such file or directory");
+}
+
+// A shell's code for what it does not find is an end like any other, whatever was done before it.
+TEST_F(PoolTest, StartingAndFailingAreToldApart) {
+  const auto ends =
+      run_all({shell(1, "echo worked; exit 127"), {.id = 2, .executable = "no-such-program"}}, 2);
+  EXPECT_EQ(ends.at(1).not_started, "");
+  EXPECT_EQ(describe(ends.at(1)), "ended with exit code 127, a shell's for a program that it does not find");
+  EXPECT_EQ(ends.at(2).not_started, "No such file or directory (it is not in the PATH)");
+}
+
+TEST_F(PoolTest, SaysWhyAProgramCannotBeStarted) {
+  const auto reason = [&](const std::string& text, std::filesystem::perms perms) {
+    const std::filesystem::path program = folder_ / "program";
+    std::ofstream(program) << text;
+    std::filesystem::permissions(program, perms);
+    return run_all({{.id = 1, .executable = program.string()}}, 1).at(1).not_started;
+  };
+  using std::filesystem::perms;
+  EXPECT_EQ(reason("#!/bin/sh\n", perms::owner_read),
+            "Permission denied (it may not be run; allow it with chmod +x)");
+  EXPECT_EQ(
+      reason("#!/no/such/interpreter -x\n", perms::owner_all),
+      "No such file or directory (its interpreter /no/such/interpreter cannot be started: No such file or "
+      "directory)");
+  EXPECT_EQ(
+      reason("#!/bin/sh\r\necho\r\n", perms::owner_all),
+      "No such file or directory (the line that names its interpreter ends in a carriage return, as Windows "
+      "writes lines; end them with line feeds alone)");
+  EXPECT_EQ(run_all({{.id = 1, .executable = folder_.string()}}, 1).at(1).not_started,
+            "Permission denied (it is a directory)");
+  EXPECT_EQ(run_all({{.id = 1, .executable = "/bin/true", .output = folder_}}, 1).at(1).not_started,
+            "Is a directory (the file for what it prints)");
+}
+
+TEST_F(PoolTest, APipeWithoutAReaderBlocksNobody) {
+  const std::filesystem::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto ends = run_all({{.id = 1, .executable = "/bin/true", .output = pipe}}, 1);
+  EXPECT_EQ(ends.at(1).not_started, "No such device or address (the file for what it prints)");
+}
+
+TEST_F(PoolTest, AReplyWithoutEndIsStopped) {
+  const auto ends = run_all({shell(1, "cat /dev/zero >&3"), shell(2, "printf good >&3")}, 2);
+  EXPECT_EQ(describe(ends.at(1)), "was stopped, for its reply is longer than 16 MiB");
+  EXPECT_EQ(ends.at(1).reply, "");
+  EXPECT_EQ(ends.at(2).reply, "good");
+}
+
+TEST_F(PoolTest, InputAndErrorsHaveTheirFiles) {
+  std::ofstream(folder_ / "in") << "asked";
+  Process process = shell(1, "cat; echo aside >&2");
+  process.input = folder_ / "in";
+  process.errors_apart = true;
+  run_all({process}, 1);
+  EXPECT_EQ(contents(folder_ / "out_1"), "asked");
 }
 
 TEST_F(PoolTest, ChildrenHaveOneThreadAndNoTerminal) {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/process_pool.hpp>
 #include <drawpoint/doe/slurm_array.hpp>
@@ -15,6 +16,8 @@
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/support/slurm_cluster.hpp>
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -190,7 +193,83 @@ TEST_F(SlurmArray, ATaskThatSomebodyCancelsHasFailedAndSaysSo) {
   while (jobs.running() > 0) ends = jobs.wait(1s);
   jobs.forget();
   ASSERT_EQ(ends.size(), 1U);
-  EXPECT_EQ(describe(ends[0]), "ended without a reply, Slurm's state CANCELLED");
+  EXPECT_EQ(describe(ends[0]),
+            "ended without a reply, Slurm's state CANCELLED: somebody cancelled it, as by scancel");
+  expect_nothing_left();
+}
+
+// Each of these hid tasks from squeue, had sbatch wait, or held what was submitted.
+TEST_F(SlurmArray, TheEnvironmentDoesNotChangeWhatItsCommandsDo) {
+  const std::vector<std::pair<const char*, const char*>> variables = {
+      {"SQUEUE_PARTITION", "other"}, {"SQUEUE_STATES", "PENDING"}, {"SQUEUE_USERS", "nobody"},
+      {"SBATCH_WAIT", "1"},          {"SBATCH_PARTITION", "none"}, {"SBATCH_HOLD", "1"},
+      {"SCANCEL_STATE", "PENDING"},  {"SQUEUE_FORMAT", "%i"},      {"SBATCH_CLUSTERS", "far"}};
+  for (const auto& [name, value] : variables) setenv(name, value, 1);
+  SlurmJobs jobs(options());
+  for (int id = 41; id <= 43; ++id) jobs.start(counted(id, "echo " + std::to_string(id) + " >&3"));
+  std::map<std::int64_t, std::string> replies;
+  while (jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(1s)) replies[end.id] = end.reply;
+  jobs.forget();
+  for (const auto& [name, value] : variables) unsetenv(name);
+  EXPECT_EQ(replies, (std::map<std::int64_t, std::string>{{41, "41\n"}, {42, "42\n"}, {43, "43\n"}}));
+  EXPECT_EQ(starts(41) + starts(42) + starts(43), 3);
+  expect_nothing_left();
+}
+
+/// A stand-in for sbatch that takes no more than two tasks at a time, as a limit on submitted jobs does.
+TEST_F(SlurmArray, WhereSlurmRefusesAnArrayHalfOfItIsTried) {
+  fs::create_directories(place_ / "bin");
+  std::ofstream(place_ / "bin" / "sbatch")
+      << "#!/bin/sh\nfor word; do case $word in --array=0-*) last=${word#--array=0-}; esac; done\n"
+         "if [ \"${last%%%*}\" -gt 1 ]; then echo QOSMaxSubmitJobPerUserLimit >&2; exit 1; fi\n"
+         "exec /usr/bin/sbatch \"$@\"\n";
+  fs::permissions(place_ / "bin" / "sbatch", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((place_ / "bin").string() + ":" + path).c_str(), 1);
+  SlurmJobs jobs(options());
+  for (int id = 51; id <= 57; ++id) jobs.start(counted(id, "echo done >&3"));
+  std::size_t done = 0;
+  while (jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(1s)) done += end.reply == "done\n";
+  jobs.forget();
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(done, 7u);
+  expect_nothing_left();
+}
+
+/// A stand-in for squeue that knows of no task: each is taken for lost while it is at work.
+TEST_F(SlurmArray, AReplyCountsHoweverLateItComes) {
+  fs::create_directories(place_ / "blind");
+  std::ofstream(place_ / "blind" / "squeue") << "#!/bin/sh\n";
+  fs::permissions(place_ / "blind" / "squeue", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((place_ / "blind").string() + ":" + path).c_str(), 1);
+  SlurmOptions hasty = options();
+  hasty.reply_delay = 0.5;
+  hasty.submissions = 8;
+  SlurmJobs jobs(hasty);
+  jobs.start(counted(71, "sleep 3; echo done >&3"));
+  std::vector<ProcessEnd> ends;
+  while (jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(1s)) ends.push_back(end);
+  jobs.forget();
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].reply, "done\n") << describe(ends[0]);
+  EXPECT_GT(starts(71), 1) << "it was submitted again";
+  expect_nothing_left();
+}
+
+TEST_F(SlurmArray, ArraysAreAsSmallAsIsAsked) {
+  SlurmOptions small = options();
+  small.per_array = 2;
+  SlurmJobs jobs(small);
+  for (int id = 61; id <= 65; ++id) jobs.start(counted(id, "sleep 1; echo done >&3"));
+  jobs.wait(100ms);
+  EXPECT_EQ(jobs.arrays().size(), 3u);
+  while (jobs.running() > 0) jobs.wait(1s);
+  jobs.forget();
   expect_nothing_left();
 }
 

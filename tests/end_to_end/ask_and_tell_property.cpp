@@ -138,6 +138,74 @@ TEST_F(AskAndTell, FaultyTablesAreRefusedWithTheirPlace) {
       << "told again";
 }
 
+// A decimal comma makes a row longer than its header, whoever reads it.
+TEST_F(AskAndTell, ARowIsAsLongAsItsHeader) {
+  on_bench("ask");
+  for (const char* text : {"run,wear\n1,1,5\n", "run,wear,note\n1,1\n", "run,wear\n1,1,\n"}) {
+    const Ended end = tell(text);
+    EXPECT_EQ(end.code, 2) << text;
+    EXPECT_TRUE(contains(end.err, "line 2: it has ")) << text;
+    EXPECT_TRUE(contains(end.err, "numbers take a decimal point"));
+  }
+  const Ended imported = on_bench("ask --import " + table().string());
+  EXPECT_EQ(imported.code, 2);
+  EXPECT_TRUE(contains(tell("run,wear,run\n1,1,2\n").err, "the column \"run\" stands there twice"));
+  EXPECT_TRUE(contains(tell("run,wear,who,who\n1,1,a,b\n").err, "the column \"who\" stands there twice"));
+  EXPECT_TRUE(contains(tell("run,wear,wear [mm]\n1,1,2\n").err, "are of one quantity; remove one"));
+  EXPECT_EQ(count("status = 'done'"), 0);
+}
+
+// What was told wrongly is put right with a reason; what stood there is kept, and a run can be left out and taken in
+// again.
+TEST_F(AskAndTell, CorrectionsAreALedger) {
+  on_bench("ask --runs 4");
+  ASSERT_EQ(tell("run,wear\n1,4\n2,3\n3,2\n4,1\n5,2\n").code, 0);
+  EXPECT_TRUE(contains(tell("run,wear\n1,0.4\n").err, "or correct the run with --replace --why TEXT"));
+  const std::string file = " --file " + table().string();
+  EXPECT_EQ(on_bench("tell --replace" + file).code, 2) << "without a reason";
+  const Ended replaced = on_bench("tell --replace --why 'a decimal comma'" + file);
+  ASSERT_EQ(replaced.code, 0) << replaced.err;
+  EXPECT_TRUE(contains(replaced.out, "1 of them had ended otherwise"));
+  EXPECT_EQ(query("select wear from runs where id = 1"), "0.4");
+  EXPECT_EQ(on_bench("exclude --run 2").code, 2) << "without a reason";
+  ASSERT_EQ(on_bench("exclude --run 2 --why 'the belt stood'").code, 0);
+  EXPECT_EQ(on_bench("exclude --run 2 --why again").code, 2);
+  const Ended ledger = on_bench("exclude");
+  EXPECT_TRUE(contains(ledger.out, "1. replace run 1, "));
+  EXPECT_TRUE(contains(ledger.out, "a decimal comma; before: {\"status\":\"done\",\"values\":[4.0]"));
+  EXPECT_TRUE(contains(ledger.out, "2. exclude run 2, "));
+  EXPECT_TRUE(contains(on_bench("status").out, "corrections by hand: 2"));
+  const Ended report = on_bench("report");
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_TRUE(contains(report.out, "caution: Run 2 is left out: excluded by hand: the belt stood."));
+  EXPECT_TRUE(contains(contents(dir() / "report.html"), "excluded by hand: the belt stood"));
+  EXPECT_EQ(query("select wear from runs where id = 2"), "3.0") << "what is stored stays";
+  ASSERT_EQ(on_bench("exclude --run 2 --undo --why 'it did not'").code, 0);
+  EXPECT_EQ(on_bench("report").out.find("left out"), std::string::npos);
+}
+
+// An absurd value ends no report; it is left out with a caution until it is corrected.
+TEST_F(AskAndTell, AValueThatCannotBeIsLeftOut) {
+  on_bench("ask --runs 8 --validation 2");
+  for (const char* absurd : {"1e200", "1.7e308", "1e30"}) {
+    std::filesystem::remove_all(dir());
+    on_bench("ask --runs 8 --validation 2");
+    ASSERT_EQ(
+        tell("run,wear\n1,4\n2,3\n3," + std::string(absurd) + "\n4,1\n5,2\n6,2.5\n7,3.5\n8,1.5\n9,2\n10,1\n")
+            .code,
+        0);
+    for (const char* command : {"report", "fit", "validate", "front", "status", "export", "ask"}) {
+      const Ended end = on_bench(command);
+      EXPECT_EQ(end.code, 0) << command << " with " << absurd << "\n" << end.err;
+      EXPECT_EQ(end.out.find("nan"), std::string::npos) << command;
+    }
+    EXPECT_TRUE(contains(on_bench("report").out, "caution: Run 3 is left out: \"wear\" is 1"));
+    tell("run,wear\n3,2\n");
+    ASSERT_EQ(on_bench("tell --replace --why 'typed wrongly' --file " + table().string()).code, 0);
+    EXPECT_EQ(on_bench("report").out.find("left out"), std::string::npos);
+  }
+}
+
 TEST_F(AskAndTell, AStudyWithoutASimulatorSaysSo) {
   for (const char* words : {"run", "confirm", "evaluate --x 2"})
     expect_refused(EXTERNAL_PROGRAM " " + (place_ / "bench.json").string() + " " + words, 2,
@@ -147,7 +215,7 @@ TEST_F(AskAndTell, AStudyWithoutASimulatorSaysSo) {
       << R"({"name": "b", "attempts": 2, "variables": [{"name": "x", "lower": 0, "upper": 1}],
     "responses": [{"name": "y", "goal": "minimize"}]})";
   expect_refused(EXTERNAL_PROGRAM " " + (place_ / "bench.json").string() + " ask", 1,
-                 "attempts and time_limit are of a command");
+                 "\"attempts\" is of a command");
 }
 
 // Points of the front are asked for as confirm would choose them.

@@ -56,8 +56,8 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " ask --format hdf5" + out(), 2, "--format");
   expect_refused(study + " export" + out(), 1, "there is no study in");
   expect_refused(study + " frobnicate", 2,
-                 "unknown command \"frobnicate\"; the commands are run, confirm, ask, tell, status, live, "
-                 "fit, validate, "
+                 "unknown command \"frobnicate\"; the commands are run, check, confirm, ask, tell, exclude, "
+                 "status, live, fit, validate, "
                  "front, compare, report, replay, export, rerun-responses, evaluate");
   expect_refused(study + " front --limit 0" + out(), 2, "--limit");
   expect_refused(study + " front" + out(), 1, "there is no study in");
@@ -151,7 +151,8 @@ TEST_F(BadInput, RunsThatHang) {
 }
 
 TEST_F(BadInput, RunsThatCrashAndARetry) {
-  expect_failed_runs("crash", "ended by signal SIGSEGV (Segmentation fault); it printed logs/run_");
+  expect_failed_runs(
+      "crash", "ended by signal SIGSEGV (Segmentation fault); it printed last \"about to crash\" (logs/run_");
   const std::string id = query("SELECT id FROM runs WHERE status = 'failed'");
   EXPECT_EQ(contents(dir() / "logs" / ("run_" + std::string(4 - id.size(), '0') + id + ".txt")),
             "about to crash\n");
@@ -162,7 +163,7 @@ TEST_F(BadInput, RunsThatCrashAndARetry) {
 }
 
 TEST_F(BadInput, NothingButFailuresIsAFailureThatSaysWhy) {
-  const Ended end = run(with("all") + "--runs 5 --validation 2 --json" + out());
+  const Ended end = run(with("all") + "--runs 5 --validation 2 --keep-going --json" + out());
   EXPECT_EQ(end.code, 1);
   EXPECT_EQ(end.json()["failed"], 7);
   EXPECT_TRUE(end.json()["report"].is_null());

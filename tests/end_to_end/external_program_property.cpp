@@ -209,7 +209,10 @@ TEST_F(ExternalProgram, ThatCannotStartIsNotTriedAgain) {
       R"("variables": [{"name": "x", "lower": 0, "upper": 1}], "responses": [{"name": "y", "goal": "record"}],)"
       R"("command": ["no_such_program"], "attempts": 3)");
   const Ended end = run(program + " evaluate --x=0.5 --json");
-  EXPECT_EQ(end.json()["reason"], "the program \"no_such_program\" could not be started");
+  EXPECT_EQ(
+      end.json()["reason"],
+      "the program \"no_such_program\" could not be started: No such file or directory (it is not in the "
+      "PATH)");
   EXPECT_EQ(end.err, "");
 }
 
@@ -226,8 +229,10 @@ TEST_F(ExternalProgram, ThatChangesEndsTheStudy) {
   const fs::path changed = place_ / "changed";
   const Ended within = run(study("echo >> $0; " + half) + " --runs 4 --validation 0 --jobs 1 --json --out " +
                            changed.string());
-  EXPECT_EQ(within.json()["failed"], 3) << "one run has ended when the script has changed itself";
-  EXPECT_TRUE(contains(contents(changed / "logs" / "run_0002.txt"), "changed while the study ran"));
+  EXPECT_EQ(within.code, 1);
+  EXPECT_TRUE(contains(within.err, "no run can be made: run 2: "));
+  EXPECT_TRUE(contains(within.err, "changed while the study ran"))
+      << "run 1 has ended when the script changed itself";
 }
 
 TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {

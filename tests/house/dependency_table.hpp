@@ -145,7 +145,7 @@ inline std::optional<std::string> package_of(const std::string& header) {
       {std::regex("CLI/.*"), "CLI11"},
       {std::regex("nlohmann/.*"), "nlohmann-json"},
       {std::regex("[a-z_0-9]+"), "standard"},
-      {std::regex("(unistd|fcntl|spawn|poll|signal|immintrin|malloc)\\.h|sys/[a-z]+\\.h"), "standard"}};
+      {std::regex("(unistd|fcntl|spawn|poll|signal|glob|immintrin|malloc)\\.h|sys/[a-z]+\\.h"), "standard"}};
   for (const auto& [pattern, name] : packages) {
     if (std::regex_match(header, pattern)) return name;
   }

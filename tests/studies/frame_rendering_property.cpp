@@ -107,6 +107,18 @@ TEST_F(Rendered, FramesAreTakenFromWhoKnowsTheNameAlone) {
   EXPECT_EQ(test::contents(folder() / frame_name(2)), png_bytes(4, 2, "two"));
 }
 
+TEST_F(Rendered, BodiesOfAnUnknownLengthAreNotRead) {
+  with_client([&](int port, const std::string& page) {
+    const std::string head = "POST " + page + "frame/1 HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port);
+    for (const char* said :
+         {"Content-Length: -1", "Content-Length: 99999999999999999999", "Content-Length: 268435457",
+          "Content-Length: 1\r\nContent-Length: 2", "Transfer-Encoding: chunked", "X: no length",
+          "Content-Length: 9\r\nContent-Encoding: gzip"})
+      EXPECT_EQ(support::answer_to(port, head + "\r\n" + said + "\r\n\r\n").status, 413) << said;
+    for (const char* k : {"1", "2"}) sent(port, page + "frame/" + k, png_bytes(4, 2));
+  });
+}
+
 TEST_F(Rendered, ThePageHasItsPolicyAndItsTask) {
   with_client([&](int port, const std::string& place) {
     const Reply page = support::get(port, place);

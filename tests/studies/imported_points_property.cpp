@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Tables of points made elsewhere: what is taken of them, and that a wrong one is refused with its place.
 
+#include <drawpoint/studies/models/tables.h>
 #include <drawpoint/studies/runs/imported_points.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <gtest/gtest.h>
 #include <drawpoint/tests/studies/support.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 using namespace drawpoint;
@@ -52,6 +54,10 @@ TEST_F(ImportedPoints, AreTakenByNameWhateverElseTheTableHolds) {
   EXPECT_TRUE(runs[1].kind == Kind::imported && runs[1].status == Status::done);
 }
 
+TEST_F(ImportedPoints, RoundOffBelowABoundIsTheBound) {
+  EXPECT_EQ(imported("speed,lining,wear\n2,0,-1.1e-16\n").at(0).y[0], 0.0);
+}
+
 TEST_F(ImportedPoints, AreTakenOnce) {
   const std::string table = "\xEF\xBB\xBFspeed,lining,wear\r\n2,0,1\r\n3,0,1\r\n";
   const auto first = imported(table);
@@ -75,9 +81,37 @@ TEST_F(ImportedPoints, AreRefusedWithTheirPlace) {
   has("speed,lining,wear\n2,wood,1\n", "\"wood\" is no number for \"lining\"");
   has("speed,lining,wear\n2,0.5,1\n", "whole numbers from 0 to 1");
   has("speed,lining,wear\n2,0,-1\n", "\"wear\" is -1, which lies outside of its range");
-  has("speed,lining,wear\n2,0\n", "line 2: it has 2 fields");
+  has("speed,lining,wear\n2,0\n", "line 2: it has 2 fields, and the first line has 3");
+  has("speed,lining,wear\n2,0,1\n2,5,0,1\n", "line 3: it has 4 fields, and the first line has 3");
+  has("speed,lining,wear\n2,0,1,\n", "numbers take a decimal point");
+  has("speed,lining,wear,wear\n2,0,1,1\n", "the column \"wear\" stands there twice");
+  has("speed,lining,wear,note,note\n2,0,1,,\n", "the column \"note\" stands there twice");
+  has("speed,lining,wear,speed [m/s]\n2,0,1,3\n", "are of one quantity; remove one");
+  has("speed,lining,wear\n2,0,-1e-12\n", "lies outside of its range");
   has("speed,lining,wear\n", "no row with a point");
   has("", "no first line");
   std::filesystem::remove(file());
   EXPECT_THROW(imported_runs(file(), problem, {}), UsageError);
+}
+
+// 5000 imported runs and 3 of the study's own: a thousand stay, its own and the extremes among them.
+TEST(ManyRuns, AreThinnedForModels) {
+  std::vector<studies::Run> runs(5003);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].id = static_cast<std::int64_t>(i) + 1;
+    runs[i].kind = i < 3 ? Kind::training : Kind::imported;
+    runs[i].status = Status::done;
+    runs[i].x = Eigen::Vector2d(1.0 + 0.001 * static_cast<double>(i), 0.0);
+    runs[i].y = Eigen::VectorXd::Constant(1, i == 2001 ? 9.0 : i == 3001 ? 0.0 : 1.0);
+  }
+  const Tables tables = tables_of(runs, problem);
+  const auto kept = runs_with_values(tables.training);
+  EXPECT_EQ(kept.size(), 1000u);
+  for (const std::int64_t id : {1, 2, 3, 2002, 3002})
+    EXPECT_TRUE(std::find(kept.begin(), kept.end(), id) != kept.end()) << id;
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+  ASSERT_EQ(tables.thinned.size(), 1u);
+  EXPECT_EQ(tables.thinned[0].find("Of 5003 training runs 1000 are used for models and figures"), 0u);
+  runs.resize(2000);
+  EXPECT_EQ(tables_of(runs, problem).training.rows.size(), 2000u);
 }

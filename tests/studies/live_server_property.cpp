@@ -11,11 +11,13 @@
 #include <unistd.h>
 #include <drawpoint/tests/support/loopback_client.hpp>
 
+#include <atomic>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::studies;
@@ -169,6 +171,75 @@ TEST_F(LiveServer, CanOnlyBeLookedAt) {
   const Reply head = ask("/", here(), "HEAD");
   EXPECT_EQ(head.status, 200);
   EXPECT_EQ(head.body, "");
+}
+
+/// 416 is for what the library itself finds wrong, before anything is answered.
+TEST_F(LiveServer, AnswersAreWholeWhateverRangeIsAsked) {
+  const std::size_t whole = get("/figures.json?run=1").body.size();
+  std::string many = "bytes=0-0";
+  while (many.size() < 8000) many += ",0-0";
+  for (const std::string& range :
+       {std::string("bytes=10-60000"), std::string("bytes=9000000-9000001"), std::string("bytes=-60000"),
+        std::string("bytes=-0"), std::string("bytes=-"), std::string("bytes=5-2"),
+        std::string("bytes=0-0,4-9"), std::string("bytes=0-9223372036854775807"),
+        std::string("bytes=9223372036854775807-"), std::string("bytes=0-99999999999999999999"),
+        std::string("bytes=-9223372036854775807"), std::string("bytes=--5"), std::string("lines=1-2"),
+        "bytes=" + std::string(8000, '1') + "-", many}) {
+    for (const char* path : {"/figures.json?run=1", "/", "/run/1", "/none", "/state.json"}) {
+      const Reply reply = answer_to(port_, std::string("GET ") + path + " HTTP/1.1\r\nHost: " + here() +
+                                               "\r\nRange: " + range + "\r\n\r\n");
+      const std::string name = range.substr(0, 40) + " of " + path;
+      const std::string length = std::to_string(reply.body.size());
+      EXPECT_TRUE(reply.status == 416 || reply.head.find("Content-Length: " + length) != std::string::npos)
+          << name;
+      EXPECT_EQ(reply.head.find("Content-Range"), std::string::npos) << name;
+      EXPECT_NE(reply.status, 206) << name;
+      if (path == std::string("/figures.json?run=1") && reply.status != 416) {
+        EXPECT_EQ(reply.body.size(), whole) << name;
+      }
+    }
+  }
+}
+
+TEST_F(LiveServer, LengthsThatAreSaidAreNotBelieved) {
+  for (const char* length : {"-1", "99999999999999999999", "18446744073709551615", "x", "5, 5"})
+    for (const char* method : {"GET", "POST"}) {
+      const Reply reply = answer_to(port_, std::string(method) + " /state.json HTTP/1.1\r\nHost: " + here() +
+                                               "\r\nContent-Length: " + length + "\r\n\r\n");
+      EXPECT_EQ(reply.status, std::string(method) == "GET" ? 200 : 405) << length;
+    }
+  const std::string head = "GET / HTTP/1.1\r\nHost: " + here() + "\r\nX: ";
+  EXPECT_NE(answer_to(port_, head + std::string(std::size_t{64} << 20, 'x') + "\r\n\r\n").status, 200)
+      << "a line of 64 MiB";
+  std::string lines = "GET / HTTP/1.1\r\nHost: " + here() + "\r\n";
+  for (int k = 0; k < 100000; ++k) lines += "X" + std::to_string(k) + ": 1\r\n";
+  EXPECT_NE(answer_to(port_, lines + "\r\n").status, 200) << "100 000 lines";
+  EXPECT_EQ(get("/state.json").status, 200);
+}
+
+// Each sends a byte every 50 ms: no pause is long enough to be called silence. Without a bound on all
+// together they kept the page away for half a minute.
+TEST_F(LiveServer, ConnectionsThatDripDoNotKeepThePageAway) {
+  std::vector<int> dripping;
+  for (int k = 0; k < 600; ++k) {
+    dripping.push_back(connected("127.0.0.1", port_));
+    ::send(dripping.back(), "GET /", 5, MSG_NOSIGNAL);
+  }
+  std::atomic<bool> over = false;
+  const auto drips = std::async(std::launch::async, [&] {
+    while (!over) {
+      for (const int socket : dripping) ::send(socket, "x", 1, MSG_NOSIGNAL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+  for (int k = 0; k < 5; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(get("/state.json").status, 200);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  }
+  over = true;
+  drips.wait();
+  for (const int socket : dripping) ::close(socket);
 }
 
 TEST_F(LiveServer, ItsPortIsItsOwn) {

@@ -6,6 +6,7 @@
 
 #include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/studies/runs/progress.h>
+#include <drawpoint/studies/store/plain_text.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,24 @@ TEST(Progress, ElsewhereThanOnATerminalOneLineAStep) {
   EXPECT_EQ(text.find("0/2 runs\n"), 0u);
   EXPECT_NE(text.find("2/2 runs, 1 failed"), std::string::npos);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+}
+
+TEST(PlainText, CommandsNoTerminal) {
+  EXPECT_EQ(plain_text("a\tb\nc"), "a\tb\nc");
+  EXPECT_EQ(plain_text("\xC3\xA9 \xE2\x82\xAC \xF0\x9F\xAA\xA8"), "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\xAA\xA8");
+  EXPECT_EQ(plain_text("\033[2Jx\r\a\177"), "\xE2\x90\x9B[2Jx\xE2\x90\x8D\xE2\x90\x87\xE2\x90\xA1");
+  const std::string replaced = "\xEF\xBF\xBD";
+  for (const char* bad : {"\xC2\x9B", "\xE2\x80\xAE", "\xE2\x81\xA6", "\xFF", "\xC0\x80", "\xE2\x80\xA8"})
+    EXPECT_EQ(plain_text("a" + std::string(bad) + "b").substr(0, 4), "a" + replaced);
+  EXPECT_EQ(plain_text("\xE2\x82", 100), replaced + replaced) << "cut inside a character";
+}
+
+TEST(PlainText, IsCutToAStatedLength) {
+  EXPECT_EQ(plain_text("abcdef", 6), "abcdef");
+  EXPECT_EQ(plain_text("abcdefg", 6), "abcdef ... (cut: it has 7 bytes)");
+  EXPECT_EQ(plain_text("abcde\xC3\xA9", 6), "abcde ... (cut: it has 7 bytes)");
+  EXPECT_EQ(plain_text("abcdef ... (cut: it has 7 bytes)", 6), "abcdef ... (cut: it has 7 bytes)") << "once";
+  EXPECT_LT(plain_text(std::string(20000000, '\033')).size(), most_of_reason + 50);
 }
 
 TEST(JsonLine, IsOneLineWithTheDocumentedMembers) {

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <thread>
+#include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::studies;
@@ -61,6 +62,59 @@ TEST_F(StoreTest, GivesBackEveryBit) {
   EXPECT_EQ(runs[0].started.size(), std::string("2000-01-01T00:00:00Z").size());
   EXPECT_EQ(runs[1].status, Status::failed);
   EXPECT_EQ(runs[1].reason, "it's \"stuck\"");
+}
+
+TEST_F(StoreTest, CorrectionsKeepWhatStoodThere) {
+  {
+    Store store = Store::create(file_, test::identity());
+    store.add({planned(1, 0.5, 2.0), planned(2, 0.6, 2.0)});
+    store.save_done(1, Eigen::Vector2d(0.1 + 0.2, 0.1), 2.5);
+    store.save_failed(2, "stuck", 1.0);
+    EXPECT_TRUE(store.corrections().empty());
+    store.replace(1, Eigen::Vector2d(3.0, 0.2), "", 2.5, "a decimal comma");
+    store.exclude(1, "the belt stood");
+  }
+  Store store = Store::open(file_);
+  EXPECT_TRUE(store.runs()[0].left_out);
+  EXPECT_EQ(store.runs()[0].status, Status::failed);
+  EXPECT_EQ(store.runs()[0].reason, "left out: excluded by hand: the belt stood");
+  const auto ledger = store.corrections();
+  ASSERT_EQ(ledger.size(), 2u);
+  EXPECT_EQ(ledger[0].before, "{\"status\":\"done\",\"values\":[0.30000000000000004,0.1],\"seconds\":2.5}");
+  EXPECT_EQ(ledger[1].before, "{\"status\":\"done\",\"values\":[3.0,0.2],\"seconds\":2.5}");
+  store.exclude(1, "it did not", true);
+  EXPECT_EQ(store.runs()[0].y, Eigen::Vector2d(3.0, 0.2));
+  store.plan_again(true);
+  EXPECT_EQ(store.runs()[1].status, Status::planned) << "the failed one";
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)
+      .exec("UPDATE corrections SET why = 'x' WHERE number = 2");
+  EXPECT_NE(complaint([&] { store.runs(); }).find("correction 2 does not fit its checksum"),
+            std::string::npos);
+}
+
+TEST_F(StoreTest, AMovedFolderIsCalledMoved) {
+  std::filesystem::create_directory(folder_ / "here");
+  Store store = Store::create(folder_ / "here" / "study.db", test::identity());
+  store.add({planned(1, 0.5, 2.0)});
+  std::filesystem::rename(folder_ / "here", folder_ / "there");
+  EXPECT_NE(complaint([&] { store.save_failed(1, "stuck", 1.0); }).find("the folder was moved"),
+            std::string::npos);
+}
+
+// Values of 1e-17 beside such of 0.3 are what a response without signal gives; 1e30 is what nobody measured.
+TEST_F(StoreTest, ValuesThatCannotBeAreLeftOut) {
+  Store store = Store::create(file_, test::identity());
+  std::vector<studies::Run> runs;
+  for (int id = 1; id <= 8; ++id) runs.push_back(planned(id, 0.5 + 0.1 * id, 2.0));
+  store.add(runs);
+  const std::vector<double> values = {1e-17, 2e-17, 0.3, 1e30, 1e200, -1e200, HUGE_VAL, 3e-17};
+  for (int id = 1; id <= 8; ++id)
+    store.save_done(id, Eigen::Vector2d(values[static_cast<std::size_t>(id) - 1], 0.1), 1.0);
+  const auto read = store.runs();
+  for (const int id : {1, 2, 3, 8}) EXPECT_FALSE(read[static_cast<std::size_t>(id) - 1].left_out) << id;
+  for (const int id : {4, 5, 6, 7}) EXPECT_TRUE(read[static_cast<std::size_t>(id) - 1].left_out) << id;
+  EXPECT_EQ(read[3].reason,
+            "left out: \"production\" is 1e+30 kg/s, which is more than 1e12 times the median size");
 }
 
 TEST_F(StoreTest, KeepsWhatWasPredictedAndHowTheStudyGoesOn) {
