@@ -56,7 +56,11 @@ DRAWPOINT_KRIGING_INLINE Model fit(const Eigen::MatrixXd& X, const Eigen::Vector
   if (data.y.size() == 0) return detail::constant_model(data, options);
   if (given.noise == Noise::none || given.noise == Noise::nugget) {
     const auto sites = detail::sites_of(X);
-    if (detail::repeats_agree(sites, y)) return detail::fit_exact_repeats(X, y, sites, given);
+    if (detail::repeats_agree(sites, y)) {
+      if (const auto trend = detail::exact_trend(data, options))
+        return *trend;  // repeats count as runs for that
+      return detail::fit_exact_repeats(X, y, sites, given);
+    }
   }
   return detail::fit_to(X, data, options);
 }
