@@ -10,11 +10,16 @@
 /// the sampler, so that a model fitted and scored there can serve the sampler too. Batch after batch is a
 /// function of the runs so far and the options alone: with a journal (EvaluateOptions::journal) the same call
 /// after a crash repeats the proposals, finds the runs on disk and goes on, to the same bits.
+///
+/// Without waiting for whole batches a new point is proposed whenever one of evaluate.threads threads is free,
+/// from the runs that have ended, and kept away from those under way. With one thread the same holds of it; with
+/// more the points depend on which run ends first, and the call after a crash goes on from the runs on disk.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <concepts>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,6 +27,7 @@
 #include <utility>
 
 #include <drawpoint/doe/criterion.hpp>
+#include <drawpoint/doe/detail/run_stream.hpp>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/lola_voronoi.hpp>
 #include <drawpoint/doe/propose.hpp>
@@ -34,6 +40,8 @@ struct RefineOptions {
   std::function<bool(const Evaluations& runs)> enough = {};
   ProposeOptions propose{.batch = 8};  ///< batch: as many as can run at once
   EvaluateOptions evaluate = {};       ///< its stop ends the loop too; first_run is set by the loop
+  /// false: propose.batch is not used, `enough` is asked before each point, and evaluate.replicates must be 1.
+  bool wait_for_batch = true;
 };
 
 enum class RefineStatus {
@@ -61,7 +69,7 @@ struct Refinement {
   Evaluations runs;
   RefineStatus status = RefineStatus::budget_spent;
   std::string message;  ///< for people
-  int batches = 0;      ///< after the first design
+  int batches = 0;      ///< after the first design; points where no batch is waited for
 };
 
 namespace detail {
@@ -104,6 +112,43 @@ Refinement refined(const F& f, const Problem& problem, const Eigen::MatrixXd& fi
   return end(RefineStatus::cancelled, points, "cancelled");
 }
 
+/// The same without batches.
+template <class F, class S>
+Refinement refined_one_by_one(const F& f, const Problem& problem, const Eigen::MatrixXd& first, S& sampler,
+                              const RefineOptions& options) {
+  check_inside(first, problem, "doe::refine");
+  check_options(options.evaluate);
+  if (options.evaluate.replicates != 1)
+    throw std::invalid_argument("doe::refine: replicates is " + std::to_string(options.evaluate.replicates) +
+                                " without waiting for batches; allowed is 1; wait for batches");
+  bool met = false;
+  int points = 0;
+  const auto next = [&](const Evaluations& ended,
+                        const Eigen::MatrixXd& pending) -> std::optional<Eigen::VectorXd> {
+    met = met || (options.enough && options.enough(ended));
+    if (met) return {};
+    ProposeOptions one = options.propose;
+    one.batch = 1;
+    one.pending = pending;
+    const Eigen::MatrixXd X = propose(ended, sampler, one);
+    if (X.rows() == 0) return {};
+    ++points;
+    return X.row(0).transpose();
+  };
+  RunStream<F> runs("doe::refine", f, problem, options.max_points, options.evaluate);
+  const StreamEnd end = stream(runs, first, options.max_points, next);
+  Refinement result{runs.finish(), RefineStatus::cancelled, "cancelled", points};
+  if (end == StreamEnd::budget_spent) {
+    result.status = RefineStatus::budget_spent;
+    result.message = "max_points was reached";
+  } else if (end == StreamEnd::nothing_next) {
+    result.status = met ? RefineStatus::criterion_met : RefineStatus::no_candidate;
+    result.message = met ? "the stopping criterion held" : "no candidate was left";
+  }
+  result.message += " after " + std::to_string(result.runs.rows.size()) + " points";
+  return result;
+}
+
 }  // namespace detail
 
 /// first: n x d, the first design, natural units. `sampler` is a sampler, a joint one or a Mix
@@ -113,7 +158,7 @@ Refinement refine(const F& f, const Problem& problem, const Eigen::MatrixXd& fir
                   const RefineOptions& options = {}) {
   using Given = std::remove_reference_t<S>;
   require_black_box<F>();
-  if constexpr (!std::same_as<std::remove_const_t<Given>, Mix>) require_sampler<Given>();
+  require_sampler<Given>();
   detail::check_rule(options.propose, JointSamplerFunction<Given>);
   if (options.max_points < 1)
     throw std::invalid_argument("doe::refine: max_points is " + std::to_string(options.max_points) +
@@ -121,9 +166,9 @@ Refinement refine(const F& f, const Problem& problem, const Eigen::MatrixXd& fir
   if (first.rows() < 1)
     throw std::invalid_argument(
         "doe::refine: the first design has 0 runs; allowed is 1 or more; start from a Latin hypercube");
-  if constexpr (BlackBox<F> && (std::same_as<std::remove_const_t<Given>, Mix> || SamplerFunction<Given> ||
-                                JointSamplerFunction<Given>))
-    return detail::refined(f, problem, first, sampler, options);
+  if constexpr (BlackBox<F> && (SamplerFunction<Given> || JointSamplerFunction<Given>))
+    return options.wait_for_batch ? detail::refined(f, problem, first, sampler, options)
+                                  : detail::refined_one_by_one(f, problem, first, sampler, options);
   else
     return {};  // so that the message above stands alone
 }

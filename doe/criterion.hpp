@@ -29,6 +29,7 @@
 #include <vector>
 
 #include <drawpoint/doe/detail/nearest.hpp>
+#include <drawpoint/doe/detail/sites.hpp>
 #include <drawpoint/doe/detail/unit_box.hpp>
 #include <drawpoint/doe/evaluations.hpp>
 
@@ -177,7 +178,9 @@ inline Sampler weighted_sum(std::vector<Share> parts) {
 
 /// Samplers that take turns, each for its share of the points: 0.7 LOLA-Voronoi and 0.3 error is
 /// Mix{{{0.7, LolaVoronoi()}, {0.3, error}}}. The turns depend on the number of sites so far alone, and of
-/// the first t points each sampler gets its share of t to within one.
+/// the first t points each sampler gets its share of t to within one. A Mix is a sampler itself, that of the
+/// next turn, so that it may stand as a doe::Sampler and be a part of another; propose shares a batch out
+/// among its parts.
 class Mix {
  public:
   /// Throws std::invalid_argument without parts and for a weight that is not above 0.
@@ -190,6 +193,16 @@ class Mix {
   std::vector<int> turns(int first, int count) const { return turns_by_weight(weights_, first, count); }
 
   const std::vector<Share>& parts() const { return parts_; }
+
+  /// The criterion of the part whose turn the next point is.
+  Criterion operator()(const Evaluations& runs) const {
+    int sites = 0;
+    detail::site_of_rows(runs, sites);
+    const std::vector<int> next = turns(sites, 1);
+    std::size_t k = 0;
+    while (next[k] == 0) ++k;
+    return parts_[k].sampler(runs);
+  }
 
  private:
   std::vector<Share> parts_;

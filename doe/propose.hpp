@@ -62,11 +62,29 @@ inline int distinct_points(const Evaluations& runs) {
   return sites;
 }
 
+/// The Mix that a sampler is or holds, else nullptr.
+template <class S>
+const Mix* mix_of(const S& sampler) {
+  if constexpr (std::same_as<S, Mix>)
+    return &sampler;
+  else if constexpr (std::same_as<S, Sampler>)
+    return sampler.template target<Mix>();
+  else
+    return nullptr;
+}
+
+/// Each part chooses for its turns, which those of pending points precede.
+inline void choose_in_turns(Chooser& chooser, const Mix& mix, int first, int batch) {
+  const std::vector<int> turns = mix.turns(first, batch);
+  for (std::size_t k = 0; k < turns.size(); ++k)
+    if (turns[k] > 0) chooser.choose(mix.parts()[k].sampler, turns[k]);
+}
+
 }  // namespace detail
 
 /// Points for the next runs, natural units, batch x d; fewer rows when the candidates run out, as they do
-/// where `allowed` hardly ever holds. `sampler` is a sampler or a joint one (criterion.hpp), or a Mix of
-/// samplers. Throws std::invalid_argument for options out of range and for a criterion that miscounts.
+/// where `allowed` hardly ever holds. `sampler` is a sampler or a joint one (criterion.hpp); a Mix shares the
+/// batch out. Throws std::invalid_argument for options out of range and for a criterion that miscounts.
 template <class S>
 Eigen::MatrixXd propose(const Evaluations& runs, S&& sampler, const ProposeOptions& options = {}) {
   using Given = std::remove_reference_t<S>;
@@ -74,12 +92,11 @@ Eigen::MatrixXd propose(const Evaluations& runs, S&& sampler, const ProposeOptio
   detail::check_propose(options);
   detail::check_rule(options, JointSamplerFunction<Given>);
   detail::Chooser chooser(runs, options);
-  if constexpr (std::same_as<std::remove_const_t<Given>, Mix>) {
-    const std::vector<int> turns = sampler.turns(detail::distinct_points(runs), options.batch);
-    for (std::size_t k = 0; k < turns.size(); ++k)
-      if (turns[k] > 0) chooser.choose(sampler.parts()[k].sampler, turns[k]);
+  require_sampler<Given>();
+  if (const Mix* mix = detail::mix_of<std::remove_const_t<Given>>(sampler)) {
+    const int pending = static_cast<int>(options.pending.rows());
+    detail::choose_in_turns(chooser, *mix, detail::distinct_points(runs) + pending, options.batch);
   } else {
-    require_sampler<Given>();
     if constexpr (JointSamplerFunction<Given>)
       chooser.choose_jointly(sampler(runs), options.batch);
     else if constexpr (SamplerFunction<Given>)

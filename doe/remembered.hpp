@@ -103,6 +103,7 @@ class Remembered {
     if (options_.batch < 1)
       throw std::invalid_argument("doe::remembered: batch is " + std::to_string(options_.batch) +
                                   "; allowed is 1 or more");
+    detail::check_variables(f_, static_cast<Eigen::Index>(problem_.variables.size()));
   }
 
   /// Outcomes are those that evaluate would have recorded: what goes wrong in f is a Failure, and stored, but for
@@ -153,7 +154,8 @@ class Remembered {
   std::shared_ptr<std::mutex> mutex_ = std::make_shared<std::mutex>();  // copies share it, as the store
 };
 
-/// Throws std::invalid_argument for a faulty problem and options out of range.
+/// Throws std::invalid_argument for a faulty problem, options out of range and a surrogate of another number of
+/// variables.
 template <class F, class Store>
 Remembered<F, Store> remembered(F f, const Problem& problem, Store& store, RememberedOptions options = {}) {
   require_black_box<F>();

@@ -318,6 +318,33 @@ inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, 
   return {std::move(table), best, std::move(models[best])};
 }
 
+/// Each of these options as a way to fit on the scale of y, named by correlation and trend.
+inline std::vector<WayToFit> ways_of(const std::vector<FitOptions>& kinds) {
+  std::vector<WayToFit> ways;
+  for (const FitOptions& kind : kinds)
+    ways.push_back(
+        {std::string(to_string(kind.correlation)) + ", " + std::string(to_string(kind.trend)),
+         [kind](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
+           const bool told = noise_variance.size() > 0 && kind.noise == Noise::nugget;
+           if (told) return TransformedModel(fit(X, y, with_known_noise(kind, noise_variance)));
+           FitOptions options = kind;
+           options.noise_variance = noise_variance;
+           return TransformedModel(fit(X, y, options));
+         }});
+  return ways;
+}
+
+/// Among such options: `choose_fit(X, y, usual_kinds())`. Those with a noise that is given per run take
+/// `noise.variance`, those with Noise::nugget too where there is one. Throws as above.
+inline FitChoice choose_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                            const std::vector<FitOptions>& kinds, const ResponseRange& range = {},
+                            const RunNoise& noise = {}) {
+  std::vector<WayToFit> ways = ways_of(kinds);
+  if (noise.variance.size() > 0)
+    for (WayToFit& way : ways) way.noise = expected_noise(NoiseSource::told);
+  return choose_fit(X, y, range, ways, noise);
+}
+
 /// The same by another rule, for ways that differ in where noise is taken from: leave-one-out holds each run
 /// against the noise that this run tells, by chance next to none. Every way is fitted anew to four fifths of
 /// the runs, five times, and judged on the rest by the noise that it expects there (WayToFit::noise). The best

@@ -66,11 +66,10 @@ inline std::vector<Eigen::Index> rows_besides(const std::vector<Eigen::Index>& o
   return in;
 }
 
-/// The rows of X dealt out at random to sorted folds, equal rows to the same; at most as many as there are
-/// distinct rows.
-inline std::vector<std::vector<Eigen::Index>> folds_of(const Eigen::MatrixXd& X, Eigen::Index folds,
-                                                       doe::Seed seed) {
-  const std::vector<std::vector<Eigen::Index>> sites = sites_of(X);
+/// The rows of sites dealt out at random to sorted folds, those of a site to the same; at most as many as there are
+/// sites.
+inline std::vector<std::vector<Eigen::Index>> folds_of(const std::vector<std::vector<Eigen::Index>>& sites,
+                                                       Eigen::Index folds, doe::Seed seed) {
   const auto count = static_cast<Eigen::Index>(sites.size());
   const std::vector<Eigen::Index> order = shuffled(count, seed);
   std::vector<std::vector<Eigen::Index>> all(static_cast<std::size_t>(std::min(folds, count)));
@@ -81,6 +80,12 @@ inline std::vector<std::vector<Eigen::Index>> folds_of(const Eigen::MatrixXd& X,
   }
   for (std::vector<Eigen::Index>& fold : all) std::sort(fold.begin(), fold.end());
   return all;
+}
+
+/// The same of the rows of X.
+inline std::vector<std::vector<Eigen::Index>> folds_of(const Eigen::MatrixXd& X, Eigen::Index folds,
+                                                       doe::Seed seed) {
+  return folds_of(sites_of(X), folds, seed);
 }
 
 /// Sites at random until they hold this share of n runs; sorted. One site is left at least.
@@ -134,14 +139,15 @@ Validation k_fold(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds,
                   const SplitOptions& options = {}) {
   detail::require_fitter<F>();
   detail::check_validation(X, y, "kriging::k_fold: ");
-  const std::size_t points = detail::sites_of(X).size();
+  const auto sites = detail::sites_of(X);
+  const std::size_t points = sites.size();
   if (folds < 2 || static_cast<std::size_t>(folds) > points)
     throw std::invalid_argument(
         "kriging::k_fold: folds is " + std::to_string(folds) + "; allowed is 2 to the " +
         std::to_string(points) +
         (points == static_cast<std::size_t>(X.rows()) ? " runs" : " distinct points") + "; use 5");
   Validation v = detail::blank_validation(y);
-  for (const std::vector<Eigen::Index>& out : detail::folds_of(X, folds, options.seed))
+  for (const std::vector<Eigen::Index>& out : detail::folds_of(sites, folds, options.seed))
     detail::predict_without(out, X, fitter, v);
   return detail::scored(std::move(v));
 }
@@ -171,7 +177,8 @@ Validation hold_out(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, double s
                          .observation_variance = detail::entries_of(all.observation_variance, out)});
 }
 
-/// Surrogates whose leave_one_out(s) needs no refits, or says by an empty optional that it would.
+/// Surrogates whose leave_one_out(s), of each run without its site, needs no refits, or says by an empty optional
+/// that it would.
 template <class S>
 concept LeaveOneOutInClosedForm = requires(const S& s) {
   { leave_one_out(s) } -> std::convertible_to<std::optional<Validation>>;
@@ -184,11 +191,9 @@ template <class F>
 Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter,
                         const SplitOptions& options) {
   const auto model = fitter(X, y);
+  if constexpr (LeaveOneOutInClosedForm<std::remove_cvref_t<decltype(model)>>)
+    if (const std::optional<Validation> v = leave_one_out(model)) return *v;
   const auto points = static_cast<Eigen::Index>(sites_of(X).size());
-  using Fitted = std::remove_cvref_t<decltype(model)>;
-  if constexpr (LeaveOneOutInClosedForm<Fitted>)
-    if (std::same_as<Fitted, Model> || points == X.rows())  // others leave out one run of a point alone
-      if (const std::optional<Validation> v = leave_one_out(model)) return *v;
   return k_fold(X, y, static_cast<int>(points), fitter, options);
 }
 

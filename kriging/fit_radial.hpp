@@ -44,8 +44,9 @@ double line_search(const F& f, double low, double high, int steps) {
 
 /// Λ and U of one ε; the leave-one-out error is then cheap for any λ.
 struct RadialSpectrum {
-  Eigen::MatrixXd U, squares;  ///< n x (n − q), and its squares
-  Eigen::VectorXd values, z;   ///< Λ clipped to 0, Uᵀy
+  Eigen::MatrixXd U, squares;                            ///< n x (n − q), and its squares
+  Eigen::VectorXd values, z;                             ///< Λ clipped to 0, Uᵀy
+  std::vector<std::vector<Eigen::Index>> repeated = {};  ///< sites of several runs
 
   double largest() const { return largest_entry(values); }
 
@@ -57,7 +58,15 @@ struct RadialSpectrum {
   double error(double ridge) const {
     Eigen::VectorXd inverse = values;
     for (double& value : inverse) value = 1.0 / (value + ridge);
-    return square(entry_quotients(product(U, entry_products(z, inverse)), product(squares, inverse)));
+    const Eigen::VectorXd w = product(U, entry_products(z, inverse));
+    Eigen::VectorXd left_out = entry_quotients(w, product(squares, inverse));
+    for (const std::vector<Eigen::Index>& site : repeated) {
+      const LeftOut out = solve_site(block_of_B(U, inverse, site), entries_of(w, site));
+      for (std::size_t k = 0; k < site.size(); ++k)
+        left_out[site[k]] = out.error[static_cast<Eigen::Index>(k)];
+    }
+    const double sum = square(left_out);
+    return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
   }
 };
 
@@ -101,6 +110,8 @@ inline RadialSpectrum radial_spectrum(const RadialState& s, const Eigen::MatrixX
   std::for_each(r.squares.data(), r.squares.data() + r.squares.size(), [](double& u) { u *= u; });
   for (double& value : r.values) value = std::max(value, 0.0);
   r.z = transposed_product(r.U, y);
+  for (std::vector<Eigen::Index>& site : sites_of(X))
+    if (site.size() > 1) r.repeated.push_back(std::move(site));
   return r;
 }
 

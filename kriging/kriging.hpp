@@ -23,6 +23,7 @@
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
+#include <drawpoint/kriging/optimize.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <drawpoint/kriging/outliers.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
@@ -79,6 +80,7 @@
 ///   compare.hpp                    several ways to fit, scored alike, and the best of them
 ///
 /// The next run:
+///   optimize.hpp                   `Optimum found = optimize(simulate, problem, 60);`: the optimum in one call
 ///   acquisition.hpp                criteria for doe::propose and doe::refine, such as expected improvement
 ///   acquisition_constraints.hpp    how likely a point keeps its limits
 ///   acquisition_gradient.hpp       the knowledge gradient: noisy runs that lower the best prediction most

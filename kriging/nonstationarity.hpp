@@ -29,6 +29,8 @@
 #include <drawpoint/kriging/cross_validation.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/error_scan.hpp>
+#include <drawpoint/kriging/detail/left_out.hpp>
+#include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <limits>
@@ -96,10 +98,39 @@ inline Eigen::VectorXd without_trend(const ModelState& s, const Eigen::VectorXd&
   return Pv;
 }
 
-/// Leave-one-out errors over their deviations, squared, but for a common factor: (P y)ᵢ²/Pᵢᵢ.
-inline Eigen::VectorXd squared_errors(const Eigen::VectorXd& alpha, const Eigen::VectorXd& P) {
-  return entry_quotients(entry_products(alpha, alpha), P);
-}
+/// How runs are left out, each with its repeats, of the factor of one model.
+struct SitesOfModel {
+  Eigen::VectorXd P;                                     ///< its diagonal
+  std::vector<std::vector<Eigen::Index>> repeated = {};  ///< sites of several runs
+  std::vector<Eigen::MatrixXd> blocks = {};              ///< P of those
+
+  explicit SitesOfModel(const ModelState& s) {
+    Eigen::MatrixXd L = s.L, rows;
+    inverse_transposed(L, rows);
+    P = row_squares(rows);
+    add_scaled(P.data(), -1.0, row_squares(s.gls.B).data(), P.size());
+    for (std::vector<Eigen::Index>& site : sites_of(s.X)) {
+      if (site.size() < 2) continue;
+      blocks.push_back(block_of_P(site, rows, s.gls));
+      repeated.push_back(std::move(site));
+    }
+  }
+
+  /// Leave-one-out errors over their deviations, squared, but for a common factor: (P y)ᵢ²/Pᵢᵢ of single runs. A
+  /// site that the others tell nothing of has none.
+  Eigen::VectorXd squared_errors(const Eigen::VectorXd& alpha) const {
+    Eigen::VectorXd squares = entry_quotients(entry_products(alpha, alpha), P);
+    for (std::size_t k = 0; k < repeated.size(); ++k) {
+      const LeftOut out = solve_site(blocks[k], entries_of(alpha, repeated[k]));
+      for (std::size_t i = 0; i < repeated[k].size(); ++i) {
+        const auto row = static_cast<Index>(i);
+        const double square = out.error[row] * out.error[row] / out.variance[row];
+        squares[repeated[k][i]] = std::isnan(square) ? 0.0 : square;
+      }
+    }
+    return squares;
+  }
+};
 
 /// How often chance reaches what was found, along inputs and between neighbours: the smaller p, doubled for
 /// two questions.
@@ -109,10 +140,10 @@ struct Clusters {
   ErrorWindow window;
 };
 
-inline Clusters clusters_of(const ModelState& s, const ErrorScan& scan, const Eigen::VectorXd& P,
+inline Clusters clusters_of(const ModelState& s, const ErrorScan& scan, const SitesOfModel& sites,
                             const StationarityOptions& options) {
   Clusters found;
-  const Eigen::VectorXd squares = squared_errors(s.gls.alpha, P);
+  const Eigen::VectorXd squares = sites.squared_errors(s.gls.alpha);
   found.window = scan.widest_errors(squares);
   const double alike = scan.neighbours_alike(squares);
   doe::RandomStream random(options.seed);
@@ -122,7 +153,7 @@ inline Clusters clusters_of(const ModelState& s, const ErrorScan& scan, const Ei
     Eigen::VectorXd z = s.y;
     for (double& entry : z) entry = random.normal();
     y = product(s.L, z);
-    const Eigen::VectorXd by_chance = squared_errors(without_trend(s, y), P);
+    const Eigen::VectorXd by_chance = sites.squared_errors(without_trend(s, y));
     as_wide += scan.widest_errors(by_chance).ratio >= found.window.ratio;
     as_alike += scan.neighbours_alike(by_chance) >= alike;
   }
@@ -131,11 +162,12 @@ inline Clusters clusters_of(const ModelState& s, const ErrorScan& scan, const Ei
   return found;
 }
 
-/// Without one run, θ and λ as they are. False where the rest is singular.
+/// Without the site of one run, θ and λ as they are. False where the rest is singular.
 inline bool leave_out(ModelState& s, Index run) {
-  std::vector<Index> rest(static_cast<std::size_t>(s.X.rows()));
-  std::iota(rest.begin(), rest.end(), Index{0});
-  rest.erase(rest.begin() + run);
+  std::vector<Index> rest;
+  for (Index i = 0; i < s.X.rows(); ++i)
+    if (s.X.row(i) != s.X.row(run)) rest.push_back(i);
+  if (static_cast<Index>(rest.size()) <= s.F.cols()) return false;
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(s.L.rows(), s.L.rows());
   add_product(block_of(s.L), block_of(s.L), 1.0, block_of(R), Part::lower);
   mirror_lower(R);
@@ -144,19 +176,20 @@ inline bool leave_out(ModelState& s, Index run) {
   s.F = rows_of(s.F, rest);
   s.y = entries_of(s.y, rest);
   s.observed = entries_of(s.observed, rest);
+  if (s.noise.size() > 0) s.noise = entries_of(s.noise, rest);
   if (!factor(block_of(s.L), 1)) return false;
   clear_upper(s.L);
   estimate(s);
   return true;
 }
 
-/// Whether the errors of the others cluster too, without the run of the largest error.
+/// Whether the errors of the others cluster too, without the site of the largest error.
 inline bool cluster_without_worst(ModelState s, const Eigen::VectorXd& squares,
                                   const StationarityOptions& options) {
   Index worst = 0;
   squares.maxCoeff(&worst);
   return leave_out(s, worst) &&
-         clusters_of(s, ErrorScan(s.X, s.correlation.levels), diagonal_of_P(s.L, s.gls), options).p_value <=
+         clusters_of(s, ErrorScan(s.X, s.correlation.levels), SitesOfModel(s), options).p_value <=
              options.level;
 }
 
@@ -236,6 +269,8 @@ inline Model fit_with_step(const Model& model, int input, double at) {
   } else if (s.known_noise > 0) {
     options.noise = Noise::pooled;
     options.noise_variance = Eigen::VectorXd::Constant(X.rows(), s.noise_unit);
+  } else if (s.nugget <= exact_nugget) {
+    options.noise = Noise::none;
   }
   return fit(X, s.observed, options);
 }
@@ -305,11 +340,11 @@ inline Stationarity check_stationarity(const Model& model, const StationarityOpt
   if (!(result.error_share >= options.matters)) return result;
 
   const detail::ErrorScan scan(s.X, s.correlation.levels);
-  const Eigen::VectorXd P = detail::diagonal_of_P(s.L, s.gls);
-  const Eigen::VectorXd squares = detail::squared_errors(s.gls.alpha, P);
+  const detail::SitesOfModel sites(s);
+  const Eigen::VectorXd squares = sites.squared_errors(s.gls.alpha);
   const detail::Gap gap = detail::surest_gap(s, scan);
   result.jump = detail::jump_across(gap, model, left_out, scan, options.spoilt);
-  const detail::Clusters clusters = detail::clusters_of(s, scan, P, options);
+  const detail::Clusters clusters = detail::clusters_of(s, scan, sites, options);
   result.p_value = clusters.p_value;
   const bool cluster =
       clusters.p_value <= options.level && detail::cluster_without_worst(s, squares, options);

@@ -20,7 +20,9 @@ namespace drawpoint::kriging {
 
 /// What is known of the noise of the runs.
 enum class Noise {
-  nugget,        ///< nothing but that it is the same everywhere: λ is estimated
+  /// Nothing but that it is the same everywhere: λ is estimated. Runs at equal points that all agree tell that
+  /// there is none: they count once, as with `none`.
+  nugget,
   known,         ///< the variance of each run, FitOptions::noise_variance; λ follows from s²
   pooled,        ///< the same everywhere, on the scale that is fitted: each of noise_variance estimates it
   proportional,  ///< the variance of each run up to a common factor, which is estimated as λ

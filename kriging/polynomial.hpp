@@ -25,6 +25,7 @@
 
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/detail/monomials.hpp>
 #include <drawpoint/kriging/detail/runs_of_surrogate.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
@@ -44,6 +45,36 @@ struct PolynomialOptions {
 
 namespace detail {
 
+/// A site of several runs and its block of the hat matrix H = QQᵀ, m x m.
+struct RepeatedSite {
+  std::vector<Eigen::Index> runs;
+  Eigen::MatrixXd hat;
+
+  /// Adds v, orthogonal to the terms before it and of length 1.
+  void add_term(const Eigen::VectorXd& v) {
+    for (Index i = 0; i < hat.rows(); ++i)
+      for (Index j = 0; j < hat.cols(); ++j)
+        hat(i, j) += v[runs[static_cast<std::size_t>(i)]] * v[runs[static_cast<std::size_t>(j)]];
+  }
+
+  /// How the site is missed without it, (I − H)⁻¹r, and the diagonal of (I − H)⁻¹.
+  LeftOut left_out(const Eigen::VectorXd& residual) const {
+    Eigen::MatrixXd A = -hat;
+    add_to_diagonal(A, 1.0);
+    return solve_site(std::move(A), entries_of(residual, runs));
+  }
+};
+
+/// Those of X, without a term.
+inline std::vector<RepeatedSite> repeated_sites(const Eigen::MatrixXd& X) {
+  std::vector<RepeatedSite> repeated;
+  for (const std::vector<Eigen::Index>& site : sites_of(X)) {
+    const auto m = static_cast<Index>(site.size());
+    if (m > 1) repeated.push_back({site, Eigen::MatrixXd::Zero(m, m)});
+  }
+  return repeated;
+}
+
 struct PolynomialState {
   InputScale input;
   double y_centre = 0, y_scale = 0;  ///< y = y_centre + y_scale · standardised
@@ -53,6 +84,7 @@ struct PolynomialState {
   double variance = 0;                 ///< s², unit of y squared
   Eigen::VectorXd observed, residual;  ///< n, unit of y
   Eigen::VectorXd leverage;            ///< h, n
+  std::vector<RepeatedSite> repeated;  ///< with their blocks of the hat matrix
   Status status = Status::converged;
   std::string message;
 };
@@ -123,7 +155,7 @@ class Polynomial {
 
 static_assert(SmoothSurrogate<Polynomial>);
 
-/// Closed form: the terms as chosen, β estimated anew without each run.
+/// Closed form: the terms as chosen, β estimated anew without each run and its repeats.
 inline Validation leave_one_out(const Polynomial& model) {
   const detail::PolynomialState& s = model.state();
   Validation v;
@@ -133,6 +165,15 @@ inline Validation leave_one_out(const Polynomial& model) {
     v.predicted[i] = s.observed[i] - s.residual[i] / left;
     v.observation_variance[i] = s.variance / left;
     v.variance[i] = v.observation_variance[i] - s.variance;
+  }
+  for (const detail::RepeatedSite& site : s.repeated) {
+    const detail::LeftOut out = site.left_out(s.residual);
+    for (std::size_t k = 0; k < site.runs.size(); ++k) {
+      const Eigen::Index i = site.runs[k];
+      v.predicted[i] = s.observed[i] - out.error[static_cast<Eigen::Index>(k)];
+      v.observation_variance[i] = s.variance * out.variance[static_cast<Eigen::Index>(k)];
+      v.variance[i] = v.observation_variance[i] - s.variance;
+    }
   }
   if (s.T.size() == 0)
     v.variance = v.observation_variance = Eigen::VectorXd::Constant(model.runs(), s.variance);
@@ -144,15 +185,25 @@ namespace detail {
 // A run of leverage 1 decides a coefficient alone: without it there is no prediction.
 inline constexpr double largest_leverage = 1.0 - 1e-10;
 
-/// Σ (eᵢ/(1 − hᵢ))²; +∞ where a run decides alone.
-inline double press(const Eigen::VectorXd& residual, const Eigen::VectorXd& leverage) {
+/// Σ (eᵢ/(1 − hᵢ))², sites of several runs as a whole; +∞ where a site decides alone.
+inline double press(const Eigen::VectorXd& residual, const Eigen::VectorXd& leverage,
+                    const std::vector<RepeatedSite>& repeated) {
   if (largest_entry(leverage) > largest_leverage) return std::numeric_limits<double>::infinity();
-  return square(entry_quotients(residual, affine(leverage, -1.0, 1.0)));
+  Eigen::VectorXd error = entry_quotients(residual, affine(leverage, -1.0, 1.0));
+  for (const RepeatedSite& site : repeated) {
+    const LeftOut out = site.left_out(residual);
+    for (std::size_t k = 0; k < site.runs.size(); ++k)
+      error[site.runs[k]] = out.error[static_cast<Eigen::Index>(k)];
+  }
+  const double sum = square(error);
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 
 /// Adds v, orthogonal to the terms before it and of length 1, to a regression of y.
-inline void add_term(const Eigen::VectorXd& v, Eigen::VectorXd& residual, Eigen::VectorXd& leverage) {
+inline void add_term(const Eigen::VectorXd& v, Eigen::VectorXd& residual, Eigen::VectorXd& leverage,
+                     std::vector<RepeatedSite>& repeated) {
   add_scaled(residual.data(), -dot(v, residual), v.data(), v.size());
+  for (RepeatedSite& site : repeated) site.add_term(v);
   for (Index i = 0; i < v.size(); ++i) leverage[i] += v[i] * v[i];
 }
 
@@ -162,7 +213,8 @@ inline Eigen::VectorXd scaled_column(const Eigen::MatrixXd& F, Index j, double s
 }
 
 /// Which columns of F lower the leave-one-out error of y, in the order of their choice; column 0 first.
-inline std::vector<Eigen::Index> forward_selection(Eigen::MatrixXd F, Eigen::VectorXd y) {
+inline std::vector<Eigen::Index> forward_selection(Eigen::MatrixXd F, Eigen::VectorXd y,
+                                                   std::vector<RepeatedSite> repeated) {
   constexpr double worth = 0.99, independent = 1e-8;
   const auto norm = [&](Index j) { return std::sqrt(dot(column(F, j), column(F, j), F.rows())); };
   std::vector<double> size;
@@ -173,16 +225,17 @@ inline std::vector<Eigen::Index> forward_selection(Eigen::MatrixXd F, Eigen::Vec
   for (double error = std::numeric_limits<double>::infinity();;) {
     chosen.push_back(best);
     const Eigen::VectorXd q = scaled_column(F, best, norm(best));
-    add_term(q, y, leverage);
+    add_term(q, y, leverage, repeated);
     for (int pass = 0; pass < 2; ++pass) add_outer(F, -1.0, q, transposed_product(F, q));
-    error = chosen.size() == 1 ? press(y, leverage) : error;
+    error = chosen.size() == 1 ? press(y, leverage, repeated) : error;
     if (2 * (chosen.size() + 1) > static_cast<std::size_t>(F.rows())) return chosen;
     double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index j = 0; j < F.cols(); ++j) {
       if (!(norm(j) > independent * size[j])) continue;
       Eigen::VectorXd residual = y, higher = leverage;
-      add_term(scaled_column(F, j, norm(j)), residual, higher);
-      const double with = press(residual, higher);
+      std::vector<RepeatedSite> sites = repeated;
+      add_term(scaled_column(F, j, norm(j)), residual, higher, sites);
+      const double with = press(residual, higher, sites);
       if (with < least) least = with, best = j;
     }
     if (!(least < worth * error)) return chosen;
@@ -223,6 +276,8 @@ inline void regress(PolynomialState& s, const Eigen::MatrixXd& F, const Eigen::V
   s.beta = solve_upper(s.T, transposed_product(Q, y));
   s.residual = affine(difference(y, product(F, s.beta)), s.y_scale);
   s.leverage = row_squares(Q);
+  for (RepeatedSite& site : s.repeated)
+    for (Index j = 0; j < Q.cols(); ++j) site.add_term(Q.col(j));
   for (double& h : s.leverage) h = std::min(h, largest_leverage);
   s.variance = square(s.residual) / static_cast<double>(F.rows() - F.cols());
 }
@@ -255,9 +310,11 @@ inline Polynomial fit_polynomial(const Eigen::MatrixXd& X, const Eigen::VectorXd
                          : options.degree;
   const std::vector<Monomial> asked = detail::monomials(X.cols(), degree, options.interaction);
   const Eigen::MatrixXd F = detail::monomial_matrix(asked, data.X);
-  const std::vector<Eigen::Index> kept = options.selection == Selection::all
-                                             ? detail::independent_columns(F)
-                                             : detail::forward_selection(F, data.y);
+  const std::vector<Eigen::Index> kept =
+      options.selection == Selection::all
+          ? detail::independent_columns(F)
+          : detail::forward_selection(F, data.y, detail::repeated_sites(data.X));
+  s.repeated = detail::repeated_sites(data.X);
   for (const Eigen::Index j : kept) s.terms.push_back(asked[static_cast<std::size_t>(j)]);
   detail::regress(s, detail::columns_of(F, kept), data.y);
   s.message = std::to_string(kept.size()) + " of " + std::to_string(asked.size()) + " terms";

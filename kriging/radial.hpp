@@ -26,6 +26,7 @@
 #include <string_view>
 #include <utility>
 
+#include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/detail/matrix_product.hpp>
 #include <drawpoint/kriging/detail/runs_of_surrogate.hpp>
 #include <drawpoint/kriging/surrogate.hpp>
@@ -219,7 +220,24 @@ class Radial {
 
 static_assert(SmoothSurrogate<Radial>);
 
-/// Closed form: ε and λ as found, weights and tail anew without each run.
+namespace detail {
+
+/// The block of B = U diag(inverse) Uᵀ that belongs to these runs, which is what leaving them out takes.
+inline Eigen::MatrixXd block_of_B(const Eigen::MatrixXd& U, const Eigen::VectorXd& inverse,
+                                  const std::vector<Eigen::Index>& runs) {
+  const auto m = static_cast<Index>(runs.size());
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(m, m);
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j)
+      for (Index k = 0; k < U.cols(); ++k)
+        B(i, j) +=
+            U(runs[static_cast<std::size_t>(i)], k) * inverse[k] * U(runs[static_cast<std::size_t>(j)], k);
+  return B;
+}
+
+}  // namespace detail
+
+/// Closed form: ε and λ as found, weights and tail anew without each run and its repeats.
 inline Validation leave_one_out(const Radial& model) {
   const detail::RadialState& s = model.state();
   Validation v;
@@ -234,8 +252,19 @@ inline Validation leave_one_out(const Radial& model) {
   for (Eigen::Index i = 0; i < s.observed.size(); ++i) {
     v.predicted[i] = s.observed[i] - s.y_scale * s.w[i] / s.diagonal[i];
     v.observation_variance[i] = unit / s.diagonal[i];
-    v.variance[i] = std::max(v.observation_variance[i] - model.noise_variance(), 0.0);
   }
+  const Eigen::VectorXd inverse = detail::entry_quotients(Eigen::VectorXd::Ones(s.values.size()), s.values);
+  for (const std::vector<Eigen::Index>& site : detail::sites_of(s.X)) {
+    if (site.size() < 2) continue;
+    const detail::LeftOut out =
+        detail::solve_site(detail::block_of_B(s.U, inverse, site), detail::entries_of(s.w, site));
+    for (std::size_t k = 0; k < site.size(); ++k) {
+      v.predicted[site[k]] = s.observed[site[k]] - s.y_scale * out.error[static_cast<Eigen::Index>(k)];
+      v.observation_variance[site[k]] = unit * out.variance[static_cast<Eigen::Index>(k)];
+    }
+  }
+  for (Eigen::Index i = 0; i < s.observed.size(); ++i)
+    v.variance[i] = std::max(v.observation_variance[i] - model.noise_variance(), 0.0);
   return detail::scored(std::move(v));
 }
 

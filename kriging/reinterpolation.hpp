@@ -26,7 +26,7 @@ namespace drawpoint::kriging {
 inline Model reinterpolated(const Model& model) {
   detail::ModelState s = model.state();
   if (s.X.rows() == 0) return model;
-  const double n = static_cast<double>(s.X.rows());
+  const double n = static_cast<double>(s.X.rows()), independent = detail::independent_runs(s);
   const Eigen::VectorXd share =
       detail::entry_products(detail::added_noise(s), s.gls.alpha);  // y − ŷ at the runs
   const detail::LeastSquares regression = s.gls;
@@ -35,7 +35,7 @@ inline Model reinterpolated(const Model& model) {
   detail::mirror_lower(C);
   // As a form of C, which is never negative: as S − λαᵀα it would be what rounding leaves where noise is
   // most.
-  const double process_variance = detail::dot(s.gls.alpha, detail::product(C, s.gls.alpha)) / n;
+  const double process_variance = detail::dot(s.gls.alpha, detail::product(C, s.gls.alpha)) / independent;
   s.nugget = 4.0 * n * std::numeric_limits<double>::epsilon();
   for (;; s.nugget *= 10.0) {
     s.L = C;
@@ -50,7 +50,7 @@ inline Model reinterpolated(const Model& model) {
   s.gls = detail::least_squares(s.L, s.F, s.y);
   s.gls.beta = regression.beta;
   s.gls.alpha = regression.alpha;
-  s.gls.sum_of_squares = n * process_variance;
+  s.gls.sum_of_squares = independent * process_variance;
   s.process_variance = process_variance;
   s.report.message += "; re-interpolated";
   return Model(std::move(s));

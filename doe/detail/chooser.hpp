@@ -39,6 +39,7 @@ class Chooser {
     cell_ = nearest_.site;
     penalty_ = Eigen::VectorXd::Ones(U_.rows());
     used_.assign(runs.rows.size() + 1, 0);
+    for (Eigen::Index i = 0; i < options.pending.rows(); ++i) accept(i);
   }
 
   /// `count` more points by the sampler, fewer when the candidates run out.
@@ -48,17 +49,21 @@ class Chooser {
 
   /// The same by a criterion that knows the points chosen before.
   void choose_jointly(const JointCriterion& joint, int count) {
-    choose_by([&] { return joint(chosen()); }, true, count);
+    choose_by([&] { return joint(rows_of(0)); }, true, count);
   }
 
-  /// Natural units, one per row.
-  Eigen::MatrixXd chosen() const {
-    Eigen::MatrixXd X(static_cast<Eigen::Index>(chosen_.size()), X_.cols());
-    for (std::size_t k = 0; k < chosen_.size(); ++k) X.row(static_cast<Eigen::Index>(k)) = X_.row(chosen_[k]);
+  /// Natural units, one per row, without those that were pending.
+  Eigen::MatrixXd chosen() const { return rows_of(static_cast<std::size_t>(options_.pending.rows())); }
+
+ private:
+  /// The points chosen from place `first` on; the pending ones come first.
+  Eigen::MatrixXd rows_of(std::size_t first) const {
+    Eigen::MatrixXd X(static_cast<Eigen::Index>(chosen_.size() - first), X_.cols());
+    for (std::size_t k = first; k < chosen_.size(); ++k)
+      X.row(static_cast<Eigen::Index>(k - first)) = X_.row(chosen_[k]);
     return X;
   }
 
- private:
   /// By the criterion that `next` gives, asked for before each choice or once.
   template <class Next>
   void choose_by(const Next& next, bool each_time, int count) {
@@ -81,8 +86,25 @@ class Chooser {
   Eigen::MatrixXd candidates() const {
     const int automatic = std::clamp(100 * static_cast<int>(runs_.rows.size()), 1000, 20000);
     std::uint64_t counter = 0;
-    return allowed_points(runs_.problem, options_.allowed, run_seed(options_.seed, runs_.rows.size(), 1),
-                          options_.candidates.value_or(automatic), counter);
+    const Eigen::MatrixXd random =
+        allowed_points(runs_.problem, options_.allowed, run_seed(options_.seed, runs_.rows.size(), 1),
+                       options_.candidates.value_or(automatic), counter);
+    return with_those_given(random);
+  }
+
+  /// The pending points, the random ones, and those beside them that are allowed.
+  Eigen::MatrixXd with_those_given(const Eigen::MatrixXd& random) const {
+    const Eigen::MatrixXd &pending = options_.pending, &beside = options_.beside;
+    if (pending.rows() > 0) check_inside(pending, runs_.problem, "doe::propose: pending");
+    if (beside.rows() > 0) check_inside(beside, runs_.problem, "doe::propose: beside");
+    Eigen::MatrixXd all(pending.rows() + random.rows() + beside.rows(), random.cols());
+    if (pending.rows() > 0) all.topRows(pending.rows()) = pending;
+    all.middleRows(pending.rows(), random.rows()) = random;
+    Eigen::Index kept = pending.rows() + random.rows();
+    for (const auto& x : beside.rowwise())
+      if (!options_.allowed || options_.allowed(x.transpose())) all.row(kept++) = x;
+    all.conservativeResize(kept, Eigen::NoChange);
+    return all;
   }
 
   static Eigen::VectorXd scores(const Criterion& criterion, const Eigen::MatrixXd& X) {
@@ -160,7 +182,8 @@ class Chooser {
   double penalty_at(const Eigen::RowVectorXd& u) const {
     double factor = 1;
     for (std::size_t k = 0; k < chosen_.size(); ++k)
-      if (std::isfinite(room_[k])) factor *= std::min((U_.row(chosen_[k]) - u).squaredNorm() / room_[k], 1.0);
+      if (std::isfinite(room_[k]) && room_[k] > 0.0)
+        factor *= std::min((U_.row(chosen_[k]) - u).squaredNorm() / room_[k], 1.0);
     return factor;
   }
 
@@ -214,7 +237,7 @@ class Chooser {
     const Eigen::VectorXd squared = (U_.rowwise() - U_.row(i)).rowwise().squaredNorm();
     const double r2 = nearest_.squared_distance[i];
     room_.push_back(r2);
-    if (std::isfinite(r2)) penalty_.array() *= (squared.array() / r2).min(1.0);
+    if (std::isfinite(r2) && r2 > 0.0) penalty_.array() *= (squared.array() / r2).min(1.0);
     nearest_.squared_distance = nearest_.squared_distance.cwiseMin(squared);
     if (options_.rule != BatchRule::believer) return;
     const Eigen::VectorXd x = X_.row(i).transpose();

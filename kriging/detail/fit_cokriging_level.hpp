@@ -109,7 +109,8 @@ inline CokrigingProblem problem_of(const CokrigingLevels& levels, const Cokrigin
 
 /// Of (ln θ, ln s², ln λ), s² of the standardised response.
 inline Box cokriging_box(const CokrigingLevel& level, const FitOptions& options) {
-  constexpr double least = 1e-12, most = 1e4;
+  constexpr double least = 1e-12;
+  const double most = level.s.known_noise > 0 ? most_process_variance : 1e4;
   const Index d = level.X.cols();
   Box box{Eigen::VectorXd(d + 2), Eigen::VectorXd(d + 2)};
   const ParameterPlaces places = parameter_places(level.s.correlation, d, false);

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/compiled.hpp>
+#include <drawpoint/kriging/detail/exact_repeats.hpp>
 #include <drawpoint/kriging/detail/fit_prepared.hpp>
+#include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <vector>
@@ -16,13 +18,33 @@
 namespace drawpoint::kriging {
 namespace detail {
 
-inline constexpr double exact_nugget = 1e-6;  // at most, of exact runs: round-off of smooth responses
-
 /// What Noise::none stands for.
 inline FitOptions with_exact_runs(FitOptions options) {
   options.estimation = Estimation::maximum_likelihood;
   options.nugget_upper = std::max(options.nugget_lower, std::min(options.nugget_upper, exact_nugget));
   return options;
+}
+
+/// The model of these data, with the trend that the options ask for.
+inline Model fit_to(const Eigen::MatrixXd& X, const TrainingData& data, const FitOptions& options) {
+  const Model model = fit_prepared(data, options);
+  if (options.trend != Trend::blind) return model;
+  const std::vector<TrendTerm> terms = blind_terms(model.state());
+  if (terms.size() == 1) return model;
+  TrainingData chosen = data;
+  set_trend(chosen, X, {terms, {}, {}});
+  const Model blind = fit_prepared(chosen, options);
+  return leave_one_out_error(blind.state()) < leave_one_out_error(model.state()) ? blind : model;
+}
+
+/// Fits the first run of each site, as exact runs; the others join that model.
+inline Model fit_exact_repeats(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                               const std::vector<std::vector<Eigen::Index>>& sites, const FitOptions& given) {
+  const FitOptions options = with_exact_runs(given);
+  const std::vector<Eigen::Index> once = first_runs(sites);
+  const Eigen::MatrixXd distinct = rows_of(X, once);
+  const TrainingData data = prepare(distinct, entries_of(y, once), options);
+  return with_exact_repeats(fit_to(distinct, data, options), X, y);
 }
 
 }  // namespace detail
@@ -32,15 +54,15 @@ DRAWPOINT_KRIGING_INLINE Model fit(const Eigen::MatrixXd& X, const Eigen::Vector
   const FitOptions options = given.noise == Noise::none ? detail::with_exact_runs(given) : given;
   const detail::TrainingData data = detail::prepare(X, y, options);
   if (data.y.size() == 0) return detail::constant_model(data, options);
-  const Model model = detail::fit_prepared(data, options);
-  if (options.trend != Trend::blind) return model;
-  const std::vector<TrendTerm> terms = detail::blind_terms(model.state());
-  if (terms.size() == 1) return model;
-  detail::TrainingData chosen = data;
-  detail::set_trend(chosen, X, {terms, {}, {}});
-  const Model blind = detail::fit_prepared(chosen, options);
-  return detail::leave_one_out_error(blind.state()) < detail::leave_one_out_error(model.state()) ? blind
-                                                                                                 : model;
+  if (given.noise == Noise::none || given.noise == Noise::nugget) {
+    const auto sites = detail::sites_of(X);
+    if (detail::repeats_agree(sites, y)) {
+      if (const auto trend = detail::exact_trend(data, options))
+        return *trend;  // repeats count as runs for that
+      return detail::fit_exact_repeats(X, y, sites, given);
+    }
+  }
+  return detail::fit_to(X, data, options);
 }
 
 }  // namespace drawpoint::kriging

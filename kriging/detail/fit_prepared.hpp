@@ -115,7 +115,8 @@ inline void report_search(const Search& search, Likelihood& likelihood, FitRepor
   if (!(report.condition < condition_limit)) {
     report.status = Status::ill_conditioned;
     report.message += "; the correlation matrix has condition " + text(report.condition) +
-                      ": raise nugget_lower or remove runs that nearly repeat others";
+                      (likelihood.problem().known_noise > 0 ? ": remove" : ": raise nugget_lower or remove") +
+                      " runs that nearly repeat others";
   }
 }
 

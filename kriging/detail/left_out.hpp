@@ -17,6 +17,7 @@
 #include <drawpoint/kriging/detail/model_state.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace drawpoint::kriging::detail {
@@ -38,32 +39,46 @@ struct LeftOut {
 inline constexpr double least_pivot =
     1e-12;  // of P's diagonal; below it the trend is not known without the site
 
-/// A site of several runs, from the rows of L⁻ᵀ and of B. NaN where the other sites do not tell the trend.
-inline void leave_site_out(const std::vector<Eigen::Index>& site, const Eigen::MatrixXd& rows,
-                           const LeastSquares& gls, LeftOut& out) {
+/// A⁻¹r and the diagonal of A⁻¹ for the matrix A of one site's runs; NaN where it is singular, since the other
+/// sites do not tell enough.
+inline LeftOut solve_site(Eigen::MatrixXd A, Eigen::VectorXd r) {
+  double largest = 0.0;
+  for (Index i = 0; i < A.rows(); ++i) largest = std::max(largest, A(i, i));
+  bool known = factor(block_of(A), 1);
+  for (Index i = 0; i < A.rows(); ++i) known = known && A(i, i) * A(i, i) > least_pivot * largest;
+  if (!known) {
+    r.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return {r, r};
+  }
+  Eigen::MatrixXd inverse;
+  solve_lower(A, r);
+  solve_lower_transposed(A, r);
+  inverse_transposed(A, inverse);
+  return {r, row_squares(inverse)};
+}
+
+/// P of the runs of one site, from the rows of L⁻ᵀ and of B.
+inline Eigen::MatrixXd block_of_P(const std::vector<Eigen::Index>& site, const Eigen::MatrixXd& rows,
+                                  const LeastSquares& gls) {
   const auto m = static_cast<Index>(site.size());
-  Eigen::MatrixXd P(m, m), inverse;
+  Eigen::MatrixXd P(m, m);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) {
       P(i, j) = 0.0;
       for (Index k = 0; k < rows.cols(); ++k) P(i, j) += rows(site[i], k) * rows(site[j], k);
       for (Index k = 0; k < gls.B.cols(); ++k) P(i, j) -= gls.B(site[i], k) * gls.B(site[j], k);
     }
-  Eigen::VectorXd error = entries_of(gls.alpha, site), variance = error;
-  double largest = 0.0;
-  for (Index i = 0; i < m; ++i) largest = std::max(largest, P(i, i));
-  bool known = factor(block_of(P), 1);
-  for (Index i = 0; i < m; ++i) known = known && P(i, i) * P(i, i) > least_pivot * largest;
-  if (known) {
-    solve_lower(P, error);
-    solve_lower_transposed(P, error);
-    inverse_transposed(P, inverse);
-    variance = row_squares(inverse);
-  } else {
-    error.setConstant(std::numeric_limits<double>::quiet_NaN());
-    variance = error;
+  return P;
+}
+
+/// A site of several runs.
+inline void leave_site_out(const std::vector<Eigen::Index>& site, const Eigen::MatrixXd& rows,
+                           const LeastSquares& gls, LeftOut& out) {
+  const LeftOut of_site = solve_site(block_of_P(site, rows, gls), entries_of(gls.alpha, site));
+  for (std::size_t i = 0; i < site.size(); ++i) {
+    out.error[site[i]] = of_site.error[static_cast<Index>(i)];
+    out.variance[site[i]] = of_site.variance[static_cast<Index>(i)];
   }
-  for (Index i = 0; i < m; ++i) out.error[site[i]] = error[i], out.variance[site[i]] = variance[i];
 }
 
 /// X: n x d, whose equal rows are sites; L: the factor of R.

@@ -206,7 +206,8 @@ inline Maximum run_ipopt(Likelihood& likelihood, const Box& box, const SearchSta
   const auto status = ipopt->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(problem)));
   const bool done = status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level ||
                     status == Ipopt::Search_Direction_Becomes_Too_Small;
-  return {on_grid(box, problem->best()), problem->best_value(), done || problem->stopped()};
+  const Eigen::VectorXd p = on_grid(box, problem->best());
+  return {p, likelihood.value(p), done || problem->stopped()};  // the value of what is returned
 }
 
 /// `box` with the parameters fixed that a bound holds at p.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
+#include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/detail/trend.hpp>
 #include <drawpoint/kriging/options.hpp>
@@ -48,11 +49,22 @@ inline Eigen::VectorXd added_noise(const ModelState& s) {
   return Eigen::VectorXd::Constant(s.X.rows(), s.nugget + (s.known_noise > 0 ? noise_floor : 0.0));
 }
 
+inline constexpr double exact_nugget = 1e-6;  // at most, of exact runs: round-off of smooth responses
+
+/// How many runs tell of s²: all of them, but exact ones that repeat others tell nothing.
+inline double independent_runs(const ModelState& s) {
+  const auto n = static_cast<double>(s.X.rows());
+  if (s.noise.size() > 0 || s.known_noise > 0 || s.nugget > exact_nugget) return n;
+  const auto sites = sites_of(s.X);
+  return repeats_agree(sites, s.y) ? static_cast<double>(sites.size()) : n;
+}
+
 /// Finds β, α and s² anew from L, F and y, and the likelihood with them.
 inline void estimate(ModelState& s) {
   const double n = static_cast<double>(s.X.rows());
   s.gls = least_squares(s.L, s.F, s.y);
-  s.process_variance = s.known_noise > 0 ? s.known_noise / s.nugget : s.gls.sum_of_squares / n;
+  s.process_variance =
+      s.known_noise > 0 ? s.known_noise / s.nugget : s.gls.sum_of_squares / independent_runs(s);
   s.log_likelihood =
       concentrated_log_likelihood(s.L, s.gls.sum_of_squares, s.process_variance) - n * std::log(s.y_scale);
 }

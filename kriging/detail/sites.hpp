@@ -6,6 +6,7 @@
 /// out, since a repeat gives the answer away.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -23,6 +24,21 @@ inline std::vector<std::vector<Eigen::Index>> sites_of(const Eigen::MatrixXd& X)
     sites[place->second].push_back(i);
   }
   return sites;
+}
+
+/// Whether there are repeats, and all of them give what the first run of their site gave: no chance is at work.
+inline bool repeats_agree(const std::vector<std::vector<Eigen::Index>>& sites, const Eigen::VectorXd& y) {
+  if (static_cast<Eigen::Index>(sites.size()) == y.size()) return false;
+  return std::all_of(sites.begin(), sites.end(), [&](const std::vector<Eigen::Index>& site) {
+    return std::all_of(site.begin(), site.end(), [&](Eigen::Index i) { return y[i] == y[site.front()]; });
+  });
+}
+
+/// The first run of each site.
+inline std::vector<Eigen::Index> first_runs(const std::vector<std::vector<Eigen::Index>>& sites) {
+  std::vector<Eigen::Index> rows;
+  for (const std::vector<Eigen::Index>& site : sites) rows.push_back(site.front());
+  return rows;
 }
 
 }  // namespace drawpoint::kriging::detail

@@ -18,12 +18,29 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace drawpoint::kriging {
 
 enum class Trend { constant, linear, quadratic, blind, user };
+
+inline std::string_view to_string(Trend trend) {
+  switch (trend) {
+    case Trend::constant:
+      return "constant";
+    case Trend::linear:
+      return "linear";
+    case Trend::quadratic:
+      return "quadratic";
+    case Trend::blind:
+      return "blind";
+    case Trend::user:
+      return "user";
+  }
+  return "unknown";
+}
 
 /// Functions of one point x of d entries in natural units. The first should be the constant 1.
 struct Basis {

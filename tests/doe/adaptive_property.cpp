@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <drawpoint/doe/adaptive.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <filesystem>
 #include <numbers>
+#include <thread>
 
 using namespace drawpoint;
 using namespace drawpoint::doe;
@@ -152,6 +155,113 @@ TEST(Refine, SaysWhenNoCandidateIsLeft) {
   const Refinement r = refine(ring, ring_problem(), first_design(), distance_to_runs, options);
   EXPECT_EQ(r.status, RefineStatus::no_candidate);
   EXPECT_EQ(r.runs.rows.size(), 16U);
+}
+
+RefineOptions one_by_one(int points, int threads = 1) {
+  RefineOptions options = budget(points);
+  options.wait_for_batch = false;
+  options.evaluate.threads = threads;
+  return options;
+}
+
+TEST(RefineOneByOne, IsBatchesOfOneOnOneThread) {
+  const Mix mix({{0.7, LolaVoronoi()}, {0.3, distance_to_runs}});
+  const Mix fresh({{0.7, LolaVoronoi()}, {0.3, distance_to_runs}});
+  const Refinement r = refine(ring, ring_problem(), first_design(), mix, one_by_one(40));
+  expect_equal(r.runs, refine(ring, ring_problem(), first_design(), fresh, budget(40, 1)).runs);
+  EXPECT_EQ(r.status, RefineStatus::budget_spent);
+  EXPECT_EQ(r.message, "max_points was reached after 40 points");
+  EXPECT_EQ(r.batches, 24);
+}
+
+// The first run takes as long as all the others need: whoever waited for its batch would end no other meanwhile.
+TEST(RefineOneByOne, LetsNoRunWaitForAnother) {
+  std::atomic<int> others{0};
+  const Eigen::VectorXd slow = first_design().row(0).transpose();
+  const auto f = [&](const Eigen::VectorXd& x) {
+    if (x != slow) {
+      ++others;
+    } else {
+      for (int wait = 0; others < 39 && wait < 10000; ++wait)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      EXPECT_EQ(others, 39);
+    }
+    return ring(x);
+  };
+  const Evaluations runs =
+      refine(f, ring_problem(), first_design(), distance_to_runs, one_by_one(40, 2)).runs;
+  ASSERT_EQ(runs.rows.size(), 40U);
+  for (std::size_t i = 0; i < runs.rows.size(); ++i) {
+    EXPECT_EQ(runs.rows[i].run, static_cast<std::int64_t>(i));
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(runs.rows[i].x, runs.rows[j].x);
+  }
+}
+
+TEST(RefineOneByOne, GoesOnFromItsJournalToTheSameBits) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("one_by_one_" + std::to_string(::getpid()) + ".txt");
+  std::filesystem::remove(path);
+  std::stop_source cancel;
+  RefineOptions options = one_by_one(40);
+  options.evaluate.journal = path;
+  options.evaluate.stop = cancel.get_token();
+  int ended = 0;
+  options.evaluate.on_result = [&](const Evaluation&) {
+    if (++ended == 23) cancel.request_stop();
+  };
+  const Refinement part = refine(ring, ring_problem(), first_design(), distance_to_runs, options);
+  EXPECT_EQ(part.status, RefineStatus::cancelled);
+  EXPECT_EQ(part.runs.rows.size(), 23U);
+  RefineOptions again = one_by_one(40);
+  again.evaluate.journal = path;
+  int made = 0;
+  EvaluateProgress last;
+  again.evaluate.on_result = [&](const Evaluation&) { ++made; };
+  again.evaluate.progress = [&](const EvaluateProgress& p) { last = p; };
+  const Refinement whole = refine(ring, ring_problem(), first_design(), distance_to_runs, again);
+  EXPECT_EQ(made, 40 - 23);
+  EXPECT_EQ(last.done, 40);
+  EXPECT_EQ(last.total, 40);
+  expect_equal(whole.runs,
+               refine(ring, ring_problem(), first_design(), distance_to_runs, one_by_one(40)).runs);
+  std::filesystem::remove(path);
+}
+
+TEST(RefineOneByOne, EndsWhereTheCriterionHoldsAndPassesOnWhatCallbacksThrow) {
+  RefineOptions options = one_by_one(40, 3);
+  options.enough = [](const Evaluations& runs) { return runs.rows.size() >= 24; };
+  const Refinement r = refine(ring, ring_problem(), first_design(), distance_to_runs, options);
+  EXPECT_EQ(r.status, RefineStatus::criterion_met);
+  EXPECT_GE(r.runs.rows.size(), 24U);
+  EXPECT_LE(r.runs.rows.size(), 26U);  // those under way end
+  options.evaluate.on_result = [](const Evaluation&) { throw std::runtime_error("disk full"); };
+  EXPECT_THROW(refine(ring, ring_problem(), first_design(), distance_to_runs, options), std::runtime_error);
+  options.evaluate.replicates = 2;
+  EXPECT_EQ(support::thrown_text<std::invalid_argument>(
+                [&] { refine(ring, ring_problem(), first_design(), distance_to_runs, options); }),
+            "doe::refine: replicates is 2 without waiting for batches; allowed is 1; wait for batches");
+}
+
+// As a sampler it is the part whose turn it is, and propose shares a batch out also where it stands as one.
+TEST(Mix, IsASampler) {
+  const auto at = [](double score) {
+    return Sampler([score](const Evaluations&) -> Criterion {
+      return [score](const Eigen::MatrixXd& X) -> Eigen::VectorXd {
+        return Eigen::VectorXd::Constant(X.rows(), score);
+      };
+    });
+  };
+  const Mix mix({{1, at(1.0)}, {1, at(2.0)}});
+  const Eigen::MatrixXd X = first_design();
+  const Evaluations sixteen = evaluate(ring, ring_problem(), X);
+  const Evaluations fifteen = evaluate(ring, ring_problem(), X.topRows(15));
+  EXPECT_EQ(mix(sixteen)(X)[0], 1.0);
+  EXPECT_EQ(mix(fifteen)(X)[0], 2.0);
+  const Mix lola({{0.7, LolaVoronoi()}, {0.3, distance_to_runs}});
+  const Sampler held = lola;
+  EXPECT_EQ(propose(sixteen, held, {.batch = 8}), propose(sixteen, lola, {.batch = 8}));
+  const Mix nested({{1, lola}, {1, voronoi_sampler()}});
+  EXPECT_EQ(propose(sixteen, nested, {.batch = 8}).rows(), 8);
 }
 
 TEST(Refine, BadInputIsNamed) {

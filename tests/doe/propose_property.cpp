@@ -57,6 +57,32 @@ TEST(Propose, TakesTheBestCandidate) {
   EXPECT_LT((X.row(0) - Eigen::RowVector2d(0.3, 0.7)).norm(), 0.03);
 }
 
+TEST(Propose, KeepsAwayFromPendingPoints) {
+  const Evaluations runs = some_runs();
+  const Eigen::MatrixXd first = propose(runs, peaked, {.candidates = 5000});
+  for (const BatchRule rule : {BatchRule::cells, BatchRule::penalty}) {
+    ProposeOptions options{.candidates = 5000, .rule = rule};
+    options.pending = first;
+    const Eigen::MatrixXd next = propose(runs, peaked, options);
+    ASSERT_EQ(next.rows(), 1);
+    EXPECT_GT((next.row(0) - first.row(0)).norm(), 0.01);
+    EXPECT_EQ(next, propose(runs, peaked, {.batch = 2, .candidates = 5000, .rule = rule}).bottomRows(1))
+        << "as the second of a batch";
+    options.pending = Eigen::RowVector2d(0.5, 1.5);
+    EXPECT_EQ(
+        support::thrown_text<std::invalid_argument>([&] { propose(runs, peaked, options); }).substr(0, 27),
+        "doe::propose: pending: row ");
+  }
+}
+
+TEST(Propose, ChoosesAmongPointsBesideToo) {
+  ProposeOptions options{.candidates = 10, .climb = false};
+  options.beside = Eigen::RowVector2d(0.3, 0.7);
+  EXPECT_EQ(propose(some_runs(), peaked, options).row(0), options.beside.row(0));
+  options.allowed = [](const Eigen::VectorXd& x) { return x[0] > 0.5; };
+  EXPECT_GT(propose(some_runs(), peaked, options)(0, 0), 0.5);
+}
+
 TEST(Propose, EqualRunsOptionsAndSeedGiveEqualBits) {
   const Evaluations runs = some_runs();
   const ProposeOptions options{.batch = 8};

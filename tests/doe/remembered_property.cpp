@@ -111,6 +111,22 @@ TEST_F(Remembering, WhatGoesWrongIsStoredAsEvaluateRecordsIt) {
       "doe::remembered: batch is 0; allowed is 1 or more");
 }
 
+struct TwoVariables {
+  static constexpr bool predicts = true;
+  double operator()(const Eigen::VectorXd& x) const { return x[0]; }
+  Eigen::Index variables() const { return 2; }
+};
+
+TEST_F(Remembering, ASurrogateOfAnotherNumberOfVariablesIsRefused) {
+  MemoryStore store;
+  const Problem three = support::unit_problem(3);
+  EXPECT_EQ(
+      support::thrown_text<std::invalid_argument>([&] { remembered(TwoVariables{}, three, store); }),
+      "doe: a surrogate of 2 variables is asked for points of 3; fit it to the variables of the problem, in "
+      "their order");
+  EXPECT_EQ(store.size(), 0u);
+}
+
 // It says nothing of the run: the program that is put right makes it again.
 TEST_F(Remembering, AWrongCountIsNotStored) {
   MemoryStore store;

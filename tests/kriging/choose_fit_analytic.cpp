@@ -83,6 +83,22 @@ TEST(GainOfAWay, HasToBeMoreThanChanceBothWays) {
   EXPECT_FALSE(detail::beats_first(standing(VectorXd::Ones(1), detail::equal_shares(1))));
 }
 
+// A straight line with a wave that dies out: usual_kinds() stands for its ways without any glue.
+TEST(ChooseFit, TakesOptionsForWays) {
+  MatrixXd X(14, 1);
+  VectorXd y(14);
+  for (int i = 0; i < 14; ++i) X(i, 0) = i / 13.0, y[i] = 5 * X(i, 0) + std::exp(-6 * X(i, 0));
+  const FitChoice choice = choose_fit(X, y, usual_kinds());
+  ASSERT_EQ(choice.table.size(), 4u);
+  EXPECT_EQ(choice.table[0].name, "gaussian, constant");
+  EXPECT_EQ(choice.table[3].name, "matern52, linear");
+  const FitOptions best = usual_kinds()[choice.best];
+  EXPECT_EQ(choice.model.mean(X), fit(X, y, best).mean(X));
+  const VectorXd noise = VectorXd::Constant(14, 1e-4);
+  const FitChoice told = choose_fit(X, y, usual_kinds(), {}, {Noise::known, noise});
+  EXPECT_GT(told.model.model().noise_variance(), 0.0);
+}
+
 // Twelve points run twice. Ways of 12 means are paired with each other, not with ways of 24 runs.
 TEST(ChooseFit, PairsTheRunsOfTheModels) {
   MatrixXd X(24, 1);

@@ -181,6 +181,38 @@ TEST(Fit, TakesDuplicatesThatAgreeAndThatDisagree) {
   EXPECT_NEAR(disagree.nugget() * disagree.process_variance(), 0.04, 0.02);
 }
 
+// Repeats that agree tell that the simulator is exact and nothing else: the model, its variances and the
+// re-interpolated ones are those of exact runs without the repeats, however many there are. One that differs
+// tells that there is noise.
+TEST(Fit, RepeatsThatAgreeChangeNothing) {
+  const Runs once = hilly(20, 0.0);
+  FitOptions exact;
+  exact.noise = Noise::none;
+  const Model without = fit(once.X, once.y, exact);
+  for (const int repeats : {1, 300}) {
+    Runs all{MatrixXd(20 + repeats, 2), VectorXd(20 + repeats)};
+    all.X << once.X, once.X.row(4).replicate(repeats, 1);
+    all.y << once.y, VectorXd::Constant(repeats, once.y[4]);
+    for (const Noise noise : {Noise::nugget, Noise::none}) {
+      FitOptions options;
+      options.noise = noise;
+      const Model model = fit(all.X, all.y, options);
+      EXPECT_EQ(model.runs(), 20 + repeats);
+      EXPECT_EQ(model.theta(), without.theta());
+      EXPECT_EQ(model.nugget(), without.nugget());
+      EXPECT_EQ(model.process_variance(), without.process_variance());
+      const Prediction p = model.predict(points), q = without.predict(points);
+      const double deviation = std::sqrt(without.process_variance());
+      EXPECT_LE((p.mean - q.mean).cwiseAbs().maxCoeff(), 1e-4 * deviation);
+      for (Eigen::Index i = 0; i < points.rows(); ++i)
+        EXPECT_NEAR(p.variance[i], q.variance[i], 0.01 * q.variance[i] + 1e-8 * deviation * deviation);
+      EXPECT_NE(model.message().find("taken to be exact"), std::string::npos);
+    }
+    all.y[20] += 0.5;
+    EXPECT_GT(fit(all.X, all.y).nugget(), 1e-6);
+  }
+}
+
 TEST(Fit, AnInputWithoutEffectGetsASmallTheta) {
   const MatrixXd X = reference::design(40, 3, 5);
   const Model model = fit(X, (3.0 * X.col(0).array()).sin() + X.col(1).array());

@@ -142,6 +142,31 @@ TEST(Stationarity, AJumpThatFollowsNoInputIsUneven) {
   EXPECT_GE(along_none, 1);
 }
 
+// Runs of one site are left out together, as leave-one-out has it: with a jump between 30 places of four runs
+// each, the squared errors over their variances are those of leave_one_out.
+TEST(Stationarity, LeavesSitesOut) {
+  const Eigen::MatrixXd P = Wave{.runs = 30}.X(3);
+  Eigen::MatrixXd X(120, 2);
+  X << P, P, P, P;
+  Eigen::VectorXd y(120);
+  doe::RandomStream random(3);
+  for (Eigen::Index i = 0; i < 120; ++i)
+    y[i] = X(i, 1) + (X(i, 0) > 0.55 ? 1.0 : 0.0) + 0.05 * random.normal();
+  const Model model = fit(X, y);
+  const Validation v = leave_one_out(model);
+  const Eigen::VectorXd squares = detail::SitesOfModel(model.state()).squared_errors(model.state().gls.alpha);
+  for (Eigen::Index i = 0; i < 120; ++i) {
+    const double error = v.observed[i] - v.predicted[i];
+    const double expected = error * error / v.observation_variance[i];
+    EXPECT_NEAR(squares[i] / model.state().process_variance, expected, 1e-6 * expected + 1e-9) << i;
+  }
+  const Stationarity s = check_stationarity(model);
+  ASSERT_TRUE(s.jump);
+  EXPECT_EQ(s.jump->input, 0);
+  EXPECT_LE(s.jump->after, 0.55);
+  EXPECT_GE(s.jump->before, 0.55);
+}
+
 TEST(Stationarity, DoesNotDependOnUnitOrOffset) {
   const Stationarity a = check_stationarity(Wave{.step = 1}.fitted(2));
   const Wave far{.step = 1, .lower = 64};  // a power of two: the same design to the last bit but four

@@ -75,6 +75,42 @@ TEST(PolynomialLeaveOneOut, EqualsTheRefits) {
                 1e-11);
 }
 
+// A site leaves with all of its runs: six of 25 are repeated twice more, with other values.
+TEST(PolynomialLeaveOneOut, OfRepeatsEqualsTheRefitsWithoutTheirPoint) {
+  MatrixXd X(37, 2);
+  X << reference::design(25, 2, 3), reference::design(25, 2, 3).topRows(6),
+      reference::design(25, 2, 3).topRows(6);
+  VectorXd y = reference::values(wave, X);
+  doe::RandomStream random(1);
+  for (double& value : y) value += 0.2 * random.normal();
+  const PolynomialOptions options{
+      .degree = 3, .interaction = 2, .lower = VectorXd::Zero(2), .upper = VectorXd::Ones(2)};
+  const Validation v = leave_one_out(fit_polynomial(X, y, options));
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    std::vector<Eigen::Index> rest;
+    for (Eigen::Index j = 0; j < X.rows(); ++j)
+      if (X.row(j) != X.row(i)) rest.push_back(j);
+    const Polynomial others = fit_polynomial(detail::rows_of(X, rest), detail::entries_of(y, rest), options);
+    EXPECT_NEAR(v.predicted[i], others.mean(X.row(i))[0], 1e-11) << i;
+  }
+}
+
+// White noise over 12 places with 8 runs each: a leave-one-out that kept seven runs of the place would choose
+// terms until the means of all places are met.
+TEST(PolynomialSelection, LearnsNothingFromRepeatsOfNoise) {
+  const MatrixXd places = reference::design(12, 1, 3);
+  MatrixXd X(96, 1);
+  for (int k = 0; k < 8; ++k) X.middleRows(12 * k, 12) = places;
+  VectorXd mean = VectorXd::Zero(12), y(96);
+  doe::RandomStream random(2);
+  for (double& value : mean) value = random.normal();
+  for (Eigen::Index i = 0; i < 96; ++i) y[i] = mean[i % 12] + 0.01 * random.normal();
+  const Polynomial p = fit_polynomial(X, y, {.degree = 9, .selection = Selection::leave_one_out});
+  EXPECT_LE(p.terms().size(), 4u);
+  const double spread = std::sqrt((y.array() - y.mean()).square().mean());
+  EXPECT_GT(leave_one_out(p).rmse, 0.9 * spread);
+}
+
 // With noise of deviation 0.3 on a response of three terms, candidates of degree 4 in three inputs are 35 for
 // 60 runs: all of them fit the noise, the selection does not. Fixed seed; the ratio of errors is √(35/60) to
 // √(some/60).

@@ -107,6 +107,31 @@ TEST(RadialLeaveOneOut, EqualsTheRefits) {
   }
 }
 
+// A site leaves with all of its runs. ε and λ are given; λ is a share of the largest eigenvalue, which the repeats
+// change, so that the refits get what keeps it the same.
+TEST(RadialLeaveOneOut, OfRepeatsEqualsTheRefitsWithoutTheirPoint) {
+  MatrixXd X(26, 2);
+  X << reference::design(20, 2, 3), reference::design(20, 2, 3).topRows(3),
+      reference::design(20, 2, 3).topRows(3);
+  VectorXd y = reference::values(wave, X);
+  doe::RandomStream random(1);
+  for (double& value : y) value += 0.2 * random.normal();
+  const Radial all = fit_radial(X, y, with(RadialFunction::multiquadric, 0.1));
+  const Validation v = leave_one_out(all);
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    std::vector<Eigen::Index> rest;
+    for (Eigen::Index j = 0; j < X.rows(); ++j)
+      if (X.row(j) != X.row(i)) rest.push_back(j);
+    const MatrixXd others = detail::rows_of(X, rest);
+    const VectorXd of_others = detail::entries_of(y, rest);
+    const double share =
+        0.1 * all.ridge() / fit_radial(others, of_others, with(RadialFunction::multiquadric, 0.1)).ridge();
+    const Radial without = fit_radial(others, of_others, with(RadialFunction::multiquadric, share));
+    ASSERT_NEAR(without.ridge(), all.ridge(), 1e-12 * all.ridge());
+    EXPECT_NEAR(v.predicted[i], without.mean(X.row(i))[0], 1e-8) << i;
+  }
+}
+
 // The chosen ε and λ are no worse than any of a grid that the search does not use.
 TEST(RadialFit, FindsShapeAndRidgeByLeaveOneOut) {
   const MatrixXd X = reference::design(40, 2, 3);
