@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/did_you_mean.h>
 #include <drawpoint/studies/commands/freed_memory.h>
 #include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/commands/questions.h>
@@ -20,6 +21,7 @@
 #include <functional>
 #include <limits>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -85,11 +87,13 @@ std::string names_of_commands() {
 /// `prog --runs 5` means `prog run --runs 5`.
 std::vector<std::string> with_command(std::vector<std::string> words) {
   const std::string first = words.empty() ? "" : words.front();
-  const bool help = first == "--help" || first == "-h" || first == "--version";
+  const bool help = first == "--help" || first == "-h" || first == "--help-all" || first == "--version";
   const bool named =
       first == "prepare" || std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !named)
-    throw UsageError("unknown command \"" + first + "\"; the commands are " + names_of_commands());
+    throw UsageError("unknown command \"" + first + "\"" +
+                     did_you_mean(first, {commands.begin(), commands.end()}) + "; the commands are " +
+                     names_of_commands());
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
 }
@@ -402,6 +406,33 @@ void define_point_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   prepare->callback([&] { parsed.action = [&] { return prepare_command(study, parsed.point); }; });
 }
 
+/// Those of `run` that most people need.
+std::string first_options(const CLI::App& app) {
+  const CLI::App& run = *app.get_subcommand("run");
+  const CLI::Formatter formatter;
+  std::string text = "Options of run that matter first; " + app.get_name() + " run --help has all of them:\n";
+  for (const char* name : {"--out", "--runs", "--validation", "--adaptive", "--target", "--hours", "--jobs",
+                           "--time-limit", "--seed", "--import"}) {
+    std::ostringstream line;
+    CLI::detail::format_help(line, "  " + std::string(name), run.get_option(name)->get_description(), 20);
+    text += line.str();
+  }
+  return text + "\n";
+}
+
+/// Of an option that is not known to the command.
+std::string meant_by(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string what = error.what();
+  const std::size_t at = what.find("--");
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  if (error.get_name() != "ExtrasError" || at == std::string::npos || chosen.empty()) return "";
+  std::vector<std::string> known;
+  for (const CLI::Option* option : chosen.front()->get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  return did_you_mean(what.substr(at, what.find_first_of(" =", at) - at), known);
+}
+
 int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
@@ -410,18 +441,18 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   parsed.settings.finish_log = study.finish_log;
   const std::string program = parsed.settings.program = program_of(argc, argv, study);
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, program);
-  app.set_help_flag();
-  app.set_help_all_flag("-h,--help", "show this text");
+  app.set_help_flag("-h,--help", "show this text; behind a command, its options");
+  app.set_help_all_flag("--help-all", "show all commands with their options");
   app.set_version_flag("--version", version_text(study) + "\ncpp-httplib " + http_version(),
                        "say what this program is made of");
   app.require_subcommand(1);
-  app.footer(problem_text(study.problem));
   define_commands_that_run(app, parsed, study);
   define_asking_commands(app, parsed, study);
   define_reading_commands(app, study, parsed.settings, parsed.action);
   define_exclude(app, parsed, study);
   define_rerun_responses(app, parsed, study);
   define_point_commands(app, parsed, study);
+  app.footer(first_options(app) + problem_text(study.problem));
   const std::vector<std::string> typed = typed_words(argc, argv, study);
   if (answered(app, typed, joined(std::min(argc, 1), argv), study)) return 0;
   auto words = with_command(typed);
@@ -430,7 +461,8 @@ int parse_and_act(int argc, char** argv, const Study& study) {
     app.parse(words);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    std::fprintf(stderr, "%s: %s; see %s --help\n", study.name.c_str(), e.what(), program.c_str());
+    std::fprintf(stderr, "%s: %s%s; see %s --help\n", study.name.c_str(), e.what(), meant_by(app, e).c_str(),
+                 program.c_str());
     return wrong_usage;
   }
   return parsed.action();

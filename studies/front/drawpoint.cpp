@@ -3,6 +3,7 @@
 /// The program `drawpoint`: lists the studies of an installation, says what they are made of, and starts one.
 /// It knows none of them: they are the programs of one folder, and are asked (docs/decisions/0005).
 
+#include <drawpoint/studies/commands/did_you_mean.h>
 #include <drawpoint/studies/commands/option_tree.h>
 #include <unistd.h>
 
@@ -105,8 +106,8 @@ int answer(const std::string& question, const std::vector<std::string>& words, c
   }
   if (question.empty() || question == "--help" || question == "-h")
     return std::fputs(app.help().c_str(), stdout) < 0;
-  std::fprintf(stderr, "drawpoint: there is no study \"%s\"; drawpoint --help lists them\n",
-               question.c_str());
+  std::fprintf(stderr, "drawpoint: there is no study \"%s\"%s; drawpoint --help lists them\n",
+               question.c_str(), studies::did_you_mean(question, studies).c_str());
   return 2;
 }
 

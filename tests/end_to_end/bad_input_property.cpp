@@ -75,7 +75,7 @@ TEST_F(BadInput, WrongUsage) {
 TEST_F(BadInput, OptionsOfTheStudy) {
   expect_refused(study + " --rock coal" + out(), 2,
                  "\"coal\" is not one of the values of --rock; allowed: ore, waste");
-  EXPECT_TRUE(contains(run(study + " --help").out, "what is loaded: ore, waste (default ore"));
+  EXPECT_TRUE(contains(run(study + " run --help").out, "what is loaded: ore, waste (default ore"));
   EXPECT_EQ(run(with("options") + "evaluate --x=0.2,5 --rock ore").code, 0);
   const Ended failed = run(with("options") + "evaluate --x=0.2,5 --rock=waste");
   EXPECT_EQ(failed.code, 1);

@@ -242,9 +242,11 @@ TEST_F(FormulaDemo, HelpAndVersion) {
   const Ended help = run(demo + " --help");
   EXPECT_EQ(help.code, 0);
   for (const std::string word : {"run", "status", "front", "compare", "replay", "report", "evaluate",
-                                 "--validation", "--json", "--retry-failed"}) {
+                                 "--validation", "--jobs", "--help-all"}) {
     EXPECT_TRUE(contains(help.out, word));
   }
+  EXPECT_LT(std::count(help.out.begin(), help.out.end(), '\n'), 70) << help.out;
+  EXPECT_TRUE(contains(run(demo + " --help-all").out, "--retry-failed"));
   EXPECT_EQ(run(demo + " --version").code, 0);
   for (const std::string command : {"front", "compare", "replay"})
     EXPECT_TRUE(contains(run(demo + " " + command + " --help").out, "Example: formula_demo " + command));

@@ -72,7 +72,12 @@ TEST_F(Front, StartsAStudyWithItsWords) {
   EXPECT_TRUE(contains(told("formula_demo evaluate --x=1,0.5,0.5,0.5 --seed 7"), "production"));
   const Ended wrong = run(std::string(DRAWPOINT) + " formula_demo run --rums 5");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_TRUE(contains(wrong.err, "see drawpoint formula_demo --help")) << wrong.err;
+  EXPECT_TRUE(
+      contains(wrong.err, "not expected: --rums (did you mean --runs?); see drawpoint formula_demo --help"))
+      << wrong.err;
+  EXPECT_TRUE(contains(run(std::string(DRAWPOINT) + " formula_demo confrim").err, "(did you mean confirm?)"));
+  EXPECT_FALSE(
+      contains(run(std::string(DRAWPOINT) + " formula_demo run --frobnicate 5").err, "did you mean"));
   EXPECT_TRUE(contains(run(std::string(DRAWPOINT) + " external_program").err,
                        "drawpoint external_program throw.json confirm"));
 }
@@ -80,7 +85,9 @@ TEST_F(Front, StartsAStudyWithItsWords) {
 TEST_F(Front, AnUnknownStudyIsRefused) {
   const Ended ended = run(std::string(DRAWPOINT) + " formula_dem");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_TRUE(contains(ended.err, "there is no study \"formula_dem\"; drawpoint --help lists them"))
+  EXPECT_TRUE(
+      contains(ended.err,
+               "there is no study \"formula_dem\" (did you mean formula_demo?); drawpoint --help lists them"))
       << ended.err;
 }
 

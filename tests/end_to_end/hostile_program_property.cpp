@@ -127,7 +127,7 @@ TEST_F(HostileProgram, WhoseFirstRunsAllFailAlikeStopsTheStudy) {
   EXPECT_EQ(count("status = 'planned'"), 25);
   run(study(wrong) + options + " --keep-going");
   EXPECT_EQ(count("status = 'failed'"), 30);
-  EXPECT_TRUE(contains(run(study(wrong) + " --help").out, "--keep-going"));
+  EXPECT_TRUE(contains(run(study(wrong) + " run --help").out, "--keep-going"));
 }
 
 TEST_F(HostileProgram, ThatFailsHereAndThereGoesOn) {
