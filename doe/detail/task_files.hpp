@@ -42,12 +42,14 @@ inline std::string script_of(const Process& process) {
   return text + " >" + quoted_for_shell(output) + " 2>&1\n";
 }
 
-/// The script of the array. The reply appears complete or not at all.
+/// The script of the array. The reply appears complete or not at all. A task whose script was taken back before it
+/// began has none.
 inline std::string script_of_array(const std::filesystem::path& folder) {
   return "#!/bin/sh\n"
          "task=" +
          quoted_for_shell(folder.string()) +
          "/$SLURM_ARRAY_TASK_ID\n"
+         "[ -e \"$task.sh\" ] || exit 0\n"
          "draft=$task.reply.$SLURM_JOB_ID\n"
          "export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1\n"
          "began=$(date +%s.%N)\n"

@@ -425,7 +425,8 @@ std::string meant_by(const CLI::App& app, const CLI::ParseError& error) {
   const std::string what = error.what();
   const std::size_t at = what.find("--");
   const std::vector<CLI::App*> chosen = app.get_subcommands();
-  if (error.get_name() != "ExtrasError" || at == std::string::npos || chosen.empty()) return "";
+  const bool unknown = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  if (!unknown || at == std::string::npos || chosen.empty()) return "";
   std::vector<std::string> known;
   for (const CLI::Option* option : chosen.front()->get_options())
     if (!option->get_group().empty())

@@ -243,14 +243,16 @@ TEST_F(SlurmArray, AReplyCountsHoweverLateItComes) {
   fs::create_directories(place_ / "blind");
   std::ofstream(place_ / "blind" / "squeue") << "#!/bin/sh\n";
   fs::permissions(place_ / "blind" / "squeue", fs::perms::owner_all);
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", ((place_ / "blind").string() + ":" + path).c_str(), 1);
   SlurmOptions hasty = options();
   hasty.reply_delay = 0.5;
   hasty.submissions = 8;
   SlurmJobs jobs(hasty);
-  jobs.start(counted(71, "sleep 3; echo done >&3"));
+  jobs.start(counted(71, "sleep 9; echo done >&3"));
   std::vector<ProcessEnd> ends;
+  while (starts(71) == 0 && jobs.running() > 0)
+    for (const ProcessEnd& end : jobs.wait(100ms)) ends.push_back(end);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((place_ / "blind").string() + ":" + path).c_str(), 1);
   while (jobs.running() > 0)
     for (const ProcessEnd& end : jobs.wait(1s)) ends.push_back(end);
   jobs.forget();
