@@ -217,7 +217,7 @@ class SlurmJobs {
 
   int with_slurm() const { return running() - static_cast<int>(queue_.size()); }
 
-  /// As many arrays as there is room for; one at a time where the tasks at a time have a bound, which Slurm keeps
+  /// Submits as many arrays as there is room for; one at a time where the tasks at a time have a bound, which Slurm keeps
   /// for one array alone.
   void submit() {
     constexpr int most_waiting = 2000;  // with Slurm at a time: queues of clusters have bounds

@@ -136,7 +136,7 @@ inline bool is_over(const std::string& state) {
   return over.contains(state);
 }
 
-/// Of a state in which a task ended without a reply, what it means; empty: the state says it.
+/// Says what a state means in which a task ended without a reply; empty where the state says it.
 inline std::string meaning_of(const std::string& state) {
   if (state == "OUT_OF_MEMORY") return ": it needed more memory than Slurm gives it; ask for more with --mem";
   if (state == "TIMEOUT") return ": Slurm's time limit ended it; ask for more with --time";

@@ -59,7 +59,7 @@ inline std::string script_of_array(const std::filesystem::path& folder) {
          "\"$task.reply\"\n";
 }
 
-/// Of a script or reply, which others write, too; of one that is longer than a reply may be, its last line.
+/// Reads a script or reply, which others write, too; one that is longer than a reply may be gives its last line.
 inline std::string text_of(const std::filesystem::path& name) {
   constexpr std::size_t last_line = 256;
   StrangerFile file(name);

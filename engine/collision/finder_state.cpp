@@ -69,7 +69,7 @@ void save_contact(const PairState& state, int count, ByteWriter& out) {
   out.put(state.centre), out.put(state.orientation), out.put(state.margin);
 }
 
-// Of a contact with a plane only which points touched.
+// A contact with a plane is saved as which points touched.
 void save_touch(const PairState* state, ByteWriter& out) {
   const int count = state ? state->contact.count : 0;
   out.put(count);

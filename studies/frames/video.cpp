@@ -4,7 +4,7 @@
 #include <drawpoint/studies/frames/programs.h>
 #include <drawpoint/studies/frames/scratch.h>
 #include <drawpoint/studies/frames/video.h>
-#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/one_process.h>
 #include <unistd.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/doe/processes.hpp>
@@ -71,21 +71,13 @@ void film(const Video& video, const fs::path& folder, const fs::path& ffmpeg) {
   const Scratch scratch;
   doe::detail::TemporaryFile unfinished(fs::absolute(video.file));
   const fs::path printed = scratch.path() / "printed.txt";
-  doe::ProcessPool pool(1);
-  pool.start({.executable = ffmpeg.string(),
+  const doe::ProcessEnd end =
+      end_of({.executable = ffmpeg.string(),
               .arguments = words_for_ffmpeg(video, fs::absolute(folder), unfinished.path()),
               .output = printed});
-  std::vector<doe::ProcessEnd> ends;
-  while (ends.empty()) {
-    if (InterruptGuard::requested()) {
-      pool.terminate(time_to_end);
-      throw Interrupted{};
-    }
-    ends = pool.wait(std::chrono::milliseconds(100));
-  }
-  if (ends.front().wait_status != 0)
+  if (end.wait_status != 0)
     throw std::runtime_error(
-        "replay: " + video.file.string() + " was not made: ffmpeg " + doe::describe(ends.front()) +
+        "replay: " + video.file.string() + " was not made: ffmpeg " + doe::describe(end) +
         "; check the free space in its folder, or name another file; " + last_words(printed));
   unfinished.replace_target();
 }

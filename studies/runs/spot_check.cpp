@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/one_process.h>
 #include <drawpoint/studies/runs/run_ends.h>
 #include <drawpoint/studies/runs/run_files.h>
 #include <drawpoint/studies/runs/run_process.h>
@@ -39,18 +40,9 @@ doe::ProcessEnd made_again(const Run& run, const Store& store, const Folder& fol
   Run again = run;
   again.id = checked_id;
   make_way(folder, checked_id);
-  doe::ProcessPool pool(1);
-  pool.start(process_of_run(again, folder, store.identity().options, settings));
-  std::vector<doe::ProcessEnd> ends;
-  while (ends.empty()) {
-    if (InterruptGuard::requested()) {
-      pool.terminate(time_to_end);
-      throw Interrupted{};
-    }
-    ends = pool.wait(std::chrono::milliseconds(100));
-  }
-  if (ended_by_stop_signal(ends.front()) && soon(InterruptGuard::requested)) throw Interrupted{};
-  return ends.front();
+  const doe::ProcessEnd end = end_of(process_of_run(again, folder, store.identity().options, settings));
+  if (ended_by_stop_signal(end) && soon(InterruptGuard::requested)) throw Interrupted{};
+  return end;
 }
 
 /// The first response that differs.

@@ -12,6 +12,7 @@
 #include <drawpoint/kriging/optimize.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
+#include <drawpoint/tests/support/welded_beam.hpp>
 #include <filesystem>
 #include <numbers>
 #include <set>
@@ -52,38 +53,10 @@ TEST(Optimize, Hartmann6InSixtyRuns) {
   EXPECT_LT(median(gaps), 1e-3);
 }
 
-// A welded beam (Ragsdell, Phillips 1976) whose cheapest design, 1.86164, lies where three limits meet: found by
-// differential evolution with 240 000 runs.
-doe::Problem beam() {
-  return {.variables = {{"weld_height", "in", 0.125, 2.0},
-                        {"weld_length", "in", 0.1, 10.0},
-                        {"bar_depth", "in", 0.1, 10.0},
-                        {"bar_width", "in", 0.125, 2.0}},
-          .responses = {{"cost", "USD", doe::Goal::minimize},
-                        {"shear_stress", "psi", doe::Goal::at_most, 13600.0},
-                        {"bending_stress", "psi", doe::Goal::at_most, 30000.0},
-                        {"weld_beyond_bar", "in", doe::Goal::at_most, 0.0},
-                        {"deflection", "in", doe::Goal::at_most, 0.25},
-                        {"buckling_load", "lbf", doe::Goal::at_least, 6000.0}}};
-}
-
-doe::Outcome weld(const VectorXd& x) {
-  const double h = x[0], l = x[1], t = x[2], b = x[3];
-  const double q = 0.25 * (h + t) * (h + t), arm = std::sqrt(0.25 * l * l + q);
-  const double direct = 6000.0 / (std::sqrt(2.0) * h * l);
-  const double twist = 6000.0 * (14.0 + 0.5 * l) * arm / (2.0 * std::sqrt(2.0) * h * l * (l * l / 12.0 + q));
-  return {1.10471 * h * h * l + 0.04811 * t * b * (14.0 + l),
-          std::sqrt(direct * direct + twist * twist + l * direct * twist / arm),
-          504000.0 / (t * t * b),
-          h - b,
-          2.1952 / (t * t * t * b),
-          64746.022 * (1.0 - 0.0282346 * t) * t * b * b * b};
-}
-
 TEST(Optimize, AWeldedBeamInSixtyRuns) {
   std::vector<double> gaps;
   for (int seed = 1; seed <= 3; ++seed) {
-    const Optimum o = optimize(weld, beam(), 60, {.seed = seed_of(seed)});
+    const Optimum o = optimize(support::weld, support::beam(2.0), 60, {.seed = seed_of(seed)});
     ASSERT_TRUE(o.feasible);
     const VectorXd& y = o.best[0].y;
     EXPECT_LE(y[1], 13600.0);

@@ -6,6 +6,7 @@ import {el} from './dom.js';
 import {labelled, number, pretty, setting, settingWithUnit, withUnit} from './format.js';
 import {clock, totals} from './live_state.js';
 import {own} from './responses.js';
+import {runTables} from './run_tables.js';
 import {table} from './table.js';
 
 const card = (label, value, note = null, unit = null) =>
@@ -141,24 +142,8 @@ export function running(state) {
 
 export function last(state) {
   if (!state.last) return el('p', {class: 'note'}, 'No run has ended yet.');
-  const {run, kind, x, y, reason, seconds, finished} = state.last,
-    {variables, responses} = state.problem;
-  const inputs = table(
-    [
-      {title: 'Variable', text: true},
-      {title: 'Value', text: true},
-    ],
-    variables.map((v, k) => [labelled(v), setting(x[k], v)]),
-    {sortable: false},
-  );
-  const outputs = table(
-    [
-      {title: 'Response', text: true},
-      {title: 'Value', text: true},
-    ],
-    responses.map((r, j) => [labelled(r), y === null ? 'none' : number(y[j], 4)]),
-    {sortable: false},
-  );
+  const {run, kind, x, y, reason, seconds, finished} = state.last;
+  const [inputs, outputs] = runTables({x, y}, state.problem);
   return el(
     'div',
     {class: 'block'},

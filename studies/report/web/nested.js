@@ -137,22 +137,17 @@ function cell({row, column, z}, i, {x, y, range, f, inner: [v, w], size: [column
       low = k * (size + gap);
     return [low, low + size];
   };
-  layout['xaxis' + suffix] = axis(row === 0 ? axisLabel(v) : '', {
-    domain: span(column, columns),
-    anchor: 'y' + suffix,
-    showticklabels: row === 0,
-    nticks: 4,
-    automargin: false,
-    ...ticks(v),
-  });
-  layout['yaxis' + suffix] = axis(column === 0 ? axisLabel(w) : '', {
-    domain: span(row, rows),
-    anchor: 'x' + suffix,
-    showticklabels: column === 0,
-    nticks: 4,
-    automargin: false,
-    ...ticks(w),
-  });
+  const side = (variable, shown, domain, anchor) =>
+    axis(shown ? axisLabel(variable) : '', {
+      domain,
+      anchor: anchor + suffix,
+      showticklabels: shown,
+      nticks: 4,
+      automargin: false,
+      ...ticks(variable),
+    });
+  layout['xaxis' + suffix] = side(v, row === 0, span(column, columns), 'y');
+  layout['yaxis' + suffix] = side(w, column === 0, span(row, rows), 'x');
   return {
     type: 'contour',
     x,
