@@ -6,17 +6,13 @@
 /// With the machine's own engine of 382 kW and with its hydraulics, whose pump goes with the speed of the
 /// arm. The strategy's place across the drift (gamma, weak everywhere) stays in the middle.
 
-#include <drawpoint/studies/loading_contrasts.h>
-#include <drawpoint/studies/loading_figures.h>
-#include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/engine/loading/libraries.hpp>
-#include <drawpoint/engine/loading/log/log_stream.hpp>
+#include <drawpoint/studies/loading_study.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
-#include <drawpoint/studies/study.hpp>
 
 using namespace drawpoint;
+using engine::loading::LoadingLog;
 using engine::loading::Scenario;
 
 doe::Variable real(const char* name, const char* unit, double lower, double upper, const char* description) {
@@ -61,14 +57,8 @@ const doe::Problem problem{
                    .description = "standard error of production, by the scatter of the run's cycles"}}};
 
 /// Another bucket and other speeds are no other pile: all runs begin with the same.
-Scenario scenario_of(const studies::RunContext& run) {
-  studies::RunContext with_speeds = run;
-  with_speeds.options["speeds"] = "machine";
-  with_speeds.options["arm"] = "cylinders";
-  return studies::loading_scenario(with_speeds);
-}
-
-void set_design(Scenario& scenario, const Eigen::VectorXd& x) {
+Scenario scenario_of(const Eigen::VectorXd& x, const studies::RunContext& run) {
+  Scenario scenario = studies::loading_scenario(studies::with_options(run, {{"speeds", "machine"}}));
   auto& speeds = scenario.executor.speeds;
   scenario.machine.bucket = engine::loading::bucket_of(x[0], x[1]);
   speeds.drive_in = x[2];
@@ -76,10 +66,10 @@ void set_design(Scenario& scenario, const Eigen::VectorXd& x) {
                         &scenario.machine.hydraulics.pump_flow})
     *speed *= x[3];
   scenario.strategy = {.alpha = x[4], .beta = x[5], .gamma = 0.5, .kappa = x[6]};
+  return scenario;
 }
 
-doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
-  if (!log.completed) return doe::Failure{log.message};
+doe::Outcome responses_of(const LoadingLog& log, const studies::OptionValues& options) {
   const double loaded = 1e-3 * log.numbers.at("payload") * fill_factor(log);
   if (loaded == 0) return doe::Failure{"nothing was loaded, so energy per tonne is unknown"};
   const auto producing = studies::production_options(options);
@@ -87,56 +77,21 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
           production_standard_error(log, producing)};
 }
 
-doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
-  Scenario scenario = scenario_of(run);
-  set_design(scenario, x);
-  scenario.seed = seed;
-  scenario.log_file = run.log;
-  return responses_of(studies::simulate_run(scenario, run), run.options);
-}
-
 std::vector<studies::StudyOption> options() {
-  std::vector<studies::StudyOption> options = studies::loading_options();
-  std::erase_if(options, [](const auto& option) {
-    return option.name == "speeds" || option.name == "yield-torque" || option.name == "damage" ||
-           option.name == "arm";
-  });
+  auto options = studies::loading_options_without({"speeds", "yield-torque", "damage", "spill", "arm"});
   for (auto& option : options)
     if (option.name == "operator") option.value = "skilled";
   return options;
 }
 
-/// Noise is said of production, the one response that the loading study has too.
-std::vector<studies::Headline> headlines(const std::vector<std::filesystem::path>& logs,
-                                         const studies::OptionValues& options) {
-  std::vector<studies::Headline> said = studies::loading_headlines(logs, options);
-  std::erase_if(said, [](const auto& headline) {
-    return headline.name == "noise_of_joint_damage" || headline.name == "noise_of_rock_spill";
-  });
-  return said;
-}
-
 int main(int argc, char** argv) {
   return studies::run(
       argc, argv,
-      {.name = "lhd_bucket_and_speed",
-       .problem = problem,
-       .black_box = load,
-       .about = "Bucket, speeds and strategy of an LHD together, in a drift.",
-       .defaults = {.runs = 60, .validation = 12},
-       .options = options(),
-       .options_complaint = studies::loading_options_complaint,
-       .simulator = engine::loading::simulator,
-       .libraries = engine::loading::libraries(),
-       .prepare = [](const studies::RunContext& run) { studies::settle_pile(scenario_of(run)); },
-       .illustrate = studies::loading_figures,
-       .replay = studies::loading_replay,
-       .finish_log = engine::loading::join_parts,
-       .contrast = studies::loading_contrasts,
-       .responses =
-           [](const std::filesystem::path& log, const studies::OptionValues& options) {
-             return responses_of(engine::loading::read_log(log, engine::loading::LogContent::without_scene),
-                                 options);
-           },
-       .headlines = headlines});
+      studies::study_of({.name = "lhd_bucket_and_speed",
+                         .about = "Bucket, speeds and strategy of an LHD together, in a drift.",
+                         .problem = problem,
+                         .defaults = {.runs = 60, .validation = 12},
+                         .options = options(),
+                         .scenario = scenario_of,
+                         .responses = responses_of}));
 }

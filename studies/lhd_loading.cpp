@@ -72,9 +72,9 @@ const doe::Problem problem{
          .unit = "1",
          .goal = doe::Goal::minimize,
          .lower = 0,
-         .description =
-             "rock that the bucket took and lost before the end of a cycle, over the 10 t that would "
-             "stop the work",
+         .description = "rock that the bucket took and lost before the end of a cycle (or --spill), over the "
+                        "10 t that would "
+                        "stop the work",
          .standard_error = "rock_spill_error"},
         standard_error("production_error", "kg/s", "production"),
         standard_error("joint_damage_error", "s", "joint damage"),
@@ -100,15 +100,16 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
   if (!log.completed) return doe::Failure{log.message};
   const auto producing = studies::production_options(options);
   const auto damaging = studies::damage_options(options);
+  const auto spilling = studies::spill_options(options);
   const engine::loading::RockLeft left = rock_left(log);
   auto twisting = damaging;
   twisting.component = engine::loading::TorqueComponent::twisting;
   return {production(log, producing),
           joint_damage(log, damaging),
-          rock_spill(log),
+          rock_spill(log, spilling),
           production_standard_error(log, producing),
           joint_damage_standard_error(log, damaging),
-          rock_spill_standard_error(log),
+          rock_spill_standard_error(log, spilling),
           joint_damage(log, twisting),
           peak_pin_force(log),
           pin_load_range(log),
@@ -133,6 +134,7 @@ int main(int argc, char** argv) {
        .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
        .defaults = {.runs = 40, .validation = 12},
        .options = studies::loading_options(),
+       .presets = {studies::lindmark2016_preset()},
        .options_complaint = studies::loading_options_complaint,
        .simulator = engine::loading::simulator,
        .libraries = engine::loading::libraries(),

@@ -204,13 +204,14 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
   if (logs.empty()) return {};
   const engine::loading::ProductionOptions producing = production_options(options);
   const engine::loading::DamageOptions damaging = damage_options(options);
+  const engine::loading::SpillOptions spilling = spill_options(options);
   double fill = 0, most_fill = 0, stalls = 0;
   Noise production, damage, spill;
   Headline pile;
   Breakdowns breakdowns;
   std::vector<RunMean> others = measures();
   for (const auto& file : logs) {
-    const LoadingLog log = engine::loading::read_log(file, LogContent::without_scene);
+    const LoadingLog log = engine::loading::read_log(file, content_for(options));
     if (pile.name.empty()) pile = pile_of(log);
     const double of_run = fill_factor(log);
     fill += of_run / static_cast<double>(logs.size());
@@ -220,7 +221,7 @@ std::vector<Headline> loading_headlines(const std::vector<std::filesystem::path>
     const auto [producing_cycles, damaging_cycles, spilling_cycles] = cycles_of(log, options);
     production.add(numbers, producing_cycles, engine::loading::production(log, producing));
     damage.add(numbers, damaging_cycles, joint_damage(log, damaging));
-    spill.add(numbers, spilling_cycles, rock_spill(log));
+    spill.add(numbers, spilling_cycles, rock_spill(log, spilling));
     breakdowns.add(log);
     for (RunMean& measure : others) measure.add(log);
   }

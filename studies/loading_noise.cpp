@@ -41,7 +41,7 @@ struct RunsSoFar {
 std::array<ResponseCycles, 3> cycles_of(const LoadingLog& log, const OptionValues& options) {
   return {{{production_by_cycle(log, production_options(options))},
            {joint_damage_by_cycle(log, damage_options(options)), counted_cycles(log)},
-           {rock_spill_by_cycle(log)}}};
+           {rock_spill_by_cycle(log, spill_options(options))}}};
 }
 
 std::vector<int> cycle_numbers(const LoadingLog& log) {
@@ -59,7 +59,7 @@ std::array<KnownNoise, 3> noise_of_logs(const std::vector<std::filesystem::path>
     const std::filesystem::path& file = logs[static_cast<std::size_t>(i)];
     if (file.empty()) continue;
     try {
-      const LoadingLog log = engine::loading::read_log(file, LogContent::without_scene);
+      const LoadingLog log = engine::loading::read_log(file, content_for(options));
       const std::array<ResponseCycles, 3> cycles = cycles_of(log, options);
       for (std::size_t r = 0; r < 3; ++r) {
         runs[r].scatter.add(cycle_numbers(log), cycles[r].by_cycle);

@@ -31,7 +31,8 @@ bool solved_loosely(const std::string& solver) {
   return solver == "lindmark2016";
 }
 
-constexpr std::array<std::string_view, 2> motion_names = {"pictures", "full"}, yes_or_no = {"no", "yes"};
+constexpr std::array<std::string_view, 2> motion_names = {"pictures", "full"}, yes_or_no = {"no", "yes"},
+                                          place_names = {"free", "columns"};
 
 // What a skilled operator's numbers are given in.
 constexpr double cm = 0.01;
@@ -125,6 +126,13 @@ std::vector<StudyOption> loading_options() {
        .least = 0,
        .most = 10'000,
        .before = "0"},
+      {.name = "pile",
+       .help = "which one is poured, by the seed of its rocks: another is as good, and none of the study's "
+               "runs saw it",
+       .value = "1",
+       .least = 1,
+       .most = 1'000'000,
+       .before = "1"},
       choice(
           "curl",
           "the bucket turns about its hinge; or its edge stays and the hinge sinks, as in Lindmark (2016), "
@@ -147,6 +155,10 @@ std::vector<StudyOption> loading_options() {
              "of a stage: along its goal; or as Lindmark (2016) prints it, with which stages end by their "
              "time limit",
              engine::loading::progress_names),
+      choice("places",
+             "across the drift: a centimetre apart; or a column's width of 25 cm, to which Lindmark (2016) "
+             "rounds gamma",
+             place_names),
       choice("arm", "what moves it: its cylinders, or motors in its hinges as in Lindmark (2016)",
              engine::loading::arm_drive_names),
       choice(
@@ -179,6 +191,13 @@ std::vector<StudyOption> loading_options() {
        .choices = {engine::loading::torque_component_names.begin(),
                    engine::loading::torque_component_names.end()},
        .of_responses = true},
+      {.name = "spill",
+       .help = "rock that the bucket took and lost; or, as in Lindmark (2016), all rock before the pile's "
+               "front, which "
+               "measures how ragged the toe is",
+       .value = "lost",
+       .choices = {engine::loading::spill_law_names.begin(), engine::loading::spill_law_names.end()},
+       .of_responses = true},
       {.name = "haul",
        .help =
            "s per cycle for haul, dump and way back, which production counts; 0 as in Lindmark (2016), where "
@@ -187,6 +206,32 @@ std::vector<StudyOption> loading_options() {
        .least = 0,
        .most = 86'400,
        .of_responses = true}};
+}
+
+Preset lindmark2016_preset() {
+  return {.name = "lindmark2016",
+          .help =
+              "all that Lindmark (2016) prints: materials and solver, a raise choked by 800 t, speeds, "
+              "motors in the "
+              "hinges, planner, executor and responses; thirty cycles",
+          .values = {{"materials", "lindmark2016"},
+                     {"solver", "lindmark2016"},
+                     {"scene", "lindmark2016"},
+                     {"pile-mass", "800"},
+                     {"speeds", "lindmark2016"},
+                     {"operator", "plan"},
+                     {"curl", "tip"},
+                     {"lift", "slope"},
+                     {"lift-end", "any"},
+                     {"whole-cycle", "yes"},
+                     {"progress", "faithful"},
+                     {"places", "columns"},
+                     {"arm", "hinges"},
+                     {"cycles", "30"},
+                     {"yield-torque", "145"},
+                     {"damage", "all"},
+                     {"spill", "before_front"},
+                     {"haul", "0"}}};
 }
 
 std::string loading_options_complaint(const OptionValues& options) {
@@ -217,6 +262,7 @@ Scenario loading_scenario(const RunContext& run) {
   const double mass = 1e3 * std::stod(chosen(run, "pile-mass"));
   scenario = engine::loading::with_pile_of(scenario, mass > 0 ? mass : scenario.pile.mass,
                                            engine::granular::sizes_named(chosen(run, "sizes")));
+  scenario.pile.seed = static_cast<std::uint64_t>(std::stoi(chosen(run, "pile")));
   if (solved_loosely(chosen(run, "solver"))) scenario.world = engine::loading::lindmark2016_solver();
   scenario = engine::loading::with_speeds(scenario, chosen(run, "speeds"));
   scenario.executor.moves = operator_of(run);
@@ -226,6 +272,8 @@ Scenario loading_scenario(const RunContext& run) {
   scenario.executor.lift_end = engine::loading::lift_end_named(chosen(run, "lift-end"));
   scenario.whole_cycle = chosen(run, "whole-cycle") == yes_or_no[1];
   scenario.executor.progress = engine::loading::progress_named(chosen(run, "progress"));
+  if (chosen(run, "places") == place_names[1])
+    scenario.columns.row_pitch = engine::loading::ColumnGrid{}.cell;
   scenario.machine.arm_drive = engine::loading::arm_drive_named(chosen(run, "arm"));
   if (chosen(run, "motion") == motion_names[1]) {
     scenario.frame_interval = scenario.world.step;
@@ -256,6 +304,19 @@ engine::loading::ProductionOptions production_options(const OptionValues& option
   if (const auto haul = options.find("haul"); haul != options.end())
     production.haul = std::stod(haul->second);
   return production;
+}
+
+engine::loading::SpillOptions spill_options(const OptionValues& options) {
+  engine::loading::SpillOptions spill;
+  if (const auto law = options.find("spill"); law != options.end())
+    spill.law = engine::loading::spill_law_named(law->second);
+  return spill;
+}
+
+engine::loading::LogContent content_for(const OptionValues& options) {
+  return spill_options(options).law == engine::loading::SpillLaw::lost
+             ? engine::loading::LogContent::without_scene
+             : engine::loading::LogContent::all;
 }
 
 engine::loading::DamageOptions damage_options(const OptionValues& options) {

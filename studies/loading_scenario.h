@@ -18,6 +18,10 @@ namespace drawpoint::studies {
 
 std::vector<StudyOption> loading_options();
 
+/// All that Lindmark (2016) prints: materials with solver, scale with a choked raise, speeds, motors in the hinges, planner
+/// and executor, and the three responses by its own definitions.
+Preset lindmark2016_preset();
+
 /// Study::options_complaint: of a precision with so few cycles that none can be left out, of a pile below a
 /// bucket load, and of motors in the hinges where the machine's pump sets the speeds.
 std::string loading_options_complaint(const OptionValues& options);
@@ -31,6 +35,10 @@ engine::loading::LoadingLog simulate_run(const engine::loading::Scenario& scenar
 
 /// How production is taken from a log: with the haul that the options give, or none.
 engine::loading::ProductionOptions production_options(const OptionValues& options);
+
+/// How rock spill is taken from a log, and what must be read of the log for it.
+engine::loading::SpillOptions spill_options(const OptionValues& options);
+engine::loading::LogContent content_for(const OptionValues& options);
 
 /// How joint damage is taken from a log: by the yield torque that the options give, or that of Lindmark
 /// (2016).

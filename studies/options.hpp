@@ -28,4 +28,11 @@ struct StudyOption {
 /// A value per option.
 using OptionValues = std::map<std::string, std::string>;
 
+/// Values of several options under one name, for --preset NAME. An option that is given too has the value given.
+struct Preset {
+  std::string name = {};
+  std::string help = {};  ///< what it sets, for --help
+  OptionValues values = {};
+};
+
 }  // namespace drawpoint::studies

@@ -149,6 +149,7 @@ struct Study {
   std::string about = {};        ///< one or two sentences for the report's head
   Defaults defaults = {};
   std::vector<StudyOption> options = {};
+  std::vector<Preset> presets = {};
   /// Why these values cannot go together, with what is allowed; empty: they can. Asked before a folder is made.
   std::function<std::string(const OptionValues& options)> options_complaint = {};
   /// Words that stand before the command on the command line, such as the file that the study was read from.

@@ -238,8 +238,23 @@ void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe
       ->delimiter(',');
 }
 
+/// Before the options that it sets: CLI11 takes them in this order, whatever was typed first.
+void add_preset_option(CLI::App& command, const Study& study, OptionValues& values) {
+  if (study.presets.empty()) return;
+  std::string help;
+  for (const Preset& preset : study.presets)
+    help += (help.empty() ? "" : "; ") + preset.name + ": " + preset.help;
+  command
+      .add_option_function<std::string>(
+          "--preset", [&](const std::string& name) { values = preset_named(study.presets, name).values; },
+          help)
+      ->check([&](const std::string& name) { return preset_complaint(study.presets, name); })
+      ->group("Options of " + study.name);
+}
+
 /// Those that the study declares; what is given goes to `values`.
 void add_study_options(CLI::App& command, const Study& study, OptionValues& values, bool kept) {
+  add_preset_option(command, study, values);
   for (const auto& option : study.options) {
     std::string help = option.help + ": " + allowed_values(option);
     help += " (default " + option.value + (kept ? ", or what the folder was made with)" : ")");
@@ -484,6 +499,7 @@ void check_study(const Study& study) {
   }
   doe::check(study.problem);
   check(study.options);
+  check(study.presets, study.options);
 }
 
 }  // namespace

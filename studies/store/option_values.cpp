@@ -18,7 +18,7 @@ constexpr std::array taken = {"runs",   "validation",   "replicates",   "jobs", 
                               "hours",  "slurm",        "slurm-option", "run",        "points",
                               "rounds", "from",         "what",         "format",     "file",
                               "with",   "limit",        "all",          "keep-going", "no-spot-check",
-                              "why",    "replace",      "slurm-array"};
+                              "why",    "replace",      "slurm-array",  "preset"};
 
 bool whole_number_within(const std::string& text, int least, int most) {
   int value = 0;
@@ -101,6 +101,34 @@ void check(const std::vector<StudyOption>& options) {
     const std::string never = complaint(option, option.before);
     if (!never.empty()) throw std::invalid_argument("studies::Study: value before an option came: " + never);
   }
+}
+
+const Preset& preset_named(const std::vector<Preset>& presets, const std::string& name) {
+  for (const Preset& preset : presets)
+    if (preset.name == name) return preset;
+  throw std::invalid_argument("studies: " + preset_complaint(presets, name));
+}
+
+std::string preset_complaint(const std::vector<Preset>& presets, const std::string& name) {
+  std::string names;
+  for (const Preset& preset : presets) {
+    if (preset.name == name) return "";
+    names += (names.empty() ? "" : ", ") + preset.name;
+  }
+  return "\"" + name + "\" is not one of the values of --preset; allowed: " + names;
+}
+
+void check(const std::vector<Preset>& presets, const std::vector<StudyOption>& options) {
+  for (const Preset& preset : presets)
+    for (const auto& [name, value] : preset.values) {
+      const auto option =
+          std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.name == name; });
+      const std::string place = "studies::Study: preset \"" + preset.name + "\" sets ";
+      if (option == options.end())
+        throw std::invalid_argument(place + "\"" + name + "\", which is none of the study's options");
+      if (const std::string wrong = complaint(*option, value); !wrong.empty())
+        throw std::invalid_argument(place + "what is not allowed: " + wrong);
+    }
 }
 
 }  // namespace drawpoint::studies

@@ -27,6 +27,13 @@ OptionValues with_later_ones(const std::vector<StudyOption>& options, OptionValu
 /// that is missing on one side differs; `here` may leave out what it takes from there when `partly`.
 std::string difference(const OptionValues& there, const OptionValues& here, bool partly);
 
+/// Throws std::invalid_argument with the names.
+const Preset& preset_named(const std::vector<Preset>& presets, const std::string& name);
+/// What is wrong with a preset's name, in words, or "".
+std::string preset_complaint(const std::vector<Preset>& presets, const std::string& name);
+/// Throws std::invalid_argument for a preset of options or values that the study does not have.
+void check(const std::vector<Preset>& presets, const std::vector<StudyOption>& options);
+
 /// Throws std::invalid_argument for a name that cannot be one, or that a command has already, and for a
 /// default that is not allowed.
 void check(const std::vector<StudyOption>& options);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// The two studies of loading as programs, on a pile of one bucket: what they store is what their logs say, a
+/// The studies of loading as programs, on a pile of one bucket: what they store is what their logs say, a
 /// run can be made again, and report and replay show it.
 
 #include <drawpoint/tests/end_to_end/support.hpp>
@@ -56,6 +56,13 @@ TEST_F(LoadingStudies, BucketSpeedsAndStrategy) {
   expect_equal_from_logs(LHD_BUCKET_AND_SPEED,
                          "quote(production) || quote(energy) || quote(pin_load) || quote(load)");
   EXPECT_EQ(count("production > 0 AND energy > 0 AND pin_load > 0 AND load > 0 AND load < 30"), 3);
+}
+
+TEST_F(LoadingStudies, FamiliesOfStrategies) {
+  ASSERT_NO_FATAL_FAILURE(make(LHD_STRATEGIES));
+  expect_equal_from_logs(LHD_STRATEGIES,
+                         "quote(production) || quote(energy) || quote(pin_load) || quote(rock_spill)");
+  EXPECT_EQ(count("production > 0 AND energy > 0 AND load > 0 AND load < 30 AND cycle_time > 5"), 3);
 }
 
 }  // namespace

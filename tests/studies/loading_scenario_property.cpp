@@ -149,6 +149,54 @@ TEST(LoadingScenario, AHigherPileIsSolvedAsFarAsTheScenes) {
               static_cast<double>(scene.world.solver.iteration_budget) * 800 / 290, 0.5);
 }
 
+TEST(LoadingScenario, AnotherPileDiffersByItsSeedAlone) {
+  const loading::Scenario usual = with({}), other = with({{"pile", "7"}});
+  EXPECT_EQ(usual.pile.seed, loading::Scenario{}.pile.seed);
+  EXPECT_EQ(other.pile.seed, 7u);
+  EXPECT_EQ(other.pile.mass, usual.pile.mass);
+}
+
+TEST(LoadingScenario, ThePresetOfTheSourceIsAllThatItPrints) {
+  const Preset preset = lindmark2016_preset();
+  EXPECT_NO_THROW(check({preset}, loading_options()));
+  const loading::Scenario s = with(preset.values);
+  EXPECT_NO_THROW(loading::check(s));
+  EXPECT_EQ(s.cycles, 30);
+  EXPECT_EQ(s.pile.mass, 800e3);
+  EXPECT_EQ(s.drift.width, loading::lh621_at_lindmark2016_scale().drift.width);
+  EXPECT_EQ(s.world.solver.iterations, 150);
+  EXPECT_EQ(s.materials.rock_rock.rolling, loading::lindmark2016_materials().rock_rock.rolling);
+  EXPECT_EQ(s.machine.arm_drive, loading::ArmDrive::hinges);
+  EXPECT_EQ(s.curl, loading::CurlMode::tip_fixed);
+  EXPECT_EQ(s.lift, loading::LiftGoal::along_slope);
+  EXPECT_EQ(s.executor.lift_end, loading::LiftEnd::any_actuator);
+  EXPECT_EQ(s.executor.progress.mode, loading::ProgressMode::faithful);
+  EXPECT_TRUE(s.whole_cycle);
+  EXPECT_EQ(s.columns.row_pitch, loading::ColumnGrid{}.cell);
+  EXPECT_EQ(spill_options(preset.values).law, loading::SpillLaw::before_front);
+  EXPECT_EQ(content_for(preset.values), loading::LogContent::all);
+  EXPECT_EQ(loading_options_complaint(with_defaults(loading_options(), preset.values)), "");
+}
+
+TEST(Presets, SetWhatTheStudyHasOrAreRefused) {
+  const auto refusal = [](const Preset& preset) {
+    try {
+      check({preset}, loading_options());
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal({.name = "own", .values = {{"rain", "yes"}}}),
+            "studies::Study: preset \"own\" sets \"rain\", which is none of the study's options");
+  EXPECT_EQ(refusal({.name = "own", .values = {{"arm", "ropes"}}}),
+            "studies::Study: preset \"own\" sets what is not allowed: \"ropes\" is not one of the values of "
+            "--arm; allowed: cylinders, hinges");
+  EXPECT_EQ(preset_complaint({lindmark2016_preset()}, "lindmark2016"), "");
+  EXPECT_EQ(preset_complaint({lindmark2016_preset()}, "lindmark"),
+            "\"lindmark\" is not one of the values of --preset; allowed: lindmark2016");
+}
+
 TEST(LoadingScenario, DamageIsThatOfTheWholeTorqueOrOfItsTwist) {
   EXPECT_EQ(damage_options({}).component, loading::TorqueComponent::all);
   EXPECT_EQ(damage_options({{"damage", "all"}}).component, loading::TorqueComponent::all);

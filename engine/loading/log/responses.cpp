@@ -5,6 +5,7 @@
 #include <drawpoint/engine/loading/log/cycle_samples.hpp>
 #include <drawpoint/engine/loading/log/hinge_torque.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
+#include <drawpoint/engine/loading/log/rock_left.hpp>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -73,6 +74,13 @@ TorqueComponent torque_component_named(const std::string& name) {
                               "\"; choose all or twisting");
 }
 
+SpillLaw spill_law_named(const std::string& name) {
+  if (name == "lost") return SpillLaw::lost;
+  if (name == "before_front") return SpillLaw::before_front;
+  throw std::invalid_argument("loading::spill_law_named: there is no spill \"" + name +
+                              "\"; choose lost or before_front");
+}
+
 std::vector<double> production_by_cycle(const LoadingLog& log, const ProductionOptions& options) {
   require_cycles(log, "production");
   if (!(options.haul >= 0))
@@ -138,8 +146,8 @@ double joint_damage_standard_error(const LoadingLog& log, const DamageOptions& o
   return options.sum == DamageSum::per_cycle ? of_mean : of_mean * counted_cycles(log);
 }
 
-double rock_spill_standard_error(const LoadingLog& log) {
-  return error_of_cycles(rock_spill_by_cycle(log), counted_cycles(log));
+double rock_spill_standard_error(const LoadingLog& log, const SpillOptions& options) {
+  return error_of_cycles(rock_spill_by_cycle(log, options), counted_cycles(log));
 }
 
 double counted_cycles(const LoadingLog& log) {
@@ -168,7 +176,11 @@ std::vector<double> lost_mass_by_cycle(const LoadingLog& log) {
 
 std::vector<double> rock_spill_by_cycle(const LoadingLog& log, const SpillOptions& options) {
   require_positive("SpillOptions: m_max [kg]", options.m_max);
-  std::vector<double> shares = lost_mass_by_cycle(log);
+  std::vector<double> shares;
+  if (options.law == SpillLaw::lost)
+    shares = lost_mass_by_cycle(log);
+  else
+    for (const RockLeft& left : rock_left_by_cycle(log)) shares.push_back(left.before_front);
   for (double& share : shares) share /= options.m_max;
   return shares;
 }

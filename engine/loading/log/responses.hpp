@@ -22,9 +22,10 @@
 /// Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each component, started anew with each cycle: a rigid
 /// impact's peak grows as 1/Δt, and unfiltered it would make the response a function of the time step.
 ///
-/// rock_spill: c₃ = mean over cycles of m_lost / m_max [1], m_lost the rock that the bucket held when it held most and no
-/// longer holds at the end of the cycle, by the rocks whose centre is in its heap. The source's own, rock that lies before
-/// the pile's front, is rock_left.hpp: it measures the scatter of the toe, not the strategy.
+/// rock_spill: c₃ = mean over cycles of m / m_max [1]. m is the rock that the bucket held when it held most and no longer
+/// holds at the end of the cycle, by the rocks whose centre is in its heap. SpillLaw::before_front, the source's own: all
+/// rock before the pile's front (rock_left.hpp), which measures the scatter of the toe more than the strategy; the log
+/// must then have been read with its scene.
 ///
 /// Source: Lindmark 2016, equations 54-56; aggregation, filter and what was lost are ours.
 namespace drawpoint::engine::loading {
@@ -50,8 +51,14 @@ struct DamageOptions {
   DamageSum sum = DamageSum::whole_run;
 };
 
+enum class SpillLaw { lost, before_front };
+/// By name. Throws std::invalid_argument with the names.
+SpillLaw spill_law_named(const std::string& name);
+inline constexpr std::array<std::string_view, 2> spill_law_names = {"lost", "before_front"};
+
 struct SpillOptions {
   double m_max = 10000;  ///< mass in front of the pile that would stop the work [kg]; only scales
+  SpillLaw law = SpillLaw::lost;
 };
 
 /// Each response's share of every cycle, in order: M_i / (T_i + h) [kg/s]; Σ of the excess torque [s], whose
@@ -82,7 +89,7 @@ double rock_spill(const LoadingLog& log, const SpillOptions& options = {});
 /// tells none: 0; one that is left of several tells as little: the response itself.
 double production_standard_error(const LoadingLog& log, const ProductionOptions& options = {});  // of_ratios
 double joint_damage_standard_error(const LoadingLog& log, const DamageOptions& options = {});
-double rock_spill_standard_error(const LoadingLog& log);
+double rock_spill_standard_error(const LoadingLog& log, const SpillOptions& options = {});
 
 /// Cycles that the run's sums are of: done, lost or left out [1].
 double counted_cycles(const LoadingLog& log);

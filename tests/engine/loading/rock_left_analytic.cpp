@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <drawpoint/engine/loading/lhd.hpp>
+#include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/rock_left.hpp>
 #include <stdexcept>
 
@@ -59,6 +60,8 @@ TEST(RockLeft, IsCountedInTheLaneAndBeforeTheLiteralFront) {
   scene.add_rock(3.0 + carried.x(), 0, 0.5);
   EXPECT_DOUBLE_EQ(rock_left(scene.log).in_lane, mass);
   EXPECT_DOUBLE_EQ(rock_left(scene.log).before_front, 6 * mass);
+  const SpillOptions as_printed{.m_max = 1000, .law = SpillLaw::before_front};
+  EXPECT_DOUBLE_EQ(rock_spill(scene.log, as_printed), rock_left(scene.log).before_front / 1000);
 }
 
 TEST(RockLeft, OfAWholePileIsNone) {
