@@ -20,8 +20,10 @@
 ///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside. In place of all
 ///          poses each body may have track: [[frame, x,y,z,qw,qx,qy,qz] or [frame], where it hides], its poses
 ///          in some frames, between which it moves evenly; or with: k, to move as body k does. follow?: the
-///          body that a camera goes with; signals?: [{name, unit, t: [], y: [], lines?: [{name, y}]}], drawn
-///          below in time with the scene
+///          body that a camera goes with; look? of a body: rock, tyre (a cylinder about its y axis), steel,
+///          paint, glass, lamp, or drift; drift?: {from, length, width, height, raise: {x, radius}}: rough rock
+///          along x up to length, on z = 0, with lamps, drawn in place of the bodies that look so; signals?:
+///          [{name, unit, t: [], y: [], lines?: [{name, y}]}], drawn below in time with the scene
 ///   lines  series: [{name, x: [], y: []}]; x_label, y_label
 ///   table  columns: [], rows: [[]..]
 /// and note?: how to read it, which a page says once where several figures have the same; in_scene?: true where

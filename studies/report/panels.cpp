@@ -83,8 +83,25 @@ void check_signals(const json& panel) {
   }
 }
 
+void check_drift(const json& panel) {
+  if (!panel.contains("drift")) return;
+  const json &drift = panel.at("drift"), &raise = member(drift, "raise");
+  const auto number = [](const json& object, const char* name) {
+    const json& value = member(object, name);
+    if (!value.is_number()) reject_panel(quoted(name) + " of the drift is not a number");
+    return value.get<double>();
+  };
+  number(raise, "x");
+  const bool long_enough = number(drift, "length") > number(drift, "from");
+  if (!long_enough || number(drift, "width") <= 0 || number(drift, "height") <= 0 ||
+      number(raise, "radius") <= 0)
+    reject_panel(
+        "the drift has no extent: its length lies beyond \"from\", its width, height and radius above 0");
+}
+
 json checked_scene(const json& panel) {
   check_shapes(panel);
+  check_drift(panel);
   check_signals(panel);
   list(panel, "frames");
   if (panel.contains("follow") && panel.at("follow").get<std::size_t>() >= panel.at("bodies").size())
