@@ -15,6 +15,8 @@
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
+///   plan   from above: x, y: middles of columns along and across, heights: [[per x] per y]; walls: [y, y];
+///          curves: [{name, x, y}]; place: {name, x: [low, high], y: [low, high]}; x_label, y_label, z_label
 ///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
 ///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one per body]}], camera: {eye, target},
 ///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside. In place of all

@@ -41,7 +41,8 @@ export function lampPlaces({from, length, width, height}) {
 }
 
 /// Two triangles, each of its own shade.
-function patch(facets, [a, b, c, d], colour, finish, key) {
+function patch(facets, corners, {colour, finish, key}) {
+  const [a, b, c, d] = corners;
   const shade = (k) => 0.87 + 0.26 * hash(key[0], key[1], key[2] + k);
   const tinted = (k) => colour.map((v) => v * shade(k));
   if (hash(key[0], key[1], 77) < 0.5) {
@@ -53,12 +54,12 @@ function patch(facets, [a, b, c, d], colour, finish, key) {
   }
 }
 
-function grid(facets, rows, columns, at, {colour, finish, key, keeps = () => true}) {
+function grid(facets, rows, columns, at, {colour, finish, key, keeps = null}) {
   const points = rows.map((u, i) => columns.map((v, j) => at(u, v, i, j)));
   for (let i = 0; i + 1 < rows.length; ++i)
     for (let j = 0; j + 1 < columns.length; ++j) {
       const corners = [points[i][j], points[i + 1][j], points[i + 1][j + 1], points[i][j + 1]];
-      if (keeps(corners)) patch(facets, corners, colour, finish, [i, j, key]);
+      if (!keeps || keeps(corners)) patch(facets, corners, {colour, finish, key: [i, j, key]});
     }
 }
 
@@ -153,7 +154,8 @@ export function raiseMesh({height, raise}) {
 }
 
 // A box with a bright lower side, on a rod from the roof.
-function addLamp(facets, [x, y, z], height) {
+function addLamp(facets, place, height) {
+  const [x, y, z] = place;
   const box = (a, b, colour, finish) => {
     const at = (i, j, k) => [i ? b[0] : a[0], j ? b[1] : a[1], k ? b[2] : a[2]];
     for (const corners of [

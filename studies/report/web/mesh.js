@@ -30,9 +30,9 @@ export class Facets {
   }
 
   /// A convex body. shade(face): what its colour is multiplied with.
-  solid({vertices, faces}, colour, finish, shade = () => 1) {
+  solid({vertices, faces}, colour, finish, shade = null) {
     faces.forEach((face, k) => {
-      const s = shade(k);
+      const s = shade ? shade(k) : 1;
       this.polygon(
         face.map((v) => vertices[v]),
         colour.map((c) => c * s),

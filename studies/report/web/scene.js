@@ -52,6 +52,7 @@ export class View {
   constructor(panel, poses) {
     this.poses = poses;
     this.pace = new Pace();
+    this.pixels = null; // of the picture per pixel of the page; the screen's
     this.renderer = new THREE.WebGLRenderer({antialias: false, preserveDrawingBuffer: true});
     this.renderer.setPixelRatio(mostPixels());
     this.picture = new Picture(this.renderer);

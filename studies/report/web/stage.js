@@ -25,6 +25,7 @@ export class Stage {
     this.panel = panel;
     this.poses = poses;
     this.light = sharedLight();
+    this.surfaces = []; // opaque meshes, whose materials change with quality
     this.scene = new THREE.Scene();
     this.resting = new THREE.Scene(); // rock, which casts shadows
     this.moving = new THREE.Scene(); // what else does
@@ -45,6 +46,8 @@ export class Stage {
       cover.light(this.light);
       this.resting.add(cover.mesh);
     }
+    for (const {mesh} of [...rocks, ...others.filter((part) => part.solid), ...(cover ? [cover] : [])])
+      this.surfaces.push(mesh);
     rocks.forEach((part) => this.resting.add(part.mesh));
     others.forEach((part) => (part.solid ? this.moving : this.scene).add(part.mesh));
     if (panel.drift) this.addDrift(panel.drift, material(1));
@@ -62,6 +65,7 @@ export class Stage {
       mesh.frustumCulled = false;
       mesh.renderOrder = 2; // behind what stands in it
       this.scene.add(mesh);
+      this.surfaces.push(mesh);
       return mesh;
     });
     this.raise = raise;
@@ -84,11 +88,7 @@ export class Stage {
     if (coarse === this.coarse) return;
     this.coarse = coarse;
     const {smooth, quick, simple} = this.materials.get(1);
-    this.scene.traverse((node) => {
-      if (![smooth, quick, simple].includes(node.material)) return;
-      const isRock = node.parent === this.resting;
-      node.material = !coarse ? smooth : isRock ? simple : quick;
-    });
+    for (const mesh of this.surfaces) mesh.material = !coarse ? smooth : mesh.parent === this.resting ? simple : quick;
   }
 
   /// For a picture by this camera; one from over the roof looks past the raise.

@@ -44,11 +44,11 @@ function addLug(facets, {side, at, bed, radius, half, angle}, colour, finish) {
   const wide = (0.56 * Math.PI) / lugs,
     lead = (0.7 * Math.PI) / lugs;
   const line = [
-    [0.03, lead, radius],
-    [0.72, 0, radius],
-    [0.99, 0, 0.9 * radius],
-  ]; // [share of half the width, angle, radius]
-  const corner = ([share, turn, r], way, low) =>
+    {share: 0.03, turn: lead, r: radius},
+    {share: 0.72, turn: 0, r: radius},
+    {share: 0.99, turn: 0, r: 0.9 * radius},
+  ];
+  const corner = ({share, turn, r}, way, low = false) =>
     at(side * share * half, low ? Math.min(r, bed) - 0.02 * radius : r, angle + turn + way * wide);
   const face = (corners) => facets.polygon(side > 0 ? corners : [...corners].reverse(), colour, finish);
   for (let k = 0; k + 1 < line.length; ++k) {
