@@ -6,8 +6,9 @@ import * as THREE from 'three';
 
 const slow = 45, // [ms] between two pictures, above which they get coarser
   fewer = 0.7, // of the pixels along a side, in the coarsest
-  enough = 6, // pictures that show how fast the machine is
-  pause = 2000; // [ms] that show nothing of it
+  enough = 6, // pictures that show how fast the machine is, or two
+  long = 500, // [ms] that they take together
+  pause = 10000; // [ms] that show nothing of it
 
 /// How long pictures take while they follow each other: they are smooth (level 0), coarse (1), or coarse of fewer
 /// pixels (2).
@@ -43,10 +44,10 @@ export class Pace {
       span = now - this.before;
     if (this.hurrying && this.before && span < pause) this.spans.push(span);
     this.before = now;
-    const {length} = this.spans;
-    if (length < enough) return;
-    if (this.spans.reduce((sum, value) => sum + value, 0) / length > slow)
-      this.slowness = Math.min(2, this.slowness + 1);
+    const count = this.spans.length,
+      total = this.spans.reduce((sum, value) => sum + value, 0);
+    if (count < enough && !(count > 1 && total > long)) return;
+    if (total / count > slow) this.slowness = Math.min(2, this.slowness + 1);
     this.spans = [];
   }
 }
