@@ -117,6 +117,7 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
           left.before_front / engine::loading::SpillOptions{}.m_max};
 }
 
+//! [run]
 doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
   engine::loading::Scenario scenario = studies::loading_scenario(run);
   scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
@@ -124,6 +125,7 @@ doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunCo
   scenario.log_file = run.log;
   return responses_of(studies::simulate_run(scenario, run), run.options);
 }
+//! [run]
 
 int main(int argc, char** argv) {
   return studies::run(

@@ -3,6 +3,7 @@
 
 #include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_panels.h>
+#include <drawpoint/studies/loading_plan_view.h>
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/studies/loading_scene.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
@@ -106,9 +107,10 @@ json cycles_panel(const LoadingLog& log) {
 json figures_of_cycle(const LoadingLog& log, const CycleRecord& cycle, const OptionValues& options) {
   const std::string who = name_of(cycle) + " of the run shown";
   const engine::loading::DamageOptions damage = damage_options(options);
-  json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge"),
-                 scene_panel(log, cycle, who, "The machine in the drift", damage),
-                 forces_panel(log, cycle, damage.tau_y)};
+  json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge")};
+  if (json plan = plan_view_panel(log, cycle, who); !plan.is_null()) panels.push_back(std::move(plan));
+  panels.push_back(scene_panel(log, cycle, who, "The machine in the drift", damage));
+  panels.push_back(forces_panel(log, cycle, damage.tau_y));
   json bucket = bucket_panel(log, cycle);
   if (!bucket["series"][0]["x"].empty()) panels.push_back(std::move(bucket));  // logs of version 4 have none
   return panels;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/loading_looks.h>
 #include <drawpoint/studies/loading_panels.h>
 #include <drawpoint/studies/loading_scene.h>
 
@@ -43,8 +44,11 @@ json pose_of(const SceneKnot& knot, std::size_t first_frame) {
 json bodies_of(const LoadingLog& log, Rows frames) {
   json bodies = json::array();
   for (const auto& body : log.scene.bodies) {
-    bodies.push_back(
-        {{"shape", body.shape}, {"color", body.color}, {"opacity", body.opacity}, {"name", body.name}});
+    bodies.push_back({{"shape", body.shape},
+                      {"color", body.color},
+                      {"opacity", body.opacity},
+                      {"name", body.name},
+                      {"look", look_of(body)}});
     if (body.with >= 0)
       bodies.back()["with"] = body.with;
     else
@@ -78,7 +82,9 @@ std::string rate_of(const LoadingLog& log, Rows frames) {
 std::string scene_note(const LoadingLog& log, const CycleRecord& cycle) {
   return "Drag to turn, wheel to zoom, play to watch it load. " + rate_of(log, frames_of(log, cycle.number)) +
          "In a picture a rock is within 2.5 cm and 3 degrees of where it was, a part of the machine "
-         "within 4 mm and 0.3 degrees. Walls and roof are drawn transparent. The plots have every sample: "
+         "within 4 mm and 0.3 degrees. The wall or roof between the reader and the machine is left out; "
+         "roughness of the "
+         "drift, lamps and tread are drawn, not simulated. The plots have every sample: "
          "the highest and the lowest are kept where a plot is narrower than its samples. The torque is as "
          "it is, damage looks at it low-passed at 20 Hz. Rock in the bucket is the mass of all rocks whose "
          "centre is in the heaped bucket, also while the bucket only passes round them.";
@@ -152,8 +158,9 @@ json scene_panel(const LoadingLog& log, const CycleRecord& cycle, const std::str
                 {"bodies", bodies_of(log, rows)},
                 {"frames", frames},
                 {"signals", scene_signals(log, cycle, damage)},
-                {"camera", {{"eye", {toe - 3.5, -11.0, 5.5}}, {"target", {toe - 1.2, 0.0, 1.3}}}},
+                {"camera", {{"eye", {toe - 5.2, -9.6, 4.4}}, {"target", {toe - 0.8, 0.2, 1.5}}}},
                 {"poster_frame", poster}};
+  if (json drift = drift_of(log.scene); !drift.is_null()) panel["drift"] = std::move(drift);
   if (const auto machine = body_named(log, "front unit")) panel["follow"] = *machine;
   return panel;
 }

@@ -15,13 +15,17 @@
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
+///   plan   from above: x, y: middles of columns along and across, heights: [[per x] per y]; walls: [y, y];
+///          curves: [{name, x, y}]; place: {name, x: [low, high], y: [low, high]}; x_label, y_label, z_label
 ///   scene  shapes: [{vertices: [[x,y,z]..], faces: [[i,j,k..]..]}], bodies: [{shape, color, opacity, name}],
 ///          frames: [{t, label, poses: [[x,y,z,qw,qx,qy,qz] or null, one per body]}], camera: {eye, target},
 ///          poster_frame; metres, seconds, z up; faces counter-clockwise seen from outside. In place of all
 ///          poses each body may have track: [[frame, x,y,z,qw,qx,qy,qz] or [frame], where it hides], its poses
 ///          in some frames, between which it moves evenly; or with: k, to move as body k does. follow?: the
-///          body that a camera goes with; signals?: [{name, unit, t: [], y: [], lines?: [{name, y}]}], drawn
-///          below in time with the scene
+///          body that a camera goes with; look? of a body: rock, tyre (a cylinder about its y axis), steel,
+///          paint, glass, lamp, or drift; drift?: {from, length, width, height, raise: {x, radius}}: rough rock
+///          along x up to length, on z = 0, with lamps, drawn in place of the bodies that look so; signals?:
+///          [{name, unit, t: [], y: [], lines?: [{name, y}]}], drawn below in time with the scene
 ///   lines  series: [{name, x: [], y: []}]; x_label, y_label
 ///   table  columns: [], rows: [[]..]
 /// and note?: how to read it, which a page says once where several figures have the same; in_scene?: true where

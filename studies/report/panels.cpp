@@ -42,6 +42,24 @@ void check_path(const json& panel) {
   }
 }
 
+void check_plan(const json& panel) {
+  const std::size_t across = list(panel, "y").size(), along = list(panel, "x").size();
+  if (along == 0 || list(panel, "heights").size() != across)
+    reject_panel("\"heights\" has not one row per value of \"y\"");
+  for (const json& row : panel.at("heights"))
+    if (!row.is_array() || row.size() != along)
+      reject_panel("a row of \"heights\" has not one value per value of \"x\"");
+  const auto two = [](const json& object, const char* name) {
+    if (list(object, name).size() != 2) reject_panel(quoted(name) + " has not two values");
+  };
+  two(panel, "walls");
+  for (const json& curve : list(panel, "curves")) {
+    member(curve, "name");
+    check_curve(curve, "x", "y");
+  }
+  for (const char* name : {"x", "y"}) two(member(panel, "place"), name);
+}
+
 void check_lines(const json& panel) {
   for (const json& line : list(panel, "series")) {
     member(line, "name");
@@ -83,8 +101,25 @@ void check_signals(const json& panel) {
   }
 }
 
+void check_drift(const json& panel) {
+  if (!panel.contains("drift")) return;
+  const json &drift = panel.at("drift"), &raise = member(drift, "raise");
+  const auto number = [](const json& object, const char* name) {
+    const json& value = member(object, name);
+    if (!value.is_number()) reject_panel(quoted(name) + " of the drift is not a number");
+    return value.get<double>();
+  };
+  number(raise, "x");
+  const bool long_enough = number(drift, "length") > number(drift, "from");
+  if (!long_enough || number(drift, "width") <= 0 || number(drift, "height") <= 0 ||
+      number(raise, "radius") <= 0)
+    reject_panel(
+        "the drift has no extent: its length lies beyond \"from\", its width, height and radius above 0");
+}
+
 json checked_scene(const json& panel) {
   check_shapes(panel);
+  check_drift(panel);
   check_signals(panel);
   list(panel, "frames");
   if (panel.contains("follow") && panel.at("follow").get<std::size_t>() >= panel.at("bodies").size())
@@ -108,12 +143,14 @@ json checked(const json& panel) {
   if (type == "scene") return checked_scene(panel);
   if (type == "path")
     check_path(panel);
+  else if (type == "plan")
+    check_plan(panel);
   else if (type == "lines")
     check_lines(panel);
   else if (type == "table")
     check_table(panel);
   else
-    reject_panel("the type " + quoted(type) + " is none of path, scene, lines, table");
+    reject_panel("the type " + quoted(type) + " is none of path, plan, scene, lines, table");
   return panel;
 }
 

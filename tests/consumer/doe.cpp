@@ -29,7 +29,9 @@ double rate(const Eigen::VectorXd& x) { return x[3] * std::pow(x[0], 4) / (8.0 *
 // Sobol' points differ by less than 0.5 % from one seed to another.
 bool shares_are_right() {
   const Eigen::Vector4d expected = Eigen::Vector4d(4.0, 9.0, 0.64, 1.0) / 14.64;
+  //! [sensitivity]
   const doe::SobolIndices found = doe::sobol_indices(rate, spring).responses[0];
+  //! [sensitivity]
   for (int j = 0; j < 4; ++j)
     std::printf("%-14s %5.1f %% of the variance, expected %5.1f %%\n", spring.variables[j].name.c_str(),
                 100.0 * found.first.value[j], 100.0 * expected[j]);
@@ -38,9 +40,11 @@ bool shares_are_right() {
 
 // Forty springs to make and measure: a Latin hypercube with the corners of the box in it.
 bool plan_is_sound() {
+  //! [plan]
   const Eigen::MatrixXd X = doe::optimized_latin_hypercube(spring, 40, {.corners = true});
   const doe::Evaluations runs = doe::evaluate(rate, spring, X);
   const doe::DesignQuality quality = doe::design_quality(spring, X);
+  //! [plan]
   std::printf("%d springs, rates from %.0f to %.0f N/m, nearest two %.2f of the box apart\n",
               static_cast<int>(X.rows()), runs.y("rate").minCoeff(), runs.y("rate").maxCoeff(),
               quality.minimum_distance);

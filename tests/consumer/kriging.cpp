@@ -52,6 +52,7 @@ double range(const Eigen::VectorXd& x) {
 }  // namespace
 
 int main() {
+  //! [fit]
   const doe::Evaluations runs =
       doe::evaluate(range, throwing, doe::optimized_latin_hypercube(throwing, 64, {.corners = true}));
   const kriging::Model model = kriging::fit(runs.X(), runs.y("range"));
@@ -60,6 +61,7 @@ int main() {
       doe::evaluate(range, throwing, doe::latin_hypercube(throwing, 200, {.seed = 2}));
   const double unseen = kriging::validate(model, others.X(), others.y("range")).nrmse;
   const double left_out = kriging::leave_one_out(model).nrmse;
+  //! [fit]
 
   // The range is smooth in all three and spans some 150 m. Without a model the error is its standard
   // deviation, about a quarter of the span; one per cent of the span is what this plan needs.

@@ -16,6 +16,7 @@ using namespace drawpoint;
 
 namespace {
 
+//! [problem]
 const doe::Problem beam{.variables = {{"weld_height", "in", 0.125, 5.0},
                                       {"weld_length", "in", 0.1, 10.0},
                                       {"bar_depth", "in", 0.1, 10.0},
@@ -26,6 +27,7 @@ const doe::Problem beam{.variables = {{"weld_height", "in", 0.125, 5.0},
                                       {"bending_stress", "psi", doe::Goal::at_most, 30000.0},
                                       {"bar_beyond_weld", "in", doe::Goal::at_least, 0.0},
                                       {"buckling_load", "lbf", doe::Goal::at_least, 6000.0}}};
+//! [problem]
 
 double shear_stress(double h, double l, double t) {
   const double arm = 0.25 * (l * l + (h + t) * (h + t));  // squared, of the weld's ends about its centre
@@ -53,8 +55,10 @@ bool within_limits(const Eigen::MatrixXd& responses) {
 }  // namespace
 
 int main() {
+  //! [search]
   const pareto::Front front =
       pareto::nsga2(weld, beam, {.search = {.population = 200, .stopping = {.generations = 500}}});
+  //! [search]
   const double cheapest = front.Y.col(0).minCoeff(), stiffest = front.Y.col(1).minCoeff();
   std::printf("%d designs, %.2f USD with %.4f in to %.2f USD with %.5f in\n",
               static_cast<int>(front.Y.rows()), cheapest, front.Y.col(1).maxCoeff(),

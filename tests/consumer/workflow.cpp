@@ -75,6 +75,7 @@ double front_error(const pareto::Front& front, const doe::Evaluations& confirmed
 }  // namespace
 
 int main() {
+  //! [refine]
   std::vector<kriging::Model> models;
   doe::RefineOptions options{.max_points = 120};
   options.enough = [&](const doe::Evaluations& runs) {
@@ -87,6 +88,7 @@ int main() {
       simulate, car, doe::optimized_latin_hypercube(car, 16, {.corners = true}), doe::LolaVoronoi(), options);
   const pareto::Front front = pareto::nsga2(kriging::Surrogates(models), car, {.search = {.population = 50}});
   const doe::Evaluations confirmed = doe::evaluate(simulate, car, front.X);
+  //! [refine]
 
   const double error = front_error(front, confirmed);
   std::printf(

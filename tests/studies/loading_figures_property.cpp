@@ -120,6 +120,80 @@ TEST(LoadingFigures, TheSceneHasTheMotionOfItsCycle) {
       << (*scene)["note"];
 }
 
+// A floor of 18 m by 6 m under a roof 5 m high that ends 4.7 m before the back wall: the raise has a radius of
+// (20 - 0.3 - 15.3) / 2 m.
+TEST(LoadingFigures, TheSceneSaysWhatThingsAreMadeOfAndWhereTheDriftIs) {
+  const test::TestFolder place;
+  LoadingLog log = log_with_a_peak();
+  const auto block = [](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    return engine::box((high - low) / 2)
+        .transformed(Eigen::Isometry3d(Eigen::Translation3d((low + high) / 2)));
+  };
+  log.scene.shapes = {block({2, -3, -0.1}, {20, 3, 0}), block({2, -3, 5}, {15.3, 3, 5.1}),
+                      engine::box({1, 1, 1})};
+  log.scene.bodies = {{0, "#9b958c", 1.0, "floor"},
+                      {1, "#a39d94", 0.12, "roof"},
+                      {2, "#2a2a2c", 1.0, "rear left wheel"},
+                      {2, "#d9a21b", 1.0, "rear left wheel"},
+                      {2, "#fff3cf", 1.0, "front unit"},
+                      {2, "#5b5e63", 1.0, "bucket"},
+                      {2, "#6b6f76", 1.0, "rock"}};
+  log.scene.bodies[3].with = 2;
+  log.scene.frames = {{0.0, 1, "curl", 0.0}};
+  write_log(place / "run.h5", log);
+  for (const auto& figure : loading_figures(place / "run.h5")) {
+    if (figure["type"] != "scene") continue;
+    std::vector<std::string> looks;
+    for (const auto& body : figure["bodies"]) looks.push_back(body["look"]);
+    EXPECT_EQ(looks, (std::vector<std::string>{"drift", "drift", "tyre", "paint", "lamp", "steel", "rock"}));
+    const auto& drift = figure.at("drift");
+    EXPECT_EQ(drift["from"], 2.0);
+    EXPECT_EQ(drift["length"], 20.0);
+    EXPECT_EQ(drift["width"], 6.0);
+    EXPECT_EQ(drift["height"], 5.0);
+    EXPECT_NEAR(drift["raise"]["radius"].get<double>(), 2.2, 1e-12);
+    EXPECT_NEAR(drift["raise"]["x"].get<double>(), 17.5, 1e-12);
+    return;
+  }
+  FAIL() << "no scene";
+}
+
+// Six columns along and four strips of 1 m: a body 1 m high from x = 2 m in the outer strips and from x = 1 m in
+// the two inner ones. A strip's share of 4 m³ over 2 m of bucket is 2 m³, two columns, whose centre lies 1 m
+// behind the front.
+TEST(LoadingFigures, ShowThePileFromAbove) {
+  const test::TestFolder place;
+  LoadingLog log = log_with_a_peak();
+  log.numbers = {{"drift_width", 4.0}, {"bucket_width", 2.0}, {"bucket_heaped_volume", 4.0}};
+  CycleRecord& cycle = log.cycles[0];
+  cycle.columns_x = 6;
+  cycle.columns_y = 4;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 6; ++i) cycle.column_heights.push_back(i >= (j == 0 || j == 3 ? 2 : 1) ? 1.0 : 0.0);
+  for (int i = 0; i < 6; ++i) {
+    cycle.contour_x.push_back(i + 0.5);
+    cycle.contour_z.push_back(i > 1 ? 1.0 : 0.5);
+  }
+  cycle.plan.feasible = true;
+  cycle.plan.y = 0.5;
+  cycle.plan.toe = 1.2;
+  cycle.plan.depth = 1.5;
+  write_log(place / "run.h5", log);
+  const auto figures = loading_figures(place / "run.h5");
+  const auto plan =
+      std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f["type"] == "plan"; });
+  ASSERT_NE(plan, figures.end());
+  EXPECT_EQ((*plan)["x"], nlohmann::json({0.5, 1.5, 2.5, 3.5, 4.5, 5.5}));
+  EXPECT_EQ((*plan)["y"], nlohmann::json({-1.5, -0.5, 0.5, 1.5}));
+  EXPECT_EQ((*plan)["heights"][1], nlohmann::json({0.0, 1.0, 1.0, 1.0, 1.0, 1.0}));
+  EXPECT_EQ((*plan)["walls"], nlohmann::json({-2.0, 2.0}));
+  EXPECT_EQ((*plan)["curves"][0]["x"], nlohmann::json({2.0, 1.0, 1.0, 2.0}));
+  EXPECT_EQ((*plan)["curves"][1]["x"], nlohmann::json({3.0, 2.0, 2.0, 3.0}));
+  EXPECT_EQ((*plan)["curves"][1]["y"], (*plan)["y"]);
+  EXPECT_EQ((*plan)["place"]["x"], nlohmann::json({1.2, 2.7}));
+  EXPECT_EQ((*plan)["place"]["y"], nlohmann::json({-0.5, 1.5}));
+}
+
 // The tip goes 0.01 m in 0.1 s; 300 kN m about two axes are 424.264, with 600 kN m about the pin 734.847.
 TEST(LoadingFigures, TheSceneHasSignalsOfAllSamples) {
   const test::TestFolder place;

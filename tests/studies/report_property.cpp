@@ -467,7 +467,7 @@ TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
   EXPECT_EQ(data.at("illustrations").at(0).at("title"), "good");
   const auto& cautions = data.at("summary").at("cautions");
   EXPECT_TRUE(mentions(
-      cautions, "Figure 1 of the simulation was left out: the type \"sketch\" is none of path, scene"));
+      cautions, "Figure 1 of the simulation was left out: the type \"sketch\" is none of path, plan, scene"));
   EXPECT_TRUE(mentions(cautions, "Figure 2 of the simulation was left out: a row has not as many cells"));
   EXPECT_TRUE(mentions(cautions, "Figure 4 of the simulation was left out: \"type\" is missing"));
 }

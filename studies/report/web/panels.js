@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Figures that the simulation itself supplies: a path over the pile, a scene to replay, lines, a table.
+// Figures that the simulation itself supplies: a path over the pile, the pile from above, a scene to
+// replay, lines, a table.
 
 import {cyclesOf, withBodies} from './cycle_panels.js';
 import {oneCycleAtATime} from './cycles.js';
 import {el, figure, section} from './dom.js';
 import {flat} from './flat_panels.js';
+import {planView} from './plan_view.js';
 import {sceneViewer} from './scene.js';
 
-const builders = {scene: sceneViewer, ...flat};
+const builders = {scene: sceneViewer, plan: planView, ...flat};
 
 /// What makes figures of panels; a note that several have is said under the first.
 export function figures() {

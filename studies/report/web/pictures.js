@@ -15,7 +15,7 @@ async function send(where, body) {
 
 function viewOf({scene, camera, width, height}) {
   const view = new View(scene, new Poses(scene));
-  view.renderer.setPixelRatio(1);
+  view.pixels = 1;
   view.resize(width, height);
   const {drawingBufferWidth, drawingBufferHeight} = view.renderer.getContext();
   if (drawingBufferWidth !== width || drawingBufferHeight !== height)

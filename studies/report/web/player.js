@@ -57,6 +57,7 @@ export function player(panel, times, view, area) {
   const play = (on) => {
     if (on && t >= last) t = first;
     playing = on;
+    view.hurry(on);
     button.textContent = on ? 'Pause' : 'Play';
     before = performance.now();
     if (on) requestAnimationFrame(step);

@@ -8,9 +8,13 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {el} from './dom.js';
 import {player} from './player.js';
 import {Poses} from './poses.js';
-import {groups, lights} from './scene_parts.js';
-import {colour, onTheme} from './theme.js';
+import {Pace, Picture} from './picture.js';
+import {ShadowMap} from './shadow_map.js';
+import {Stage} from './stage.js';
+import {onTheme} from './theme.js';
 
+const shadowDelay = 0.5; // [s]
+const mostPixels = () => Math.min(2, window.devicePixelRatio);
 const directions = {side: [0, -1, 0.02], above: [-0.001, 0, 1]};
 
 const shown = new Map(); // by their elements, what ends them
@@ -47,19 +51,18 @@ export function sceneViewer(panel) {
 export class View {
   constructor(panel, poses) {
     this.poses = poses;
-    this.renderer = new THREE.WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.renderer.shadowMap.enabled = true;
-    this.scene = new THREE.Scene();
-    this.sky = new THREE.Color(colour.sky);
-    this.scene.background = this.sky;
+    this.pace = new Pace();
+    this.pixels = null; // of the picture per pixel of the page; the screen's
+    this.renderer = new THREE.WebGLRenderer({antialias: false, preserveDrawingBuffer: true});
+    this.renderer.setPixelRatio(mostPixels());
+    this.picture = new Picture(this.renderer);
+    this.stage = new Stage(panel, poses);
+    this.shadow = new ShadowMap(this.renderer, this.stage.light);
     this.followed = panel.follow ?? null;
     this.following = false;
-    this.parts = groups(panel);
-    this.parts.forEach((part) => this.scene.add(part.mesh, ...part.edges));
     this.setTime(poses.times[panel.poster_frame ?? 0] ?? poses.times[0], false);
-    const {centre, radius} = this.extent();
-    this.scene.add(...lights(centre, radius));
+    const {centre, radius} = this.stage.extent();
+    this.shadow.cover(centre, radius);
     this.home = panel.camera ?? {
       eye: centre
         .clone()
@@ -70,11 +73,15 @@ export class View {
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.01 * radius, 40 * radius);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    if (panel.drift) this.controls.maxPolarAngle = 0.5 * Math.PI; // not from below its floor
     this.look(this.home.eye);
+    this.controls.addEventListener('start', () => this.hurry(true));
+    this.controls.addEventListener('end', () => this.hurry(false));
     this.controls.addEventListener('change', () => {
       if (!this.shifting) this.render();
     });
     this.endTheme = onTheme(() => this.tint());
+    this.stage.tint();
   }
 
   fill(stage) {
@@ -88,20 +95,10 @@ export class View {
     this.endTheme();
     this.resizing?.disconnect();
     this.controls.dispose();
+    this.shadow.end();
+    this.picture.end();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
-  }
-
-  /// Sphere around what is solid now.
-  extent() {
-    const box = new THREE.Box3();
-    const solid = this.parts.filter((part) => part.mesh.castShadow);
-    for (const part of solid.length ? solid : this.parts) {
-      part.mesh.computeBoundingBox();
-      box.union(part.mesh.boundingBox);
-    }
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    return {centre: sphere.center, radius: Math.max(sphere.radius, 0.1)};
   }
 
   look(eye) {
@@ -156,31 +153,16 @@ export class View {
   }
 
   setTime(t, draw = true) {
-    const place = (this.place = this.poses.place(t)),
-      matrix = new THREE.Matrix4();
-    const position = new THREE.Vector3(),
-      turn = new THREE.Quaternion(),
-      one = new THREE.Vector3(1, 1, 1);
-    for (const {mesh, members, edges} of this.parts) {
-      members.forEach((body, i) => {
-        const there = this.poses.read(body, place, position, turn);
-        if (there) matrix.compose(position, turn, one);
-        else matrix.makeScale(0, 0, 0);
-        mesh.setMatrixAt(i, matrix);
-        if (edges[i]) {
-          edges[i].matrix.copy(matrix);
-          edges[i].matrixWorldNeedsUpdate = true;
-          edges[i].visible = there;
-        }
-      });
-      mesh.instanceMatrix.needsUpdate = true;
-    }
+    this.place = this.poses.place(t);
+    this.stage.setTime(this.place);
+    this.posed = true;
     if (this.following) this.keepUp();
     if (draw) this.render();
   }
 
   resize(width, height) {
     if (!width || !height) return;
+    this.size = [width, height];
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -188,11 +170,42 @@ export class View {
   }
 
   tint() {
-    this.sky.set(colour.sky);
+    this.stage.tint();
     this.render();
   }
 
+  /// While pictures follow each other, each may be coarser than the last one, where the machine is slow.
+  hurry(on) {
+    this.pace.hurry(on);
+    if (!on) this.render();
+  }
+
+  usePixels() {
+    const {level, share} = this.pace,
+      ratio = this.pixels ?? (level ? Math.min(1, mostPixels()) : mostPixels());
+    if (ratio * share !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio * share);
+  }
+
   render() {
-    this.renderer.render(this.scene, this.camera);
+    const {stage, camera, pace} = this;
+    pace.drawn();
+    this.usePixels();
+    camera.updateMatrixWorld();
+    if (this.posed) this.updateShadow();
+    stage.see(camera);
+    stage.beCoarse(pace.level > 0);
+    this.picture.draw(stage.scene, camera, !pace.level);
+  }
+
+  // The rock's shadow may be a little late while pictures follow each other.
+  updateShadow() {
+    const {stage, place, pace} = this;
+    const anew = !pace.level || !(Math.abs(place.t - this.shadowTime) < shadowDelay);
+    if (anew) {
+      stage.rocks.choose();
+      this.shadowTime = place.t;
+    }
+    this.shadow.update(stage.resting, stage.moving, anew);
+    this.posed = pace.level > 0;
   }
 }

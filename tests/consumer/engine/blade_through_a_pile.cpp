@@ -45,6 +45,7 @@ int main() {
                    Eigen::Isometry3d::Identity(), 0);
   add_rocks(world);
 
+  //! [blade]
   KinematicBody blade(at(-0.6, 0, 0.35));
   world.attach(&blade);
   world.add_part_shape(0, std::make_shared<const Shape>(box({0.05, 1.0, 0.3})), Eigen::Isometry3d::Identity(),
@@ -52,6 +53,7 @@ int main() {
 
   while (world.time() < 2) world.step();  // the rocks settle
   blade.set_velocity({0.5, 0, 0});
+  //! [blade]
 
   double sum = 0, most = 0;
   int steps = 0;

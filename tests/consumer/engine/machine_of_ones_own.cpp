@@ -19,6 +19,7 @@ constexpr double g = 9.81;
 
 // Everything is given once, in the pose in which all joint coordinates are zero: a rod along x, hinged at (0, 0, 1).
 machine::MachineSpec boom_on_a_hinge() {
+  //! [spec]
   machine::BodySpec boom;
   boom.name = "boom";
   boom.joint = machine::JointKind::hinge;
@@ -32,6 +33,7 @@ machine::MachineSpec boom_on_a_hinge() {
   spec.bodies = {boom};
   spec.motors = {{"lift", {0}, 10e3}};        // at most 10 kN m
   spec.stops = {{"travel", {0}, -0.3, 0.8}};  // [rad]
+  //! [spec]
   return spec;
 }
 
@@ -47,12 +49,14 @@ int main() {
   materials.set(0, 0, {.friction = 0.6, .stiffness = 1e8});
   World world({}, materials);
 
+  //! [machine]
   machine::Machine boom(boom_on_a_hinge());
   boom.place(Eigen::Isometry3d::Identity());
   world.attach(&boom);
   // A part's shape is placed in the part's frame, whose origin is the centre of mass: the tray is 0.9 m ahead of it.
   world.add_part_shape(0, std::make_shared<const Shape>(box({0.3, 0.3, 0.05})),
                        Eigen::Isometry3d(Eigen::Translation3d(0.9, 0, 0)), 0);
+  //! [machine]
 
   // A cube of 0.4 m and 2700 kg/m³, 173 kg, on the tray.
   const ConvexPolyhedron cube = box({0.2, 0.2, 0.2});

@@ -19,6 +19,7 @@ constexpr int rocks = 60;
 constexpr double density = 2700;  // [kg/m³]
 
 // One kind of surface everywhere. Friction has no default: what a pile does depends on it first of all.
+//! [pile]
 MaterialTable rock_on_rock() {
   MaterialTable table(1);
   table.set(0, 0, {.friction = 0.7, .rolling = 0.1, .stiffness = 1e8});
@@ -58,6 +59,7 @@ World pile() {
   add_rocks(world);
   return world;
 }
+//! [pile]
 
 double weight_of(const World& world) {
   double mass = 0;

@@ -9,6 +9,7 @@
 
 using namespace drawpoint;
 
+//! [study]
 const doe::Problem problem{
     .variables = {{"width", "m", 0.6, 1.4}, {"speed", "m/s", 1.0, 4.0}, {"angle", "deg", 8.0, 20.0}},
     .responses = {{"flow", "kg/s", doe::Goal::maximize},
@@ -30,3 +31,4 @@ int main(int argc, char** argv) {
   return studies::run(argc, argv,
                       {.name = "conveyor", .problem = problem, .black_box = convey, .about = "Ore uphill."});
 }
+//! [study]

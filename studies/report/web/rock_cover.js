@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+// The surface of the rock as heights over a grid, and a core below it: whatever lies in the core is hidden by the core,
+// so that of a pile only what one can see is drawn. The heights also darken what lies deep between rocks.
+
+import * as THREE from 'three';
+import {Facets, linear} from './mesh.js';
+
+const cell = 0.25, // [m]
+  cover = 0.55, // of rock over the core [m]
+  highest = 16; // that a height can be [m]; rocks higher than this are left to themselves
+const dark = linear('#4a443d');
+
+export class RockCover {
+  /// box: {x: [low, high], y: [low, high]}, within which rock lies.
+  constructor({x, y}, material) {
+    this.low = [x[0], y[0]];
+    this.nx = Math.ceil((x[1] - x[0]) / cell);
+    this.ny = Math.ceil((y[1] - y[0]) / cell);
+    this.top = new Float32Array(this.nx * this.ny);
+    this.core = new Float32Array(this.nx * this.ny);
+    this.bytes = new Uint8Array(this.nx * this.ny);
+    this.texture = new THREE.DataTexture(this.bytes, this.nx, this.ny, THREE.RedFormat);
+    this.texture.magFilter = this.texture.minFilter = THREE.LinearFilter;
+    this.texture.unpackAlignment = 1;
+    this.mesh = this.makeMesh(material);
+  }
+
+  light(shared) {
+    shared.heights.value = this.texture;
+    shared.heightsScale.value = highest;
+    shared.heightsBox.value.set(this.low[0], this.low[1], 1 / (cell * this.nx), 1 / (cell * this.ny));
+  }
+
+  /// Of so many rocks: x y z one after the other, a radius each, and whether it is there.
+  update(count, places, radii, there) {
+    this.top.fill(0);
+    for (let k = 0; k < count; ++k) if (there[k]) this.raise(places, 3 * k, radii[k]);
+    this.sink();
+    for (let k = 0; k < this.bytes.length; ++k)
+      this.bytes[k] = Math.min(255, Math.max(0, (255 * (this.top[k] - 0.12)) / highest));
+    this.texture.needsUpdate = true;
+    this.place();
+  }
+
+  /// The cells under a sphere: lows and highs, half open.
+  cells(x, y, r) {
+    const at = (v, low, n) => Math.min(n, Math.max(0, Math.round((v - low) / cell)));
+    return [
+      at(x - r, this.low[0], this.nx),
+      at(x + r, this.low[0], this.nx),
+      at(y - r, this.low[1], this.ny),
+      at(y + r, this.low[1], this.ny),
+    ];
+  }
+
+  raise(places, at, radius) {
+    const x = places[at],
+      y = places[at + 1],
+      z = places[at + 2] + 0.5 * radius,
+      r = 0.7 * radius;
+    const [i0, i1, j0, j1] = this.cells(x, y, r);
+    for (let j = j0; j < j1; ++j)
+      for (let i = i0; i < i1; ++i) if (this.top[j * this.nx + i] < z) this.top[j * this.nx + i] = z;
+  }
+
+  // The core lies below the lowest top around, and ends before the edges, where one looks at the pile from the side.
+  sink() {
+    const {nx, ny, top, core} = this,
+      rim = 3;
+    for (let j = 0; j < ny; ++j)
+      for (let i = 0; i < nx; ++i) {
+        let least = Infinity;
+        if (i < 1 || i >= nx - rim || j < rim || j >= ny - rim) least = 0;
+        else
+          for (let b = -1; b <= 1; ++b)
+            for (let a = -1; a <= 1; ++a) least = Math.min(least, top[(j + b) * nx + i + a]);
+        core[j * nx + i] = Math.max(0, least - cover);
+      }
+  }
+
+  /// Whether a sphere lies within the core.
+  hides(x, y, z, r) {
+    const [i0, i1, j0, j1] = this.cells(x, y, r + cell);
+    if (i0 >= i1 || j0 >= j1) return false;
+    for (let j = j0; j < j1; ++j) for (let i = i0; i < i1; ++i) if (this.core[j * this.nx + i] < z + r) return false;
+    return true;
+  }
+
+  /// Whether the core hides a sphere from the eye: a straight line from its top meets the core.
+  hidesFrom(eye, x, y, z, r) {
+    const [ex, ey, ez] = [eye.x - x, eye.y - y, eye.z - z - r],
+      far = Math.hypot(ex, ey);
+    for (let s = r + cell; s < Math.min(far, 8); s += cell) {
+      const i = Math.floor((x + (ex * s) / far - this.low[0]) / cell),
+        j = Math.floor((y + (ey * s) / far - this.low[1]) / cell);
+      if (i < 0 || j < 0 || i >= this.nx || j >= this.ny) return false;
+      if (this.core[j * this.nx + i] > z + r + (ez * s) / far + 0.05) return true;
+    }
+    return false;
+  }
+
+  makeMesh(material) {
+    const facets = new Facets(),
+      {nx, ny} = this;
+    const point = (i, j) => [this.low[0] + (i + 0.5) * cell, this.low[1] + (j + 0.5) * cell, 0];
+    for (let j = 0; j < ny; ++j)
+      for (let i = 0; i < nx; ++i) {
+        facets.position.push(...point(i, j));
+        facets.normal.push(0, 0, 1);
+        facets.colour.push(...dark);
+        facets.finish.push(1, 0, 0);
+        if (i + 1 === nx || j + 1 === ny) continue;
+        const k = j * nx + i;
+        facets.index.push(k, k + 1, k + 1 + nx, k, k + 1 + nx, k + nx);
+      }
+    const mesh = new THREE.Mesh(facets.geometry(1).geometry, material);
+    mesh.frustumCulled = false;
+    mesh.renderOrder = 1;
+    return mesh;
+  }
+
+  // Only where the core is above the floor has it triangles.
+  place() {
+    const {nx, ny, core} = this,
+      position = this.mesh.geometry.getAttribute('position'),
+      index = this.mesh.geometry.getIndex();
+    for (let k = 0; k < core.length; ++k) position.array[3 * k + 2] = core[k];
+    position.needsUpdate = true;
+    let n = 0;
+    for (let j = 0; j + 1 < ny; ++j)
+      for (let i = 0; i + 1 < nx; ++i) {
+        const k = j * nx + i;
+        if (!core[k] && !core[k + 1] && !core[k + nx] && !core[k + nx + 1]) continue;
+        index.array.set([k, k + 1, k + 1 + nx, k, k + 1 + nx, k + nx], n);
+        n += 6;
+      }
+    index.needsUpdate = true;
+    this.mesh.geometry.setDrawRange(0, n);
+    this.mesh.visible = n > 0;
+  }
+}
