@@ -19,6 +19,8 @@ std::string to_text(const Sampling& sampling) {
                           {"rounds", nlohmann::json::array()}};
   for (const ConfirmationRound& round : sampling.rounds)
     entry["rounds"].push_back({round.first, round.named});
+  if (!sampling.until.empty()) entry["until"] = sampling.until;
+  if (!sampling.stopped.empty()) entry["stopped"] = sampling.stopped;
   return entry.dump();
 }
 
@@ -27,7 +29,9 @@ Sampling sampling_from(const std::string& text) {
   Sampling sampling{.points = entry.at("points").get<int>(),
                     .batch = entry.at("batch").get<int>(),
                     .criteria = entry.at("criteria").get<std::string>(),
-                    .target = entry.at("target").get<double>()};
+                    .target = entry.at("target").get<double>(),
+                    .until = entry.value("until", ""),
+                    .stopped = entry.value("stopped", "")};
   for (const auto& round : entry.at("rounds"))
     sampling.rounds.push_back({round.at(0).get<std::int64_t>(), round.at(1).get<int>()});
   return sampling;

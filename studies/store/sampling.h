@@ -24,6 +24,9 @@ struct Sampling {
   std::vector<ConfirmationRound> rounds = {};  ///< in rising order
   double target =
       0.0;  ///< error of the mean over the range of every response but standard errors, at which to stop; 0: none
+  /// Errors at which to stop, such as "nrmse(cost) < 0.1"; empty: none. models/stop_rule.h reads it.
+  std::string until = {};
+  std::string stopped = {};  ///< what ended the last command before the study was complete; empty: nothing
 };
 
 /// As one JSON object. Throws std::invalid_argument for a target that is not finite.
