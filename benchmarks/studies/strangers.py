@@ -157,7 +157,7 @@ def slurm_refuses(table):
     def slurm_refuses_arrays(bench):
         with table.Cluster(bench) as cluster:
             with open(cluster.folder / "slurm.conf", "a") as conf:
-                conf.write("MaxJobCount=10\n")
+                conf.write("MaxJobCount=10\nMinJobAge=2\n")  # ended jobs count until that age [s]
             cluster.kill_daemon("slurmctld")
             time.sleep(1)
             cluster.shell("slurmctld")

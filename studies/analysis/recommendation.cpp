@@ -70,9 +70,14 @@ RecommendedResponse recommended_response(const ReportInput& input, const Planned
   const double sign = gain_sign(input.problem.responses[j]);
   const Eigen::VectorXd own = draws.row(0).transpose();
   const Eigen::VectorXd other = same ? own : Eigen::VectorXd(draws.row(1).transpose());
+  const Interval95 run{here, points.lower(0, column), points.upper(0, column)};
+  Interval95 mean =
+      interval_of(here, own);  // by draws, which miss the ends of a quiet response's by a little
+  mean.lower = std::max(mean.lower, run.lower);
+  mean.upper = std::min(mean.upper, run.upper);
   return {.response = j,
-          .mean = interval_of(here, own),
-          .run = {here, points.lower(0, column), points.upper(0, column)},
+          .mean = mean,
+          .run = run,
           .reference = there,
           .gain = interval_of(sign * (here - there), sign * (own - other))};
 }
