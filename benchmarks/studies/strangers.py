@@ -35,7 +35,7 @@ def faults(table):
     return [*(hostile(table, name, code) for name, code in HOSTILE.items()),
             *(lying(table, name, text) for name, text in TABLES.items()),
             *(made(table) for made in (changed, copied_at_rest, copied_in_motion, slurm_refuses, slurm_environment,
-                                       slurm_cancels))]
+                                       slurm_cancels, slurm_time_limit))]
 
 
 def named(name, fault):
@@ -201,3 +201,22 @@ def slurm_cancels(table):
             return {**table.cost(bench, study, table.FIXED, before), "cancelled": failed}, \
                 table.told(words, study, "times: ", "once: ")
     return slurm_cancels_tasks
+
+
+def slurm_time_limit(table):
+    """Slurm ends a quarter of the tasks after its least limit, a minute; those runs fail with that reason."""
+    def slurm_limits_time(bench):
+        with table.Cluster(bench) as cluster:
+            study = bench.study()
+            study.environment.update(cluster.environment, HOSTILE="time.sleep(600)")
+            running = study.start("--slurm", "--slurm-option=--time=1", "--keep-going", *table.FIXED)
+            said = running.communicate(timeout=600)[0]
+            if running.returncode not in (0, 1):
+                raise RuntimeError(said)
+            words, failed, before = study.command("status")[1], study.count("failed"), table.done_rows(study)
+            victims = sum(int(seed) % 4 == 0 for seed in seeds(study))
+            study.environment.pop("HOSTILE")
+            table.go_on(study, "--slurm", *table.FIXED, "--retry-failed")
+            return {**table.cost(bench, study, table.FIXED, before), "not noticed": victims - failed}, \
+                table.told(words, study, "times: ", "once: ")
+    return slurm_limits_time
