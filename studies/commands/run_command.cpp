@@ -28,7 +28,7 @@ void learn_durations(Budget& budget, const std::vector<Run>& runs) {
 void remember_what_is_left_out(Store& store, const Budget& budget, int runs) {
   Sampling sampling = store.sampling();
   const int adaptive = sampling.points - count_points(store.runs(), Kind::adaptive);
-  if (budget.has_room() || (runs == 0 && adaptive <= 0)) return;
+  if (runs == 0 && (adaptive <= 0 || budget.has_room())) return;
   sampling.stopped = "the budget of " + budget.text() + " was spent with " + std::to_string(runs) +
                      (runs == 1 ? " planned run" : " planned runs") + " left out";
   if (adaptive > 0) sampling.stopped += " and " + std::to_string(adaptive) + " adaptive points not chosen";

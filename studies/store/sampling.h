@@ -31,7 +31,7 @@ struct Sampling {
 
 /// As one JSON object. Throws std::invalid_argument for a target that is not finite.
 std::string to_text(const Sampling& sampling);
-/// Throws nlohmann::json::exception for what is not one.
+/// Throws nlohmann::json::exception for what is not one, std::out_of_range for numbers that cannot be.
 Sampling sampling_from(const std::string& text);
 
 }  // namespace drawpoint::studies
