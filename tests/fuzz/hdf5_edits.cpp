@@ -5,6 +5,7 @@
 #include <drawpoint/tests/fuzz/hdf5_edits.hpp>
 #include <drawpoint/tests/fuzz/own_folder.hpp>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
