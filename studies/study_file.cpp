@@ -279,7 +279,7 @@ json parsed(const fs::path& file) {
   };
   try {
     return json::parse(text, once);
-  } catch (const json::parse_error& e) {
+  } catch (const json::exception& e) {
     throw std::runtime_error(file.string() + ": no JSON: " + e.what());
   }
 }

@@ -25,7 +25,9 @@ note("begin")
 time.sleep(float(os.environ.get("PAUSE", "0.05")))
 with open(request["log"], "wb") as log:
     log.write((f"{x!r} {y!r} {seed}\\n" * 100000)[:int(os.environ.get("LOG_BYTES", "3000"))].encode())
-noise = 1e-3 * (seed % 1000) / 1000
+noise = 1e-3 * (seed % 1000) / 1000 * float(os.environ.get("FACTOR", "1"))
+if seed % 4 == 0:
+    exec(os.environ.get("HOSTILE", ""))
 note("end")
 json.dump({"values": {"cost": x * x + y + noise, "wear": (x - 1) ** 2 + y / 2 - noise}}, open(sys.argv[2], "w"))
 """

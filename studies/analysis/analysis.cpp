@@ -5,6 +5,7 @@
 #include <drawpoint/studies/analysis/findings.h>
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/report_input.h>
+#include <drawpoint/studies/models/stop_rule.h>
 #include <drawpoint/studies/report/report.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/left_out.h>
@@ -103,6 +104,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   const std::vector<Run> runs = store.runs();
   Summary summary = summary_of(study, runs);
   summary.adaptive_wanted = store.sampling().points;
+  summary.stopped = store.sampling().stopped;
   ReportInput input = input_of(study, store, runs);
   summary.thinned = input.warnings;
   input.command = command;
@@ -121,6 +123,10 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
     return summary;
   }
   tell_of_models(summary, input);
+  const StopState reached = stop_state(stop_rule_from(store.sampling().until, study.problem), study.problem,
+                                       input.validations, input.mean_errors);
+  summary.until = reached.text;
+  summary.until_met = reached.met;
   add_warnings(input, runs);
   illustrate(input, study, logged, store.identity().options, folder);
   contrast(input, study, logged, store.identity().options, folder);

@@ -92,6 +92,9 @@ std::vector<std::pair<std::string, std::string>> facts(const Store& store, const
   std::vector<std::pair<std::string, std::string>> all = {{"Design", design(store, runs)},
                                                           {"Seed", std::to_string(identity.seed)}};
   add_options(identity, all);
+  const Sampling& sampling = store.sampling();
+  if (!sampling.until.empty()) all.emplace_back("Until", sampling.until);
+  if (!sampling.stopped.empty()) all.emplace_back("Stopped", sampling.stopped);
   all.insert(all.end(), {{"Runs made", time_span(runs)},
                          {"Time in runs", time_in_runs(runs)},
                          {"Machine", machine()},

@@ -98,6 +98,8 @@ std::string json_line(const Summary& summary) {
   line["left_out"] = summary.left_out;
   line["unfinished"] = summary.unfinished;
   line["adaptive_wanted"] = summary.adaptive_wanted;
+  if (!summary.until.empty()) line.update({{"until", summary.until}, {"until_met", summary.until_met}});
+  if (!summary.stopped.empty()) line["stopped"] = summary.stopped;
   line["headlines"] = nlohmann::ordered_json::object();
   for (const Headline& headline : summary.headlines)
     line["headlines"][headline.name] = number_or_null(headline.value);
@@ -145,6 +147,9 @@ std::string text(const Summary& summary) {
   if (!summary.report.empty()) {
     result += front_text(summary) + "\nreport: " + summary.report.string() + "\n";
   }
+  if (!summary.until.empty())
+    result += std::string(summary.until_met ? "reached: " : "not reached: ") + summary.until + "\n";
+  if (!summary.stopped.empty()) result += "stopped: " + summary.stopped + "; the same command goes on\n";
   return result;
 }
 

@@ -32,8 +32,11 @@ struct Summary {
   std::map<std::string, kriging::MeanError> mean_errors = {};  ///< by response; none: unknown
   std::vector<std::pair<std::string, std::string>> flat = {};  ///< by response: what is said of it
   int adaptive_wanted = 0;                                     ///< adaptive points in all
-  std::string no_front = {};                          ///< why there is none; empty where there is one
-  int front = 0;                                      ///< points of the Pareto front
+  std::string until = {};     ///< the errors that were wanted, beside those reached; empty: none were
+  bool until_met = false;     ///< all of them are
+  std::string stopped = {};   ///< what ended the last command before the study was complete
+  std::string no_front = {};  ///< why there is none; empty where there is one
+  int front = 0;              ///< points of the Pareto front
   pareto::Polishing polishing = pareto::Polishing();  ///< of the front; GCC 12 warns where this is {}
   CheckedRuns confirmations = {};                     ///< points of predicted fronts that were simulated
   std::string confirming = "confirm";                 ///< the command that has them simulated
@@ -43,7 +46,7 @@ struct Summary {
 };
 
 /// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "left_out", "unfinished",
-/// "adaptive_wanted", "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
+/// "adaptive_wanted", "until" and "until_met", "stopped" where there is something to say, "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
 /// number or null}, "mean_error": {response: mean_error_json}, "flat": [{"response", "text"}], "front",
 /// "confirmed": {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round},
 /// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and

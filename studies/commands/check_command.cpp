@@ -15,16 +15,6 @@
 namespace drawpoint::studies {
 namespace {
 
-/// Half way along each variable, whole where it has to be.
-std::vector<double> middle_of(const doe::Problem& problem) {
-  std::vector<double> x;
-  for (const doe::Variable& v : problem.variables) {
-    const double half = v.lower + 0.5 * (v.upper - v.lower);
-    x.push_back(v.kind == doe::VariableKind::real ? half : std::floor(half));
-  }
-  return x;
-}
-
 void show_point(const doe::Problem& problem, const Eigen::VectorXd& x, doe::Seed seed) {
   std::string text;
   for (std::size_t k = 0; k < problem.variables.size(); ++k) {

@@ -7,8 +7,8 @@
 #include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/commands/questions.h>
 #include <drawpoint/studies/commands/reading_commands.h>
+#include <drawpoint/studies/commands/run_options.h>
 #include <drawpoint/studies/live/server.h>
-#include <drawpoint/studies/sampling/criteria.h>
 #include <drawpoint/studies/store/option_values.h>
 #include <drawpoint/studies/store/plain_text.h>
 #include <CLI/CLI.hpp>
@@ -16,14 +16,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <new>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 
 namespace drawpoint::studies {
 namespace {
@@ -31,47 +28,10 @@ namespace {
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
 /// Those that are told; prepare is for `run` alone.
-constexpr std::array<const char*, 17> commands = {
-    "run",      "check", "confirm", "ask",    "tell",   "exclude", "status",          "live",    "fit",
-    "validate", "front", "compare", "report", "replay", "export",  "rerun-responses", "evaluate"};
-
-/// CLI11 would wrap a negative number around and cut a large one off.
-std::string seed_complaint(const std::string& text) {
-  doe::Seed seed = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (!text.empty() && end.ec == std::errc() && end.ptr == text.data() + text.size()) return "";
-  return "Value " + text + " is no seed; give a whole number from 0 to " +
-         std::to_string(std::numeric_limits<doe::Seed>::max());
-}
-
-/// CLI::Range lets what is no number through.
-std::string seconds_complaint(const std::string& text) {
-  constexpr double most = 1e9;
-  double seconds = std::numeric_limits<double>::quiet_NaN();
-  if (CLI::detail::lexical_cast(text, seconds) && seconds >= 0 && seconds <= most) return "";
-  return "Value " + text + " is no time; give 0 to 1e9 seconds, 0 for no limit";
-}
-
-std::string target_complaint(const std::string& text) {
-  double target = std::numeric_limits<double>::quiet_NaN();
-  if (CLI::detail::lexical_cast(text, target) && target >= 0 && target <= 1) return "";
-  return "Value " + text + " is no share of the range; give 0 to 1, 0 for no target";
-}
-
-std::string hours_complaint(const std::string& text) {
-  double hours = std::numeric_limits<double>::quiet_NaN();
-  if (CLI::detail::lexical_cast(text, hours) && hours >= 0) return "";
-  return "Value " + text + " is no time; give 0 hours or more";
-}
-
-std::string criteria_complaint(const std::string& text) {
-  try {
-    criteria_from(text);
-    return "";
-  } catch (const UsageError& e) {
-    return e.what();
-  }
-}
+constexpr std::array<const char*, 20> commands = {
+    "run",   "check",    "confirm",         "ask",       "tell",    "exclude", "status", "live",
+    "fit",   "validate", "front",           "recommend", "compare", "report",  "replay", "export",
+    "share", "open",     "rerun-responses", "evaluate"};
 
 /// Behind the program and the study's leading words.
 std::vector<std::string> typed_words(int argc, char** argv, const Study& study) {
@@ -112,130 +72,6 @@ std::string joined(int count, char** argv) {
 /// What is typed before a command.
 std::string program_of(int argc, char** argv, const Study& study) {
   return joined(std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv);
-}
-
-void add_run_options(CLI::App& command, Settings& settings, const Defaults& defaults) {
-  const int most_points = 1'000'000;
-  const std::string kept = ", or as many as the folder holds";
-  command
-      .add_option("--runs", settings.runs,
-                  "training points (default " + std::to_string(defaults.runs) + kept + ")")
-      ->check(CLI::Range(0, most_points));
-  command.add_option("--import", settings.imported,
-                     "table of points made elsewhere, as export writes it; those already there are left out");
-  command
-      .add_option("--validation", settings.validation,
-                  "validation points (default " + std::to_string(defaults.validation) + kept + ")")
-      ->check(CLI::Range(0, most_points));
-  command
-      .add_option("--replicates", settings.replicates,
-                  "runs per training point, each with its own seed (default 1)")
-      ->check(CLI::Range(1, 1000));
-  command.add_option("--seed", settings.seed, "study seed, from which all random numbers follow (default 1)")
-      ->check(seed_complaint);
-}
-
-void add_sampling_options(CLI::App& command, Settings& settings, const Defaults& defaults) {
-  const std::string group = "Adaptive sampling";
-  command
-      .add_option("--adaptive", settings.adaptive,
-                  "adaptive points in all, where the runs before them show that they teach most (default " +
-                      std::to_string(defaults.adaptive) + ", or as many as the folder is to hold)")
-      ->check(CLI::Range(0, 1'000'000))
-      ->group(group);
-  command
-      .add_option("--batch", settings.batch,
-                  "adaptive points chosen together, before the models are fitted again (default 8)")
-      ->check(CLI::Range(1, 100'000))
-      ->group(group);
-  command
-      .add_option(
-          "--criteria", settings.criteria,
-          "who chooses them: NAME=WEIGHT,... of lola_voronoi, voronoi, distance, error, "
-          "cross_validation, variance, feasibility, improvement; for one objective predicted and, "
-          "without limits, joint_improvement, knowledge_gradient; repeat: runs made again where noise "
-          "limits the models (default lola_voronoi=0.4,voronoi=0.4,error=0.2)")
-      ->check(criteria_complaint)
-      ->group(group);
-  command
-      .add_option(
-          "--target", settings.target,
-          "stop when the models miss the mean of every response, standard errors apart, by at most this "
-          "share of its range, by the validation runs (default 0: never)")
-      ->check(target_complaint)
-      ->group(group);
-}
-
-/// Beside those of sampling, for the command that makes runs itself.
-void add_hours_option(CLI::App& command, Settings& settings) {
-  command
-      .add_option("--hours", settings.hours,
-                  "begin no batch later than this after the start (default: no end)")
-      ->check(hours_complaint)
-      ->group("Adaptive sampling");
-}
-
-void add_execution_options(CLI::App& command, Settings& settings) {
-  command
-      .add_option("--jobs", settings.jobs,
-                  "processes at a time (default: one per core; with --slurm: tasks at a time, as many as the "
-                  "cluster gives)")
-      ->check(CLI::Range(1, 4096));
-  command
-      .add_option("--time-limit", settings.time_limit,
-                  "seconds after which a run is stopped and counts as failed; 0: none")
-      ->check(seconds_complaint)
-      ->capture_default_str();
-  command.add_flag("--retry-failed", settings.retry_failed, "make the failed runs again");
-  command.add_flag("--keep-going", settings.keep_going,
-                   "go on though the first five runs of the study all fail alike");
-  command.add_flag("!--no-spot-check", settings.spot_check,
-                   "do not make one run again, on resume, to see that the simulator is the same");
-  const std::string group = "On a Slurm cluster";
-  auto* slurm =
-      command
-          .add_flag(
-              "--slurm", settings.slurm,
-              "make the runs as tasks of job arrays; program and folder must have the same names on all "
-              "nodes. Ctrl-C leaves the tasks running, and the same command takes them over")
-          ->group(group);
-  command
-      .add_option(
-          "--slurm-option", settings.slurm_options,
-          "a word for sbatch, such as --slurm-option=--partition=short; repeatable. SBATCH_*, SQUEUE_*, "
-          "SCANCEL_* and SACCT_* of the environment are not followed")
-      ->needs(slurm)
-      ->group(group);
-  command
-      .add_option(
-          "--slurm-array", settings.slurm_array,
-          "tasks of one job array at most (default: as many as Slurm takes, up to 1000; half where it "
-          "refuses them)")
-      ->needs(slurm)
-      ->check(CLI::Range(1, 1'000'000))
-      ->group(group);
-}
-
-std::string names_of(const doe::Problem& problem) {
-  std::string names;
-  for (const auto& variable : problem.variables) names += (names.empty() ? "" : ",") + variable.name;
-  return names;
-}
-
-void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe::Problem& problem) {
-  command
-      .add_option("--points", settings.points,
-                  "points of the front per round: the best of each objective, the balanced one, knees, then "
-                  "others far apart")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  command
-      .add_option("--rounds", settings.rounds,
-                  "at most in this command; after each the models are fitted and the front is searched again")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command.add_option("--x", settings.x, "a point of your own besides: " + names_of(problem) + "; repeatable")
-      ->delimiter(',');
 }
 
 /// Before the options that it sets: CLI11 takes them in this order, whatever was typed first.
@@ -295,7 +131,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_run_options(*run, parsed.settings, study.defaults);
   add_execution_options(*run, parsed.settings);
   add_sampling_options(*run, parsed.settings, study.defaults);
-  add_hours_option(*run, parsed.settings);
+  add_time_options(*run, parsed.settings);
   add_study_options(*run, study, parsed.settings.options, true);
   show_example(*run, app, study, " run --runs 40 --adaptive 24 --out results/adaptive");
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });

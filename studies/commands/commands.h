@@ -29,6 +29,12 @@ int fit_command(const Study& study, const Settings& settings);
 int validate_command(const Study& study, const Settings& settings);
 /// The predicted front in the terminal.
 int front_command(const Study& study, const Settings& settings);
+/// One strategy, what it gains, and how to simulate it.
+int recommend_command(const Study& study, const Settings& settings);
+/// The folder in one file, for another machine.
+int share_command(const Study& study, const Settings& settings);
+/// Such a file as a new folder.
+int open_command(const Study& study, const Settings& settings);
 /// What another folder of the study gives in place of this one; neither is changed.
 int compare_command(const Study& study, const Settings& settings);
 /// One run as a page of its own.

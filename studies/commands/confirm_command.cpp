@@ -60,6 +60,8 @@ int confirm_command(const Study& study, const Settings& settings) {
   if (settings.confirm.x.empty() && !has_objective(study.problem))
     throw UsageError(
         "confirm: no response is minimized or maximized, so there is no front; name points with --x");
+  if (settings.confirm.x.empty() && settings.confirm.points == 0)
+    throw UsageError("--points 0: no point is named with --x either; name one, or give --points 1 or more");
   named_points(study.problem, settings.confirm);  // refused before anything is done
   open_store(study, Folder{settings.out});
   return work_in_folder(

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/analysis/front_report.h>
 #include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/commands/commands.h>
+#include <drawpoint/studies/commands/front_input.h>
 #include <drawpoint/studies/commands/json_output.h>
 #include <drawpoint/studies/models/front.h>
 #include <drawpoint/studies/runs/session.h>
@@ -12,10 +13,7 @@
 #include <stdexcept>
 
 namespace drawpoint::studies {
-namespace {
-
-/// With models and a front, or std::runtime_error that says what to do.
-ReportInput input_with_front(const Study& study, const Settings& settings) {
+ReportInput input_with_front(const Study& study, const Settings& settings, const std::string& command) {
   const Store store = open_store(study, Folder{settings.out});
   const std::vector<Run> runs = store.runs();
   ReportInput input = input_of(study, store, runs);
@@ -23,27 +21,25 @@ ReportInput input_with_front(const Study& study, const Settings& settings) {
     add_models(input, store.identity().seed);
   } catch (const std::invalid_argument& e) {
     if (input.training.X().rows() == 0) {
-      std::string said = "front: no training run has given values";
+      std::string said = command + ": no training run has given values";
       if (const std::string failed = failure_warning(input); !failed.empty()) said += ": " + failed;
       throw std::runtime_error(said + "; the command status says more");
     }
-    throw std::runtime_error("front: there are no models: " + std::string(e.what()) +
+    throw std::runtime_error(command + ": there are no models: " + std::string(e.what()) +
                              "; make more runs with the command run, or ask and tell");
   }
   if (!input.no_front.empty())
     throw std::runtime_error(
-        "front: there is none: " + input.no_front +
+        command + ": there is no front: " + input.no_front +
         "; make more runs with the command run, or ask and tell, or loosen the limits of the study");
   add_warnings(input, runs);
   return input;
 }
 
-}  // namespace
-
 int front_command(const Study& study, const Settings& settings) {
   if (!has_objective(study.problem))
     throw UsageError("front: no response is minimized or maximized, so there is no front");
-  const ReportInput input = input_with_front(study, settings);
+  const ReportInput input = input_with_front(study, settings, "front");
   const FrontSettings& wanted = settings.front;
   if (settings.json) {
     nlohmann::ordered_json line = {{"study", study.name}};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/planning.h>
 #include <drawpoint/studies/commands/points.h>
+#include <drawpoint/studies/models/stop_rule.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/session.h>
@@ -31,6 +32,7 @@ Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
 
 void check_request(const Study& study, const Settings& settings) {
   if (settings.criteria) check_criteria(*settings.criteria, study.problem);
+  if (settings.until) stop_rule_from(*settings.until, study.problem);
   if (!std::filesystem::exists(Folder{settings.out}.store())) check_new_study(study, settings);
 }
 

@@ -6,6 +6,7 @@
 #include <drawpoint/doe/problem.hpp>
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -13,5 +14,12 @@ namespace drawpoint::studies {
 /// One or more points, one after the other in `x`, as rows. Throws UsageError for a wrong number of values
 /// and for a value out of its range.
 Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x);
+
+/// "alpha=1,rock=ore": every variable once, a level by its name or number. Throws UsageError that begins with the
+/// option and says which variables there are.
+Eigen::VectorXd point_named(const doe::Problem& problem, const std::string& option, const std::string& text);
+
+/// Half way along each variable, whole where it has to be.
+std::vector<double> middle_of(const doe::Problem& problem);
 
 }  // namespace drawpoint::studies

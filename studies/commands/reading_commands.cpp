@@ -4,6 +4,7 @@
 #include <drawpoint/studies/commands/frame_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
 #include <drawpoint/studies/runs/session.h>
+#include <drawpoint/doe/problem.hpp>
 
 namespace drawpoint::studies {
 namespace {
@@ -71,6 +72,39 @@ void add_replay_options(CLI::App& command, ReplaySettings& settings) {
                  "--frames pictures --from 4 --to 4 --size 1920x1080");
 }
 
+void add_share_options(CLI::App& command, Settings& settings) {
+  command.add_option("--out,folder", settings.out, "folder of the study")
+      ->check(folder_complaint)
+      ->capture_default_str();
+  command.add_option("--output", settings.share.file,
+                     "file to write (default: the folder's name and .drawpoint, beside it)");
+  command.add_flag("!--no-logs", settings.share.logs, "without the logs of runs, which are most of it");
+  command.footer("An SQLite archive, which sqlite3 -Ax unpacks too, unchecked.\n" + example_of(command) +
+                 " results/ore --output ore.drawpoint");
+}
+
+void add_open_options(CLI::App& command, Settings& settings) {
+  command.add_option("file", settings.share.file, "what the command share wrote")->required();
+  command.add_option("--out,folder", settings.out, "folder to make; nothing is written over")
+      ->check(folder_complaint)
+      ->capture_default_str();
+  command.footer(example_of(command) + " ore.drawpoint results/ore");
+}
+
+void add_recommend_options(CLI::App& command, Settings& settings, const doe::Problem& problem) {
+  command.add_option("--against", settings.against,
+                     "a point to compare with, as NAME=VALUE,... (default: the middle of the box)");
+  std::string all;
+  for (const doe::Variable& v : problem.variables)
+    all += (all.empty() ? "" : ",") + v.name + "=" + doe::detail::number_text(v.lower);
+  command.footer(example_of(command) + " --against " + all);
+}
+
+void add_json_flag(CLI::App& command, Settings& settings) {
+  command.add_flag("--json", settings.json,
+                   "last line of standard output is one JSON object; everything else goes to standard error");
+}
+
 void add_live_options(CLI::App& command, LiveSettings& settings) {
   command.add_option("--port", settings.port, "port of 127.0.0.1 (default: one that is free)")
       ->check(CLI::Range(0, 65535));
@@ -135,8 +169,7 @@ void add_folder_options(CLI::App& command, Settings& settings) {
   command.add_option("--out", settings.out, "folder of the study: store, run logs, report")
       ->check(folder_complaint)
       ->capture_default_str();
-  command.add_flag("--json", settings.json,
-                   "last line of standard output is one JSON object; everything else goes to standard error");
+  add_json_flag(command, settings);
 }
 
 void define_reading_commands(CLI::App& app, const Study& study, Settings& settings,
@@ -161,6 +194,11 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
   add_front_options(
       commands.add_with_json("front", "show the predicted front, and how far to trust it", front_command),
       settings.front);
+  add_recommend_options(
+      commands.add_with_json("recommend",
+                             "say one strategy, what it gains and how sure that is, and how to simulate it",
+                             recommend_command),
+      settings, study.problem);
   add_compare_options(commands.add_with_json("compare",
                                              "say what another folder of this study, made with another "
                                              "choice, changes on average and on the front",
@@ -178,6 +216,14 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
       commands.add("export", "write the runs or the front as a table for other programs", export_command);
   add_folder_option(exported, settings);
   add_export_options(exported, study, settings.exported);
+  CLI::App& share =
+      commands.add("share", "put store, report and logs into one file for another machine", share_command);
+  add_share_options(share, settings);
+  add_json_flag(share, settings);
+  CLI::App& open =
+      commands.add("open", "make a folder of such a file, every part of it checked", open_command);
+  add_open_options(open, settings);
+  add_json_flag(open, settings);
 }
 
 }  // namespace drawpoint::studies

@@ -19,6 +19,8 @@ std::string as_json(const Store& store, const Counts& counts) {
     for (const Status state : all_states) line[name_of(kind)][name_of(state)] = counts.of(kind, state);
   }
   line["adaptive_wanted"] = store.sampling().points;
+  line["until"] = store.sampling().until;
+  line["stopped"] = store.sampling().stopped;
   line["seconds"] = counts.seconds;
   line["failures"] = counts.failures;
   line["corrections"] = store.corrections().size();
@@ -36,6 +38,8 @@ void print(const Store& store, const Folder& folder, const Counts& counts) {
   }
   if (store.sampling().points > 0)
     std::printf("adaptive points: %d of %d wanted\n", counts.adaptive_points, store.sampling().points);
+  if (!store.sampling().until.empty()) std::printf("until: %s\n", store.sampling().until.c_str());
+  if (!store.sampling().stopped.empty()) std::printf("stopped: %s\n", store.sampling().stopped.c_str());
   std::printf("time in runs: %s\n", duration_text(counts.seconds).c_str());
   if (const std::size_t corrections = store.corrections().size(); corrections > 0)
     std::printf("corrections by hand: %zu; the command exclude lists them\n", corrections);

@@ -20,18 +20,6 @@ bool counts_on_front(const doe::Response& response) {
   return doe::is_objective(response.goal) || doe::is_constraint(response.goal);
 }
 
-/// n x draws, unit of the response. normals: as many, of which it is made.
-Eigen::MatrixXd paths_of(const kriging::TransformedModel& model, const doe::Response& response,
-                         const Eigen::MatrixXd& X, const Eigen::MatrixXd& normals) {
-  Eigen::MatrixXd paths = kriging::sample_paths(model.model(), X, normals);
-  const bool linear = model.transform().scale == kriging::Scale::linear;
-  for (double& y : paths.reshaped()) {
-    if (!linear) y = kriging::mean_response(model.transform(), y, model.noise_variance());
-    y = doe::within_range(response, y);
-  }
-  return paths;
-}
-
 /// Of the responses that count, in order; n x draws each, and 0 for the others.
 std::vector<Eigen::MatrixXd> paths_of_responses(const pareto::Front& front,
                                                 const std::vector<kriging::TransformedModel>& models,
@@ -45,7 +33,7 @@ std::vector<Eigen::MatrixXd> paths_of_responses(const pareto::Front& front,
   std::size_t next = 0;
   for (std::size_t j = 0; j < models.size(); ++j)
     paths.push_back(counts_on_front(problem.responses[j])
-                        ? paths_of(models[j], problem.responses[j], front.X, normals[next++])
+                        ? draws_of_mean(models[j], problem.responses[j], front.X, normals[next++])
                         : Eigen::MatrixXd::Zero(front.X.rows(), draws_of_a_front));
   return paths;
 }
@@ -85,6 +73,17 @@ bool variances_are_known(const std::vector<kriging::TransformedModel>& models, c
 }
 
 }  // namespace
+
+Eigen::MatrixXd draws_of_mean(const kriging::TransformedModel& model, const doe::Response& response,
+                              const Eigen::MatrixXd& X, const Eigen::MatrixXd& normals) {
+  Eigen::MatrixXd paths = kriging::sample_paths(model.model(), X, normals);
+  const bool linear = model.transform().scale == kriging::Scale::linear;
+  for (double& y : paths.reshaped()) {
+    if (!linear) y = kriging::mean_response(model.transform(), y, model.noise_variance());
+    y = doe::within_range(response, y);
+  }
+  return paths;
+}
 
 FrontUncertainty uncertainty_of(const pareto::Front& front,
                                 const std::vector<kriging::TransformedModel>& models,

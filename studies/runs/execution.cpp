@@ -177,19 +177,26 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
 }
 
 void carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor) {
+  Budget endless;
+  carry_out_runs(store, folder, settings, message_descriptor, endless);
+}
+
+int carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor,
+                   Budget& budget) {
   const std::vector<Run> runs = store.runs();
   std::deque<const Run*> waiting;
   for (const auto& run : runs) {
     if (run.status == Status::planned) waiting.push_back(&run);
   }
   if (InterruptGuard::requested()) throw Interrupted{};
-  if (waiting.empty()) return;
+  if (waiting.empty()) return 0;
   if (settings.slurm) {
     require_own_file();
     dprintf(message_descriptor, "%zu runs go to Slurm\n", waiting.size());
   }
   const std::unique_ptr<Workers> workers = workers_for(folder, settings, message_descriptor);
   Progress progress(message_descriptor, state_of(runs));
+  int left_out = 0;
   FirstFailures first(settings.keep_going || std::any_of(runs.begin(), runs.end(), was_made));
   while (!waiting.empty() || workers->running() > 0 || InterruptGuard::requested()) {
     if (InterruptGuard::requested()) {
@@ -197,11 +204,21 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
       store.plan_again(false);
       throw Interrupted{};
     }
+    if (settings.slurm && budget.seconds_left() <= 0.0) {
+      workers->leave();
+      store.plan_again(false);
+      return static_cast<int>(waiting.size()) + workers->running();
+    }
+    if (!waiting.empty() && !budget.has_room()) {
+      left_out = static_cast<int>(waiting.size());
+      waiting.clear();
+    }
     const bool full = !waiting.empty() && disk_is_full(folder);
     if (full && workers->running() == 0) stop_for_full_disk(folder);
     if (!full) start_some(waiting, store, folder, settings, *workers);
     for (const auto& end : ends_of_runs(*workers, settings)) {
       const doe::Outcome outcome = store_end(store, folder, settings, *workers, end);
+      budget.run_ended(end.seconds);
       outcome.failed() ? first.failed(outcome.reason()) : first.done();
       progress.finished_one(outcome.failed());
     }
@@ -211,6 +228,7 @@ void carry_out_runs(Store& store, const Folder& folder, const Settings& settings
   workers->finish();
   std::error_code ignored;
   fs::remove_all(folder.unfinished(), ignored);  // with what processes that were killed have left
+  return left_out;
 }
 
 }  // namespace drawpoint::studies

@@ -8,6 +8,7 @@
 /// study stops where the next runs would fail too: the disk is full, the program cannot be started (such runs
 /// do not count, and are planned again), or the first few all failed alike (first_failures.h).
 
+#include <drawpoint/studies/runs/budget.h>
 #include <drawpoint/studies/runs/run_ends.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/store/folder.h>
@@ -22,8 +23,12 @@ namespace drawpoint::studies {
 void prepare_shared(const Study& study, const OptionValues& options, const Folder& folder,
                     int message_descriptor);
 
-/// Until no run is planned. Requires an InterruptGuard. Throws Interrupted after a signal, with all children
-/// ended, std::runtime_error where the study stops.
+/// Until no run is planned, or the budget is spent: returns how many runs that leaves out. Tasks of a cluster
+/// then go on, and the next command takes them over. Requires an InterruptGuard. Throws Interrupted after a
+/// signal, with all children ended, std::runtime_error where the study stops.
+int carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor,
+                   Budget& budget);
+/// Without a budget.
 void carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor);
 
 }  // namespace drawpoint::studies

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/program_reply.h>
 #include <drawpoint/studies/runs/program_trouble.h>
-#include <drawpoint/studies/runs/strict_json.h>
-#include <drawpoint/studies/store/plain_text.h>
 #include <signal.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/doe/detail/stranger_file.hpp>
@@ -20,7 +19,6 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <variant>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -102,47 +100,6 @@ std::string request_text(const doe::Problem& problem, const Eigen::VectorXd& x, 
                         {"shared", shares ? fs::absolute(context.shared).string() : ""},
                         {"options", json(context.options)}};
   return request.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-}
-
-/// How an attempt crashed: worth another one.
-struct Crash {
-  std::string reason;
-};
-using Attempt = std::variant<doe::Outcome, Crash>;
-
-/// JSON in a few words, for a message.
-std::string brief(const json& value) {
-  return plain_text(value.dump(-1, ' ', false, json::error_handler_t::replace), 200);
-}
-
-Attempt values_of(const doe::Problem& problem, const json& values) {
-  Eigen::VectorXd y(static_cast<Eigen::Index>(problem.responses.size()));
-  for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    const std::string& name = problem.responses[j].name;
-    if (!values.contains(name)) return Crash{"its reply has no value for \"" + name + "\""};
-    if (!values[name].is_number())
-      return Crash{"its reply has " + brief(values[name]) + " for \"" + name + "\", which is no number"};
-    y[static_cast<Eigen::Index>(j)] = values[name].get<double>();
-  }
-  return doe::Outcome(y);
-}
-
-Attempt reply_of(const std::string& text, const doe::Problem& problem) {
-  json reply;
-  try {
-    reply = strict_json(text);
-  } catch (const json::exception& e) {  // NaN and Infinity too, which some languages write as JSON
-    return Crash{plain_text(std::string("its reply is no JSON, whose numbers are finite: ") + e.what())};
-  } catch (const std::runtime_error& e) {
-    return Crash{plain_text(std::string("in its reply ") + e.what())};
-  }
-  const bool failed = reply.is_object() && reply.contains("failure");
-  if (failed == (reply.is_object() && reply.contains("values")))
-    return Crash{R"(its reply is not one of {"values": {...}} and {"failure": "..."})"};
-  if (!failed && reply["values"].is_object()) return values_of(problem, reply["values"]);
-  if (!failed || !reply["failure"].is_string() || reply["failure"].get<std::string>().empty())
-    return Crash{"its reply has " + std::string(failed ? "no text as failure" : "no object as values")};
-  return doe::Outcome(doe::Failure{plain_text(reply["failure"].get<std::string>())});
 }
 
 /// The last line that is not empty; what stands before it is passed on as printed.

@@ -80,11 +80,14 @@ Store new_store(const Study& study, const Folder& folder, const Settings& settin
                                         .simulator = study.simulator});
 }
 
-void check_target(double target, int validation) {
-  if (target > 0.0 && validation == 0)
-    throw UsageError(
-        "--target: without a validation run there is no error to reach; give --validation 10 or more");
+void check_target(double target, const std::string& until, int validation) {
+  if (validation > 0 || (target <= 0.0 && until.empty())) return;
+  throw UsageError(std::string(target > 0.0 ? "--target" : "--until") +
+                   ": without a validation run there is no error to reach; give --validation 10 or more");
 }
+
+/// Who names errors to reach, and no number, wants no fixed number of adaptive points, but not endless ones.
+constexpr int adaptive_per_training_point = 4;
 
 std::vector<Run> everything(std::vector<Run> existing, const std::vector<Run>& added) {
   existing.insert(existing.end(), added.begin(), added.end());
@@ -106,15 +109,27 @@ void add_imported(const Settings& settings, const doe::Problem& problem, const s
   added.insert(added.end(), imported.begin(), imported.end());
 }
 
+struct Points {
+  int training, validation;
+};
+
 /// What is given, else what the folder or the study has. Throws UsageError for what cannot be.
 Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<Run>& existing,
-                     int validation) {
+                     const Points& points) {
+  kept.until = settings.until.value_or(kept.until);
+  kept.stopped.clear();
+  if (settings.until && !kept.until.empty() && kept.points == 0)
+    kept.points = adaptive_per_training_point * points.training;
   kept.points = settings.adaptive.value_or(kept.points);
+  if (settings.until && !kept.until.empty() && kept.points == 0)
+    throw UsageError(
+        "--until: with --adaptive 0 there are no runs to stop; leave it out, or give the most that may be "
+        "made");
   kept.batch = settings.batch.value_or(kept.batch);
   kept.criteria = settings.criteria.value_or(kept.criteria);
   kept.target = settings.target.value_or(kept.target);
   refuse_to_shrink(count_points(existing, Kind::adaptive), kept.points, "--adaptive", "adaptive");
-  check_target(kept.target, validation);
+  check_target(kept.target, kept.until, points.validation);
   return kept;
 }
 
@@ -214,7 +229,8 @@ void check_new_study(const Study& study, const Settings& settings) {
   std::vector<Run> imported;
   add_imported(settings, study.problem, {}, imported);
   check_runs(settings.runs.value_or(study.defaults.runs), imported);
-  check_target(settings.target.value_or(0.0), settings.validation.value_or(study.defaults.validation));
+  check_target(settings.target.value_or(0.0), settings.until.value_or(""),
+               settings.validation.value_or(study.defaults.validation));
 }
 
 Store plan_study(const Study& study, const Folder& folder, const Settings& settings) {
@@ -232,7 +248,7 @@ Store plan_study(const Study& study, const Folder& folder, const Settings& setti
   check_runs(runs, everything(existing, added));
   Sampling kept = store.sampling();
   if (!resumes) kept.points = study.defaults.adaptive;
-  const Sampling sampling = sampling_of(kept, settings, existing, validation);
+  const Sampling sampling = sampling_of(kept, settings, existing, {runs, validation});
   store.plan_again(settings.retry_failed);
   store.set_sampling(sampling);
   store.add(added);

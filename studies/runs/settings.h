@@ -24,7 +24,7 @@ struct UsageError : std::runtime_error {
 
 /// Options of `confirm`.
 struct ConfirmSettings {
-  int points = 6;              ///< of the front per round, 1 or more
+  int points = 6;              ///< of the front per round, 1 or more; with `x` 0 or more
   int rounds = 3;              ///< at most, 1 or more
   std::vector<double> x = {};  ///< points besides those of the front, one after the other, natural units
 };
@@ -47,6 +47,13 @@ struct ExportSettings {
   std::string what = {};            ///< runs, which empty stands for, or front
   std::string format = "csv";       ///< or json; of `export` also hdf5, the whole study
   std::filesystem::path file = {};  ///< empty: standard output
+};
+
+/// Options of `share` and `open`.
+struct ShareSettings {
+  std::filesystem::path file =
+      {};            ///< all files of the study; of `share` empty: the folder's name, beside it
+  bool logs = true;  ///< those of runs go with it
 };
 
 /// Options of `front`.
@@ -96,6 +103,8 @@ struct Settings {
   std::optional<double> target = {};         ///< error of the mean at which to stop choosing; 0: none
   std::filesystem::path imported = {};       ///< table of points made elsewhere; empty: none
   double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
+  std::optional<std::string> until = {};  ///< errors at which to stop choosing: models/stop_rule.h; "": none
+  std::string budget = {};                ///< wall time of a command, runs/budget.h; empty: no end
   ConfirmSettings confirm = {};
   AskSettings ask = {};
   std::filesystem::path told = {};  ///< of tell: the table
@@ -105,6 +114,8 @@ struct Settings {
   ExportSettings exported = {};
   FrontSettings front = {};
   ReplaySettings replay = {};
+  ShareSettings share = {};
+  std::string against = {};  ///< of recommend: a point as NAME=VALUE,...; empty: the middle of the box
   LiveSettings live = {};
   std::filesystem::path with = {};  ///< of compare: the folder that `out` is compared with
   OptionValues options = {};        ///< of the study, those given

@@ -40,7 +40,13 @@ doe::ProcessEnd made_again(const Run& run, const Store& store, const Folder& fol
   Run again = run;
   again.id = checked_id;
   make_way(folder, checked_id);
-  const doe::ProcessEnd end = end_of(process_of_run(again, folder, store.identity().options, settings));
+  const doe::Process process = process_of_run(again, folder, store.identity().options, settings);
+  if (settings.slurm) {
+    require_own_file();
+    return end_on_cluster(
+        process, {.folder = folder.path / "slurm_check", .options = settings.slurm_options, .poll = 1.0});
+  }
+  const doe::ProcessEnd end = end_of(process);
   if (ended_by_stop_signal(end) && soon(InterruptGuard::requested)) throw Interrupted{};
   return end;
 }
@@ -68,7 +74,8 @@ void spot_check(const Store& store, const Folder& folder, const Settings& settin
   const Run* run = run_to_check(runs);
   if (run == nullptr) return;
   const std::string name = "run " + std::to_string(run->id);
-  dprintf(message_descriptor, "making %s again, to see that the simulator is the same ...\n", name.c_str());
+  dprintf(message_descriptor, "making %s again%s, to see that the simulator is the same ...\n", name.c_str(),
+          settings.slurm ? " on the cluster" : "");
   const doe::ProcessEnd end = made_again(*run, store, folder, settings);
   const doe::Outcome outcome = run_end(end, folder.printed(checked_id)).outcome;
   drop_unfinished_log(folder, checked_id);

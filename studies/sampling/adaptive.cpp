@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/failures.h>
+#include <drawpoint/studies/models/stop_rule.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/criteria.h>
@@ -113,6 +114,10 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
               .message = std::to_string(tables.training.rows.size()) + " runs for the models so far" +
                          (nrmse.empty() ? "" : "; " + nrmse)};
   if (target_met(sampling, identity.problem, fitted.mean_errors)) return batch;
+  if (stop_state(stop_rule_from(sampling.until, identity.problem), identity.problem, fitted.validations,
+                 fitted.mean_errors)
+          .met)
+    return batch;
   const BatchPoints chosen = chosen_points(identity, sampling, runs, {tables, fitted, Failures(tables)});
   if (chosen.X.rows() == 0) {
     batch.status = BatchStatus::exhausted;

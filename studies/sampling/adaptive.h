@@ -20,7 +20,7 @@ namespace drawpoint::studies {
 enum class BatchStatus {
   planned,
   complete,    ///< all points that are wanted are there
-  target_met,  ///< the models are good enough already
+  target_met,  ///< the models are good enough already, by Sampling::target or ::until
   exhausted,   ///< no place is left: whole variables with few values, all around failed, or none to repeat
   no_models    ///< the runs do not allow models to go by
 };

@@ -11,14 +11,15 @@
 namespace drawpoint::studies {
 namespace {
 
-constexpr std::array taken = {"runs",   "validation",   "replicates",   "jobs",       "seed",
-                              "out",    "json",         "time-limit",   "x",          "log",
-                              "shared", "retry-failed", "help",         "version",    "result-descriptor",
-                              "import", "adaptive",     "batch",        "criteria",   "target",
-                              "hours",  "slurm",        "slurm-option", "run",        "points",
-                              "rounds", "from",         "what",         "format",     "file",
-                              "with",   "limit",        "all",          "keep-going", "no-spot-check",
-                              "why",    "replace",      "slurm-array",  "preset"};
+constexpr std::array taken = {"runs",    "validation",   "replicates",   "jobs",       "seed",
+                              "out",     "json",         "time-limit",   "x",          "log",
+                              "shared",  "retry-failed", "help",         "version",    "result-descriptor",
+                              "import",  "adaptive",     "batch",        "criteria",   "target",
+                              "hours",   "slurm",        "slurm-option", "run",        "points",
+                              "rounds",  "from",         "what",         "format",     "file",
+                              "with",    "limit",        "all",          "keep-going", "no-spot-check",
+                              "why",     "replace",      "slurm-array",  "until",      "budget",
+                              "against", "output",       "no-logs",      "preset"};
 
 bool whole_number_within(const std::string& text, int least, int most) {
   int value = 0;

@@ -8,6 +8,19 @@
 
 namespace drawpoint::studies {
 
+namespace {
+
+/// What nlohmann-json takes as one without a word may be 1e99.
+int whole_number(const nlohmann::json& value, int least) {
+  constexpr int most = 1'000'000'000;
+  if (!value.is_number_integer() || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
+    throw std::out_of_range("studies::Sampling: " + value.dump() + "; allowed are whole numbers from " +
+                            std::to_string(least) + " to 1e9");
+  return value.get<int>();
+}
+
+}  // namespace
+
 std::string to_text(const Sampling& sampling) {
   if (!std::isfinite(sampling.target))
     throw std::invalid_argument(
@@ -19,17 +32,21 @@ std::string to_text(const Sampling& sampling) {
                           {"rounds", nlohmann::json::array()}};
   for (const ConfirmationRound& round : sampling.rounds)
     entry["rounds"].push_back({round.first, round.named});
+  if (!sampling.until.empty()) entry["until"] = sampling.until;
+  if (!sampling.stopped.empty()) entry["stopped"] = sampling.stopped;
   return entry.dump();
 }
 
 Sampling sampling_from(const std::string& text) {
   const auto entry = nlohmann::json::parse(text);
-  Sampling sampling{.points = entry.at("points").get<int>(),
-                    .batch = entry.at("batch").get<int>(),
+  Sampling sampling{.points = whole_number(entry.at("points"), 0),
+                    .batch = whole_number(entry.at("batch"), 1),
                     .criteria = entry.at("criteria").get<std::string>(),
-                    .target = entry.at("target").get<double>()};
+                    .target = entry.at("target").get<double>(),
+                    .until = entry.value("until", ""),
+                    .stopped = entry.value("stopped", "")};
   for (const auto& round : entry.at("rounds"))
-    sampling.rounds.push_back({round.at(0).get<std::int64_t>(), round.at(1).get<int>()});
+    sampling.rounds.push_back({whole_number(round.at(0), 1), whole_number(round.at(1), 0)});
   return sampling;
 }
 

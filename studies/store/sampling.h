@@ -24,11 +24,14 @@ struct Sampling {
   std::vector<ConfirmationRound> rounds = {};  ///< in rising order
   double target =
       0.0;  ///< error of the mean over the range of every response but standard errors, at which to stop; 0: none
+  /// Errors at which to stop, such as "nrmse(cost) < 0.1"; empty: none. models/stop_rule.h reads it.
+  std::string until = {};
+  std::string stopped = {};  ///< what ended the last command before the study was complete; empty: nothing
 };
 
 /// As one JSON object. Throws std::invalid_argument for a target that is not finite.
 std::string to_text(const Sampling& sampling);
-/// Throws nlohmann::json::exception for what is not one.
+/// Throws nlohmann::json::exception for what is not one, std::out_of_range for numbers that cannot be.
 Sampling sampling_from(const std::string& text);
 
 }  // namespace drawpoint::studies

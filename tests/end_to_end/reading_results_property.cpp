@@ -42,7 +42,7 @@ double most_production(const std::string& table) {
 TEST_F(ReadingResults, TheDocumentsCommandsWorkAsTyped) {
   write_short_log(place_ / "run_0001.h5");
   const std::vector<std::string> printed = follow(contents(READING_RESULTS), place_);
-  ASSERT_EQ(printed.size(), 8u);
+  ASSERT_EQ(printed.size(), 9u);
 
   const Ended table = run(FORMULA_DEMO " export --what front --format json --out " +
                           (place_ / "results/formula_demo").string());
@@ -54,11 +54,13 @@ TEST_F(ReadingResults, TheDocumentsCommandsWorkAsTyped) {
   EXPECT_EQ(printed[4], printed[5].substr(0, printed[5].find('\n') + 1)) << "Python and Octave differ";
   EXPECT_TRUE(contains(printed[5], "50 runs, the fastest in "));
 
-  EXPECT_TRUE(contains(printed[6], "numbers/pile_mass () [kg] rock at first"));
-  EXPECT_TRUE(contains(printed[6], "signals/values (10, 2) [signals/units] a row per step"));
-  EXPECT_TRUE(contains(printed[6], "descriptions ['end of the step', 'about the long axis']"));
+  EXPECT_TRUE(contains(printed[6], "50 runs; most production in run "));
+  EXPECT_GT(std::filesystem::file_size(place_ / "runs.png"), 1000u);
+  EXPECT_TRUE(contains(printed[7], "numbers/pile_mass () [kg] rock at first"));
+  EXPECT_TRUE(contains(printed[7], "signals/values (10, 2) [signals/units] a row per step"));
+  EXPECT_TRUE(contains(printed[7], "descriptions ['end of the step', 'about the long axis']"));
   EXPECT_GT(std::filesystem::file_size(place_ / "run.png"), 1000u);
-  EXPECT_EQ(printed[7], "120 t of rock, 0.09 s, at most 90 kN m\n");
+  EXPECT_EQ(printed[8], "120 t of rock, 0.09 s, at most 90 kN m\n");
 
   for (const char* file : {"study.h5", "run_0001.h5"}) {
     const Ended octave = run("env PATH=/usr/bin:/bin python3 " OCTAVE_NEEDS " " + (place_ / file).string());

@@ -38,6 +38,11 @@ TEST_F(Slurm, ResultsAreThoseOfOneMachineBitForBit) {
   EXPECT_EQ(query(rows), here);
   EXPECT_TRUE(std::filesystem::exists(dir() / "logs" / "run_0020.h5"));
   EXPECT_FALSE(std::filesystem::exists(dir() / "slurm"));
+  const Ended more = run("env TROUBLE=large " TROUBLED_STUDY " --runs 14 --slurm" + out());
+  EXPECT_EQ(more.code, 0) << more.err;
+  EXPECT_TRUE(contains(more.out, "again on the cluster, to see that the simulator is the same"));
+  EXPECT_TRUE(contains(more.out, "as stored, bit for bit"));
+  EXPECT_FALSE(std::filesystem::exists(dir() / "slurm_check"));
 }
 
 TEST_F(Slurm, ADeadDriverAndALostNodeCostNoRun) {
