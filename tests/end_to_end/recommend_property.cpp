@@ -27,7 +27,7 @@ class Recommending : public StudyTest {
 double cost_at(const json& x) { return std::pow(x["x"].get<double>(), 2) + x["y"].get<double>(); }
 
 TEST_F(Recommending, SaysWhatIsTrueOfAKnownFunctionAndHowToSimulateIt) {
-  ASSERT_EQ(run(study + " --runs 30 --validation 10" + out()).code, 0);
+  ASSERT_EQ(run(study + " --runs 16 --validation 4" + out()).code, 0);
   const json said = recommended();
   EXPECT_TRUE(contains(said["choice"], "the balanced choice of "));
   EXPECT_EQ(said["against"], json({{"x", 0.5}, {"y", 10.0}})) << "the middle of the box";
@@ -58,7 +58,7 @@ TEST_F(Recommending, SaysWhatIsTrueOfAKnownFunctionAndHowToSimulateIt) {
 }
 
 TEST_F(Recommending, AgainstItselfNothingIsGainedAndAWrongReferenceIsRefused) {
-  ASSERT_EQ(run(study + " --runs 12 --validation 4" + out()).code, 0);
+  ASSERT_EQ(run(study + " --runs 8 --validation 2" + out()).code, 0);
   const json x = recommended()["x"];
   const json same = recommended(" --against x=" + x["x"].dump() + ",y=" + x["y"].dump());
   EXPECT_EQ(same["against"], x);
