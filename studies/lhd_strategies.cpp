@@ -7,6 +7,7 @@
 
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/studies/loading_study.h>
+#include <drawpoint/studies/log_entries.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/engine/loading/strategy/families.hpp>
@@ -75,7 +76,7 @@ Scenario scenario_of(const Eigen::VectorXd& x, const studies::RunContext& run) {
 }
 
 doe::Outcome responses_of(const LoadingLog& log, const studies::OptionValues& options) {
-  const double loaded = 1e-3 * log.numbers.at("payload") * fill_factor(log);
+  const double loaded = 1e-3 * studies::entry_of(log.numbers, "payload") * fill_factor(log);
   if (loaded == 0) return doe::Failure{"nothing was loaded, so energy per tonne is unknown"};
   const auto producing = studies::production_options(options);
   const auto spilling = studies::spill_options(options);

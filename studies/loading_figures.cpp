@@ -6,6 +6,7 @@
 #include <drawpoint/studies/loading_plan_view.h>
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/studies/loading_scene.h>
+#include <drawpoint/studies/log_entries.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/pile_shape.hpp>
@@ -29,7 +30,7 @@ json line(const char* label, const std::vector<double>& t, const std::vector<dou
 
 json forces_panel(const LoadingLog& log, const CycleRecord& cycle, double yield_torque) {
   const Rows rows = rows_of(log, cycle.number);
-  const bool cylinders = log.texts.at("arm_drive") == "cylinders";
+  const bool cylinders = entry_of(log.texts, "arm_drive") == "cylinders";
   std::vector<double> t = samples(log, "time", rows);
   for (double& time : t) time -= cycle.t_start;
   const auto in_kilo = [&](const char* signal) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/studies/report/report.h>
+#include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/runs/settings.h>
 #include <drawpoint/studies/study.hpp>
 

@@ -86,6 +86,13 @@ void check_target(double target, const std::string& until, int validation) {
                    ": without a validation run there is no error to reach; give --validation 10 or more");
 }
 
+void check_something_to_stop(const Settings& settings, int adaptive) {
+  if (settings.until && !settings.until->empty() && adaptive == 0)
+    throw UsageError(
+        "--until: with --adaptive 0 there are no runs to stop; leave it out, or give the most that may be "
+        "made");
+}
+
 /// Who names errors to reach, and no number, wants no fixed number of adaptive points, but not endless ones.
 constexpr int adaptive_per_training_point = 4;
 
@@ -121,10 +128,7 @@ Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<
   if (settings.until && !kept.until.empty() && kept.points == 0)
     kept.points = adaptive_per_training_point * points.training;
   kept.points = settings.adaptive.value_or(kept.points);
-  if (settings.until && !kept.until.empty() && kept.points == 0)
-    throw UsageError(
-        "--until: with --adaptive 0 there are no runs to stop; leave it out, or give the most that may be "
-        "made");
+  check_something_to_stop(settings, kept.points);
   kept.batch = settings.batch.value_or(kept.batch);
   kept.criteria = settings.criteria.value_or(kept.criteria);
   kept.target = settings.target.value_or(kept.target);
@@ -229,6 +233,7 @@ void check_new_study(const Study& study, const Settings& settings) {
   std::vector<Run> imported;
   add_imported(settings, study.problem, {}, imported);
   check_runs(settings.runs.value_or(study.defaults.runs), imported);
+  check_something_to_stop(settings, settings.adaptive.value_or(1));
   check_target(settings.target.value_or(0.0), settings.until.value_or(""),
                settings.validation.value_or(study.defaults.validation));
 }
