@@ -7,7 +7,8 @@ import * as THREE from 'three';
 import {Facets, linear} from './mesh.js';
 
 const cell = 0.25, // [m]
-  cover = 0.55, // of rock over the core [m]
+  cover = 0.35, // of rock over the core [m]
+  rim = 3, // cells along a side through which one looks at the rock, where the core ends
   highest = 16; // that a height can be [m]; rocks higher than this are left to themselves
 const dark = linear('#4a443d');
 
@@ -24,6 +25,8 @@ export class RockCover {
     this.texture.magFilter = this.texture.minFilter = THREE.LinearFilter;
     this.texture.unpackAlignment = 1;
     this.mesh = this.makeMesh(material);
+    this.box = {x, y};
+    this.open = [false, false, false];
   }
 
   light(shared) {
@@ -64,17 +67,28 @@ export class RockCover {
       for (let i = i0; i < i1; ++i) if (this.top[j * this.nx + i] < z) this.top[j * this.nx + i] = z;
   }
 
-  // The core lies below the lowest top around, and ends before the edges, where one looks at the pile from the side.
+  /// For a camera there: from beyond a wall one looks through it at the side of the rock. Whether that changed what is
+  /// hidden.
+  seenFrom({x, y}) {
+    const open = [y < this.box.y[0], y > this.box.y[1], x > this.box.x[1]];
+    if (open.every((is, k) => is === this.open[k])) return false;
+    this.open = open;
+    this.sink();
+    this.place();
+    return true;
+  }
+
+  // The core lies below the lowest top around.
   sink() {
-    const {nx, ny, top, core} = this,
-      rim = 3;
+    const {nx, ny, top, core, open} = this;
+    const [first, last, end] = [open[0] ? rim : 0, ny - (open[1] ? rim : 0), nx - (open[2] ? rim : 0)];
+    const at = (i, j) => top[Math.min(ny - 1, Math.max(0, j)) * nx + Math.min(nx - 1, Math.max(0, i))];
     for (let j = 0; j < ny; ++j)
       for (let i = 0; i < nx; ++i) {
-        let least = Infinity;
-        if (i < 1 || i >= nx - rim || j < rim || j >= ny - rim) least = 0;
-        else
-          for (let b = -1; b <= 1; ++b)
-            for (let a = -1; a <= 1; ++a) least = Math.min(least, top[(j + b) * nx + i + a]);
+        const least =
+          j < first || j >= last || i >= end
+            ? 0
+            : Math.min(at(i, j), at(i - 1, j), at(i + 1, j), at(i, j - 1), at(i, j + 1));
         core[j * nx + i] = Math.max(0, least - cover);
       }
   }
