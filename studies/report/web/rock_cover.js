@@ -8,6 +8,7 @@ import {Facets, linear} from './mesh.js';
 
 const cell = 0.25, // [m]
   cover = 0.35, // of rock over the core [m]
+  gap = 0.45, // above the rock below, over which a rock lies on it [m]
   rim = 3, // cells along a side through which one looks at the rock, where the core ends
   highest = 16; // that a height can be [m]; rocks higher than this are left to themselves
 const dark = linear('#4a443d');
@@ -27,6 +28,7 @@ export class RockCover {
     this.mesh = this.makeMesh(material);
     this.box = {x, y};
     this.open = [false, false, false];
+    this.order = []; // of the rocks, from below
   }
 
   light(shared) {
@@ -38,7 +40,9 @@ export class RockCover {
   /// Of so many rocks: x y z one after the other, a radius each, and whether it is there.
   update(count, places, radii, there) {
     this.top.fill(0);
-    for (let k = 0; k < count; ++k) if (there[k]) this.raise(places, 3 * k, radii[k]);
+    if (this.order.length !== count) this.order = Array.from({length: count}, (_, k) => k);
+    this.order.sort((a, b) => places[3 * a + 2] - places[3 * b + 2]); // from the last time it is nearly in order
+    for (const k of this.order) if (there[k]) this.raise(places, 3 * k, radii[k]);
     this.sink();
     for (let k = 0; k < this.bytes.length; ++k)
       this.bytes[k] = Math.min(255, Math.max(0, (255 * (this.top[k] - 0.12)) / highest));
@@ -57,6 +61,7 @@ export class RockCover {
     ];
   }
 
+  // Only by what lies on the rock below: what a bucket carries over a gap, or what falls, covers nothing.
   raise(places, at, radius) {
     const x = places[at],
       y = places[at + 1],
@@ -64,7 +69,10 @@ export class RockCover {
       r = 0.7 * radius;
     const [i0, i1, j0, j1] = this.cells(x, y, r);
     for (let j = j0; j < j1; ++j)
-      for (let i = i0; i < i1; ++i) if (this.top[j * this.nx + i] < z) this.top[j * this.nx + i] = z;
+      for (let i = i0; i < i1; ++i) {
+        const k = j * this.nx + i;
+        if (this.top[k] < z && z - radius < this.top[k] + gap) this.top[k] = z;
+      }
   }
 
   /// For a camera there: from beyond a wall one looks through it at the side of the rock. Whether that changed what is
