@@ -50,8 +50,9 @@ function check() {
   process.exit(1);
 }
 
-const program = (name, ...words) =>
-  execFileSync(join(programs, name), words, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'], maxBuffer: 1 << 28});
+const programIn = (cwd, name, ...words) =>
+  execFileSync(join(programs, name), words, {cwd, encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'], maxBuffer: 1 << 28});
+const program = (name, ...words) => programIn(root, name, ...words);
 
 /// The data of a page that a study wrote.
 function dataOf(page) {
@@ -64,11 +65,11 @@ function dataOf(page) {
 /// A good run, not the luckiest: the upper quartile of production.
 function goodRun(study) {
   const [head, ...rows] = program('lhd_loading', 'export', '--out', study, '--what', 'runs').trim().split('\n');
-  const names = head.split(','),
+  const names = head.split(',').map((name) => name.replace(/ \[.*/, '')), // without units
     of = (row, name) => row.split(',')[names.indexOf(name)];
   const done = rows.filter((row) => of(row, 'status') === 'done');
   done.sort((a, b) => Number(of(a, 'production')) - Number(of(b, 'production')));
-  return of(done[Math.floor(0.75 * done.length)], of(done[0], 'run') === undefined ? 'id' : 'run');
+  return of(done[Math.floor(0.75 * done.length)], 'run');
 }
 
 /// The machine as its bucket breaks out of the pile, where the page begins its replay.
@@ -119,13 +120,13 @@ async function draw(study) {
   process.once('exit', () => rmSync(folder, {recursive: true, force: true}));
   program('lhd_loading', 'run', '--out', study, '--no-spot-check');
   const frame = readFileSync(machine(study, folder, '1100x560'));
-  const front = await shot(openPage, join(study, 'report.html'), {width: 1180, height: 1000, selector: '#front .plot'});
+  const front = await shot(openPage, join(study, 'report.html'), {width: 1180, height: 1000, selector: '#front :has(> .plot)'});
   const both = join(folder, 'both.html');
   writeFileSync(both, together(frame, front, 1100));
   const high = 560 + Math.round((1100 * front.readUInt32BE(20)) / front.readUInt32BE(16));
   writeFileSync(join(here, 'machine_and_front.jpg'), await shot(openPage, both, {width: 1100, height: high, format: 'jpeg', waits: false}));
-  const demo = join(folder, 'formula_demo');
-  program('formula_demo', 'run', '--out', demo);
+  const demo = join(folder, 'results/formula_demo'); // the page names it as a reader's own
+  programIn(folder, 'formula_demo', 'run');
   writeFileSync(join(here, 'report.png'), await shot(openPage, join(demo, 'report.html'), {width: 1200, height: 1500}));
   writeFileSync(stamp, stamps().join(''));
   console.log(`drew ${Object.keys(drawnBy).join(' and ')} in ${relative(process.cwd(), here)}, from ${study}`);

@@ -4,7 +4,6 @@
 
 #include <drawpoint/tests/end_to_end/support.hpp>
 
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -35,9 +34,11 @@ std::vector<Typed> commands_of(const std::string& page) {
   return found;
 }
 
+class Readme : public StudyTest {};
+
 }  // namespace
 
-TEST(Readme, WhatItSaysToTypeIsThere) {
+TEST_F(Readme, WhatItSaysToTypeIsThere) {
   const auto commands = commands_of(contents(README));
   ASSERT_GE(commands.size(), 8u);
   std::map<std::string, std::string> helps;

@@ -26,7 +26,7 @@ const steps = (low, high) => {
 /// drift: {from, length, width, height, raise: {x, radius}}, as in study.hpp.
 export function driftMesh(drift) {
   const facets = new Facets();
-  addTunnel(facets, drift);
+  addTunnel(facets, drift, false);
   addBack(facets, drift);
   addFloor(facets, drift);
   for (const place of lampPlaces(drift)) addLamp(facets, place, drift.height);
@@ -63,8 +63,8 @@ function grid(facets, rows, columns, at, {colour, finish, key, keeps = null}) {
     }
 }
 
-// The walls with the roof: along the drift, and round its section from the floor on the right to the left.
-function addTunnel(facets, {from, length, width, height, raise}) {
+// Walls or roof: along the drift, and round its section from the floor on the right to the left.
+function addTunnel(facets, {from, length, width, height, raise}, roof) {
   const around = steps(0, 2 * height + width),
     half = width / 2,
     bend = 0.9;
@@ -97,8 +97,11 @@ function addTunnel(facets, {from, length, width, height, raise}) {
       colour: stone,
       finish: rockFace,
       key: 1,
-      keeps: (corners) =>
-        !corners.every(([x, y, z]) => z > height - 0.4 && Math.hypot(x - raise.x, y) < raise.radius + 0.1),
+      keeps: (corners) => {
+        const isRoof = corners.every(([, , z]) => z > height - 0.4);
+        if (isRoof !== roof) return false;
+        return !isRoof || !corners.every(([x, y]) => Math.hypot(x - raise.x, y) < raise.radius + 0.1);
+      },
     },
   );
 }
@@ -133,9 +136,11 @@ function addFloor(facets, {from, length, width}) {
   for (let k = 0; k + 1 < columns.length; ++k) wall(top(from, columns[k]), top(from, columns[k + 1]));
 }
 
-/// The lower part of the raise, from inside.
-export function raiseMesh({height, raise}) {
-  const facets = new Facets();
+/// The roof and the lower part of the raise, from inside.
+export function roofMesh(drift) {
+  const facets = new Facets(),
+    {height, raise} = drift;
+  addTunnel(facets, drift, true);
   const round = Array.from({length: 25}, (_, k) => (2 * Math.PI * k) / 24);
   grid(
     facets,

@@ -7,7 +7,9 @@ import * as THREE from 'three';
 import {Facets, linear} from './mesh.js';
 
 const cell = 0.25, // [m]
-  cover = 0.55, // of rock over the core [m]
+  cover = 0.35, // of rock over the core [m]
+  gap = 0.45, // above the rock below, over which a rock lies on it [m]
+  rim = 3, // cells along a side through which one looks at the rock, where the core ends
   highest = 16; // that a height can be [m]; rocks higher than this are left to themselves
 const dark = linear('#4a443d');
 
@@ -24,6 +26,9 @@ export class RockCover {
     this.texture.magFilter = this.texture.minFilter = THREE.LinearFilter;
     this.texture.unpackAlignment = 1;
     this.mesh = this.makeMesh(material);
+    this.box = {x, y};
+    this.open = [false, false, false];
+    this.order = []; // of the rocks, from below
   }
 
   light(shared) {
@@ -35,7 +40,9 @@ export class RockCover {
   /// Of so many rocks: x y z one after the other, a radius each, and whether it is there.
   update(count, places, radii, there) {
     this.top.fill(0);
-    for (let k = 0; k < count; ++k) if (there[k]) this.raise(places, 3 * k, radii[k]);
+    if (this.order.length !== count) this.order = Array.from({length: count}, (_, k) => k);
+    this.order.sort((a, b) => places[3 * a + 2] - places[3 * b + 2]); // from the last time it is nearly in order
+    for (const k of this.order) if (there[k]) this.raise(places, 3 * k, radii[k]);
     this.sink();
     for (let k = 0; k < this.bytes.length; ++k)
       this.bytes[k] = Math.min(255, Math.max(0, (255 * (this.top[k] - 0.12)) / highest));
@@ -54,6 +61,7 @@ export class RockCover {
     ];
   }
 
+  // Only by what lies on the rock below: what a bucket carries over a gap, or what falls, covers nothing.
   raise(places, at, radius) {
     const x = places[at],
       y = places[at + 1],
@@ -61,20 +69,34 @@ export class RockCover {
       r = 0.7 * radius;
     const [i0, i1, j0, j1] = this.cells(x, y, r);
     for (let j = j0; j < j1; ++j)
-      for (let i = i0; i < i1; ++i) if (this.top[j * this.nx + i] < z) this.top[j * this.nx + i] = z;
+      for (let i = i0; i < i1; ++i) {
+        const k = j * this.nx + i;
+        if (this.top[k] < z && z - radius < this.top[k] + gap) this.top[k] = z;
+      }
   }
 
-  // The core lies below the lowest top around, and ends before the edges, where one looks at the pile from the side.
+  /// For a camera there: from beyond a wall one looks through it at the side of the rock. Whether that changed what is
+  /// hidden.
+  seenFrom({x, y}) {
+    const open = [y < this.box.y[0], y > this.box.y[1], x > this.box.x[1]];
+    if (open.every((is, k) => is === this.open[k])) return false;
+    this.open = open;
+    this.sink();
+    this.place();
+    return true;
+  }
+
+  // The core lies below the lowest top around.
   sink() {
-    const {nx, ny, top, core} = this,
-      rim = 3;
+    const {nx, ny, top, core, open} = this;
+    const [first, last, end] = [open[0] ? rim : 0, ny - (open[1] ? rim : 0), nx - (open[2] ? rim : 0)];
+    const at = (i, j) => top[Math.min(ny - 1, Math.max(0, j)) * nx + Math.min(nx - 1, Math.max(0, i))];
     for (let j = 0; j < ny; ++j)
       for (let i = 0; i < nx; ++i) {
-        let least = Infinity;
-        if (i < 1 || i >= nx - rim || j < rim || j >= ny - rim) least = 0;
-        else
-          for (let b = -1; b <= 1; ++b)
-            for (let a = -1; a <= 1; ++a) least = Math.min(least, top[(j + b) * nx + i + a]);
+        const least =
+          j < first || j >= last || i >= end
+            ? 0
+            : Math.min(at(i, j), at(i - 1, j), at(i + 1, j), at(i, j - 1), at(i, j + 1));
         core[j * nx + i] = Math.max(0, least - cover);
       }
   }

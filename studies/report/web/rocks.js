@@ -39,6 +39,7 @@ export class Rocks {
 
   /// Writes those that a camera may see into the parts; of all cameras without one. How many these are.
   choose(camera = null) {
+    if (camera && this.cover?.seenFrom(camera.position)) this.uncovered = null;
     this.uncovered ??= Uint8Array.from(this.there, (is, k) => (is && !this.isCovered(k) ? 1 : 0));
     if (camera)
       frustum.setFromProjectionMatrix(matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));

@@ -3,7 +3,7 @@
 // What a scene consists of, and its light: a drift with lamps where it has one, else bodies under the open sky.
 
 import * as THREE from 'three';
-import {driftMesh, lampPlaces, raiseMesh} from './drift_mesh.js';
+import {driftMesh, lampPlaces, roofMesh} from './drift_mesh.js';
 import {Backdrop, Glows} from './glow.js';
 import {RockCover} from './rock_cover.js';
 import {Rocks} from './rocks.js';
@@ -60,7 +60,7 @@ export class Stage {
   }
 
   addDrift(drift, material) {
-    const [, raise] = [driftMesh(drift), raiseMesh(drift)].map((facets) => {
+    const [, roof] = [driftMesh(drift), roofMesh(drift)].map((facets) => {
       const mesh = new THREE.Mesh(facets.geometry(1).geometry, material);
       mesh.frustumCulled = false;
       mesh.renderOrder = 2; // behind what stands in it
@@ -68,7 +68,7 @@ export class Stage {
       this.surfaces.push(mesh);
       return mesh;
     });
-    this.raise = raise;
+    this.roof = roof;
     this.headLamps = headLampsOf(this.panel);
     const places = lampPlaces(drift).slice(0, mostLamps);
     this.glows = new Glows(places.length);
@@ -91,9 +91,9 @@ export class Stage {
     for (const mesh of this.surfaces) mesh.material = !coarse ? smooth : mesh.parent === this.resting ? simple : quick;
   }
 
-  /// For a picture by this camera; one from over the roof looks past the raise.
+  /// For a picture by this camera; from over the roof one looks past it.
   see(camera) {
-    if (this.raise) this.raise.visible = camera.position.z < this.panel.drift.height + 0.5;
+    if (this.roof) this.roof.visible = camera.position.z < this.panel.drift.height;
     this.rocks.choose(camera);
   }
 

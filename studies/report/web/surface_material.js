@@ -72,6 +72,7 @@ const vertexShader = `
     vec3 p = place.xyz + place.w * turned(turn, position), n = turned(turn, normal);
     vec3 light = mix(groundColour, skyColour, 0.5 + 0.5 * n.z);
     for (int k = 0; k < ${mostLamps}; ++k) {
+      if (lamps[k].w == 0.0) break;
       vec3 way = lamps[k].xyz - p;
       float square = dot(way, way);
       float facing = max(0.0, (dot(n, way) * inversesqrt(square) + 0.2) / 1.2);
