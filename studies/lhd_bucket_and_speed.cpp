@@ -138,5 +138,6 @@ int main(int argc, char** argv) {
              return responses_of(engine::loading::read_log(log, engine::loading::LogContent::without_scene),
                                  options);
            },
-       .headlines = headlines});
+       .headlines = headlines,
+       .cycles = studies::loading_cycles});
 }

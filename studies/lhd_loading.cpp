@@ -147,5 +147,9 @@ int main(int argc, char** argv) {
              return responses_of(engine::loading::read_log(log), options);
            },
        .headlines = studies::loading_headlines,
+       .cycles = studies::loading_cycles,
+       .marks = {{"plus", Eigen::Vector4d(1.2, 0.8, 0.8, 0.0)},  // Lindmark (2016), section 5.3
+                 {"circle", Eigen::Vector4d(0.3, 0.6, 0.4, 0.4)},
+                 {"cross", Eigen::Vector4d(1.8, 0.1, 0.0, 0.8)}},
        .findings = studies::loading_findings});
 }
