@@ -13,6 +13,7 @@ namespace drawpoint::studies {
 namespace {
 
 constexpr double enough_success = 0.9;
+constexpr double as_good = 0.05;  // of an objective's range on the front
 
 using detail::objectives;
 
@@ -54,8 +55,16 @@ int best_row(const ReportInput& input, Standard& standard) {
   return *std::min_element(rows.begin(), rows.end(), [&](int a, int b) { return distance[a] < distance[b]; });
 }
 
-bool cannot_be_told_apart(const ReportInput& input, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  for (const std::size_t j : objectives(input.problem)) {
+bool does_as_well(const ReportInput& input, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  Eigen::MatrixXd both(2, a.size());
+  both << a.transpose(), b.transpose();
+  const Eigen::MatrixXd means = predicted_means(input, both);
+  const auto chosen = objectives(input.problem);
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const std::size_t j = chosen[k];
+    const auto y = input.front.Y.col(static_cast<Eigen::Index>(k));
+    const auto column = static_cast<Eigen::Index>(j);
+    if (std::abs(means(0, column) - means(1, column)) <= as_good * (y.maxCoeff() - y.minCoeff())) continue;
     const Ends ends = ends_of_difference(input.models[j], input.problem.responses[j], a, b);
     if (!(ends.lower <= 0 && ends.upper >= 0)) return false;
   }
@@ -73,7 +82,7 @@ const CheckedRun* simulated_in_stead(const ReportInput& input, const Eigen::Vect
     const double distance = distance_from_best(input, means)[0];
     if (nearest && distance >= least) continue;
     if (standard.binding && !is_no_worse(input, means.row(0).transpose(), standard.means)) continue;
-    if (!cannot_be_told_apart(input, run.x, x)) continue;
+    if (!does_as_well(input, run.x, x)) continue;
     nearest = &run;
     least = distance;
   }

@@ -7,9 +7,9 @@
 /// that are predicted to be no worse than the reference in any objective, the one nearest to the best of every
 /// objective at once, each scaled to its range on the front. Where no point is left, that condition is dropped. With
 /// one objective it is the best point found.
-/// A place that `confirm` has simulated takes its stead where the models cannot tell the two apart: the difference
-/// of their means is 0 within 95 % in every objective, the simulation kept all limits, and the condition above
-/// holds. Of several such places it is the nearest to the best of every objective at once.
+/// A place that `confirm` has simulated takes its stead where it does as well: in every objective the means of the
+/// two differ by a twentieth of its range on the front at most, or by nothing that the models can tell with 95 %; the
+/// simulation kept all limits, and the condition above holds. Of several such places it is the nearest to the best of every objective at once.
 /// The reference is the mark called "reference" (mark.hpp), or else the middle of the box.
 
 #include <drawpoint/studies/report/report.h>

@@ -60,6 +60,36 @@ const selected = async () => (await text(one(bar))).match(/Selected: (.*?)Clear/
 
 console.log(`${page.product}, ${await evaluate('document.title')}`);
 
+/// Whether an element ends above the lower edge of the window, and none reaches beyond its right edge.
+const bottom = (element) => evaluate(`Math.round((${element}).getBoundingClientRect().bottom)`);
+const inWidth = () => evaluate('document.documentElement.scrollWidth <= innerWidth');
+const screens = {desktop: [1440, 900], phone: [390, 844]};
+await step('first screen', one('#summary'), async () => {
+  const said = [];
+  for (const [name, [width, height]] of Object.entries(screens)) {
+    const mobile = name === 'phone';
+    await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile});
+    await page.settled();
+    const sentences = await count('#summary > .sentence');
+    assert.equal(sentences, 3, 'the answer has three sentences');
+    assert.ok((await bottom("[...document.querySelectorAll('#summary > .brief')].at(-1)")) < height, `${name}: next`);
+    const plot = await bottom(one('#summary .plot'));
+    assert.ok(plot < height, `${name}: the trade-off ends at ${plot} px`);
+    assert.ok(await inWidth(), `${name}: it is wider than the window`);
+    if (!mobile) assert.ok(await evaluate("(() => { const n = document.querySelector('nav .inner'); return n.scrollWidth <= n.clientWidth; })()"), 'the navigation is cut off');
+    said.push(`${name}: trade-off down to ${plot} px of ${height}`);
+  }
+  assert.ok(await evaluate(`document.querySelector('#summary .sentence code') !== null`), 'no command for what is not simulated');
+  assert.equal(await evaluate("document.querySelector('#making details').open"), false, 'the tiles are folded');
+  await page.send('Emulation.setDeviceMetricsOverride', {width: 1440, height: 900, deviceScaleFactor: 1, mobile: false});
+  await page.settled();
+  const table = "document.querySelector('#front .whole-table .table')";
+  assert.ok(await evaluate(`${table}.scrollWidth <= ${table}.clientWidth`), 'the table of the front is cut off');
+  const named = (await evaluate("[...document.querySelector('#front .js-plotly-plot').data.find((t) => t.name === 'named').text]")).join(', ');
+  await page.send('Emulation.setDeviceMetricsOverride', {width: 1280, height: 900, deviceScaleFactor: 1, mobile: false});
+  await page.settled();
+  return `${said.join(', ')}; named: ${named}`;
+});
 await step('sections', one('nav a'), async () => {
   const names = await evaluate('[...document.querySelectorAll("nav a")].map((a) => a.textContent)');
   for (let k = 0; k < names.length; ++k) {

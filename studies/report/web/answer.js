@@ -3,6 +3,7 @@
 // What the page says first: what to do, what that gains and how sure it is, the trade-off beside the machine at
 // work, how far to trust the models, and the next command. The sentences come ready in the data.
 
+import {cyclesOf, withBodies} from './cycle_panels.js';
 import {el, figure} from './dom.js';
 import {axisLabel} from './format.js';
 import {bandTraces} from './front_band.js';
@@ -92,13 +93,14 @@ const titleOf = (item) => axisLabel(item) + ({maximize: ' →', minimize: ' ←'
 
 /// The scene of the run that is shown.
 function atWork(data) {
-  const panel = data.illustrations.find(({type}) => type === 'scene');
-  if (!panel) return null;
-  return figure(sceneViewer(panel), `${data.shown} ${panel.caption}`, null);
+  const panel = withBodies(data.illustrations).find(({type}) => type === 'scene');
+  return panel ? figure(sceneViewer(panel), `${data.shown} ${panel.caption}`) : null;
 }
 
-/// The panels that are not shown first.
+/// The panels that are not shown first; of several cycles all, as their figures are chosen below.
 export function besidesTheScene(data) {
-  const first = data.illustrations.findIndex(({type}) => type === 'scene');
-  return {...data, illustrations: data.illustrations.filter((_, i) => i !== first)};
+  const panels = withBodies(data.illustrations);
+  if (cyclesOf(panels).length > 1) return data;
+  const first = panels.findIndex(({type}) => type === 'scene');
+  return {...data, illustrations: panels.filter((_, i) => i !== first)};
 }

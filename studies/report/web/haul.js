@@ -13,8 +13,9 @@ export function hauls(data) {
   const choice = data.hauls;
   if (!choice) return null;
   const response = data.problem.responses[choice.response];
-  const state = {haul: choice.haul};
-  const box = plotBox(60 + 34 * choice.strategies.length, `${pretty(response.name)} by haul`);
+  const state = {haul: choice.haul},
+    name = pretty(response.name);
+  const box = plotBox(60 + 34 * choice.strategies.length, `${name} by haul`);
   const said = el('p', {class: 'sentence'});
   const out = el('output', {});
   const slider = el('input', {
@@ -38,7 +39,7 @@ export function hauls(data) {
   return section(
     'haul',
     'Another haul',
-    `${pretty(response.name)} is load over the time of a cycle and its haul, so that it can be said of any haul ` +
+    `${name[0].toUpperCase()}${name.slice(1)} is load over the time of a cycle and its haul, so that it can be said of any haul ` +
       'without new runs. The runs count ' +
       `${number(choice.haul)} s.`,
     figure(
@@ -70,8 +71,8 @@ export function hauls(data) {
 
 function orderText({strategies}, response, haul) {
   const [best, second] = ranked(strategies, haul);
-  const words = `With a haul of ${haul} s ${best.strategy.name} gives most, ${withUnit(best.rate, response)}`;
-  return second ? `${words}; then ${second.strategy.name}, ${withUnit(second.rate, response)}.` : `${words}.`;
+  const words = `With a haul of ${haul} s “${best.strategy.name}” gives most, ${withUnit(best.rate, response)}`;
+  return second ? `${words}; then “${second.strategy.name}”, ${withUnit(second.rate, response)}.` : `${words}.`;
 }
 
 function bars(choice, response, haul) {

@@ -22,7 +22,7 @@ export function turnTexts({turns, strategies, longest}, most = 6) {
     .slice(0, most)
     .map(
       ({haul, better, worse, lower, upper}) =>
-        `From ${seconds(haul, longest)} on ${strategies[better].name} gives more than ${strategies[worse].name} ` +
+        `From ${seconds(haul, longest)} on “${strategies[better].name}” gives more than “${strategies[worse].name}” ` +
         `(the turn lies between ${seconds(lower, longest)} and ${seconds(upper, longest)} with 95 %).`,
     );
   if (turns.length > most) texts.push(`${turns.length - most} more turns follow.`);

@@ -26,15 +26,15 @@ export function namedTrace(places, across, up, onMap = false) {
         line: {color: line, width: shown.map(({recommended}) => (recommended ? 1 : 2))},
       },
     },
-    annotations: shown.map((place) => ({
+    annotations: shown.map((place, i) => ({
       x: across(place),
       y: up(place),
       text: plain(place.name),
       showarrow: false,
-      yshift: 14,
+      yshift: i % 2 ? 14 : -15, // neighbours would stand on each other
       font: {size: 11, color: colour.ink},
-      bgcolor: onMap ? colour.paper : 'rgba(0,0,0,0)',
-      opacity: onMap ? 0.8 : 1,
+      bgcolor: colour.paper,
+      opacity: 0.8,
       borderpad: 1,
     })),
   };

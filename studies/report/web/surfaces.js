@@ -36,13 +36,14 @@ export function surfaces(data, shared) {
     fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.',
   );
   node.append(
-    ...flat.map(({response}) =>
-      el(
-        'p',
-        {class: 'note'},
-        `Of ${pretty(response.name)} nothing is drawn: its surrogate is flat within its own error.`,
-      ),
-    ),
+    flat.length
+      ? el(
+          'p',
+          {class: 'note'},
+          `Of ${flat.map(({response}) => pretty(response.name)).join(', ')} nothing is drawn: flat within the ` +
+            'error of the surrogate.',
+        )
+      : '',
   );
   if (!fitted.length) return node;
   for (const f of fitted) {
