@@ -76,17 +76,38 @@ await step('first screen', one('#summary'), async () => {
     const plot = await bottom(one('#summary .plot'));
     assert.ok(plot < height, `${name}: the trade-off ends at ${plot} px`);
     assert.ok(await inWidth(), `${name}: it is wider than the window`);
-    if (!mobile) assert.ok(await evaluate("(() => { const n = document.querySelector('nav .inner'); return n.scrollWidth <= n.clientWidth; })()"), 'the navigation is cut off');
+    if (!mobile)
+      assert.ok(
+        await evaluate(
+          "(() => { const n = document.querySelector('nav .inner'); return n.scrollWidth <= n.clientWidth; })()",
+        ),
+        'the navigation is cut off',
+      );
     said.push(`${name}: trade-off down to ${plot} px of ${height}`);
   }
-  assert.ok(await evaluate(`document.querySelector('#summary .sentence code') !== null`), 'no command for what is not simulated');
+  assert.ok(
+    await evaluate(`document.querySelector('#summary .sentence code') !== null`),
+    'no command for what is not simulated',
+  );
   assert.equal(await evaluate("document.querySelector('#making details').open"), false, 'the tiles are folded');
-  await page.send('Emulation.setDeviceMetricsOverride', {width: 1440, height: 900, deviceScaleFactor: 1, mobile: false});
+  await page.send('Emulation.setDeviceMetricsOverride', {
+    width: 1440,
+    height: 900,
+    deviceScaleFactor: 1,
+    mobile: false,
+  });
   await page.settled();
   const table = "document.querySelector('#front .whole-table .table')";
   assert.ok(await evaluate(`${table}.scrollWidth <= ${table}.clientWidth`), 'the table of the front is cut off');
-  const named = (await evaluate("[...document.querySelector('#front .js-plotly-plot').data.find((t) => t.name === 'named').text]")).join(', ');
-  await page.send('Emulation.setDeviceMetricsOverride', {width: 1280, height: 900, deviceScaleFactor: 1, mobile: false});
+  const named = (
+    await evaluate("[...document.querySelector('#front .js-plotly-plot').data.find((t) => t.name === 'named').text]")
+  ).join(', ');
+  await page.send('Emulation.setDeviceMetricsOverride', {
+    width: 1280,
+    height: 900,
+    deviceScaleFactor: 1,
+    mobile: false,
+  });
   await page.settled();
   return `${said.join(', ')}; named: ${named}`;
 });
@@ -268,6 +289,14 @@ await step('slider', one('#surfaces .slider'), async () => {
   await until(`${one('#surfaces .slider output')}.textContent === "${before}"`);
   return `${before} to ${after} and back`;
 });
+await step('haul', one('#haul input'), async () => {
+  const said = () => text(one('#haul .sentence'));
+  const before = await said();
+  await click(one('#haul input'), [0.5, 0.5]);
+  await until(`${one('#haul .sentence')}.textContent !== ${JSON.stringify(before)}`);
+  assert.match(await said(), /^With a haul of (29|30|31)\d s “/);
+  return `${before} ${await said()} ${await text(one('#haul ul'))}`;
+});
 await step('surfaces in 3-D', button('#surfaces', '3-D'), async () => {
   await click(button('#surfaces', '3-D'));
   await until(one('#surfaces .gl-container canvas'));
@@ -311,7 +340,9 @@ await step('run on a surface, pointed at and clicked', one(dot), async () => {
   return said;
 });
 
-const scene = '#simulation .replay',
+// A report shows it first.
+const first = await evaluate("Boolean(document.querySelector('#summary .replay'))"),
+  scene = first ? '#summary .replay' : '#simulation .replay',
   clock = one(scene + ' .player .note');
 const seconds = async () => Number((await text(clock)).split(' ')[0]);
 /// Of the pixels that the scene shows: a camera that moves or a body that goes changes it.

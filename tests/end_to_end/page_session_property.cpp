@@ -59,7 +59,7 @@ TEST_F(PageSession, TheReport) {
               "run on a surface, pointed at and clicked: run",
               ".svg, ",
               "paper: "},
-             7);  // those of a scene
+             8);  // those of a scene, and of a haul
 }
 
 TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
@@ -70,7 +70,7 @@ TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
              {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.", "cameras: side",
               "click in a plot of the scene: to ", "payload 2.50 t",
               "plot of the scene, saved: troubled_run_", "cycles: 1, 2"},
-             20);  // those of a report
+             21);  // those of a report
 }
 
 TEST_F(PageSession, OneCycleHasAPageAndPicturesOfItsOwn) {

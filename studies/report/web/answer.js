@@ -67,7 +67,8 @@ function overview(data, designs) {
   );
 }
 
-function scatter(data, designs, [across, up]) {
+function scatter(data, designs, sides) {
+  const [across, up] = sides;
   const runs = designs.runs.filter((run) => run.y);
   const dots = (of, more) => ({x: of.map(across.of), y: of.map(up.of), mode: 'markers', hoverinfo: 'skip', ...more});
   const {trace, annotations} = namedTrace(namedPlaces(data), across.of, up.of);

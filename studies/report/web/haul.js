@@ -39,8 +39,8 @@ export function hauls(data) {
   return section(
     'haul',
     'Another haul',
-    `${name[0].toUpperCase()}${name.slice(1)} is load over the time of a cycle and its haul, so that it can be said of any haul ` +
-      'without new runs. The runs count ' +
+    `${name[0].toUpperCase()}${name.slice(1)} is load over the time of a cycle and its haul, so that it can be ` +
+      'said of any haul without new runs. The runs count ' +
       `${number(choice.haul)} s.`,
     figure(
       el(

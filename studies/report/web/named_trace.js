@@ -31,7 +31,7 @@ export function namedTrace(places, across, up, onMap = false) {
       y: up(place),
       text: plain(place.name),
       showarrow: false,
-      yshift: i % 2 ? 14 : -15, // neighbours would stand on each other
+      yshift: (i % 2 === 0) === onMap ? 15 : -15, // neighbours would stand on each other
       font: {size: 11, color: colour.ink},
       bgcolor: colour.paper,
       opacity: 0.8,

@@ -260,60 +260,59 @@ function map(box, f, data, [a, b], {chosen, near, opacity, solid, named}) {
     }));
     return;
   }
-  const {trace, annotations} = namedTrace(
-    named,
-    ({x: at}) => at[a],
-    ({x: at}) => at[b],
-    true,
-  );
-  draw(box, (saved) => ({
-    traces: [
-      {
-        type: 'contour',
-        x,
-        y,
-        z,
-        ...range(),
-        ncontours: 14,
-        contours: {coloring: 'heatmap', showlines: true},
-        line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
-        hovertemplate:
-          `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ` +
-          `${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`,
-      },
-      {
-        x: near.rows.map((r) => r.x[a]),
-        y: near.rows.map((r) => r.x[b]),
-        mode: 'markers',
-        text: near.rows.map((r) => dotText(data.problem, f, r)),
-        hovertemplate: '%{text}<extra></extra>',
-        marker: {
-          size: 6,
-          color: '#fff',
-          opacity: saved ? opacity() : near.opacity,
-          symbol: symbols(near.rows),
-          line: {color: '#1c2733', width: 1},
+  const across = ({x: at}) => at[a],
+    upward = ({x: at}) => at[b];
+  draw(box, (saved) => {
+    const {trace, annotations} = namedTrace(named, across, upward, true);
+    return {
+      traces: [
+        {
+          type: 'contour',
+          x,
+          y,
+          z,
+          ...range(),
+          ncontours: 14,
+          contours: {coloring: 'heatmap', showlines: true},
+          line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
+          hovertemplate:
+            `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ` +
+            `${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`,
         },
+        {
+          x: near.rows.map((r) => r.x[a]),
+          y: near.rows.map((r) => r.x[b]),
+          mode: 'markers',
+          text: near.rows.map((r) => dotText(data.problem, f, r)),
+          hovertemplate: '%{text}<extra></extra>',
+          marker: {
+            size: 6,
+            color: '#fff',
+            opacity: saved ? opacity() : near.opacity,
+            symbol: symbols(near.rows),
+            line: {color: '#1c2733', width: 1},
+          },
+        },
+        {
+          x: [chosen.x[a]],
+          y: [chosen.x[b]],
+          mode: 'markers',
+          hoverinfo: 'skip',
+          marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}},
+        },
+        trace,
+      ],
+      layout: {
+        title,
+        annotations,
+        showlegend: false,
+        margin: {l: 56, r: 8, t: 36, b: 52},
+        uirevision: revision,
+        xaxis: axis(axisLabel(variables[a]), within(variables[a])),
+        yaxis: axis(axisLabel(variables[b]), within(variables[b])),
       },
-      {
-        x: [chosen.x[a]],
-        y: [chosen.x[b]],
-        mode: 'markers',
-        hoverinfo: 'skip',
-        marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}},
-      },
-      trace,
-    ],
-    layout: {
-      title,
-      annotations,
-      showlegend: false,
-      margin: {l: 56, r: 8, t: 36, b: 52},
-      uirevision: revision,
-      xaxis: axis(axisLabel(variables[a]), within(variables[a])),
-      yaxis: axis(axisLabel(variables[b]), within(variables[b])),
-    },
-  }));
+    };
+  });
 }
 
 /// The ends of the interval of the mean as surfaces, none where the model does not know them.
