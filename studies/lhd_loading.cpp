@@ -3,31 +3,20 @@
 /// The case of Lindmark (2016): how should an LHD load from a muckpile in a drift, and what does each choice
 /// cost?
 
-#include <drawpoint/studies/loading_contrasts.h>
-#include <drawpoint/studies/loading_figures.h>
 #include <drawpoint/studies/loading_findings.h>
-#include <drawpoint/studies/loading_headlines.h>
 #include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/engine/loading/libraries.hpp>
-#include <drawpoint/engine/loading/log/log_stream.hpp>
+#include <drawpoint/studies/loading_study.h>
 #include <drawpoint/engine/loading/log/rock_left.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
-#include <drawpoint/studies/study.hpp>
 
 #include <string>
 
 using namespace drawpoint;
 
-doe::Response recorded(const char* name, const char* unit, const char* description) {
-  return {.name = name, .unit = unit, .goal = doe::Goal::record, .lower = 0, .description = description};
-}
+using studies::recorded;
 
 doe::Response standard_error(const char* name, const char* unit, const std::string& of) {
-  return {.name = name,
-          .unit = unit,
-          .goal = doe::Goal::record,
-          .lower = 0,
-          .description = "standard error of " + of + ", by the scatter of the run's cycles"};
+  return recorded(name, unit, "standard error of " + of + ", by the scatter of the run's cycles");
 }
 
 const doe::Problem problem{
@@ -97,7 +86,6 @@ const doe::Problem problem{
                  "it measures how ragged the toe is")}};
 
 doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
-  if (!log.completed) return doe::Failure{log.message};
   const auto producing = studies::production_options(options);
   const auto damaging = studies::damage_options(options);
   const auto spilling = studies::spill_options(options);
@@ -118,38 +106,27 @@ doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies:
 }
 
 //! [run]
-doe::Outcome load(const Eigen::VectorXd& x, doe::Seed seed, const studies::RunContext& run) {
+engine::loading::Scenario scenario_of(const Eigen::VectorXd& x, const studies::RunContext& run) {
   engine::loading::Scenario scenario = studies::loading_scenario(run);
   scenario.strategy = {.alpha = x[0], .beta = x[1], .gamma = x[2], .kappa = x[3]};
-  scenario.seed = seed;
-  scenario.log_file = run.log;
-  return responses_of(studies::simulate_run(scenario, run), run.options);
+  return scenario;
 }
 //! [run]
 
 int main(int argc, char** argv) {
-  return studies::run(
-      argc, argv,
-      {.name = "lhd_loading",
-       .problem = problem,
-       .black_box = load,
-       .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
-       .defaults = {.runs = 40, .validation = 12},
-       .options = studies::loading_options(),
-       .presets = {studies::lindmark2016_preset()},
-       .options_complaint = studies::loading_options_complaint,
-       .simulator = engine::loading::simulator,
-       .libraries = engine::loading::libraries(),
-       .prepare =
-           [](const studies::RunContext& run) { studies::settle_pile(studies::loading_scenario(run)); },
-       .illustrate = studies::loading_figures,
-       .replay = studies::loading_replay,
-       .finish_log = engine::loading::join_parts,
-       .contrast = studies::loading_contrasts,
-       .responses =
-           [](const std::filesystem::path& log, const studies::OptionValues& options) {
-             return responses_of(engine::loading::read_log(log), options);
-           },
-       .headlines = studies::loading_headlines,
-       .findings = studies::loading_findings});
+  studies::Study study =
+      studies::study_of({.name = "lhd_loading",
+                         .about = "Loading strategies of an LHD in a drift: fill, height, place and tilt.",
+                         .problem = problem,
+                         .defaults = {.runs = 40, .validation = 12},
+                         .options = studies::loading_options(),
+                         .scenario = scenario_of,
+                         .content = engine::loading::LogContent::all,
+                         .responses = responses_of});
+  study.presets = {studies::lindmark2016_preset()};
+  study.findings = studies::loading_findings;
+  study.marks = {{"plus", Eigen::Vector4d(1.2, 0.8, 0.8, 0.0)},  // Lindmark (2016), section 5.3
+                 {"circle", Eigen::Vector4d(0.3, 0.6, 0.4, 0.4)},
+                 {"cross", Eigen::Vector4d(1.8, 0.1, 0.0, 0.8)}};
+  return studies::run(argc, argv, study);
 }

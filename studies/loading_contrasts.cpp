@@ -90,18 +90,37 @@ nlohmann::json tracking_panel(const ChosenCycle& chosen, const Extremes& all, bo
   return near_the_plan(path_panel(log, cycle, who, well ? "A well tracked cycle" : "A badly tracked cycle"));
 }
 
-nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, const OptionValues& options,
-                                bool high) {
-  const LoadingLog log = engine::loading::read_log(chosen.log);
-  const CycleRecord& cycle = log.cycles.at(chosen.index);
-  const double haul = production_options(options).haul;
-  const std::string who = cycle_of(chosen, cycle) + ", the " + (high ? "highest" : "lowest") +
-                          " production of " + std::to_string(all.cycles) +
-                          " cycles: " + fixed(1e-3 * cycle.loaded_mass, 1) + " t in " +
-                          fixed(cycle.seconds(), 1) + " s, " + fixed(chosen.value, 0) + " kg/s" +
-                          (haul > 0 ? " with a haul of " + fixed(haul, 0) + " s" : "");
-  return scene_panel(log, cycle, who, high ? "A cycle of high production" : "A cycle of low production",
-                     damage_options(options));
+struct RankedRun {
+  double production = 0;  // mean of its cycles
+  std::filesystem::path log;
+};
+
+/// The last but a tenth of the runs from one end, by production; of three runs or fewer the end itself.
+std::size_t tenth_of(std::size_t runs) { return runs < 4 ? 0 : std::max<std::size_t>(1, runs / 10); }
+
+nlohmann::json production_panel(const std::vector<RankedRun>& runs, std::size_t rank,
+                                const OptionValues& options, bool good) {
+  const LoadingLog log = engine::loading::read_log(runs[rank].log);
+  const std::size_t index = typical_cycle(log, options);
+  const CycleRecord& cycle = log.cycles[index];
+  const engine::loading::ProductionOptions producing = production_options(options);
+  const std::string who = cycle_of({0, runs[rank].log, index}, cycle) +
+                          ", of median production in a run of rank " + std::to_string(rank + 1) + " of " +
+                          std::to_string(runs.size()) + ": " + fixed(1e-3 * cycle.loaded_mass, 1) + " t in " +
+                          fixed(cycle.seconds(), 1) + " s, " +
+                          fixed(production_by_cycle(log, producing)[index], 0) + " kg/s" +
+                          (producing.haul > 0 ? " with a haul of " + fixed(producing.haul, 0) + " s" : "");
+  return scene_panel(log, cycle, who, good ? "A good cycle" : "A bad cycle", damage_options(options));
+}
+
+/// Of the runs, from the highest production: none where they do not differ.
+nlohmann::json production_panels(std::vector<RankedRun> runs, const OptionValues& options) {
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const RankedRun& a, const RankedRun& b) { return a.production > b.production; });
+  if (runs.size() < 2 || runs.front().production == runs.back().production) return nlohmann::json::array();
+  const std::size_t rank = tenth_of(runs.size());
+  return {production_panel(runs, rank, options, true),
+          production_panel(runs, runs.size() - 1 - rank, options, false)};
 }
 
 }  // namespace
@@ -109,19 +128,18 @@ nlohmann::json production_panel(const ChosenCycle& chosen, const Extremes& all, 
 nlohmann::json loading_contrasts(const std::vector<std::filesystem::path>& logs,
                                  const OptionValues& options) {
   const engine::loading::ProductionOptions producing = production_options(options);
-  Extremes tracking, production;
+  Extremes tracking;
+  std::vector<RankedRun> runs;
   for (const std::filesystem::path& file : logs) {
     const LoadingLog log = engine::loading::read_log(file, LogContent::without_scene);
     if (log.cycles.empty()) continue;
     tracking.add(tracking_errors(log), file);
-    production.add(production_by_cycle(log, producing), file);
+    runs.push_back({engine::loading::production(log, producing), file});
   }
-  nlohmann::json panels = nlohmann::json::array();
-  if (tracking.differ())
-    panels = {tracking_panel(tracking.least, tracking, true), tracking_panel(tracking.most, tracking, false)};
-  if (production.differ()) {
-    panels.push_back(production_panel(production.most, production, options, true));
-    panels.push_back(production_panel(production.least, production, options, false));
+  nlohmann::json panels = production_panels(std::move(runs), options);
+  if (tracking.differ()) {
+    panels.push_back(tracking_panel(tracking.least, tracking, true));
+    panels.push_back(tracking_panel(tracking.most, tracking, false));
   }
   return panels;
 }

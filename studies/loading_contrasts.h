@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Cycles of a loading study set against each other, chosen by its logs: the best and the worst tracked one of
-/// all runs (root mean square distance of the cutting edge from the planned path,
-/// engine/loading/log/run_measures.hpp), each with its path; the one with the highest and the one with the
-/// lowest production (with the haul of the options), each to play. Of equal ones the first.
+/// Cycles of a loading study set against each other, chosen by its logs: a typical good one and a typical bad one, each
+/// to play, and the best and the worst tracked one of all runs (root mean square distance of the cutting edge from the
+/// planned path, engine/loading/log/run_measures.hpp), each with its path. Good is the cycle of median production (with
+/// the haul of the options) in a run that only a tenth of the runs exceed in production, bad the same from the other
+/// end: the highest of all cycles is the luckiest. Of equal ones the first.
 
 #include <drawpoint/studies/options.hpp>
 

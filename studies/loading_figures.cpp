@@ -120,7 +120,8 @@ json figures_of_cycle(const LoadingLog& log, const CycleRecord& cycle, const Opt
 // In the report, which shows one cycle.
 std::string others_text(const LoadingLog& log) {
   if (log.cycles.size() < 2) return "";
-  return " The command replay shows all " + std::to_string(log.cycles.size()) + " cycles.";
+  return std::string(log.cycles.size() > 2 ? " It is the one of median production." : "") +
+         " The command replay shows all " + std::to_string(log.cycles.size()) + " cycles.";
 }
 
 }  // namespace
@@ -147,7 +148,7 @@ void settle_pile(engine::loading::Scenario scenario) {
 json loading_figures(const std::filesystem::path& log_file, const OptionValues& options) {
   const LoadingLog log = engine::loading::read_log(log_file);
   if (log.cycles.empty()) return json::array();
-  json panels = figures_of_cycle(log, log.cycles.front(), options);
+  json panels = figures_of_cycle(log, log.cycles[typical_cycle(log, options)], options);
   for (json& panel : panels)
     if (panel["type"] == "scene") panel["caption"] = panel["caption"].get<std::string>() + others_text(log);
   panels.push_back(cycles_panel(log));

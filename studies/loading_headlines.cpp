@@ -95,8 +95,9 @@ Headline pile_of(const LoadingLog& log) {
 
 /// The tables of Lindmark (2016) belong to a loose solution of the contacts.
 std::string fill_note(double most, const OptionValues& options) {
-  char note[64];
-  std::snprintf(note, sizeof note, "loaded mass over the rated payload; %.2f in the best run", most);
+  char note[96];
+  std::snprintf(note, sizeof note, "loaded mass over the rated payload; %.2f in the run that loaded most",
+                most);
   const auto given = [&](const char* option) {
     const auto found = options.find(option);
     return found == options.end() ? "" : found->second;

@@ -4,9 +4,11 @@
 #include <drawpoint/studies/loading_scenario.h>
 #include <drawpoint/engine/loading/loading_cycle.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -317,6 +319,26 @@ engine::loading::LogContent content_for(const OptionValues& options) {
   return spill_options(options).law == engine::loading::SpillLaw::lost
              ? engine::loading::LogContent::without_scene
              : engine::loading::LogContent::all;
+}
+
+CycleWork loading_cycles(const std::filesystem::path& file, const OptionValues& options) {
+  CycleWork work{.rate = "production", .haul = production_options(options).haul, .loads = {}, .seconds = {}};
+  const engine::loading::LoadingLog log =
+      engine::loading::read_log(file, engine::loading::LogContent::without_scene);
+  for (const engine::loading::CycleRecord& cycle : log.cycles) {
+    work.loads.push_back(cycle.loaded_mass);
+    work.seconds.push_back(cycle.seconds());
+  }
+  return work;
+}
+
+std::size_t typical_cycle(const engine::loading::LoadingLog& log, const OptionValues& options) {
+  const std::vector<double> rates = production_by_cycle(log, production_options(options));
+  std::vector<std::size_t> order(rates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rates[a] < rates[b]; });
+  return order[(order.size() - 1) / 2];
 }
 
 engine::loading::DamageOptions damage_options(const OptionValues& options) {

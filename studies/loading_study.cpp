@@ -70,12 +70,13 @@ Study study_of(const LoadingStudy& loading) {
           .contrast = loading_contrasts,
           .responses =
               [loading](const std::filesystem::path& log, const OptionValues& options) {
-                return responses_of(loading, engine::loading::read_log(log, content_for(options)), options);
+                return responses_of(loading, engine::loading::read_log(log, loading.content), options);
               },
           .headlines =
               [loading](const std::vector<std::filesystem::path>& logs, const OptionValues& options) {
                 return headlines_of(loading.problem, loading_headlines(logs, options));
-              }};
+              },
+          .cycles = loading_cycles};
 }
 
 std::vector<StudyOption> loading_options_without(const std::set<std::string>& names) {

@@ -21,6 +21,8 @@ struct LoadingStudy {
   std::vector<StudyOption> options;
   /// The scenario of a run, but for its seed and log; its pile must be the same for all x. May throw.
   std::function<engine::loading::Scenario(const Eigen::VectorXd& x, const RunContext& run)> scenario;
+  /// What the responses need of a log.
+  engine::loading::LogContent content = engine::loading::LogContent::without_scene;
   /// The responses of a log that has a cycle.
   std::function<doe::Outcome(const engine::loading::LoadingLog& log, const OptionValues& options)> responses;
 };

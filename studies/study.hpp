@@ -33,8 +33,10 @@
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/cycle_work.hpp>
 #include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
+#include <drawpoint/studies/mark.hpp>
 #include <drawpoint/studies/options.hpp>
 
 #include <Eigen/Core>
@@ -141,6 +143,7 @@ class LogFunction {
 };
 
 using HeadlineFunction = LogFunction<std::vector<Headline>, std::vector<std::filesystem::path>>;
+using CycleFunction = LogFunction<CycleWork, std::filesystem::path>;
 using FigureFunction = LogFunction<nlohmann::json, std::filesystem::path>;
 using ContrastFunction = LogFunction<nlohmann::json, std::vector<std::filesystem::path>>;
 
@@ -187,6 +190,11 @@ struct Study {
   std::function<doe::Outcome(const std::filesystem::path& log, const OptionValues& options)> responses = {};
   /// Figures from the logs of all runs that succeeded, said first in summary and report.
   HeadlineFunction headlines = {};
+  /// The cycles of a run, from its log: with them the report says what other hauls would change.
+  CycleFunction cycles = {};
+  /// Points with names, such as those of a source; the one called "reference" is what the recommendation is
+  /// compared with.
+  std::vector<Mark> marks = {};
   /// What is claimed about the black box and whether its runs bear it out, said in summary and report.
   std::function<std::vector<Finding>(const StudyResults& results)> findings = {};
 };

@@ -97,6 +97,17 @@ class Section {
     return all;
   }
 
+  std::vector<double> numbers(const char* key) const {
+    const json& list = needed(key, "a list of numbers");
+    std::vector<double> all;
+    if (!list.is_array()) wrong(key, list, "a list of numbers, [1, ...]");
+    for (const json& entry : list) {
+      if (!entry.is_number()) wrong(key, entry, "numbers alone in this list");
+      all.push_back(entry.get<double>());
+    }
+    return all;
+  }
+
   std::vector<Section> sections(const char* key) const {
     const json& list = needed(key, "a list of objects");
     if (!list.is_array() || list.empty()) wrong(key, list, "a list of objects, [{...}, ...]");
@@ -179,6 +190,22 @@ doe::Problem problem_from(const Section& in) {
       in.fail("deterministic is true, and response \"" + r.name +
               "\" has a standard_error; leave one of them out");
   return problem;
+}
+
+std::vector<Mark> marks_from(const Section& in, const doe::Problem& problem) {
+  std::vector<Mark> marks;
+  for (const Section& entry : in.sections("marks")) {
+    entry.allow_only({"name", "x"});
+    const std::vector<double> x = entry.numbers("x");
+    marks.push_back({entry.text("name"),
+                     Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()))});
+  }
+  try {
+    check_marks(problem, marks);
+  } catch (const std::invalid_argument& e) {
+    in.fail(e.what());
+  }
+  return marks;
 }
 
 std::string content_of(const fs::path& file) {
@@ -303,9 +330,10 @@ Study study_from(const std::string& word) {
   const json content = parsed(file);
   const Section in(content, file, "");
   in.allow_only({"name", "about", "variables", "responses", "deterministic", "command", "exchange", "files",
-                 "version", "attempts", "time_limit", "defaults"});
+                 "version", "attempts", "time_limit", "defaults", "marks"});
   Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
+  if (in.has("marks")) study.marks = marks_from(in, study.problem);
   const bool elsewhere = !in.has("command");
   for (const char* key : {"attempts", "time_limit", "exchange", "files", "version"})
     if (elsewhere && in.has(key))

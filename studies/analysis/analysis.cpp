@@ -3,16 +3,22 @@
 #include <drawpoint/studies/analysis/analysis.h>
 #include <drawpoint/studies/analysis/facts.h>
 #include <drawpoint/studies/analysis/findings.h>
+#include <drawpoint/studies/analysis/hauled.h>
 #include <drawpoint/studies/analysis/logged_runs.h>
 #include <drawpoint/studies/analysis/report_input.h>
+#include <drawpoint/studies/models/decision_points.h>
 #include <drawpoint/studies/models/stop_rule.h>
+#include <drawpoint/studies/report/answer.h>
 #include <drawpoint/studies/report/report.h>
+#include <drawpoint/studies/report/summary.h>
+#include <drawpoint/studies/report/text.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/left_out.h>
 
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,8 +27,8 @@
 namespace drawpoint::studies {
 namespace {
 
-/// Best first in the first objective.
-std::vector<const Run*> runs_to_show(std::vector<const Run*> runs, const doe::Problem& problem) {
+/// Rank by rank away from the tenth that is best in the first objective: a good run that is not the luckiest.
+std::vector<const Run*> good_runs(std::vector<const Run*> runs, const doe::Problem& problem) {
   const auto objective =
       std::find_if(problem.responses.begin(), problem.responses.end(),
                    [](const doe::Response& response) { return doe::is_objective(response.goal); });
@@ -31,20 +37,45 @@ std::vector<const Run*> runs_to_show(std::vector<const Run*> runs, const doe::Pr
   const double sign = none ? -1.0 : doe::sign_of(objective->goal);
   std::stable_sort(runs.begin(), runs.end(),
                    [&](const Run* a, const Run* b) { return sign * a->y[column] < sign * b->y[column]; });
+  if (!runs.empty())
+    std::rotate(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 10), runs.end());
   return runs;
 }
 
-/// By the best run that can be shown; a few that cannot become warnings.
+/// The nearest to the recommended place first.
+std::vector<const Run*> runs_near(const doe::Problem& problem, const Eigen::VectorXd& x,
+                                  std::vector<const Run*> runs) {
+  std::stable_sort(runs.begin(), runs.end(), [&](const Run* a, const Run* b) {
+    return detail::largest_difference(problem, a->x, x) < detail::largest_difference(problem, b->x, x);
+  });
+  return runs;
+}
+
+std::string why_shown(const ReportInput& input, const std::optional<Recommendation>& recommended,
+                      const Run& run) {
+  const std::string who =
+      "Run " + std::to_string(run.id) + ", " + detail::point_text(input.problem, run.x) + ", ";
+  if (!recommended) return who + "has a tenth of the runs before it in the first objective, or nearly so.";
+  if (is_same_place(input.problem, run.x, recommended->x)) return who + "is the recommended strategy.";
+  return who + "is the run nearest to the recommendation, within " +
+         detail::percent(detail::largest_difference(input.problem, run.x, recommended->x)) +
+         " of each range.";
+}
+
+/// By the first run that can be shown; a few that cannot become warnings.
 void illustrate(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
                 const OptionValues& options, const Folder& folder) {
   const int most_attempts = 5;
   input.illustrations = nlohmann::json::array();
   if (!study.illustrate) return;
+  const auto recommended = recommend(input);
   int attempts = 0;
-  for (const Run* run : runs_to_show(runs, study.problem)) {
+  for (const Run* run :
+       recommended ? runs_near(input.problem, recommended->x, runs) : good_runs(runs, study.problem)) {
     if (attempts++ == most_attempts) return;
     try {
       input.illustrations = study.illustrate(folder.log(run->id), options);
+      input.shown = why_shown(input, recommended, *run);
       input.facts.emplace_back("Run shown", std::to_string(run->id));
       return;
     } catch (const std::exception& e) {
@@ -91,6 +122,12 @@ void tell_of_models(Summary& summary, const ReportInput& input) {
       summary.mean_errors[said->first] = input.mean_errors[j];
       (said++)->second = input.validations[j].nrmse;
     }
+  const auto recommended = recommend(input);
+  summary.answer = answer_sentences(input, recommended);
+  if (recommended) {
+    summary.recommended = recommended->x;
+    summary.problem = input.problem;
+  }
   summary.flat = texts_of(input.flat, input.problem);
   summary.no_front = input.no_front;
   summary.front = static_cast<int>(input.front.X.rows());
@@ -100,14 +137,15 @@ void tell_of_models(Summary& summary, const ReportInput& input) {
 
 }  // namespace
 
-Summary analyse(const Study& study, const Store& store, const Folder& folder, const std::string& command) {
+Summary analyse(const Study& study, const Store& store, const Folder& folder, const Typed& typed) {
   const std::vector<Run> runs = store.runs();
   Summary summary = summary_of(study, runs);
   summary.adaptive_wanted = store.sampling().points;
   summary.stopped = store.sampling().stopped;
   ReportInput input = input_of(study, store, runs);
   summary.thinned = input.warnings;
-  input.command = command;
+  input.command = typed.command;
+  input.going_on.program = typed.program;
   input.going_on.folder = out_option(folder);
   summary.confirmations = input.confirmations;
   const std::vector<const Run*> logged = runs_with_log(study, store.identity(), runs, folder, input.warnings);
@@ -120,6 +158,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
     summary.error = "no models, so no report: " + std::string(e.what());
     const std::string failures = failure_warning(input);
     if (!failures.empty()) summary.error += "; " + failures;
+    summary.answer = answer_sentences(input, {});
     return summary;
   }
   tell_of_models(summary, input);
@@ -128,6 +167,7 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   summary.until = reached.text;
   summary.until_met = reached.met;
   add_warnings(input, runs);
+  add_hauls(input, study, logged, store.identity().options, folder);
   illustrate(input, study, logged, store.identity().options, folder);
   contrast(input, study, logged, store.identity().options, folder);
   summary.findings = hold_findings(input, study, logged, store.identity().options, folder);

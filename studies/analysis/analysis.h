@@ -15,9 +15,14 @@
 
 namespace drawpoint::studies {
 
+struct Typed {
+  std::string command = {};  ///< the command line that the report shows
+  std::string program = {};  ///< what stands before a command in advice
+};
+
 /// Writes folder.report(). If the runs do not allow models (nearly all failed), there is no report and
-/// Summary::error says why. `command` is the command line that the report shows. Throws std::runtime_error if
+/// Summary::error says why. Throws std::runtime_error if
 /// the report cannot be written.
-Summary analyse(const Study& study, const Store& store, const Folder& folder, const std::string& command);
+Summary analyse(const Study& study, const Store& store, const Folder& folder, const Typed& typed);
 
 }  // namespace drawpoint::studies

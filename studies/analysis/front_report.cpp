@@ -24,17 +24,21 @@ struct FrontView {
   explicit FrontView(const ReportInput& in)
       : input(in),
         points(with_predictions(in.models, in.problem, in.front.X)),
-        decision(decision_points(in.front, in.problem)) {}
+        decision(decision_points(in.front, in.problem)) {
+    if (const auto found = recommend(in)) recommended = found->row;
+  }
 
   Eigen::VectorXd place(int row) const { return input.front.X.row(row).transpose(); }
 
   const ReportInput& input;
   PlannedPoints points;
   DecisionPoints decision;
+  int recommended = -1;  ///< -1: none, or a place that was simulated
 };
 
-std::vector<int> rows_shown(const ReportInput& input, int most) {
-  return points_to_confirm(input.front, input.problem, input.front.X.topRows(0), most);
+std::vector<int> rows_shown(const FrontView& view, int most) {
+  return points_to_confirm(view.input.front, view.input.problem, view.input.front.X.topRows(0), most,
+                           view.recommended);
 }
 
 std::vector<int> every_row(const ReportInput& input) {
@@ -46,6 +50,7 @@ std::vector<int> every_row(const ReportInput& input) {
 /// (row, what it is), the most important first.
 std::vector<std::pair<int, std::string>> marks_of(const FrontView& view) {
   std::vector<std::pair<int, std::string>> marks;
+  if (view.recommended >= 0) marks.emplace_back(view.recommended, "recommended");
   const auto objectives = detail::objectives(view.input.problem);
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const doe::Response& response = view.input.problem.responses[objectives[k]];
@@ -224,7 +229,7 @@ nlohmann::ordered_json point_json(const FrontView& view, int row, const std::vec
 
 std::string front_points_text(const ReportInput& input, int most, bool every_point) {
   const FrontView view(input);
-  const std::vector<int> shown = every_point ? every_row(input) : rows_shown(input, most);
+  const std::vector<int> shown = every_point ? every_row(input) : rows_shown(view, most);
   std::vector<Cells> table = {front_heads(input)};
   for (const int row : shown) {
     table.push_back(predicted_cells(view, row, shown));
@@ -247,7 +252,7 @@ std::string front_points_text(const ReportInput& input, int most, bool every_poi
 
 nlohmann::ordered_json front_points_json(const ReportInput& input, int most) {
   const FrontView view(input);
-  const std::vector<int> shown = rows_shown(input, most);
+  const std::vector<int> shown = rows_shown(view, most);
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (const int row : every_row(input)) points.push_back(point_json(view, row, shown));
   return {{"points", std::move(points)},

@@ -47,6 +47,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.study = study.name;
   input.about = study.about;
   input.problem = study.problem;
+  input.marks = study.marks;
   Tables tables = tables_of(runs, study.problem);
   input.warnings = tables.thinned;
   input.training = std::move(tables.training);

@@ -58,6 +58,14 @@ std::string error_text(const Summary& summary, const std::string& response, doub
          " with 95 %; of single runs: " + share(nrmse) + " (NRMSE)\n";
 }
 
+nlohmann::ordered_json recommended_json(const Summary& summary) {
+  if (summary.recommended.size() == 0) return {};
+  nlohmann::ordered_json x = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < summary.problem.variables.size(); ++k)
+    x[summary.problem.variables[k].name] = summary.recommended[static_cast<Eigen::Index>(k)];
+  return x;
+}
+
 }  // namespace
 
 nlohmann::ordered_json mean_error_json(const kriging::MeanError& error) {
@@ -100,6 +108,8 @@ std::string json_line(const Summary& summary) {
   line["adaptive_wanted"] = summary.adaptive_wanted;
   if (!summary.until.empty()) line.update({{"until", summary.until}, {"until_met", summary.until_met}});
   if (!summary.stopped.empty()) line["stopped"] = summary.stopped;
+  line["answer"] = summary.answer;
+  line["recommended"] = recommended_json(summary);
   line["headlines"] = nlohmann::ordered_json::object();
   for (const Headline& headline : summary.headlines)
     line["headlines"][headline.name] = number_or_null(headline.value);
@@ -137,6 +147,7 @@ std::string text(const Summary& summary) {
     result += "; " + std::to_string(made) + " adaptive runs, " + std::to_string(summary.adaptive_wanted) +
               " adaptive points wanted";
   result += "\n";
+  for (const std::string& sentence : summary.answer) result += sentence + "\n";
   for (const std::string& text : summary.thinned) result += "  " + text + "\n";
   for (const std::string& run : summary.left_out) result += "  caution: " + run + "\n";
   for (const Headline& headline : summary.headlines) result += headline_text(headline);

@@ -5,11 +5,13 @@
 
 #include <drawpoint/studies/report/checked_runs.h>
 #include <drawpoint/studies/store/store.h>
+#include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/mean_error.hpp>
 #include <drawpoint/pareto/polishing.hpp>
 #include <drawpoint/studies/finding.hpp>
 #include <drawpoint/studies/headline.hpp>
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -21,14 +23,17 @@ namespace drawpoint::studies {
 
 struct Summary {
   std::string study = {};
-  std::map<Kind, int> ended = {};                              ///< runs of each kind, failed ones among them
-  int failed = 0;                                              ///< of all kinds
-  std::vector<std::string> left_out = {};                      ///< of the models: which runs, and why
-  std::vector<std::string> thinned = {};                       ///< runs that are too many for models
-  int unfinished = 0;                                          ///< planned or running
-  std::vector<Headline> headlines = {};                        ///< what the study says first
-  std::vector<Finding> findings = {};                          ///< in the study's order
-  std::vector<std::pair<std::string, double>> nrmse = {};      ///< by response; NaN where it is unknown
+  std::map<Kind, int> ended = {};                          ///< runs of each kind, failed ones among them
+  int failed = 0;                                          ///< of all kinds
+  std::vector<std::string> left_out = {};                  ///< of the models: which runs, and why
+  std::vector<std::string> thinned = {};                   ///< runs that are too many for models
+  int unfinished = 0;                                      ///< planned or running
+  std::vector<std::string> answer = {};                    ///< what to do, what it gains, how sure that is
+  Eigen::VectorXd recommended = {};                        ///< empty: nothing is
+  doe::Problem problem = {};                               ///< of what is recommended
+  std::vector<Headline> headlines = {};                    ///< what the study says first
+  std::vector<Finding> findings = {};                      ///< in the study's order
+  std::vector<std::pair<std::string, double>> nrmse = {};  ///< by response; NaN where it is unknown
   std::map<std::string, kriging::MeanError> mean_errors = {};  ///< by response; none: unknown
   std::vector<std::pair<std::string, std::string>> flat = {};  ///< by response: what is said of it
   int adaptive_wanted = 0;                                     ///< adaptive points in all
@@ -46,7 +51,8 @@ struct Summary {
 };
 
 /// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "left_out", "unfinished",
-/// "adaptive_wanted", "until" and "until_met", "stopped" where there is something to say, "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
+/// "adaptive_wanted", "until" and "until_met", "stopped" where there is something to say, "answer": sentences,
+/// "recommended": {variable: value} or null, "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
 /// number or null}, "mean_error": {response: mean_error_json}, "flat": [{"response", "text"}], "front",
 /// "confirmed": {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round},
 /// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and

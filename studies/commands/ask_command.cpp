@@ -24,13 +24,13 @@ std::vector<Run> waiting(const std::vector<Run>& runs, int most) {
 
 /// Those that are planned; where there are none, those of the next batch or, if it is wanted, of a round on
 /// the front.
-std::vector<Run> next_runs(Store& store, const Settings& settings) {
+std::vector<Run> next_runs(Store& store, const Study& study, const Settings& settings) {
   const int most = settings.ask.count.value_or(std::numeric_limits<int>::max());
   std::vector<Run> asked = waiting(store.runs(), most);
   if (!asked.empty()) return asked;
   const int round = static_cast<int>(store.sampling().rounds.size()) + 1;
   const bool planned = settings.ask.confirm
-                           ? add_round(store, settings.confirm, round, STDERR_FILENO)
+                           ? add_round(store, study, settings.confirm, round, STDERR_FILENO)
                            : add_batch(store, std::numeric_limits<double>::infinity(), STDERR_FILENO);
   if (planned) asked = waiting(store.runs(), most);
   return asked;
@@ -46,7 +46,7 @@ int ask_command(const Study& study, const Settings& settings) {
   make_writable(folder);
   const FolderLock lock(folder);
   Store store = plan_study(study, folder, settings);
-  const std::vector<Run> asked = next_runs(store, settings);
+  const std::vector<Run> asked = next_runs(store, study, settings);
   write_table(study, asked_table(store.identity(), asked), wanted);
   std::fprintf(
       stderr,

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/did_you_mean.h>
 #include <drawpoint/studies/commands/freed_memory.h>
+#include <drawpoint/studies/commands/marks.h>
 #include <drawpoint/studies/commands/problem_text.h>
 #include <drawpoint/studies/commands/questions.h>
 #include <drawpoint/studies/commands/reading_commands.h>
@@ -132,6 +133,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_execution_options(*run, parsed.settings);
   add_sampling_options(*run, parsed.settings, study.defaults);
   add_time_options(*run, parsed.settings);
+  add_mark_option(*run, study.problem, parsed.settings);
   add_study_options(*run, study, parsed.settings.options, true);
   show_example(*run, app, study, " run --runs 40 --adaptive 24 --out results/adaptive");
   run->callback([&] { parsed.action = [&] { return run_command(study, parsed.settings); }; });
@@ -141,6 +143,7 @@ void define_commands_that_run(CLI::App& app, Parsed& parsed, const Study& study)
   add_folder_options(*confirm, parsed.settings);
   add_execution_options(*confirm, parsed.settings);
   add_confirm_options(*confirm, parsed.settings.confirm, study.problem);
+  add_mark_option(*confirm, study.problem, parsed.settings);
   show_example(*confirm, app, study, " confirm --points 6 --rounds 2");
   confirm->callback([&] { parsed.action = [&] { return confirm_command(study, parsed.settings); }; });
 }
@@ -285,7 +288,8 @@ std::string meant_by(const CLI::App& app, const CLI::ParseError& error) {
   return did_you_mean(what.substr(at, what.find_first_of(" =", at) - at), known);
 }
 
-int parse_and_act(int argc, char** argv, const Study& study) {
+int parse_and_act(int argc, char** argv, const Study& declared) {
+  Study study = declared;  // with the marks that are typed
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.command = joined(argc, argv);
@@ -317,6 +321,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
                  program.c_str());
     return wrong_usage;
   }
+  add_marks(study, parsed.settings);
   return parsed.action();
 }
 
@@ -336,6 +341,7 @@ void check_study(const Study& study) {
   doe::check(study.problem);
   check(study.options);
   check(study.presets, study.options);
+  check_marks(study.problem, study.marks);
 }
 
 }  // namespace

@@ -38,14 +38,14 @@ bool has_unfinished_round(const std::vector<Run>& runs) {
 }
 
 /// First what a stopped command left, then rounds.
-void confirm_front(Store& store, const Folder& folder, const Settings& settings) {
+void confirm_front(Store& store, const Study& study, const Folder& folder, const Settings& settings) {
   const int messages = message_descriptor(settings);
   store.plan_again(settings.retry_failed);
   bool added = has_unfinished_round(store.runs());
   carry_out_runs(store, folder, settings, messages);
   for (int round = 1; round <= settings.confirm.rounds; ++round, added = false) {
     if (!added) {
-      if (!add_round(store, settings.confirm, round, messages)) return;
+      if (!add_round(store, study, settings.confirm, round, messages)) return;
       carry_out_runs(store, folder, settings, messages);
     }
     if (judge_round(store, messages, round)) return;
@@ -68,7 +68,7 @@ int confirm_command(const Study& study, const Settings& settings) {
       study, settings, [&](const Folder& folder) { return open_store(study, folder); },
       [&](Store& store, const Folder& folder) {
         begin_runs(study, store, settings, true);
-        confirm_front(store, folder, settings);
+        confirm_front(store, study, folder, settings);
       });
 }
 

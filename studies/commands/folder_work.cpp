@@ -69,7 +69,7 @@ void begin_runs(const Study& study, const Store& store, const Settings& settings
 int conclude(const Study& study, const Store& store, const Folder& folder, const Settings& settings) {
   const int messages = message_descriptor(settings);
   dprintf(messages, "fitting the models and searching for the front ...\n");
-  const Summary summary = analyse(study, store, folder, settings.command);
+  const Summary summary = analyse(study, store, folder, {settings.command, settings.program});
   dprintf(messages, "%s", text(summary).c_str());
   if (!summary.error.empty()) dprintf(STDERR_FILENO, "%s\n", summary.error.c_str());
   if (settings.json) std::printf("%s\n", json_line(summary).c_str());

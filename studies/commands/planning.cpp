@@ -72,14 +72,14 @@ Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings&
   return checked_points(problem, settings.x);
 }
 
-bool add_round(Store& store, const ConfirmSettings& settings, int round, int messages) {
+bool add_round(Store& store, const Study& study, const ConfirmSettings& settings, int round, int messages) {
   const std::vector<Run> runs = store.runs();
   dprintf(messages, "fitting the models, choosing points of their front ...\n");
   RoundPlan plan;
   {
     const EndsAtOnce now;
-    plan =
-        plan_round(store.identity(), runs, named_points(store.identity().problem, settings), settings.points);
+    plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings),
+                      settings.points, study.marks);
   }
   if (plan.runs.empty()) {
     dprintf(messages, "%s\n", plan.nothing.c_str());

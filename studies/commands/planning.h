@@ -23,6 +23,6 @@ Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings&
 
 /// Plans a round of confirmation on the front of this moment and says so. False when there is nothing to
 /// simulate.
-bool add_round(Store& store, const ConfirmSettings& settings, int round, int messages);
+bool add_round(Store& store, const Study& study, const ConfirmSettings& settings, int round, int messages);
 
 }  // namespace drawpoint::studies

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/frame_options.h>
+#include <drawpoint/studies/commands/marks.h>
 #include <drawpoint/studies/commands/reading_commands.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/doe/problem.hpp>
@@ -29,7 +30,8 @@ void add_export_options(CLI::App& command, const Study& study, ExportSettings& s
 void add_front_options(CLI::App& command, FrontSettings& settings) {
   command
       .add_option("--limit", settings.limit,
-                  "points shown, those that confirm would simulate first: the best of each objective, the "
+                  "points shown, those that confirm would simulate first: the recommended one, the best of "
+                  "each objective, the "
                   "balanced one, knees, then others far apart")
       ->check(CLI::Range(1, most_points))
       ->capture_default_str();
@@ -206,6 +208,7 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
                       settings);
   CLI::App& report =
       commands.add_with_json("report", "make the report again from the stored runs", report_command);
+  add_mark_option(report, study.problem, settings);
   report.footer(example_of(report) + " --out results/" + study.name);
   CLI::App& replay = commands.add(
       "replay", "write one run as a page with its figures, or its scene as pictures and as a film",

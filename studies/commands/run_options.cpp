@@ -183,9 +183,10 @@ void add_execution_options(CLI::App& command, Settings& settings) {
 
 void add_confirm_options(CLI::App& command, ConfirmSettings& settings, const doe::Problem& problem) {
   command
-      .add_option("--points", settings.points,
-                  "points of the front per round: the best of each objective, the balanced one, knees, then "
-                  "others far apart; with --x also 0")
+      .add_option(
+          "--points", settings.points,
+          "points of the front per round: the recommended one, the best of each objective, the balanced "
+          "one, knees, then others far apart; with --x also 0")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   command

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/live/standing.h>
 #include <drawpoint/studies/live/state.h>
 #include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/runs/printed_text.h>
 #include <drawpoint/studies/store/times.h>
 
@@ -47,18 +48,23 @@ ordered_json reached_json(const Contents& contents) {
   const std::vector<Reached> responses = reached(contents);
   for (std::size_t j = 0; j < responses.size(); ++j) {
     const Reached& of = responses[j];
-    ordered_json improvements = ordered_json::array(), best;
+    ordered_json improvements = ordered_json::array(), best, error;
     for (const Improvement& each : of.improvements) {
       const Run& run = contents.runs[each.run];
       improvements.push_back({each.ended, run.id, number_or_null(run.y[static_cast<Eigen::Index>(j)])});
     }
-    if (!of.improvements.empty()) best = row_of(contents.runs[of.improvements.back().run]);
+    if (!of.improvements.empty()) {
+      const Run& run = contents.runs[of.improvements.back().run];
+      best = row_of(run);
+      error = number_or_null(told_error(contents.identity.problem, j, run.y));
+    }
     all.push_back({{"lowest", number_or_null(of.lowest)},
                    {"highest", number_or_null(of.highest)},
                    {"done", of.done},
                    {"within", of.within},
                    {"improvements", std::move(improvements)},
-                   {"best", std::move(best)}});
+                   {"best", std::move(best)},
+                   {"best_error", std::move(error)}});
   }
   return all;
 }

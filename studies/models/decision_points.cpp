@@ -55,7 +55,7 @@ DecisionPoints decision_points(const pareto::Front& front, const doe::Problem& p
 }
 
 std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Problem& problem,
-                                   const Eigen::MatrixXd& confirmed, int most) {
+                                   const Eigen::MatrixXd& confirmed, int most, int first) {
   const auto n = front.X.rows();
   std::vector<int> chosen;
   if (n == 0) return chosen;
@@ -74,6 +74,7 @@ std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Proble
   for (Eigen::Index i = 0; i < n; ++i) {
     if (is_among(front.X.row(i), confirmed, problem)) cover(static_cast<int>(i));
   }
+  if (first >= 0 && most > 0) choose(first);
   for (const int row : in_order(decision_points(front, problem))) {
     if (static_cast<int>(chosen.size()) < most) choose(row);
   }

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Which points of a predicted front a decision would rest on: the best of each objective, the balanced
+/// Which points of a predicted front a decision would rest on: the recommended one, the best of each objective, the balanced
 /// choice (report/summary.h), the strongest knees (pareto/knees.hpp), then the points farthest from those chosen,
 /// each objective scaled to its range on the front.
 
+#include <drawpoint/studies/report/recommendation.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/pareto/search.hpp>
 
@@ -13,9 +14,7 @@
 
 namespace drawpoint::studies {
 
-/// Two points are the same strategy when they differ by at most this share of the range in every variable.
-inline constexpr double same_place = 0.02;
-
+/// By report/recommendation.h.
 bool is_same_place(const doe::Problem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// x as one more row of X.
@@ -31,9 +30,9 @@ struct DecisionPoints {
 /// Requires a front with points.
 DecisionPoints decision_points(const pareto::Front& front, const doe::Problem& problem);
 
-/// Rows of the front in this order, `most` at most, one per place. A point whose place has been confirmed
-/// already (k x d) counts as chosen, but is not returned.
+/// The row `first`, if there is one (-1: none), then rows of the front in this order, `most` at most, one per
+/// place. A point whose place has been confirmed already (k x d) counts as chosen, but is not returned.
 std::vector<int> points_to_confirm(const pareto::Front& front, const doe::Problem& problem,
-                                   const Eigen::MatrixXd& confirmed, int most);
+                                   const Eigen::MatrixXd& confirmed, int most, int first = -1);
 
 }  // namespace drawpoint::studies

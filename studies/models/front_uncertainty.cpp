@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/models/front_uncertainty.h>
+#include <drawpoint/studies/report/mean_paths.h>
 #include <drawpoint/kriging/error_correlation.hpp>
 #include <drawpoint/kriging/sample_paths.hpp>
 #include <drawpoint/pareto/attainment.hpp>
@@ -33,7 +34,8 @@ std::vector<Eigen::MatrixXd> paths_of_responses(const pareto::Front& front,
   std::size_t next = 0;
   for (std::size_t j = 0; j < models.size(); ++j)
     paths.push_back(counts_on_front(problem.responses[j])
-                        ? draws_of_mean(models[j], problem.responses[j], front.X, normals[next++])
+                        ? means_of(models[j], problem.responses[j],
+                                   kriging::sample_paths(models[j].model(), front.X, normals[next++]))
                         : Eigen::MatrixXd::Zero(front.X.rows(), draws_of_a_front));
   return paths;
 }
@@ -68,22 +70,11 @@ PairBand band_of_pair(const pareto::Front& front, const doe::Problem& problem, c
 
 bool variances_are_known(const std::vector<kriging::TransformedModel>& models, const Eigen::MatrixXd& X) {
   return std::all_of(models.begin(), models.end(), [&](const kriging::TransformedModel& model) {
-    return model.model().predict(X.topRows(1)).variance.allFinite();
+    return knows_error(model, X.topRows(1));
   });
 }
 
 }  // namespace
-
-Eigen::MatrixXd draws_of_mean(const kriging::TransformedModel& model, const doe::Response& response,
-                              const Eigen::MatrixXd& X, const Eigen::MatrixXd& normals) {
-  Eigen::MatrixXd paths = kriging::sample_paths(model.model(), X, normals);
-  const bool linear = model.transform().scale == kriging::Scale::linear;
-  for (double& y : paths.reshaped()) {
-    if (!linear) y = kriging::mean_response(model.transform(), y, model.noise_variance());
-    y = doe::within_range(response, y);
-  }
-  return paths;
-}
 
 FrontUncertainty uncertainty_of(const pareto::Front& front,
                                 const std::vector<kriging::TransformedModel>& models,

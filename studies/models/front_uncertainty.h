@@ -29,9 +29,4 @@ FrontUncertainty uncertainty_of(const pareto::Front& front,
                                 const std::vector<kriging::TransformedModel>& models,
                                 const doe::Problem& problem, doe::Seed seed);
 
-/// Draws of the mean of many runs at points (n x d), n x draws, unit of the response, made of as many standard
-/// normals.
-Eigen::MatrixXd draws_of_mean(const kriging::TransformedModel& model, const doe::Response& response,
-                              const Eigen::MatrixXd& X, const Eigen::MatrixXd& normals);
-
 }  // namespace drawpoint::studies

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/answer.h>
 #include <drawpoint/studies/report/data.h>
 #include <drawpoint/studies/report/limits.h>
 #include <drawpoint/studies/report/panels.h>
@@ -279,6 +280,12 @@ std::vector<kriging::MeanError> mean_errors_of(const ReportInput& input) {
   return errors;
 }
 
+json marks_json(const std::vector<Mark>& marks) {
+  json all = json::array();
+  for (const Mark& mark : marks) all.push_back({{"name", mark.name}, {"x", to_json(mark.x)}});
+  return all;
+}
+
 /// Per response null, or what is said of one that is flat.
 json flat_json(const ReportInput& input) {
   json all = json::array();
@@ -302,6 +309,7 @@ json described(const doe::Problem& problem) {
 
 json report_data(const ReportInput& input) {
   doe::check(input.problem);
+  check_marks(input.problem, input.marks);
   check_tables(input);
   check_results(input);
   ReportInput known = input;
@@ -345,6 +353,10 @@ json report_data(const ReportInput& input) {
           {"illustrations", std::move(panels)},
           {"contrasts", std::move(contrasts)},
           {"facts", input.facts},
+          {"shown", input.shown},
+          {"marks", marks_json(input.marks)},
+          {"answer", answer_json(known)},
+          {"hauls", input.hauls ? to_json(*input.hauls) : json()},
           {"summary", summary(known, effects)}};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/report/answer.h>
 #include <drawpoint/studies/report/next_steps.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
@@ -16,7 +17,7 @@ constexpr int some_more = 2;  // for those that fail
 using Steps = std::vector<NextStep>;
 
 std::string command(const ReportInput& input, const std::string& options) {
-  return input.going_on.making + " " + options + input.going_on.folder;
+  return command_text(input, input.going_on.making + " " + options);
 }
 
 /// Of the responses whose models are poor, by whether noise makes them so.
@@ -78,7 +79,7 @@ Steps steps_for_models(const ReportInput& input) {
 
 Steps steps_for_front(const ReportInput& input) {
   if (input.front.Y.rows() == 0) return {};
-  const std::string confirm = input.confirming + input.going_on.folder;
+  const std::string confirm = command_text(input, input.confirming);
   const CheckedRuns last = input.confirmations.last_round();
   if (last.runs.empty())
     return {
@@ -111,7 +112,7 @@ std::vector<NextStep> next_steps(const ReportInput& input) {
     open.push_back(
         {"Choose: the front has the points that matter, with what simulation gave; repeat the one that "
          "you would take with other seeds before deciding.",
-         "front" + input.going_on.folder});
+         command_text(input, "front")});
   Steps all = steps_for_failures(input);
   append(all, open);
   if (all.size() > most_steps) all.resize(most_steps);

@@ -39,6 +39,14 @@ inline double told_noise(const std::vector<Headline>& headlines, const std::stri
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// What a run itself says of its standard error in response j, by the values of all its responses; not a number
+/// where it says nothing.
+inline double told_error(const doe::Problem& problem, std::size_t j, const Eigen::VectorXd& values) {
+  const std::string& name = problem.responses[j].standard_error;
+  if (name.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return values[doe::response_index(problem, name)];
+}
+
 /// Whether single runs scatter by more than the model misses the mean of many, so that more runs of the kind
 /// do not help; by what the study says of its noise (`told`), or else by that of the mean error.
 inline bool noise_leads(const kriging::Validation& v, const kriging::MeanError& error, double told) {

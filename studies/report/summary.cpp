@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <drawpoint/studies/report/answer.h>
 #include <drawpoint/studies/report/next_steps.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/studies/report/stated_interval.h>
@@ -101,21 +102,9 @@ json cards(const ReportInput& input) {
 }
 
 std::string best_simulated(const ReportInput& input, std::size_t response) {
-  const bool up = maximized(input.problem.responses[response]);
-  const doe::Evaluation* best = nullptr;
-  const auto value = [&](const doe::Evaluation& e) {
-    return e.outcome.values()[static_cast<Eigen::Index>(response)];
-  };
-  for (const auto* table : {&input.training, &input.validation})
-    for (const doe::Evaluation& e : table->rows)
-      if (!e.outcome.failed() && pareto::meets_limits(input.problem, e.outcome.values()) &&
-          (!best || (up ? value(e) > value(*best) : value(e) < value(*best))))
-        best = &e;
-  const bool limited = has_limits(input.problem);
-  if (!best) return limited ? "; no run simulated so far keeps all limits" : "";
-  return std::string("; the best run simulated so far") + (limited ? " that keeps all limits" : "") +
-         " reached " + number_with_unit(value(*best), input.problem.responses[response].unit) + " (run " +
-         std::to_string(best->run) + ")";
+  const std::string lucky = luckiest_run(input, response);
+  if (lucky.empty()) return has_limits(input.problem) ? "; no run simulated so far keeps all limits" : "";
+  return lucky;
 }
 
 std::string best_sentence(const ReportInput& input, std::size_t k, std::size_t response) {

@@ -117,10 +117,11 @@ struct Settings {
   ShareSettings share = {};
   std::string against = {};  ///< of recommend: a point as NAME=VALUE,...; empty: the middle of the box
   LiveSettings live = {};
-  std::filesystem::path with = {};  ///< of compare: the folder that `out` is compared with
-  OptionValues options = {};        ///< of the study, those given
-  std::optional<int> jobs = {};     ///< processes or tasks at a time, 1 or more; empty: all there are
-  bool slurm = false;               ///< runs are tasks on a Slurm cluster
+  std::vector<std::string> marks = {};  ///< NAME=VALUE,..., points to show in the report
+  std::filesystem::path with = {};      ///< of compare: the folder that `out` is compared with
+  OptionValues options = {};            ///< of the study, those given
+  std::optional<int> jobs = {};         ///< processes or tasks at a time, 1 or more; empty: all there are
+  bool slurm = false;                   ///< runs are tasks on a Slurm cluster
   std::vector<std::string> slurm_options = {};  ///< words for sbatch
   int slurm_array = 0;                          ///< tasks of one job array; 0: as many as Slurm takes
   double time_limit = 0.0;                      ///< [s] a run may take; 0 means no limit

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/models/confirmations.h>
 #include <drawpoint/studies/models/decision_points.h>
 #include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/report/recommendation.h>
 #include <drawpoint/studies/sampling/confirmation.h>
 
 namespace drawpoint::studies {
@@ -22,10 +24,27 @@ Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dime
   return X;
 }
 
+/// The row of the front that is recommended; -1: none, or a place that was simulated.
+int recommended_row(const Models& fitted, const PredictedFront& predicted, const Tables& tables,
+                    const std::vector<Run>& runs, const std::vector<Mark>& marks) {
+  ReportInput known;
+  known.problem = predicted.problem;
+  known.training = tables.training;
+  known.validation = tables.validation;
+  known.models = fitted.models;
+  known.front = predicted.found.front;
+  known.marks = marks;
+  known.confirmations = check_predictions(runs, predicted.problem, Kind::confirmation);
+  if (!predicted.failures.none() && known.front.X.rows() > 0)
+    known.success = predicted.failures.probability_of_success(known.front.X);
+  const auto recommended = recommend(known);
+  return recommended ? recommended->row : -1;
+}
+
 }  // namespace
 
 RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, const Eigen::MatrixXd& named,
-                     int points) {
+                     int points, const std::vector<Mark>& marks) {
   const doe::Problem& problem = identity.problem;
   const Tables tables = tables_of(runs, problem);
   const Models fitted = models_or_reason(tables);
@@ -37,7 +56,8 @@ RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, con
   }
   RoundPlan plan{.round = {.first = static_cast<std::int64_t>(runs.size()) + 1,
                            .named = static_cast<int>(X.rows() - before)}};
-  for (const int row : points_to_confirm(predicted.found.front, predicted.problem, X, points))
+  for (const int row : points_to_confirm(predicted.found.front, predicted.problem, X, points,
+                                         recommended_row(fitted, predicted, tables, runs, marks)))
     append_place(X, predicted.found.front.X.row(row));
   if (X.rows() == before) {
     plan.nothing = predicted.missing.empty() ? "every point of the front that matters has been simulated"

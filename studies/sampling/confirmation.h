@@ -5,6 +5,7 @@
 /// (models/decision_points.h).
 
 #include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/mark.hpp>
 
 #include <Eigen/Core>
 #include <string>
@@ -19,9 +20,10 @@ struct RoundPlan {
 };
 
 /// The runs of a round: at the points that the user names (k x d) but for those that are confirmed already,
-/// then at those of the front of the present models, `points` at most, each with what the models say of it.
+/// then at those of the front of the present models, `points` at most, the recommended one (report/recommendation.h, by
+/// these marks) first, each with what the models say of it.
 /// Throws std::runtime_error if the runs do not allow models.
 RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, const Eigen::MatrixXd& named,
-                     int points);
+                     int points, const std::vector<Mark>& marks);
 
 }  // namespace drawpoint::studies

@@ -49,6 +49,11 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " --hours nan" + out(), 2, "Value nan is no time");
   expect_refused(study + " --target 0.1 --validation 0" + out(), 2, "give --validation 10 or more");
   expect_refused(study + " --adaptive -1" + out(), 2, "--adaptive");
+  expect_refused(study + " --mark today" + out(), 2, "--mark today: no name; give NAME=x,y");
+  expect_refused(study + " --mark today=1" + out(), 2,
+                 "\"today\": it has 1 values; give 2, one per variable");
+  expect_refused(study + " --mark today=0.5,north" + out(), 2, "\"north\" is no number");
+  expect_refused(study + " --mark today=0.5,26" + out(), 2, "y = 26 deg is outside its range -5 to 25 deg");
   expect_refused(study + " confirm --points 0" + out(), 2, "--points");
   expect_refused(study + " confirm --x=0.5,26" + out(), 2, "y = 26 deg is outside its range -5 to 25 deg");
   expect_refused(study + " confirm" + out(), 1, "there is no study in");

@@ -240,6 +240,10 @@ TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
   const std::string y = R"("responses": [{"name": "y", "goal": "minimize"}],)";
   const std::string command = R"("command": ["true"])";
   EXPECT_TRUE(contains(complaint(x + y + R"("comand": ["true"])"), "there is no \"comand\"; the keys are"));
+  EXPECT_TRUE(contains(complaint(x + y + R"("command": ["true"], "marks": [{"name": "today", "x": [2]}])"),
+                       "\"today\": x = 2 is outside its range 0 to 1"));
+  EXPECT_TRUE(contains(complaint(x + y + R"("command": ["true"], "marks": [{"name": "today", "x": ["a"]}])"),
+                       "marks[0]: \"x\" is \"a\"; give numbers alone in this list"));
   EXPECT_TRUE(contains(complaint(x + x + y + command), "the key \"variables\" stands twice"));
   EXPECT_TRUE(contains(complaint(y + command), "\"variables\" is missing"));
   EXPECT_TRUE(contains(complaint(R"("variables": [{"name": "x", "lower": "0", "upper": 1}],)" + y + command),

@@ -60,6 +60,57 @@ const selected = async () => (await text(one(bar))).match(/Selected: (.*?)Clear/
 
 console.log(`${page.product}, ${await evaluate('document.title')}`);
 
+/// Whether an element ends above the lower edge of the window, and none reaches beyond its right edge.
+const bottom = (element) => evaluate(`Math.round((${element}).getBoundingClientRect().bottom)`);
+const inWidth = () => evaluate('document.documentElement.scrollWidth <= innerWidth');
+const screens = {desktop: [1440, 900], phone: [390, 844]};
+await step('first screen', one('#summary'), async () => {
+  const said = [];
+  for (const [name, [width, height]] of Object.entries(screens)) {
+    const mobile = name === 'phone';
+    await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile});
+    await page.settled();
+    const sentences = await count('#summary > .sentence');
+    assert.equal(sentences, 3, 'the answer has three sentences');
+    assert.ok((await bottom("[...document.querySelectorAll('#summary > .brief')].at(-1)")) < height, `${name}: next`);
+    const plot = await bottom(one('#summary .plot'));
+    assert.ok(plot < height, `${name}: the trade-off ends at ${plot} px`);
+    assert.ok(await inWidth(), `${name}: it is wider than the window`);
+    if (!mobile)
+      assert.ok(
+        await evaluate(
+          "(() => { const n = document.querySelector('nav .inner'); return n.scrollWidth <= n.clientWidth; })()",
+        ),
+        'the navigation is cut off',
+      );
+    said.push(`${name}: trade-off down to ${plot} px of ${height}`);
+  }
+  assert.ok(
+    await evaluate(`document.querySelector('#summary .sentence code') !== null`),
+    'no command for what is not simulated',
+  );
+  assert.equal(await evaluate("document.querySelector('#making details').open"), false, 'the tiles are folded');
+  await page.send('Emulation.setDeviceMetricsOverride', {
+    width: 1440,
+    height: 900,
+    deviceScaleFactor: 1,
+    mobile: false,
+  });
+  await page.settled();
+  const table = "document.querySelector('#front .whole-table .table')";
+  assert.ok(await evaluate(`${table}.scrollWidth <= ${table}.clientWidth`), 'the table of the front is cut off');
+  const named = (
+    await evaluate("[...document.querySelector('#front .js-plotly-plot').data.find((t) => t.name === 'named').text]")
+  ).join(', ');
+  await page.send('Emulation.setDeviceMetricsOverride', {
+    width: 1280,
+    height: 900,
+    deviceScaleFactor: 1,
+    mobile: false,
+  });
+  await page.settled();
+  return `${said.join(', ')}; named: ${named}`;
+});
 await step('sections', one('nav a'), async () => {
   const names = await evaluate('[...document.querySelectorAll("nav a")].map((a) => a.textContent)');
   for (let k = 0; k < names.length; ++k) {
@@ -238,6 +289,14 @@ await step('slider', one('#surfaces .slider'), async () => {
   await until(`${one('#surfaces .slider output')}.textContent === "${before}"`);
   return `${before} to ${after} and back`;
 });
+await step('haul', one('#haul input'), async () => {
+  const said = () => text(one('#haul .sentence'));
+  const before = await said();
+  await click(one('#haul input'), [0.5, 0.5]);
+  await until(`${one('#haul .sentence')}.textContent !== ${JSON.stringify(before)}`);
+  assert.match(await said(), /^With a haul of (29|30|31)\d s “/);
+  return `${before} ${await said()} ${await text(one('#haul ul'))}`;
+});
 await step('surfaces in 3-D', button('#surfaces', '3-D'), async () => {
   await click(button('#surfaces', '3-D'));
   await until(one('#surfaces .gl-container canvas'));
@@ -281,7 +340,9 @@ await step('run on a surface, pointed at and clicked', one(dot), async () => {
   return said;
 });
 
-const scene = '#simulation .replay',
+// A report shows it first.
+const first = await evaluate("Boolean(document.querySelector('#summary .replay'))"),
+  scene = first ? '#summary .replay' : '#simulation .replay',
   clock = one(scene + ' .player .note');
 const seconds = async () => Number((await text(clock)).split(' ')[0]);
 /// Of the pixels that the scene shows: a camera that moves or a body that goes changes it.

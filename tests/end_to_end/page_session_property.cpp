@@ -34,9 +34,12 @@ class PageSession : public StudyTest {
 };
 
 TEST_F(PageSession, TheReport) {
-  ASSERT_EQ(run(FORMULA_DEMO " --runs 30 --validation 5 --jobs 2" + out()).code, 0);
+  ASSERT_EQ(run(FORMULA_DEMO " --runs 30 --validation 5 --jobs 2 --mark today=1,0.5,0.2,0.2" + out()).code,
+            0);
   go_through(dir() / "report.html",
-             {"table, sorted: from",
+             {"first screen: desktop: ",
+              "named: recommended, middle, today\n",
+              "table, sorted: from",
               "table, filtered: Copy",
               "table, copied: it says so",
               "table, downloaded: formula_demo_points_of_the_front.csv",
@@ -56,7 +59,7 @@ TEST_F(PageSession, TheReport) {
               "run on a surface, pointed at and clicked: run",
               ".svg, ",
               "paper: "},
-             7);  // those of a scene
+             8);  // those of a scene, and of a haul
 }
 
 TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
@@ -67,7 +70,7 @@ TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
              {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.", "cameras: side",
               "click in a plot of the scene: to ", "payload 2.50 t",
               "plot of the scene, saved: troubled_run_", "cycles: 1, 2"},
-             19);  // those of a report
+             21);  // those of a report
 }
 
 TEST_F(PageSession, OneCycleHasAPageAndPicturesOfItsOwn) {

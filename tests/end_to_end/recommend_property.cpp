@@ -53,6 +53,7 @@ TEST_F(Recommending, SaysWhatIsTrueOfAKnownFunctionBesideAReferenceAndHowToSimul
   const json x = said["x"];
   const json same = recommended(" --against x=" + x["x"].dump() + ",y=" + x["y"].dump());
   EXPECT_EQ(same["against"], x);
+  EXPECT_EQ(same["x"], x) << "of all that are no worse it is the nearest to the best of both";
   for (const char* figure : {"gain", "gain_lower", "gain_upper"})
     EXPECT_EQ(same["responses"]["cost"][figure].get<double>(), 0.0) << figure;
   const auto refused = [&](const std::string& point, const std::string& words) {

@@ -36,7 +36,8 @@ inline std::vector<std::string> rooms(const std::vector<std::string>& names) {
 /// The modules, what a study file says, and rooms of the studies.
 inline std::vector<std::string> study_rooms(std::vector<std::string> modules,
                                             const std::vector<std::string>& names) {
-  for (const char* face : {"study.hpp", "options.hpp", "headline.hpp", "finding.hpp", "external_program.hpp"})
+  for (const char* face : {"study.hpp", "options.hpp", "headline.hpp", "finding.hpp", "external_program.hpp",
+                           "mark.hpp", "cycle_work.hpp"})
     modules.push_back(std::string("studies/") + face);
   for (const std::string& name : names) modules.push_back("studies/" + name + "/");
   return modules;

@@ -87,6 +87,7 @@ TEST_F(Live, TellsCountsBestRunsAndFailures) {
   EXPECT_EQ(production.at("improvements"), (json{{1, 1, 100.0}, {4, 4, 120.0}}));
   EXPECT_EQ(production.at("best").at(0), 4);
   EXPECT_EQ(production.at("best").at(3), (json{120.0, 0.1}));
+  EXPECT_TRUE(production.at("best_error").is_null()) << "these runs do not say what they scatter by";
   EXPECT_EQ(production.at("highest"), 150.0);
   EXPECT_EQ(state.at("responses").at(1).at("within"), 2) << "0.3 is above 0.25";
   EXPECT_EQ(state.at("failures"), (json{{{"reason", "stuck"}, {"times", 1}, {"run", 3}}}));

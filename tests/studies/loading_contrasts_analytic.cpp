@@ -6,6 +6,8 @@
 #include <drawpoint/tests/studies/support.hpp>
 
 #include <drawpoint/studies/loading_contrasts.h>
+#include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/studies/report/haul_choice.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 
 #include <gtest/gtest.h>
@@ -55,32 +57,64 @@ std::string caption(const nlohmann::json& panel) { return panel["caption"]; }
 
 bool begins(const std::string& text, const std::string& part) { return text.rfind(part, 0) == 0; }
 
-TEST(LoadingContrasts, AreTheExtremeCyclesOfAllRuns) {
+TEST(LoadingContrasts, AreTypicalAndTrackedCyclesOfAllRuns) {
   const test::TestFolder place;
   write_log(place / "run_0007.h5", log_of({{0.5, 4000}, {0.1, 1000}}));
   write_log(place / "run_0012.h5", log_of({{0.3, 6200}, {0.9, 5000}}));
   const auto panels = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"});
   ASSERT_EQ(panels.size(), 4u);
-  EXPECT_EQ(panels[0]["type"], "path");
-  EXPECT_TRUE(begins(caption(panels[0]), "Run 7, cycle 2, the best tracked of 4 cycles, its edge 0.10 m off"))
+  EXPECT_EQ(panels[0]["type"], "scene");
+  EXPECT_TRUE(
+      begins(caption(panels[0]),
+             "Run 12, cycle 2, of median production in a run of rank 1 of 2: 5.0 t in 10.0 s, 500 kg/s"))
       << caption(panels[0]);
   EXPECT_TRUE(
-      begins(caption(panels[1]), "Run 12, cycle 2, the worst tracked of 4 cycles, its edge 0.90 m off"))
+      begins(caption(panels[1]),
+             "Run 7, cycle 2, of median production in a run of rank 2 of 2: 1.0 t in 10.0 s, 100 kg/s"))
       << caption(panels[1]);
-  EXPECT_EQ(panels[0]["contour"]["x"], nlohmann::json({-1.0, 0.0, 3.0})) << "from a metre before the plan";
-  EXPECT_EQ(panels[2]["type"], "scene");
-  EXPECT_TRUE(begins(caption(panels[2]),
-                     "Run 12, cycle 1, the highest production of 4 cycles: 6.2 t in 10.0 s, 620 kg/s"))
+  EXPECT_EQ(panels[1]["frames"].size(), 1u) << "of that cycle alone";
+  EXPECT_EQ(panels[2]["type"], "path");
+  EXPECT_TRUE(begins(caption(panels[2]), "Run 7, cycle 2, the best tracked of 4 cycles, its edge 0.10 m off"))
       << caption(panels[2]);
-  EXPECT_TRUE(begins(caption(panels[3]),
-                     "Run 7, cycle 2, the lowest production of 4 cycles: 1.0 t in 10.0 s, 100 kg/s"))
+  EXPECT_TRUE(
+      begins(caption(panels[3]), "Run 12, cycle 2, the worst tracked of 4 cycles, its edge 0.90 m off"))
       << caption(panels[3]);
-  EXPECT_EQ(panels[3]["frames"].size(), 1u) << "of that cycle alone";
-  const auto hauled = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"}, {{"haul", "52"}});
-  EXPECT_TRUE(begins(caption(hauled[2]),
-                     "Run 12, cycle 1, the highest production of 4 cycles: 6.2 t in 10.0 s, 100 "
-                     "kg/s with a haul of 52 s"))
-      << caption(hauled[2]);
+  EXPECT_EQ(panels[2]["contour"]["x"], nlohmann::json({-1.0, 0.0, 3.0})) << "from a metre before the plan";
+  const auto hauled = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"}, {{"haul", "40"}});
+  EXPECT_NE(caption(hauled[0]).find("100 kg/s with a haul of 40 s"), std::string::npos) << caption(hauled[0]);
+}
+
+// Of twenty runs the luckiest has one cycle beyond all others; shown is the median cycle of the third run from the top.
+TEST(LoadingContrasts, ShowATypicalCycleAndNotTheLuckiest) {
+  const test::TestFolder place;
+  std::vector<std::filesystem::path> logs;
+  for (int i = 1; i <= 20; ++i) {
+    logs.push_back(place / ("run_00" + std::to_string(10 + i) + ".h5"));
+    const double load = 100.0 * i;
+    write_log(logs.back(), log_of({{0, 9000.0 * (i == 3)}, {0, load}, {0, load + 50}}));
+  }
+  const auto panels = loading_contrasts(logs);
+  ASSERT_EQ(panels.size(), 2u) << "all are tracked alike";
+  // By the mean of three: run 13 (9000 and 300 and 350) first, then 30, 29, 28; so rank 3 of 20 is run 29.
+  EXPECT_TRUE(begins(caption(panels[0]), "Run 29, cycle 2, of median production in a run of rank 3 of 20"))
+      << caption(panels[0]);
+  EXPECT_TRUE(begins(caption(panels[1]), "Run 14, cycle 2, of median production in a run of rank 18 of 20"))
+      << caption(panels[1]);
+}
+
+// The rate that cycles give is the response, whatever the haul.
+TEST(LoadingCycles, GiveTheProductionOfTheRun) {
+  const test::TestFolder place;
+  const LoadingLog log = log_of({{0.5, 4000}, {0.1, 1000}, {0.1, 2500}});
+  write_log(place / "run_0003.h5", log);
+  for (const char* haul : {"0", "37", "600"}) {
+    const OptionValues options{{"haul", haul}};
+    const CycleWork work = loading_cycles(place / "run_0003.h5", options);
+    const WorkOfRun run{3, {}, work.loads, work.seconds};
+    EXPECT_EQ(work.rate, "production");
+    EXPECT_NEAR(run.rate(work.haul), production(log, production_options(options)), 1e-12);
+  }
+  EXPECT_EQ(typical_cycle(log, {}), 2u) << "2500 kg lie between 1000 and 4000";
 }
 
 TEST(LoadingContrasts, AreNoneOfOneCycleOrOfEqualOnes) {
@@ -97,7 +131,9 @@ TEST(LoadingContrasts, LeaveOutWhatALogLacks) {
   LoadingLog log = log_of({{0.5, 4000}, {0.1, 1000}});
   for (CycleRecord& cycle : log.cycles) cycle.planned_x = cycle.planned_z = {};
   write_log(place / "run_0003.h5", log);
-  const auto panels = loading_contrasts({place / "run_0003.h5"});
+  log.cycles[0].loaded_mass = 5000;
+  write_log(place / "run_0004.h5", log);
+  const auto panels = loading_contrasts({place / "run_0003.h5", place / "run_0004.h5"});
   ASSERT_EQ(panels.size(), 2u);
   EXPECT_EQ(panels[0]["type"], "scene");
 }

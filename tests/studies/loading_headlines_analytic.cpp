@@ -82,7 +82,7 @@ TEST_F(LoadingHeadlines, SayFillStallsAndNoise) {
   const auto of = told({log_of({cycle(0, 4e3, 0, StageEnd::goal), cycle(20, 8e3, 2e3, StageEnd::timeout)}),
                         log_of({cycle(0, 6e3, 1e3, StageEnd::goal), cycle(20, 6e3, 1e3, StageEnd::goal)})});
   EXPECT_DOUBLE_EQ(of.at("fill_factor").value, 0.3);
-  EXPECT_NE(of.at("fill_factor").note.find("0.30 in the best run"), std::string::npos);
+  EXPECT_NE(of.at("fill_factor").note.find("0.30 in the run that loaded most"), std::string::npos);
   EXPECT_DOUBLE_EQ(of.at("stall_share").value, 0.25);
   EXPECT_NEAR(of.at("noise_of_production").value, 200 / std::sqrt(2.0), 1e-9);
   EXPECT_EQ(of.at("noise_of_production").unit, "kg/s");

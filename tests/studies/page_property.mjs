@@ -11,6 +11,7 @@ import {csv, tsv} from '../../studies/report/web/delimited.js';
 import {number, setting} from '../../studies/report/web/format.js';
 import {predictor} from '../../studies/report/web/kriging.js';
 import {meanInterval, scaledDeviation} from '../../studies/report/web/kriging_error.js';
+import {ranked, rateOfRun, turnTexts} from '../../studies/report/web/haul_rates.js';
 import {brokenText, symbols} from '../../studies/report/web/limits.js';
 import {leftOutText, nestedVariables, outerLevels} from '../../studies/report/web/nested_levels.js';
 import {lineAt} from '../../studies/report/web/parallel_pointer.js';
@@ -31,6 +32,24 @@ function designs() {
 }
 
 const selected = (selection, set, count) => Array.from({length: count}, (_, i) => i).filter((i) => selection.has(set, i));
+
+test('a haul changes the order where the fuller strategy passes the quicker one', () => {
+  const strategies = [
+    {name: 'quick', load: 1000, seconds: 10},
+    {name: 'full', load: 2000, seconds: 30},
+  ];
+  const first = (haul) => ranked(strategies, haul)[0].strategy.name;
+  assert.equal(first(9), 'quick'); // 1000 / (10 + h) = 2000 / (30 + h) at h = 10
+  assert.equal(first(11), 'full');
+  assert.equal(ranked(strategies, 10)[0].rate, 50);
+  assert.equal(rateOfRun({loads: [1000, 3000], seconds: [10, 20]}, 10), 75);
+  const turns = [{haul: 10, better: 1, worse: 0, lower: 5, upper: null}];
+  assert.deepEqual(turnTexts({turns, strategies, longest: 600}), [
+    'From 10 s on “full” gives more than “quick” (the turn lies between 5 s and more than 600 s with 95 %).',
+  ]);
+  assert.equal(turnTexts({turns: [], strategies, longest: 600})[0], 'The order does not turn for hauls up to 600 s.');
+  assert.equal(turnTexts({turns: Array(9).fill(turns[0]), strategies, longest: 600}).at(-1), '3 more turns follow.');
+});
 
 test('without a range or an area everything is selected', () => {
   const selection = selecting(designs());

@@ -280,7 +280,7 @@ TEST_F(Report, MarksRunsThatBreakALimit) {
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_EQ(rows.at(i).at("breaks"), i < 3 ? nlohmann::json::array() : nlohmann::json({0})) << i;
   EXPECT_TRUE(mentions(data.at("summary").at("sentences"),
-                       "the best run simulated so far that keeps all limits reached 6.00 s (run 2)"));
+                       "the best of 2 single runs within the limits, run 2, gave 6.00 s"));
   EXPECT_TRUE(mentions(data.at("summary").at("sentences"),
                        "The lowest y1 within the limits that the surrogates predict"));
   EXPECT_EQ(data.at("summary").at("cards").at(0).at("label"), "Lowest y1 predicted within the limits");

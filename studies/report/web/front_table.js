@@ -37,18 +37,18 @@ export function frontTable(data, objectives, shared) {
   const chance = success.length ? [{title: 'a run succeeds', format: percent}] : [];
   const columns = [
     {title: 'Point', format: String},
+    ...data.problem.variables.map(inputColumn),
     ...values,
     ...onFront,
     ...chance,
-    ...data.problem.variables.map(inputColumn),
   ];
   const interval = (i, k) => (lower.length ? [[lower[i][k], upper[i][k]]] : []);
   const rows = X.map((x, i) => [
     i + 1,
+    ...x,
     ...Y[i].flatMap((y, k) => [y, ...interval(i, k)]),
     ...sure.slice(i, i + 1),
     ...success.slice(i, i + 1),
-    ...x,
   ]);
   const title = objectives.length > 1 ? 'Points of the front' : 'Points found';
   const made = linkTable(
@@ -78,7 +78,7 @@ export function frontTable(data, objectives, shared) {
   update();
   return el(
     'div',
-    {class: 'block'},
+    {class: 'block dense'},
     el('h3', {}, title),
     detail,
     made.node,

@@ -56,9 +56,9 @@ function layOut(state) {
     section('progress', 'Progress', null, of.progress.node, of.running.node),
     section(
       'best',
-      'Best so far',
-      'Single runs, as simulated; objectives among the runs that keep all limits. What the models predict ' +
-        'beyond them, the command front says.',
+      'Luckiest runs so far',
+      'Single runs, as simulated; objectives among the runs that keep all limits. The best of many runs that scatter ' +
+        'looks better than its strategy is: what the models expect there, the report says.',
       of.best.node,
       el('div', {class: 'block'}, parts.curves.node),
     ),

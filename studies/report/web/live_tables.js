@@ -89,18 +89,30 @@ export function progress(state) {
 const design = (x, variables) => variables.map((v, k) => `${pretty(v.name)} ${settingWithUnit(x[k], v)}`).join(', ');
 const goals = {minimize: 'smallest', maximize: 'largest', at_most: 'at most', at_least: 'at least', record: 'recorded'};
 
+/// One run with what it may as well have given, by its own standard error.
+function lucky(value, r, error) {
+  if (!(error > 0)) return withUnit(value, r);
+  const ends = [-1.96, 1.96].map((by) =>
+    Math.min(Math.max(value + by * error, r.lower ?? -Infinity), r.upper ?? Infinity),
+  );
+  return `${withUnit(value, r)} (${number(ends[0])} to ${number(ends[1])} with 95 %)`;
+}
+
 export function best(state) {
   const {variables, responses} = state.problem;
   const rows = own(responses).map(({response: r, j}) => {
-    const {lowest, highest, done, within, best: found} = state.responses[j];
+    const {lowest, highest, done, within, best: found, best_error: error} = state.responses[j];
     const span = done ? `${number(lowest)} to ${number(highest)}` : 'none yet';
     if (r.limit != null)
       return [labelled(r), `${goals[r.goal]} ${number(r.limit)}`, `kept by ${within} of ${done}`, '', span, ''];
     if (!found) return [labelled(r), goals[r.goal], r.goal === 'record' ? '' : 'none yet', '', span, ''];
     const [run, , x, y] = found;
-    return [labelled(r), goals[r.goal], withUnit(y[j], r), runLink(run, state), span, design(x, variables)];
+    return [labelled(r), goals[r.goal], lucky(y[j], r, error), runLink(run, state), span, design(x, variables)];
   });
-  const columns = ['Response', 'Wanted', 'Best so far', 'Run', 'All runs', 'At'].map((title) => ({title, text: true}));
+  const columns = ['Response', 'Wanted', 'Luckiest run so far', 'Run', 'All runs', 'At'].map((title) => ({
+    title,
+    text: true,
+  }));
   return el('div', {class: 'block'}, table(columns, rows, {sortable: false}).node);
 }
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assembles the page from the data embedded in it: the report of a study, or the replay of one run.
 
+import {answer, besidesTheScene} from './answer.js';
 import {choose} from './choice.js';
 import {collect} from './designs.js';
-import {summary, header, navigation, facts} from './summary.js';
+import {header, navigation, facts} from './summary.js';
 import {findings} from './findings.js';
+import {hauls} from './haul.js';
 import {contrasts, figures, panels} from './panels.js';
 import {asked} from './question.js';
 import {oneRun} from './replay.js';
@@ -16,6 +18,7 @@ import {validation} from './validation.js';
 import {runs} from './runs.js';
 import {selecting} from './selection.js';
 import {selectionBar} from './selection_bar.js';
+import {trust} from './trust.js';
 
 const data = JSON.parse(document.getElementById('report-data').textContent);
 const page = document.getElementById('report');
@@ -42,7 +45,21 @@ function attempt(build) {
 
 const builders = data.replay
   ? [oneRun, panels, facts]
-  : [summary, asked, findings, panels, contrasts, tradeOffs, parallelCoordinates, surfaces, validation, runs, facts];
+  : [
+      answer,
+      tradeOffs,
+      contrasts,
+      (all, of) => panels(besidesTheScene(all), of),
+      surfaces,
+      hauls,
+      parallelCoordinates,
+      trust,
+      validation,
+      findings,
+      runs,
+      asked,
+      facts,
+    ];
 const sections = builders.map(attempt).filter(Boolean);
 page.replaceChildren(
   header(data),

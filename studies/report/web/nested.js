@@ -154,7 +154,7 @@ function cell({row, column, z}, i, {x, y, range, f, inner: [v, w], size: [column
     y,
     z,
     ...range,
-    colorscale: scale,
+    colorscale: scale(),
     ncontours: 12,
     contours: {coloring: 'heatmap', showlines: true},
     line: {color: 'rgba(255,255,255,0.55)', width: 0.7},

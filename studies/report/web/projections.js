@@ -9,6 +9,8 @@ import {choice, el, figure, select} from './dom.js';
 import {axisLabel, labelled, percent, plain, ticks} from './format.js';
 import {bandTraces} from './front_band.js';
 import {brokenText, legendOfLimits, sizes, symbols} from './limits.js';
+import {namedPlaces} from './named.js';
+import {namedTrace} from './named_trace.js';
 import {axis, draw, plotBox, redraw} from './plot.js';
 import {colour, scale} from './theme.js';
 
@@ -17,8 +19,8 @@ const many = 2000; // points from which on they are drawn smaller and plainer
 const tools = ['select', 'lasso', 'zoom'];
 
 export function projections(data, objectives, shared) {
-  const cloud = points(data, shared.designs);
-  const state = {by: objectives.length > 2 ? 0 : objectives.length + 1, tool: tools[0]};
+  const cloud = {...points(data, shared.designs), named: namedPlaces(data)};
+  const state = {by: objectives.length > 2 && differs(data, 2) ? 0 : objectives.length + 1, tool: tools[0]};
   const shown = pairs(objectives.length).map((pair) => projection(pair, {data, objectives, cloud, state, ...shared}));
   const colourings = [
     objectives.length > 2 ? 'the third response' : 'nothing',
@@ -46,7 +48,7 @@ export function projections(data, objectives, shared) {
           }),
         ),
       ),
-      el('div', {class: 'grid'}, shown),
+      el('div', {class: shown.length > 1 ? 'grid wide' : ''}, shown),
     ),
     'The front seen from each pair of objectives. ' +
       (data.front.bands.length
@@ -54,11 +56,19 @@ export function projections(data, objectives, shared) {
           'free: 5 to 95 of 100 draws of the surrogates reach it; dotted, half of them do. '
         : '') +
       'Grey dots are simulated runs, for scale; the diamond is the balanced point, nearest to the best of every ' +
-      'objective at once; a line leads from what was predicted of a confirmed point to what its simulation ' +
+      'objective at once, the star what is recommended; a line leads from what was predicted of a ' +
+      'confirmed point to what its simulation ' +
       'gave (square). Click a point to follow it through the report; drag a box or a lasso to select what ' +
       'is inside in all plots and tables, and double-click to clear it.' +
       legendOfLimits(shared.designs.runs),
   );
+}
+
+/// Whether the front spans enough of the runs' values of an objective that its colours say something.
+function differs({front, training}, k) {
+  const spread = (values) => Math.max(...values) - Math.min(...values);
+  const runs = training.rows.filter((r) => r.y).map((r) => r.y[front.objectives[k]]);
+  return spread(front.Y.map((y) => y[k])) > 0.02 * spread(runs);
 }
 
 function pairs(count) {
@@ -93,7 +103,7 @@ function points({problem, confirmations, front}, {runs}) {
 
 function projection([a, b], view) {
   const {data, objectives, cloud, designs, chosen, selection, state} = view;
-  const box = plotBox(400, `Pareto projection ${objectives[a].name} ${objectives[b].name}`);
+  const box = plotBox(480, `Pareto projection ${objectives[a].name} ${objectives[b].name}`);
   const runs = {x: values(a), y: values(b)},
     front = {x: data.front.Y.map((y) => y[a]), y: data.front.Y.map((y) => y[b])};
   function values(k) {
@@ -109,6 +119,7 @@ function projection([a, b], view) {
     ...ringOf(chosen.marked('runs'), (i) => [a, b].map((k) => designs.runs[i].y?.[data.front.objectives[k]])),
   ];
   const small = data.front.X.length > many;
+  const response = (k) => (place) => place.y[data.front.objectives[k]];
   draw(box, (saved) => {
     const shade = colouring(data, objectives, [a, b], state.by);
     const marker = {
@@ -120,7 +131,7 @@ function projection([a, b], view) {
     if (small && !saved) Object.assign(marker, onCanvas);
     if (shade)
       Object.assign(marker, {
-        colorscale: scale,
+        colorscale: scale(),
         showscale: true,
         colorbar: {
           title: {text: axisLabel(shade.item), side: 'right', font: {size: 12}},
@@ -131,6 +142,7 @@ function projection([a, b], view) {
           ...ticks(shade.item),
         },
       });
+    const named = namedTrace(cloud.named, response(a), response(b));
     const trace = (more) => ({mode: 'markers', unselected: {marker: {opacity: 1}}, ...more});
     return {
       traces: [
@@ -159,9 +171,11 @@ function projection([a, b], view) {
               }),
             ]
           : []),
+        named.trace,
       ],
       layout: {
         showlegend: false,
+        annotations: named.annotations,
         dragmode: state.tool,
         shapes: rings(),
         margin: {l: 60, r: 8, t: 12, b: 52},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Head of the page and the summary in words. The sentences come ready in the data.
+// Head of the page, the way to its sections, and how it was made.
 
 import {certificate} from './front.js';
 import {el, section} from './dom.js';
@@ -9,6 +9,23 @@ import {pageHeader} from './header.js';
 export const header = (data) =>
   pageHeader(data.replay ? 'Drawpoint replay of a run' : 'Drawpoint study report', data.study, data.about);
 
+/// Names of sections that fit side by side.
+const short = {
+  summary: 'Answer',
+  front: 'Trade-off',
+  contrasts: 'Good and bad',
+  simulation: 'One run',
+  surfaces: 'Surfaces',
+  haul: 'Haul',
+  designs: 'Designs',
+  trust: 'Trust',
+  surrogates: 'Validation',
+  findings: 'Findings',
+  runs: 'Runs',
+  study: 'Question',
+  making: 'Making',
+};
+
 export function navigation(sections) {
   return el(
     'nav',
@@ -16,37 +33,8 @@ export function navigation(sections) {
     el(
       'div',
       {class: 'inner'},
-      sections.map((s) => el('a', {href: '#' + s.id}, s.querySelector('h2').textContent)),
+      sections.map((s) => el('a', {href: '#' + s.id}, short[s.id] ?? s.querySelector('h2').textContent)),
     ),
-  );
-}
-
-export function summary(data) {
-  const {cards, sentences, trust, cautions, next} = data.summary;
-  return section(
-    'summary',
-    'In brief',
-    null,
-    sentences.map((text) => el('p', {class: 'sentence'}, text)),
-    el(
-      'div',
-      {class: 'columns'},
-      el('div', {}, el('h3', {}, 'How far to trust it'), el('ul', {class: 'trust'}, trust.map(verdict))),
-      cautions.length
-        ? el(
-            'div',
-            {},
-            el('h3', {}, 'Cautions'),
-            el(
-              'ul',
-              {class: 'cautions'},
-              cautions.map((text) => el('li', {}, text)),
-            ),
-          )
-        : null,
-    ),
-    next.length ? el('div', {}, el('h3', {}, 'What to do next'), el('ol', {class: 'next'}, next.map(step))) : null,
-    cards.length ? el('div', {class: 'cards'}, cards.map(card)) : null,
   );
 }
 
@@ -59,10 +47,16 @@ const card = ({label, value, unit, note}) =>
     el('span', {class: 'note'}, note),
   );
 
-const step = ({text, command}) => el('li', {}, text, command ? [' ', el('code', {}, command)] : null);
-
-const verdict = ({response, grade, text}) =>
-  el('li', {}, el('span', {class: 'grade ' + grade}, grade), el('span', {}, el('b', {}, response), ' ' + text));
+/// Figures that tell what the runs are worth, folded.
+function tiles({cards}) {
+  if (!cards.length) return null;
+  return el(
+    'details',
+    {class: 'block more'},
+    el('summary', {}, 'The runs in figures'),
+    el('div', {class: 'cards'}, cards.map(card)),
+  );
+}
 
 export function facts(data) {
   const rows = [...data.facts];
@@ -76,5 +70,6 @@ export function facts(data) {
     rows.length
       ? el('dl', {class: 'facts'}, rows.map(([label, value]) => [el('dt', {}, label), el('dd', {}, value)]).flat())
       : null,
+    data.summary ? tiles(data.summary) : null,
   );
 }

@@ -11,6 +11,8 @@ import {oncePerFrame} from './frames.js';
 import {predictor} from './kriging.js';
 import {meanInterval} from './kriging_error.js';
 import {breaksLimit, legendOfLimits, symbols} from './limits.js';
+import {namedPlaces} from './named.js';
+import {namedTrace} from './named_trace.js';
 import {nested} from './nested.js';
 import {axis, draw, plotBox} from './plot.js';
 import {profiles} from './profiles.js';
@@ -34,13 +36,14 @@ export function surfaces(data, shared) {
     fitted.length ? 'What the surrogates predict between the simulated points.' : 'There is no surrogate to draw.',
   );
   node.append(
-    ...flat.map(({response}) =>
-      el(
-        'p',
-        {class: 'note'},
-        `Of ${pretty(response.name)} nothing is drawn: its surrogate is flat within its own error.`,
-      ),
-    ),
+    flat.length
+      ? el(
+          'p',
+          {class: 'note'},
+          `Of ${flat.map(({response}) => pretty(response.name)).join(', ')} nothing is drawn: flat within the ` +
+            'error of the surrogate.',
+        )
+      : '',
   );
   if (!fitted.length) return node;
   for (const f of fitted) {
@@ -136,6 +139,7 @@ function maps(data, fitted, shared) {
   const {variables} = data.problem,
     {chosen, selection} = shared;
   let [a, b] = data.main_pair;
+  const named = namedPlaces(data);
   let solid = false,
     near = null;
   const boxes = fitted.map((f) => plotBox(fitted.length === 1 ? 460 : 380, 'Response surface of ' + f.response.name));
@@ -143,7 +147,13 @@ function maps(data, fitted, shared) {
   const redraw = oncePerFrame(() => {
     near = nearCut(data.problem, data.training.rows, chosen.x, [a, b], dots);
     fitted.forEach((f, i) =>
-      map(boxes[i], f, data, [a, b], {chosen, near, opacity: () => dimmedBy(selection, known, near.opacity), solid}),
+      map(boxes[i], f, data, [a, b], {
+        chosen,
+        near,
+        opacity: () => dimmedBy(selection, known, near.opacity),
+        solid,
+        named,
+      }),
     );
   });
   selection.onchange(() => {
@@ -184,7 +194,8 @@ function maps(data, fitted, shared) {
       el('div', {class: 'grid'}, boxes),
     ),
     'Predicted response over two variables, the others held at the sliders above. The colours span the ' +
-      'simulated range of each response and do not move with the sliders; the cross marks the sliders’ point. ' +
+      'simulated range of each response and do not move with the sliders; the cross marks the sliders’ ' +
+      'point, names stand at places projected onto the cut. ' +
       'Lines close together mean a steep response. Dots are simulated runs, projected onto the cut: the ' +
       'fainter, the farther they lie from it; a click marks one and moves the cut there. In 3-D the pale ' +
       'sheets below and above hold the mean of many runs with 95 %.' +
@@ -193,7 +204,7 @@ function maps(data, fitted, shared) {
 }
 
 /// The runs are the second trace. opacity(): theirs where a plot does not dim them itself.
-function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
+function map(box, f, data, [a, b], {chosen, near, opacity, solid, named}) {
   const {variables} = data.problem;
   const count = f.model.surface.weights.length > 200 ? 31 : 41;
   const x = places(variables[a], count),
@@ -208,12 +219,12 @@ function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
   );
   const revision = `${a} ${b} ${solid}`;
   const title = {text: axisLabel(f.response), font: {size: 14}, x: 0, xanchor: 'left', xref: 'paper'};
-  const range = {
+  const range = () => ({
     zmin: f.range[0],
     zmax: f.range[1],
-    colorscale: scale,
+    colorscale: scale(),
     colorbar: {thickness: 11, len: 0.95, outlinewidth: 0, tickfont: {size: 11}},
-  };
+  });
   if (solid) {
     const side = (item) => ({
       title: {text: axisLabel(item)},
@@ -227,7 +238,10 @@ function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
       zaxis: side(f.response),
       camera: {eye: {x: -1.75, y: -1.85, z: 1.05}, center: {x: 0, y: 0, z: -0.15}},
     });
-    const {zmin, zmax, ...rest} = range;
+    const solidRange = () => {
+      const {zmin, zmax, ...rest} = range();
+      return {cmin: zmin, cmax: zmax, ...rest};
+    };
     draw(box, () => ({
       traces: [
         {
@@ -235,9 +249,7 @@ function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
           x,
           y,
           z,
-          cmin: zmin,
-          cmax: zmax,
-          ...rest,
+          ...solidRange(),
           showscale: false,
           contours: {z: {show: true, usecolormap: false, color: 'rgba(255,255,255,0.5)', width: 1}},
         },
@@ -248,52 +260,59 @@ function map(box, f, data, [a, b], {chosen, near, opacity, solid}) {
     }));
     return;
   }
-  draw(box, (saved) => ({
-    traces: [
-      {
-        type: 'contour',
-        x,
-        y,
-        z,
-        ...range,
-        ncontours: 14,
-        contours: {coloring: 'heatmap', showlines: true},
-        line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
-        hovertemplate:
-          `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ` +
-          `${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`,
-      },
-      {
-        x: near.rows.map((r) => r.x[a]),
-        y: near.rows.map((r) => r.x[b]),
-        mode: 'markers',
-        text: near.rows.map((r) => dotText(data.problem, f, r)),
-        hovertemplate: '%{text}<extra></extra>',
-        marker: {
-          size: 6,
-          color: '#fff',
-          opacity: saved ? opacity() : near.opacity,
-          symbol: symbols(near.rows),
-          line: {color: '#1c2733', width: 1},
+  const across = ({x: at}) => at[a],
+    upward = ({x: at}) => at[b];
+  draw(box, (saved) => {
+    const {trace, annotations} = namedTrace(named, across, upward, true);
+    return {
+      traces: [
+        {
+          type: 'contour',
+          x,
+          y,
+          z,
+          ...range(),
+          ncontours: 14,
+          contours: {coloring: 'heatmap', showlines: true},
+          line: {color: 'rgba(255,255,255,0.55)', width: 0.8},
+          hovertemplate:
+            `${axisLabel(variables[a])}: ${place(variables[a], 'x')}<br>${axisLabel(variables[b])}: ` +
+            `${place(variables[b], 'y')}<br>${axisLabel(f.response)}: %{z:.4g}<extra></extra>`,
         },
+        {
+          x: near.rows.map((r) => r.x[a]),
+          y: near.rows.map((r) => r.x[b]),
+          mode: 'markers',
+          text: near.rows.map((r) => dotText(data.problem, f, r)),
+          hovertemplate: '%{text}<extra></extra>',
+          marker: {
+            size: 6,
+            color: '#fff',
+            opacity: saved ? opacity() : near.opacity,
+            symbol: symbols(near.rows),
+            line: {color: '#1c2733', width: 1},
+          },
+        },
+        {
+          x: [chosen.x[a]],
+          y: [chosen.x[b]],
+          mode: 'markers',
+          hoverinfo: 'skip',
+          marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}},
+        },
+        trace,
+      ],
+      layout: {
+        title,
+        annotations,
+        showlegend: false,
+        margin: {l: 56, r: 8, t: 36, b: 52},
+        uirevision: revision,
+        xaxis: axis(axisLabel(variables[a]), within(variables[a])),
+        yaxis: axis(axisLabel(variables[b]), within(variables[b])),
       },
-      {
-        x: [chosen.x[a]],
-        y: [chosen.x[b]],
-        mode: 'markers',
-        hoverinfo: 'skip',
-        marker: {symbol: 'cross-thin', size: 13, line: {color: '#fff', width: 2.5}},
-      },
-    ],
-    layout: {
-      title,
-      showlegend: false,
-      margin: {l: 56, r: 8, t: 36, b: 52},
-      uirevision: revision,
-      xaxis: axis(axisLabel(variables[a]), within(variables[a])),
-      yaxis: axis(axisLabel(variables[b]), within(variables[b])),
-    },
-  }));
+    };
+  });
 }
 
 /// The ends of the interval of the mean as surfaces, none where the model does not know them.

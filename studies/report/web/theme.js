@@ -48,7 +48,15 @@ const darkSeries = ['#6aaadb', '#eda056', '#7cc596', '#bd92d0', '#f07f75', '#a3b
 
 export const colour = {...light};
 export const series = [...lightSeries];
-export const scale = 'Viridis';
+/// Viridis; on dark paper its dark end, which would vanish there, is lighter.
+const darkScale = [
+  [0, '#5a68b8'],
+  [0.25, '#3e8fb0'],
+  [0.5, '#2bb0a0'],
+  [0.75, '#7ad151'],
+  [1, '#fde725'],
+];
+export const scale = () => (colour.paper === dark.paper ? darkScale : 'Viridis');
 
 /// What '#rrggbb' over paper looks like with an opacity, as an opaque colour.
 export const faded = (hex, opacity) => {

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The one strategy that a report recommends, and what it gains.
+///
+/// The rule: of the points of the front where a run succeeds with a chance of 0.9 or more, and of these of the ones
+/// that are predicted to be no worse than the reference in any objective, the one nearest to the best of every
+/// objective at once, each scaled to its range on the front. Where no point is left, that condition is dropped. With
+/// one objective it is the best point found.
+/// A place that `confirm` has simulated takes its stead where it does as well: in every objective the means of the
+/// two differ by a twentieth of its range on the front at most, or by nothing that the models can tell with 95 %; the
+/// simulation kept all limits, and the condition above holds. Of several such places it is the nearest to the best of every objective at once.
+/// The reference is the mark called "reference" (mark.hpp), or else the middle of the box.
+
+#include <drawpoint/studies/report/report.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drawpoint::studies {
+
+/// Of the mean of many runs, recommended less reference, unit of the response; the ends hold it with 95 %, and are
+/// not numbers where the model does not know its error.
+struct Gain {
+  std::size_t response = 0;  ///< an objective
+  double here = 0, there = 0, lower = 0, upper = 0;
+
+  double difference() const { return here - there; }
+  /// Whether both ends are on the same side of 0.
+  bool is_sure() const { return lower > 0 || upper < 0; }
+};
+
+struct Reference {
+  std::string name;  ///< "the middle of the box", or that of the mark
+  Eigen::VectorXd x;
+};
+Reference reference_of(const doe::Problem& problem, const std::vector<Mark>& marks);
+
+struct Recommendation {
+  Eigen::VectorXd x;
+  int row = -1;                                   ///< of the front; -1: a place that was simulated
+  std::vector<const doe::Evaluation*> simulated;  ///< runs in this place that succeeded, the last first
+  Reference reference;
+  std::vector<Gain> gains;  ///< one per objective
+};
+
+/// None without models or a front. Costs a few thousand draws of two points per objective and simulated place.
+std::optional<Recommendation> recommend(const ReportInput& input);
+/// The same against another reference.
+std::optional<Recommendation> recommend(const ReportInput& input, const Reference& reference);
+
+/// Two points are the same strategy when they differ by at most this share of the range in every variable.
+inline constexpr double same_place = 0.02;
+
+/// Means of all responses at the rows of X (n x d), within their ranges: n x r.
+Eigen::MatrixXd predicted_means(const ReportInput& input, const Eigen::MatrixXd& X);
+
+/// Distance from the best of every objective at once, each scaled to its range on the front, of rows of means.
+Eigen::VectorXd distance_from_best(const ReportInput& input, const Eigen::MatrixXd& means);
+
+}  // namespace drawpoint::studies
