@@ -8,7 +8,7 @@ import {Facets, linear} from './mesh.js';
 
 const cell = 0.25, // [m]
   cover = 0.35, // of rock over the core [m]
-  gap = 0.45, // above the rock below, over which a rock lies on it [m]
+  gap = 0.5, // above the rock below, over which a rock lies on it [m]
   rim = 3, // cells along a side through which one looks at the rock, where the core ends
   highest = 16; // that a height can be [m]; rocks higher than this are left to themselves
 const dark = linear('#4a443d');
@@ -68,11 +68,11 @@ export class RockCover {
       z = places[at + 2] + 0.5 * radius,
       r = 0.7 * radius;
     const [i0, i1, j0, j1] = this.cells(x, y, r);
+    let below = 0;
+    for (let j = j0; j < j1; ++j) for (let i = i0; i < i1; ++i) below += this.top[j * this.nx + i];
+    if (z - radius > below / ((i1 - i0) * (j1 - j0)) + gap) return;
     for (let j = j0; j < j1; ++j)
-      for (let i = i0; i < i1; ++i) {
-        const k = j * this.nx + i;
-        if (this.top[k] < z && z - radius < this.top[k] + gap) this.top[k] = z;
-      }
+      for (let i = i0; i < i1; ++i) if (this.top[j * this.nx + i] < z) this.top[j * this.nx + i] = z;
   }
 
   /// For a camera there: from beyond a wall one looks through it at the side of the rock. Whether that changed what is
