@@ -81,7 +81,7 @@ void set_design(Scenario& scenario, const Eigen::VectorXd& x) {
 
 doe::Outcome responses_of(const engine::loading::LoadingLog& log, const studies::OptionValues& options) {
   if (!log.completed) return doe::Failure{log.message};
-  const double loaded = 1e-3 * entry_of(log.numbers, "payload") * fill_factor(log);
+  const double loaded = 1e-3 * studies::entry_of(log.numbers, "payload") * fill_factor(log);
   if (loaded == 0) return doe::Failure{"nothing was loaded, so energy per tonne is unknown"};
   const auto producing = studies::production_options(options);
   return {production(log, producing), energy_per_tonne(log), pin_load_range(log), loaded,
