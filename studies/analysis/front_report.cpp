@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct FrontView {
       : input(in),
         points(with_predictions(in.models, in.problem, in.front.X)),
         decision(decision_points(in.front, in.problem)) {
-    if (const auto found = recommend(in)) recommended = found->row;
+    if ((recommendation = recommend(in))) recommended = recommendation->row;
   }
 
   Eigen::VectorXd place(int row) const { return input.front.X.row(row).transpose(); }
@@ -33,6 +34,7 @@ struct FrontView {
   const ReportInput& input;
   PlannedPoints points;
   DecisionPoints decision;
+  std::optional<Recommendation> recommendation;
   int recommended = -1;  ///< -1: none, or a place that was simulated
 };
 
@@ -163,6 +165,15 @@ std::string places_text(const FrontView& view, const std::vector<int>& shown) {
              : "No point shown has been simulated: the models know more now, and their front has moved.\n";
 }
 
+/// Where a simulated place is recommended, which is no point of the table.
+std::string recommended_text(const FrontView& view) {
+  if (!view.recommendation || view.recommendation->row >= 0) return "";
+  const Recommendation& found = *view.recommendation;
+  std::string text = "Recommended is a simulated place: " + detail::point_text(view.input.problem, found.x);
+  if (!found.simulated.empty()) text += ", run " + std::to_string(found.simulated.front()->run);
+  return text + ".\n";
+}
+
 std::string non_dominated_text(const ReportInput& input) {
   if (input.uncertainty.non_dominated.size() == 0) return "";
   return "Non-dominated: how likely the mean of many runs there keeps every limit while no other\n"
@@ -243,6 +254,7 @@ std::string front_points_text(const ReportInput& input, int most, bool every_poi
   text += "\nIn brackets: the interval that should hold 95 of 100 runs there, noise included.\n";
   for (const auto& [response, why] : texts_of(input.flat, input.problem))
     text += response + ": " + why + ".\n";
+  text += recommended_text(view);
   text += non_dominated_text(input);
   text += places_text(view, shown);
   text += confirmation_text(input);

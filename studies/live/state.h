@@ -9,7 +9,7 @@
 ///     problem, total, counts {kind: {state: n}}, progress (text), runs_per_hour, seconds_left and left
 ///     (the same as text; null: unknown), seconds and time (in runs),
 ///     responses [{lowest, highest, done, within, improvements [[ended, run, value]],
-///                 best {run, kind, x, y}}],
+///                 best {run, kind, x, y}, best_error (as that run says of itself, or null)}],
 ///     failures [{reason, times, run}], more_failures, running [{run, kind, x, started}],
 ///     last {run, kind, x, y or null, reason, seconds, finished}, logged (run whose figures there are, or
 ///     null), epoch (text), from, rows [[run, kind, x, y or null]], ended

@@ -5,6 +5,7 @@
 /// 10 in both, so that the point nearest to the best of both at once has the least (1 - t)² + t⁴: 2 t³ + t = 1,
 /// t = 0.58975.
 
+#include <drawpoint/studies/analysis/front_report.h>
 #include <drawpoint/studies/models/hauls.h>
 #include <drawpoint/studies/report/answer.h>
 #include <drawpoint/studies/report/data.h>
@@ -139,6 +140,7 @@ TEST(Recommendation, ASimulatedPlaceTakesItsSteadWhereItDoesAsWell) {
   ASSERT_EQ(found->simulated.size(), 1u);
   EXPECT_EQ(found->simulated[0]->run, 50);
   EXPECT_TRUE(has(all_of(in), "simulated: run 50 gave production")) << all_of(in);
+  EXPECT_TRUE(has(front_points_text(in, 3, false), "Recommended is a simulated place: x0 = 0.6")) << before;
   in.confirmations.runs[0].breaks_limit = true;
   EXPECT_GE(recommend(in)->row, 0) << "what broke a limit is not recommended";
 }
