@@ -14,8 +14,8 @@ set(DOXYGEN_EXTRACT_ALL YES)
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES) # a first sentence is the summary
 set(DOXYGEN_BUILTIN_STL_SUPPORT YES)
 set(DOXYGEN_HAVE_DOT NO)
-set(DOXYGEN_USE_MDFILE_AS_MAINPAGE docs/api.md)
-# Programs that the tests compile: docs/api.dox shows pieces of them beside the headers.
+set(DOXYGEN_USE_MDFILE_AS_MAINPAGE docs/reference/api.md)
+# Programs that the tests compile: docs/reference/api.dox shows pieces of them beside the headers.
 set(DOXYGEN_EXAMPLE_PATH docs/cookbook tests/consumer tests/consumer/engine tests/consumer/studies studies)
 set(DOXYGEN_GENERATE_TREEVIEW YES)
 set(DOXYGEN_DISABLE_INDEX NO)
@@ -28,5 +28,5 @@ set(DOXYGEN_SHOW_INCLUDE_FILES NO)
 set(DOXYGEN_QUIET YES)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
 set(DOXYGEN_INPUT_FILTER "sed -f ${PROJECT_SOURCE_DIR}/cmake/doxygen.sed")
-doxygen_add_docs(docs_api doe kriging pareto engine studies docs/api.md docs/api.dox
+doxygen_add_docs(docs_api doe kriging pareto engine studies docs/reference/api.md docs/reference/api.dox
                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Writing the API reference")

@@ -47,7 +47,7 @@ endforeach()
 foreach(component doe kriging pareto)
   drawpoint_install(${component})
 endforeach()
-# The programs of docs/engine-guide.md, docs/library.md and docs/studies.md.
+# The programs of docs/tutorials/first-pile.md, docs/how-to/toolkit-in-a-project.md and docs/reference/studies.md.
 file(GLOB drawpoint_examples ${PROJECT_SOURCE_DIR}/tests/consumer/*.cpp ${PROJECT_SOURCE_DIR}/tests/consumer/engine/*.cpp
      ${PROJECT_SOURCE_DIR}/tests/consumer/studies/*.cpp)
 install(FILES ${drawpoint_examples} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint/examples COMPONENT common)
@@ -66,7 +66,7 @@ endif()
 if(DRAWPOINT_BUILD_STUDIES)
   drawpoint_install(studies)
   install(FILES studies/throw.json studies/throw.py DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint/examples COMPONENT programs EXCLUDE_FROM_ALL)
-  install(FILES CHANGELOG.md docs/studies.md docs/writing-a-study.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint
+  install(FILES CHANGELOG.md docs/reference/studies.md docs/tutorials/first-study.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint
           COMPONENT programs EXCLUDE_FROM_ALL)
   # Of what the programs hold: the report's libraries, and Debian's packages of headers and of a static library.
   foreach(library plotly.js-dist-min three)

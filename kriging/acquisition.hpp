@@ -128,7 +128,7 @@ doe::Criterion maximum_variance(S model) {
 }
 
 /// Where the surrogate expects the best: −μ to minimise, μ to maximise. Not to be used alone: it asks beside
-/// the best run. Every third run by it finishes what improvement begins (docs/doe.md, "Searches for an
+/// the best run. Every third run by it finishes what improvement begins (docs/explanation/doe.md, "Searches for an
 /// optimum"). Throws std::invalid_argument for a goal of another kind.
 template <class S>
 doe::Criterion predicted_value(S model, doe::Goal goal) {

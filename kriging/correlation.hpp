@@ -16,7 +16,7 @@
 ///              their own. Of the Gaussian c depends on the distance |a − b| alone; Matérn's stay products
 ///   additive   c = Σ wₖcₖ, wₖ >= 0, Σ wₖ = 1: of sums of functions of one variable. Full factorials make
 ///              C singular: of the corners of a rectangle in two variables, those of its two diagonals sum
-///              up to the same (docs/kriging.md)
+///              up to the same (docs/explanation/kriging.md)
 ///
 /// A variable that is a category has Δ = 0 for one level and Δ = 2, the ends of a range, for two different
 /// ones (detail/levels.hpp): with the Gaussian its factor is exp(−4θ) then, whichever levels they are.

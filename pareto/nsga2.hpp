@@ -32,7 +32,7 @@ struct Nsga2Options {
   SearchOptions search{};
   /// Plain: on five of the six problems of benchmarks/toolkit/pareto_table it has the largest median
   /// hypervolume. Controlled elitism spends places on dominated points, which pays where a front falls into
-  /// pieces that a search can lose (docs/pareto.md).
+  /// pieces that a search can lose (docs/explanation/pareto.md).
   Elitism elitism = Elitism::plain;
   double elitism_ratio = 0.65;    ///< r of Elitism::geometric, 0 <= r < 1; Deb and Goel's value
   double pareto_fraction = 0.35;  ///< of Elitism::pareto_fraction, 0 < fraction <= 1; gamultiobj's default

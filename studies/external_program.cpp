@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// A study from a file, whose simulator is a program in any language: docs/writing-a-study.md.
+/// A study from a file, whose simulator is a program in any language: docs/tutorials/first-study.md.
 
 #include <drawpoint/studies/study_file.h>
 #include <unistd.h>
@@ -18,13 +18,13 @@ using namespace drawpoint;
 namespace {
 
 constexpr const char* about =
-    "A study from a JSON file, whose simulator is a program in any language: docs/writing-a-study.md.";
+    "A study from a JSON file, whose simulator is a program in any language: docs/tutorials/first-study.md.";
 
 constexpr const char* usage =
     R"(usage: %s STUDY.json [COMMAND] [OPTIONS]
 
 Makes the runs of the study that STUDY.json describes: each starts the file's command, a program in any
-language, with a request to read and a reply to write. docs/writing-a-study.md shows both files.
+language, with a request to read and a reply to write. docs/tutorials/first-study.md shows both files.
 
   %s throw.json --runs 40 --validation 10   # plan, run, fit, report
   %s throw.json confirm                     # simulate what the front promises

@@ -9,7 +9,7 @@
 ///     }
 ///
 /// The program has the commands run, check, confirm, ask, tell, exclude, status, live, fit, validate, front,
-/// compare, report, replay, export, evaluate and rerun-responses (docs/studies.md). Every run is a process of its own with one
+/// compare, report, replay, export, evaluate and rerun-responses (docs/reference/studies.md). Every run is a process of its own with one
 /// thread, so that a crash is one failed run; each finished run is stored before the next one starts. Equal
 /// (x, seed) must give equal outcomes: a run that was lost is simply run again.
 ///

@@ -14,7 +14,7 @@
 /// whole or not at all). The root has the step [s], a note and the law in words; /bodies, /pairs, /points
 /// and, with a machine, /machine hold one array per field of contact_problem.hpp, the index of the body, pair
 /// or point first, float64 or int32, each with attributes "unit" and "description". What solving puts out is
-/// not in the file. docs/contact-solving.md lists the fields. Versions 1 and 2, which are read still, store
+/// not in the file. docs/explanation/contact-solving.md lists the fields. Versions 1 and 2, which are read still, store
 /// matrices by columns; version 1 calls bodies/external_velocity_change bodies/push.
 ///
 /// A problem is checked when written and when read: counts agree, indices are in range, numbers are finite,

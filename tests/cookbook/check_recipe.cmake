@@ -6,7 +6,7 @@ file(READ ${PAGE} page)
 function(expect_on_page what text)
   string(FIND "${page}" "${text}" place)
   if(place EQUAL -1)
-    message(SEND_ERROR "docs/cookbook.md, ${RECIPE}: ${what} is not on the page; put it there:\n${text}")
+    message(SEND_ERROR "docs/how-to/cookbook.md, ${RECIPE}: ${what} is not on the page; put it there:\n${text}")
   endif()
 endfunction()
 

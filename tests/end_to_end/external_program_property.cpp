@@ -260,5 +260,5 @@ TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
   EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " " + (place_ / "none.json").string()).err, "cannot be read"));
   EXPECT_EQ(run(EXTERNAL_PROGRAM).code, 2);
   EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " --version").out, "Drawpoint "));
-  EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " --help").out, "docs/writing-a-study.md"));
+  EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " --help").out, "docs/tutorials/first-study.md"));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// The study that is kept in studies/results, read as docs/two-hours.md does: what the page shows is what its
+/// The study that is kept in studies/results, read as docs/tutorials/a-study-read.md does: what the page shows is what its
 /// commands print.
 
 #include <drawpoint/tests/end_to_end/documents.hpp>
@@ -22,5 +22,5 @@ TEST_F(KeptStudyPage, ShowsWhatItsCommandsPrint) {
     if (block.kind == "text") shown.push_back(block.text);
   }
   EXPECT_EQ(follow(page, place_), shown)
-      << "copy to docs/two-hours.md what is printed now, and read it again";
+      << "copy to docs/tutorials/a-study-read.md what is printed now, and read it again";
 }

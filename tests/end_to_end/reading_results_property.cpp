@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// Results in other programs: docs/reading-results.md, followed to the letter.
+/// Results in other programs: docs/how-to/reading-results.md, followed to the letter.
 
 #include <drawpoint/tests/end_to_end/documents.hpp>
 

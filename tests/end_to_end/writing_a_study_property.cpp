@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// A newcomer's walk: docs/writing-a-study.md, followed to the letter.
+/// A newcomer's walk: docs/tutorials/first-study.md, followed to the letter.
 
 #include <drawpoint/tests/end_to_end/documents.hpp>
 

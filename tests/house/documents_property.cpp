@@ -76,14 +76,14 @@ TEST(Documents, ADeadLinkIsFound) {
 }
 
 TEST(Documents, TheApiReferenceShowsTheProgramsOfTheCookbook) {
-  const std::string reference = read_text(root / "docs/api.dox");
+  const std::string reference = read_text(root / "docs/reference/api.dox");
   int programs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(root / "docs/cookbook")) {
     if (entry.path().extension() != ".cpp") continue;
     ++programs;
     const std::string name = entry.path().filename().string();
     EXPECT_NE(reference.find("\\example " + name + " "), std::string::npos)
-        << name << " is no example of docs/api.dox; add a line /** \\example " << name << " Title */";
+        << name << " is no example of docs/reference/api.dox; add a line /** \\example " << name << " Title */";
   }
   EXPECT_GT(programs, 0);
 }

@@ -33,7 +33,7 @@ FitOptions fixed(const Model& model) {
   return options;
 }
 
-const auto fitter = [](auto& X, auto& y) { return fit(X, y); };  // as docs/kriging.md has it
+const auto fitter = [](auto& X, auto& y) { return fit(X, y); };  // as docs/explanation/kriging.md has it
 
 }  // namespace
 

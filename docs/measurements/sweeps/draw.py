@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Figure of docs/findings.md, and tables, from what strategy_sweep printed, VARIABLE.txt beside this file.
+"""Figure of docs/explanation/findings.md, and tables, from what strategy_sweep printed, VARIABLE.txt beside this file.
 
     strategy_sweep --piles FOLDER --vary alpha > alpha.txt     # and beta, gamma, kappa
     python3 draw.py            # draws ../../images/sweeps.svg

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A study's folder (docs/studies.md, "The folder")."""
+"""A study's folder (docs/reference/studies.md, "The folder")."""
 
 import json
 import math
@@ -201,7 +201,7 @@ class Study:
         return name if unit in ("", "1") else f"{name} [{unit}]"
 
     def log(self, run, check=False):
-        """The log of a run as an open h5py.File (docs/reading-results.md says what is in it). check: by its
+        """The log of a run as an open h5py.File (docs/how-to/reading-results.md says what is in it). check: by its
         checksum, which takes some seconds per 10 MB."""
         runs = self._columns["run"]
         if run not in runs:

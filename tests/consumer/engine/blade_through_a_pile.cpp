@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A blade through a pile: a body that moves as it is told, the force that it feels and the work that it does.
-// docs/engine-guide.md, part 2.
+// docs/tutorials/first-pile.md, part 2.
 
 #include <cmath>
 #include <cstdio>

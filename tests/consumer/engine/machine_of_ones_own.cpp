@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A machine of one's own: a boom on a hinge lifts a rock on its tray; what its motor and its bearing feel is known from
-// statics. docs/engine-guide.md, part 3.
+// statics. docs/tutorials/first-pile.md, part 3.
 
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A pile in a box: rocks of one's own shape fall into a bin, come to rest, are weighed by the floor, looked at by a ray,
-// saved and taken back. docs/engine-guide.md, part 1.
+// saved and taken back. docs/tutorials/first-pile.md, part 1.
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// What docs/machine.md and its picture print of pins, lengths and materials is what the code has.
+/// What docs/reference/machine.md and its picture print of pins, lengths and materials is what the code has.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ std::map<std::string, Eigen::Vector2d> pins_of_code() {
 }  // namespace
 
 TEST(MachinePage, HasThePinsOfTheCode) {
-  const std::string page = text_of_doc("machine.md");
+  const std::string page = text_of_doc("reference/machine.md");
   for (const auto& [name, pin] : pins_of_code()) {
     const std::vector<double> printed = numbers_in_row(page, "| " + name + " | ");
     ASSERT_EQ(printed.size(), 2u) << name;
@@ -58,7 +58,7 @@ TEST(MachinePage, HasThePinsOfTheCode) {
 TEST(MachinePage, HasTheLengthsOfTheCode) {
   const ArmGeometry arm;
   const std::string head = "| FG [m] | GK [m] | x_F [m] | z_F [m] | ψ_b [deg] |\n|---|---|---|---|---|\n";
-  const std::vector<double> printed = numbers_in_row(text_of_doc("machine.md"), head);
+  const std::vector<double> printed = numbers_in_row(text_of_doc("reference/machine.md"), head);
   ASSERT_EQ(printed.size(), 5u);
   EXPECT_EQ(printed[0], arm.FG);
   EXPECT_EQ(printed[1], arm.GK);
@@ -84,7 +84,7 @@ TEST(MachinePage, ThePictureHasThePinsOfTheCode) {
 }
 
 TEST(MachinePage, HasTheMaterialsOfTheCode) {
-  const std::string page = text_of_doc("machine.md");
+  const std::string page = text_of_doc("reference/machine.md");
   const MineMaterials source = lindmark2016_materials(), ours = calibrated_materials();
   const std::map<std::string, drawpoint::engine::Material MineMaterials::*> rows{
       {"| 8 | rock, bucket | ", &MineMaterials::rock_steel},

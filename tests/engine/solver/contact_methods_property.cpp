@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 // Every method of the benchmarks' table solves the same law: given enough iterations, its residual goes away
-// and its velocities are those of the reference. The example of docs/contact-solving.md is one of them.
+// and its velocities are those of the reference. The example of docs/explanation/contact-solving.md is one of them.
 #include <gtest/gtest.h>
 
 #include <drawpoint/benchmarks/micro/contact_methods.hpp>

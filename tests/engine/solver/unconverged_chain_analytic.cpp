@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 // What too few iterations do to a chain of contacts: a warm-started iteration is a spring without damping.
-// The derivation is in docs/contact-solving.md.
+// The derivation is in docs/explanation/contact-solving.md.
 #include <gtest/gtest.h>
 
 #include <drawpoint/engine/solver/momentum.h>
