@@ -84,34 +84,30 @@ function machine(study, folder, size) {
   return join(frames, 'frame_000001.png');
 }
 
-async function shot(openPage, file, {width, height, selector = null, format = 'png', waits = true}) {
+/// What a window shows, as a picture: {data, box}; box: [left, top, width, height] around what the selector finds.
+async function shot(openPage, file, {width, height, selector = 'body', format = 'png'}) {
   const page = await openPage(file);
   await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: false});
-  if (waits) await page.settled();
-  let clip = {x: 0, y: 0, width, height, scale: 1};
-  if (selector) {
-    await page.evaluate(`document.querySelector('${selector}').scrollIntoView({block: 'start', behavior: 'instant'})`);
-    await new Promise((later) => setTimeout(later, 1500)); // figures are drawn as they come into view
-    const box = await page.evaluate(
-      `(() => { const r = document.querySelector('${selector}').getBoundingClientRect();
-        return [r.left + scrollX, r.top + scrollY, r.width, r.height]; })()`,
-    );
-    clip = {x: box[0], y: box[1], width: box[2], height: box[3], scale: 1};
-  } else await new Promise((later) => setTimeout(later, 1500));
-  const {data} = await page.send('Page.captureScreenshot', {
-    format,
-    ...(format === 'jpeg' ? {quality: 88} : {}),
-    clip,
-    captureBeyondViewport: true,
-  });
+  if (selector !== 'body')
+    await page.evaluate(`document.querySelector('${selector}').scrollIntoView({block: 'center', behavior: 'instant'})`);
+  await new Promise((later) => setTimeout(later, 3000)); // figures are drawn as they come into view
+  const box = await page.evaluate(`(() => {
+    const all = [...document.querySelectorAll('${selector}')].map((node) => node.getBoundingClientRect());
+    const [left, top] = [Math.min(...all.map((r) => r.left)), Math.min(...all.map((r) => r.top))];
+    return [left, top, Math.max(...all.map((r) => r.right)) - left, Math.max(...all.map((r) => r.bottom)) - top];
+  })()`);
+  const {data} = await page.send('Page.captureScreenshot', {format, ...(format === 'jpeg' ? {quality: 88} : {})});
   await page.close();
-  return Buffer.from(data, 'base64');
+  return {data, box: box.map(Math.round)};
 }
 
-/// One picture above the other.
-function together(above, below, width) {
-  const inline = (png) => `<img style="display:block;width:${width}px" src="data:image/png;base64,${png.toString('base64')}">`;
-  return `<!doctype html><html data-ready="true"><body style="margin:0;background:#fff">${inline(above)}${inline(below)}</body></html>`;
+/// A picture above what is in the box of another.
+function together(above, {data, box: [left, top, wide, high]}, width) {
+  const scale = width / wide;
+  return `<!doctype html><html data-ready="true"><body style="margin:0;background:#fff">
+<img style="display:block;width:${width}px" src="data:image/png;base64,${above.toString('base64')}">
+<div style="width:${wide}px;height:${high}px;overflow:hidden;transform:scale(${scale});transform-origin:0 0">
+<img style="display:block;margin:${-top}px 0 0 ${-left}px" src="data:image/png;base64,${data}"></div></body></html>`;
 }
 
 async function draw(study) {
@@ -120,14 +116,17 @@ async function draw(study) {
   process.once('exit', () => rmSync(folder, {recursive: true, force: true}));
   program('lhd_loading', 'run', '--out', study, '--no-spot-check');
   const frame = readFileSync(machine(study, folder, '1100x560'));
-  const front = await shot(openPage, join(study, 'report.html'), {width: 1180, height: 1000, selector: '#front :has(> .plot)'});
-  const both = join(folder, 'both.html');
-  writeFileSync(both, together(frame, front, 1100));
-  const high = 560 + Math.round((1100 * front.readUInt32BE(20)) / front.readUInt32BE(16));
-  writeFileSync(join(here, 'machine_and_front.jpg'), await shot(openPage, both, {width: 1100, height: high, format: 'jpeg', waits: false}));
+  const front = await shot(openPage, join(study, 'report.html'), {width: 1280, height: 1000, selector: '#front .plot'});
+  const both = join(folder, 'both.html'),
+    width = 1100;
+  writeFileSync(both, together(frame, front, width));
+  const height = 560 + Math.round((width * front.box[3]) / front.box[2]);
+  const hero = await shot(openPage, both, {width, height, format: 'jpeg'});
+  writeFileSync(join(here, 'machine_and_front.jpg'), Buffer.from(hero.data, 'base64'));
   const demo = join(folder, 'results/formula_demo'); // the page names it as a reader's own
   programIn(folder, 'formula_demo', 'run');
-  writeFileSync(join(here, 'report.png'), await shot(openPage, join(demo, 'report.html'), {width: 1200, height: 1500}));
+  const report = await shot(openPage, join(demo, 'report.html'), {width: 1200, height: 1500});
+  writeFileSync(join(here, 'report.png'), Buffer.from(report.data, 'base64'));
   writeFileSync(stamp, stamps().join(''));
   console.log(`drew ${Object.keys(drawnBy).join(' and ')} in ${relative(process.cwd(), here)}, from ${study}`);
 }

@@ -461,7 +461,15 @@ TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
       {{"type", "sketch"}, {"title", "t"}, {"caption", "c"}},
       {{"type", "table"}, {"title", "t"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1, 2}}}},
       {{"type", "table"}, {"title", "good"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}},
-      7};
+      7,
+      {{"type", "plan"}, {"title", "t"}, {"caption", "c"}, {"x", {1, 2}}, {"y", {1}}, {"heights", {{1.0}}}},
+      {{"type", "scene"},
+       {"title", "t"},
+       {"caption", "c"},
+       {"shapes", nlohmann::json::array()},
+       {"bodies", nlohmann::json::array()},
+       {"drift",
+        {{"from", 2}, {"length", 1}, {"width", 6}, {"height", 5}, {"raise", {{"x", 1}, {"radius", 1}}}}}}};
   const auto data = written(in);
   ASSERT_EQ(data.at("illustrations").size(), 1u);
   EXPECT_EQ(data.at("illustrations").at(0).at("title"), "good");
@@ -470,6 +478,10 @@ TEST_F(Report, LeavesAFaultyFigureOutAndSaysSo) {
       cautions, "Figure 1 of the simulation was left out: the type \"sketch\" is none of path, plan, scene"));
   EXPECT_TRUE(mentions(cautions, "Figure 2 of the simulation was left out: a row has not as many cells"));
   EXPECT_TRUE(mentions(cautions, "Figure 4 of the simulation was left out: \"type\" is missing"));
+  EXPECT_TRUE(mentions(
+      cautions,
+      "Figure 5 of the simulation was left out: a row of \"heights\" has not one value per value of \"x\""));
+  EXPECT_TRUE(mentions(cautions, "Figure 6 of the simulation was left out: the drift has no extent"));
 }
 
 TEST_F(Report, SetsRunsAgainstEachOther) {
