@@ -43,10 +43,11 @@ inline std::vector<std::string> follow(const std::string& page, const std::files
   for (const Block& block : blocks_of(page)) {
     if (block.kind != "sh" && !block.file.empty()) std::ofstream(folder / block.file) << block.text;
     if (block.kind != "sh" || !block.file.empty()) continue;
-    std::ofstream(folder / "typed.sh") << "cd " << folder.string() << "\nPATH=" << STUDY_PROGRAMS
-                                       << ":/usr/bin:$PATH\nexport MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" << PYTHON_READER
-                                       << "\nset -e\n"
-                                       << block.text;
+    std::ofstream(folder / "typed.sh")
+        << "cd " << folder.string() << "\nPATH=" << STUDY_PROGRAMS
+        << ":/usr/bin:$PATH\nexport MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" << PYTHON_READER
+        << "\nset -e\n"
+        << block.text;
     const Ended end = Command("sh " + (folder / "typed.sh").string(), folder).wait();
     EXPECT_EQ(end.code, 0) << block.text << end.out << end.err;
     printed.push_back(end.out);

@@ -39,6 +39,7 @@ LoadingLog small_log() {
     cycle.columns_x = 2;
     cycle.columns_y = 1;
     cycle.column_heights = {1, 0.5};
+    cycle.stages.resize(1);
     log.cycles.push_back(cycle);
   }
   return log;

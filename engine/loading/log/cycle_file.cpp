@@ -118,17 +118,28 @@ Table stage_table(const std::vector<StageResult>& stages) {
   return table;
 }
 
-std::vector<StageResult> stages_of(const Table& table) {
+/// A whole number within bounds, which names of stages are looked up by.
+int stage_code(const Reader& file, const std::string& data, double value, int least, int most) {
+  require_fit(file, value >= least && value <= most && value == static_cast<int>(value), data,
+              "whole numbers from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(value);
+}
+
+std::vector<StageResult> stages_of(const Reader& file, const std::string& data) {
+  const Table table = file.table(data);
+  constexpr int last_stage = static_cast<int>(Stage::finished),
+                last_end = static_cast<int>(StageEnd::slow_actuator);
   std::vector<StageResult> stages;
   for (std::size_t k = 0; k < table.rows(); ++k) {
     const auto at = [&](const char* name) { return table.at(k, table.index(name)); };
-    stages.push_back({.stage = static_cast<Stage>(static_cast<int>(at("stage"))),
-                      .reason = static_cast<StageEnd>(static_cast<int>(at("reason"))),
-                      .t_start = at("t_start"),
-                      .t_end = at("t_end"),
-                      .progress = at("progress"),
-                      .start = {at("start_x"), at("start_z"), at("start_phi")},
-                      .end = {at("end_x"), at("end_z"), at("end_phi")}});
+    stages.push_back(
+        {.stage = static_cast<Stage>(stage_code(file, data + "/stage", at("stage"), 1, last_stage)),
+         .reason = static_cast<StageEnd>(stage_code(file, data + "/reason", at("reason"), 0, last_end)),
+         .t_start = at("t_start"),
+         .t_end = at("t_end"),
+         .progress = at("progress"),
+         .start = {at("start_x"), at("start_z"), at("start_phi")},
+         .end = {at("end_x"), at("end_z"), at("end_phi")}});
   }
   return stages;
 }
@@ -179,7 +190,7 @@ CycleRecord read_cycle(const Reader& file, const std::string& group) {
   cycle.columns_y = static_cast<int>(heights.shape[0]);
   cycle.columns_x = static_cast<int>(heights.shape[1]);
   cycle.column_heights = std::move(heights.values);
-  cycle.stages = stages_of(file.table(group + "/stages"));
+  cycle.stages = stages_of(file, group + "/stages");
   cycle.plan = read_plan(file, group + "/plan");
   return cycle;
 }
