@@ -51,7 +51,7 @@ ReportInput known_study(double noise, doe::Seed seed = 1, int n = 24) {
     in.models.push_back(kriging::fit(X, in.training.y(response.name)));
   in.front.X = Eigen::MatrixXd::Zero(101, 2);
   in.front.X.col(0) = Eigen::VectorXd::LinSpaced(101, 0, 1);
-  in.front.Y = predicted_means(in, in.front.X);
+  in.front.Y = in.front.responses = predicted_means(in, in.front.X);
   return in;
 }
 
