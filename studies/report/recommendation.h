@@ -7,9 +7,10 @@
 /// that are predicted to be no worse than the reference in any objective, the one nearest to the best of every
 /// objective at once, each scaled to its range on the front. Where no point is left, that condition is dropped. With
 /// one objective it is the best point found.
-/// A place that `confirm` has simulated takes its stead where it does as well: in every objective the means of the
-/// two differ by a twentieth of its range on the front at most, or by nothing that the models can tell with 95 %; the
-/// simulation kept all limits, and the condition above holds. Of several such places it is the nearest to the best of every objective at once.
+/// A place that `confirm` has simulated takes its stead where it does as well: the means of the two differ in every
+/// objective by a twentieth of its range on the front at most, the simulation kept all limits, and the condition above
+/// holds. Of several such places it is the nearest to the best of every objective at once. With one objective, whose
+/// front has no range, the place must be the same.
 /// The reference is the mark called "reference" (mark.hpp), or else the middle of the box.
 
 #include <drawpoint/studies/report/report.h>
@@ -46,7 +47,7 @@ struct Recommendation {
   std::vector<Gain> gains;  ///< one per objective
 };
 
-/// None without models or a front. Costs a few thousand draws of two points per objective and simulated place.
+/// None without models or a front. Costs a few thousand draws of two points per objective.
 std::optional<Recommendation> recommend(const ReportInput& input);
 /// The same against another reference.
 std::optional<Recommendation> recommend(const ReportInput& input, const Reference& reference);
