@@ -84,15 +84,15 @@ function machine(study, folder, size) {
   return join(frames, 'frame_000001.png');
 }
 
-/// What a window shows, as a picture: {data, box}; box: [left, top, width, height] around what the selector finds.
-async function shot(openPage, file, {width, height, selector = 'body', format = 'png'}) {
+/// What a window shows, as a picture: {data, box}; box: [left, top, width, height] around the first of what the selector finds.
+async function shot(openPage, file, {width, height, selector = 'body', first = 2, format = 'png'}) {
   const page = await openPage(file);
   await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: false});
   if (selector !== 'body')
     await page.evaluate(`document.querySelector('${selector}').scrollIntoView({block: 'center', behavior: 'instant'})`);
   await new Promise((later) => setTimeout(later, 3000)); // figures are drawn as they come into view
   const box = await page.evaluate(`(() => {
-    const all = [...document.querySelectorAll('${selector}')].map((node) => node.getBoundingClientRect());
+    const all = [...document.querySelectorAll('${selector}')].slice(0, ${first}).map((node) => node.getBoundingClientRect());
     const [left, top] = [Math.min(...all.map((r) => r.left)), Math.min(...all.map((r) => r.top))];
     return [left, top, Math.max(...all.map((r) => r.right)) - left, Math.max(...all.map((r) => r.bottom)) - top];
   })()`);
