@@ -34,10 +34,10 @@ answers() {
   mkdir "$2"
   export LD_LIBRARY_PATH=$1
   "$loading" evaluate --x=1.2,0.8,0.5,0.2 --pile-mass 15 --cycles 1 --seed 1 >"$2/cycle" 2>/dev/null
-  "$formula" run --runs 40 --validation 10 --out "$2/study" --json 2>/dev/null | tr ',' '\n' | grep -v -e seconds -e report >"$2/study.json"
-  "$formula" export --what front --out "$2/study" >"$2/front.csv" 2>/dev/null
+  "$formula" run --runs 40 --validation 10 --out "$work/study" --json 2>/dev/null | tr ',' '\n' | grep -v -e seconds -e report >"$2/study.json"
+  "$formula" export --what front --out "$work/study" >"$2/front.csv" 2>/dev/null
   "$fits" >"$2/fits"
-  rm -r "$2/study"
+  rm -r "$work/study"
 }
 
 failed=0

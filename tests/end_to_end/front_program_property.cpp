@@ -93,7 +93,7 @@ TEST_F(Front, AnUnknownStudyIsRefused) {
 TEST_F(Front, CompletesStudiesCommandsOptionsAndValues) {
   EXPECT_EQ(lines("complete form"), Lines{"formula_demo"});
   EXPECT_EQ(lines("complete --v"), Lines{"--version"});
-  EXPECT_EQ(lines("complete formula_demo re"), (Lines{"report", "replay", "rerun-responses"}));
+  EXPECT_EQ(lines("complete formula_demo re"), (Lines{"recommend", "report", "replay", "rerun-responses"}));
   EXPECT_EQ(lines("complete formula_demo --ru"), Lines{"--runs"}) << "of run, which may be left out";
   EXPECT_EQ(lines("complete formula_demo export --format ''"), (Lines{"csv", "json", "hdf5"}));
   EXPECT_EQ(lines("complete formula_demo export --format = j"), Lines{"json"}) << "as bash splits it";
@@ -108,7 +108,7 @@ TEST_F(Front, HelpCompletionAndManPageNameTheSameOptions) {
   for (const std::string study : {"formula_demo", "lhd_loading"}) {
     const std::string page = told(study + " man-page");
     const Lines commands = lines("complete " + study + " ''");
-    EXPECT_EQ(commands.size(), 17u);
+    EXPECT_EQ(commands.size(), 20u);
     for (const std::string& command : commands) {
       Lines options = options_in_help(study + " " + command);
       EXPECT_EQ(lines("complete " + study + " " + command + " --"), options) << study << " " << command;
