@@ -83,7 +83,8 @@ TEST(Documents, TheApiReferenceShowsTheProgramsOfTheCookbook) {
     ++programs;
     const std::string name = entry.path().filename().string();
     EXPECT_NE(reference.find("\\example " + name + " "), std::string::npos)
-        << name << " is no example of docs/reference/api.dox; add a line /** \\example " << name << " Title */";
+        << name << " is no example of docs/reference/api.dox; add a line /** \\example " << name
+        << " Title */";
   }
   EXPECT_GT(programs, 0);
 }

@@ -210,7 +210,9 @@ TEST(Executor, ALiftWhoseDriveLagsBehindKeepsItsHeight) {
   for (std::size_t k = 0; k < run.path.size(); ++k)
     if (run.stage[k] == Stage::lift) {
       EXPECT_GE(run.set[k].boom, 0);
-      if (run.path[k].z > C.z + options.speeds.lift * h) EXPECT_EQ(run.set[k].boom, 0);
+      if (run.path[k].z > C.z + options.speeds.lift * h) {
+        EXPECT_EQ(run.set[k].boom, 0);
+      }
       EXPECT_LT(run.path[k].phi, C.phi + options.speeds.curl * h);
     }
   const double length = std::hypot(run.results[1].start.x - C.x, C.z) + arm.GK * plan.tilt;
