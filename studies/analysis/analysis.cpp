@@ -161,13 +161,13 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
     summary.answer = answer_sentences(input, {});
     return summary;
   }
+  add_hauls(input, study, logged, store.identity().options, folder);
   tell_of_models(summary, input);
   const StopState reached = stop_state(stop_rule_from(store.sampling().until, study.problem), study.problem,
                                        input.validations, input.mean_errors);
   summary.until = reached.text;
   summary.until_met = reached.met;
   add_warnings(input, runs);
-  add_hauls(input, study, logged, store.identity().options, folder);
   illustrate(input, study, logged, store.identity().options, folder);
   contrast(input, study, logged, store.identity().options, folder);
   summary.findings = hold_findings(input, study, logged, store.identity().options, folder);

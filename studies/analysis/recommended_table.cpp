@@ -4,6 +4,7 @@
 #include <drawpoint/studies/analysis/recommended_table.h>
 #include <drawpoint/studies/analysis/text_table.h>
 #include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/report/answer.h>
 #include <drawpoint/studies/report/mean_paths.h>
 #include <drawpoint/studies/report/summary.h>
 #include <drawpoint/studies/report/text.h>
@@ -24,7 +25,7 @@ std::string choice_text(const ReportInput& input, const Recommendation& recommen
   const auto objectives = detail::objectives(input.problem);
   const std::string of = " of " + detail::counted(static_cast<std::size_t>(input.front.X.rows()), "point") +
                          " of the predicted front";
-  if (objectives.size() > 1) return "the balanced choice" + of;
+  if (objectives.size() > 1) return "the recommended one" + of;
   return "the best " + input.problem.responses[objectives.front()].name + of;
 }
 
@@ -82,10 +83,11 @@ nlohmann::ordered_json named_values(const doe::Problem& problem, const Eigen::Ve
   return values;
 }
 
-std::string simulated_text(const RecommendedTable& table, const ReportInput& input,
-                           const std::string& confirm) {
+std::string simulated_text(const RecommendedTable& table, const ReportInput& input) {
   const auto& runs = table.recommended.simulated;
-  if (runs.empty()) return "Not simulated yet; to have it simulated:\n  " + confirm + "\n";
+  if (runs.empty())
+    return "Not simulated yet; to have it simulated:\n  " + confirming_point(input, table.recommended.x) +
+           "\n";
   std::string text;
   for (const doe::Evaluation* run : runs) {
     std::vector<std::string> values;
@@ -120,7 +122,7 @@ RecommendedTable recommended_table(const ReportInput& input, const Reference& ag
   return table;
 }
 
-std::string text(const RecommendedTable& table, const ReportInput& input, const RecommendationWords& words) {
+std::string text(const RecommendedTable& table, const ReportInput& input) {
   const std::string& reference = table.recommended.reference.name;
   std::string text = input.study + ": " + table.choice + ":\n  " +
                      detail::point_text(input.problem, table.recommended.x) + "\n\n";
@@ -137,13 +139,12 @@ std::string text(const RecommendedTable& table, const ReportInput& input, const 
   if (table.success < 1) text += "A run there succeeds with " + detail::percent(table.success) + ".\n";
   for (const auto& [response, why] : texts_of(input.flat, input.problem))
     text += response + ": " + why + ".\n";
-  text += simulated_text(table, input, words.confirm);
+  text += simulated_text(table, input);
   for (const std::string& sentence : detail::cautions(input)) text += "Caution: " + sentence + "\n";
   return text;
 }
 
-nlohmann::ordered_json as_json(const RecommendedTable& table, const ReportInput& input,
-                               const RecommendationWords& words) {
+nlohmann::ordered_json as_json(const RecommendedTable& table, const ReportInput& input) {
   nlohmann::ordered_json responses = nlohmann::ordered_json::object();
   for (const RecommendedResponse& r : table.responses)
     responses[input.problem.responses[r.response].name] = {
@@ -158,7 +159,7 @@ nlohmann::ordered_json as_json(const RecommendedTable& table, const ReportInput&
           {"against", named_values(input.problem, table.recommended.reference.x)},
           {"responses", std::move(responses)},
           {"simulated", numbers_of(table.recommended.simulated)},
-          {"confirm", words.confirm},
+          {"confirm", confirming_point(input, table.recommended.x)},
           {"cautions", detail::cautions(input)}};
 }
 

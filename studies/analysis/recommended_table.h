@@ -29,7 +29,7 @@ struct RecommendedResponse {
 
 struct RecommendedTable {
   Recommendation recommended;
-  std::string choice;  ///< "the balanced choice of 200 points of the predicted front"
+  std::string choice;  ///< "the recommended one of 200 points of the predicted front"
   double success = 1;  ///< probability that a run succeeds
   std::vector<RecommendedResponse> responses;
 };
@@ -37,16 +37,12 @@ struct RecommendedTable {
 /// Requires an input with models and a front. `against`: the reference, or one of reference_of().
 RecommendedTable recommended_table(const ReportInput& input, const Reference& against);
 
-struct RecommendationWords {
-  std::string confirm;  ///< the command that has it simulated
-};
-
-std::string text(const RecommendedTable& table, const ReportInput& input, const RecommendationWords& words);
+/// With the command that has it simulated: input.going_on says of which program and folder.
+std::string text(const RecommendedTable& table, const ReportInput& input);
 
 /// {"x": {}, "choice", "success", "against": {}, "responses": {name: {"mean", "lower", "upper", "run_lower",
 /// "run_upper", "against", "gain", "gain_lower", "gain_upper"}}, "simulated": [runs], "confirm": command,
 /// "cautions": []}; what is unknown is null.
-nlohmann::ordered_json as_json(const RecommendedTable& table, const ReportInput& input,
-                               const RecommendationWords& words);
+nlohmann::ordered_json as_json(const RecommendedTable& table, const ReportInput& input);
 
 }  // namespace drawpoint::studies

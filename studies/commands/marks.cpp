@@ -42,7 +42,8 @@ void add_mark_option(CLI::App& command, const doe::Problem& problem, Settings& s
   command
       .add_option("--mark", settings.marks,
                   "a point to show by its name: NAME=" + names_of_variables(problem) +
-                      "; the recommendation is compared with the one called reference; repeatable")
+                      "; the one called reference is what the recommendation is compared with and chosen to "
+                      "be no worse than; repeatable")
       ->allow_extra_args(false)
       ->group("Report");
 }

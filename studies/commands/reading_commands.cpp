@@ -94,8 +94,11 @@ void add_open_options(CLI::App& command, Settings& settings) {
 }
 
 void add_recommend_options(CLI::App& command, Settings& settings, const doe::Problem& problem) {
-  command.add_option("--against", settings.against,
-                     "a point to compare with, as NAME=VALUE,... (default: the middle of the box)");
+  command
+      .add_option("--against", settings.against,
+                  "a point, as NAME=VALUE,..., to compare with, and to be no worse than where that can be "
+                  "(default: the middle of the box)")
+      ->check([](const std::string& text) { return text.empty() ? "give NAME=VALUE,... of a point" : ""; });
   std::string all;
   for (const doe::Variable& v : problem.variables)
     all += (all.empty() ? "" : ",") + v.name + "=" + doe::detail::number_text(v.lower);

@@ -74,6 +74,10 @@ StopRule stop_rule_from(const std::string& text, const doe::Problem& problem) {
   }
 }
 
+double error_that_counts(const kriging::MeanError& error) {
+  return error.lower > 0 || !std::isfinite(error.upper) ? error.nrmse() : error.share(error.upper);
+}
+
 StopState stop_state(const StopRule& rule, const doe::Problem& problem,
                      const std::vector<kriging::Validation>& validations,
                      const std::vector<kriging::MeanError>& mean_errors) {
@@ -83,7 +87,7 @@ StopState stop_state(const StopRule& rule, const doe::Problem& problem,
     const bool of_runs = condition.measure == ErrorMeasure::nrmse;
     const double error = validations.empty() ? std::nan("")
                          : of_runs           ? validations[j].nrmse
-                                             : mean_errors[j].nrmse();
+                                             : error_that_counts(mean_errors[j]);
     if (!(error < condition.bound)) state.met = false;
     state.text += (state.text.empty() ? "" : "; ") + name_of(condition.measure) + "(" +
                   problem.responses[j].name + ") " + share_of_range(error) + ", wanted < " +

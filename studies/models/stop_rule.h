@@ -34,6 +34,10 @@ struct StopState {
   std::string text = {};  ///< "nrmse(cost) 0.12, wanted < 0.1"; says so where noise alone exceeds the bound
 };
 
+/// Of the mean of many runs, as a share of the range; its upper end with 95 % where noise hides the error: an estimate of 0
+/// says that it is too small to tell, not that there is none.
+double error_that_counts(const kriging::MeanError& error);
+
 /// Validations and errors of the means, one of each per response, or none: then nothing is met.
 StopState stop_state(const StopRule& rule, const doe::Problem& problem,
                      const std::vector<kriging::Validation>& validations,

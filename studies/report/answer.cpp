@@ -43,7 +43,7 @@ std::string values_text(const ReportInput& input, const Eigen::VectorXd& values)
 
 std::string simulated_text(const ReportInput& input, const Recommendation& r) {
   if (r.simulated.empty())
-    return "predicted and not simulated yet; " + command_text(input, input.confirming) + " simulates it";
+    return "predicted and not simulated yet; " + confirming_point(input, r.x) + " simulates it";
   const doe::Evaluation& last = *r.simulated.front();
   return "simulated" +
          (r.simulated.size() > 1 ? " by " + counted(r.simulated.size(), "run") : std::string()) + ": run " +
@@ -115,10 +115,28 @@ std::string one_run_text(const ReportInput& input, const Recommendation& r) {
 std::string how_sure(const ReportInput& input, const Recommendation& r) {
   const Judged names = judged(input, r);
   std::vector<std::string> said;
-  if (!names.better.empty()) said.push_back("surely better in " + listed(names.better));
-  if (!names.worse.empty()) said.push_back("surely worse in " + listed(names.worse));
+  if (!names.better.empty()) said.push_back("better in " + listed(names.better));
+  if (!names.worse.empty()) said.push_back("worse in " + listed(names.worse));
   if (!names.open.empty()) said.push_back("perhaps better, perhaps worse in " + listed(names.open));
-  return "How sure: the mean of many runs is " + listed(said) + one_run_text(input, r) + ".";
+  const std::string by =
+      input.validations.empty() ? "by models that no validation run has checked" : "by the models";
+  return "How sure: " + by + ", the mean of many runs is with 95 % " + listed(said) + one_run_text(input, r) +
+         ".";
+}
+
+/// Where the strategy gives less than another from some haul on, which the runs do not count.
+std::string haul_text(const ReportInput& input) {
+  if (!input.hauls) return "";
+  const HaulChoice& hauls = *input.hauls;
+  for (const HaulTurn& turn : hauls.turns) {
+    if (hauls.strategies[turn.worse].name != "recommended" || turn.haul <= hauls.haul) continue;
+    const std::string upper =
+        turn.upper > hauls.longest ? "more than " + number(hauls.longest) : number(turn.upper);
+    return "Counted is a haul of " + number(hauls.haul) + " s: from " + number(turn.haul) + " s on (" +
+           number(turn.lower) + " to " + upper + " s with 95 %) \u201c" + hauls.strategies[turn.better].name +
+           "\u201d gives more " + pretty(input.problem.responses[hauls.response].name) + ".";
+  }
+  return "";
 }
 
 /// The most frequent reason of the runs that failed.
@@ -179,10 +197,20 @@ std::string command_text(const ReportInput& input, const std::string& command) {
   return (program.empty() ? "" : program + " ") + command + input.going_on.folder;
 }
 
+std::string confirming_point(const ReportInput& input, const Eigen::VectorXd& x) {
+  if (input.confirming != "confirm") return command_text(input, input.confirming);  // runs are made elsewhere
+  std::string values;
+  for (const double value : x) values += (values.empty() ? "" : ",") + doe::detail::number_text(value);
+  return command_text(input, "confirm --points 0 --rounds 1 --x=" + values);
+}
+
 std::vector<std::string> answer_sentences(const ReportInput& input,
                                           const std::optional<Recommendation>& recommended) {
   if (!recommended) return nothing_yet(input);
-  return {what_to_do(input, *recommended), what_it_gains(input, *recommended), how_sure(input, *recommended)};
+  std::vector<std::string> sentences = {what_to_do(input, *recommended), what_it_gains(input, *recommended),
+                                        how_sure(input, *recommended)};
+  if (std::string haul = haul_text(input); !haul.empty()) sentences.push_back(std::move(haul));
+  return sentences;
 }
 
 namespace detail {
@@ -205,7 +233,7 @@ json answer_json(const ReportInput& input) {
   answer["means"] = list(predicted_means(input, found->x.transpose()).row(0).transpose());
   answer["reference"]["means"] =
       list(predicted_means(input, found->reference.x.transpose()).row(0).transpose());
-  if (found->simulated.empty()) answer["command"] = command_text(input, input.confirming);
+  if (found->simulated.empty()) answer["command"] = confirming_point(input, found->x);
   for (const doe::Evaluation* run : found->simulated) answer["simulated"].push_back(run->run);
   return answer;
 }

@@ -135,7 +135,8 @@ bool target_met(const Sampling& sampling, const doe::Problem& problem,
                 const std::vector<kriging::MeanError>& errors) {
   if (sampling.target <= 0.0 || errors.empty()) return false;
   for (std::size_t j = 0; j < errors.size(); ++j)
-    if (!doe::is_standard_error(problem, j) && !(errors[j].nrmse() <= sampling.target)) return false;
+    if (!doe::is_standard_error(problem, j) && !(error_that_counts(errors[j]) <= sampling.target))
+      return false;
   return true;
 }
 

@@ -29,7 +29,7 @@ double cost_at(const json& x) { return std::pow(x["x"].get<double>(), 2) + x["y"
 TEST_F(Recommending, SaysWhatIsTrueOfAKnownFunctionBesideAReferenceAndHowToSimulateIt) {
   ASSERT_EQ(run(study + " --runs 16 --validation 4" + out()).code, 0);
   const json said = recommended();
-  EXPECT_TRUE(contains(said["choice"], "the balanced choice of "));
+  EXPECT_TRUE(contains(said["choice"], "the recommended one of "));
   EXPECT_EQ(said["against"], json({{"x", 0.5}, {"y", 10.0}})) << "the middle of the box";
   const json cost = said["responses"]["cost"];
   EXPECT_NEAR(cost["mean"].get<double>(), cost_at(said["x"]), 0.1);

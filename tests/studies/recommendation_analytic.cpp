@@ -81,8 +81,8 @@ TEST(Recommendation, IsTheKnownPointAndItsGainIsTheKnownDifference) {
   }
   const std::string text = all_of(in);
   EXPECT_TRUE(has(text, "Take x0 = 0.590, x1 = 0: ")) << text;
-  EXPECT_TRUE(has(text, "predicted and not simulated yet; confirm simulates it")) << text;
-  EXPECT_TRUE(has(text, "surely better in production and damage")) << text;
+  EXPECT_TRUE(has(text, "predicted and not simulated yet; confirm --points 0 --rounds 1 --x=")) << text;
+  EXPECT_TRUE(has(text, "the mean of many runs is with 95 % better in production and damage")) << text;
 }
 
 // No point of the front is better than one of it, but that one itself.
