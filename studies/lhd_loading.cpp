@@ -13,11 +13,7 @@
 
 using namespace drawpoint;
 
-using studies::recorded;
-
-doe::Response standard_error(const char* name, const char* unit, const std::string& of) {
-  return recorded(name, unit, "standard error of " + of + ", by the scatter of the run's cycles");
-}
+using studies::recorded, studies::standard_error;
 
 const doe::Problem problem{
     .variables = {{.name = "alpha",

@@ -62,8 +62,8 @@ const doe::Problem problem{
                    .description =
                        "range of force in the worse pin of the bucket that tires it as much as a cycle does"},
                   spill_response,
-                  studies::standard_error_of(production_response),
-                  studies::standard_error_of(spill_response),
+                  studies::standard_error("production_error", "kg/s", "production"),
+                  studies::standard_error("rock_spill_error", "1", "rock spill"),
                   studies::recorded("load", "t", "per cycle; rated payload: 21 t"),
                   studies::recorded("cycle_time", "s", "at the pile, without haul")}};
 

@@ -113,7 +113,7 @@ nlohmann::json production_panel(const std::vector<RankedRun>& runs, std::size_t 
   return scene_panel(log, cycle, who, good ? "A good cycle" : "A bad cycle", damage_options(options));
 }
 
-/// Of the runs, from the highest production: none where they do not differ.
+/// Panels of a cycle of a good run and of one of a bad run; none where production does not differ.
 nlohmann::json production_panels(std::vector<RankedRun> runs, const OptionValues& options) {
   std::stable_sort(runs.begin(), runs.end(),
                    [](const RankedRun& a, const RankedRun& b) { return a.production > b.production; });

@@ -17,15 +17,6 @@ namespace {
 using engine::loading::LoadingLog;
 using engine::loading::Scenario;
 
-Eigen::VectorXd middle_of(const doe::Problem& problem) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const doe::Variable& v = problem.variables[static_cast<std::size_t>(i)];
-    x[i] = v.kind == doe::VariableKind::real ? 0.5 * (v.lower + v.upper) : v.lower;
-  }
-  return x;
-}
-
 doe::Outcome responses_of(const LoadingStudy& loading, const LoadingLog& log, const OptionValues& options) {
   if (!log.completed) return doe::Failure{log.message};
   return loading.responses(log, options);
@@ -95,9 +86,8 @@ doe::Response recorded(const char* name, const char* unit, const std::string& de
   return {.name = name, .unit = unit, .goal = doe::Goal::record, .lower = 0, .description = description};
 }
 
-doe::Response standard_error_of(const doe::Response& response) {
-  return recorded(response.standard_error.c_str(), response.unit.c_str(),
-                  "standard error of " + response.name + ", by the scatter of the run's cycles");
+doe::Response standard_error(const char* name, const char* unit, const std::string& of) {
+  return recorded(name, unit, "standard error of " + of + ", by the scatter of the run's cycles");
 }
 
 }  // namespace drawpoint::studies

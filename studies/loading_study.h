@@ -40,6 +40,6 @@ RunContext with_options(RunContext run, const OptionValues& values);
 /// A response that is kept beside the objectives, at least 0.
 doe::Response recorded(const char* name, const char* unit, const std::string& description);
 /// One that is the standard error of another, by the scatter of the run's cycles.
-doe::Response standard_error_of(const doe::Response& response);
+doe::Response standard_error(const char* name, const char* unit, const std::string& of);
 
 }  // namespace drawpoint::studies

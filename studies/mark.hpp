@@ -7,6 +7,7 @@
 #include <drawpoint/doe/problem.hpp>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,6 +43,18 @@ inline void check_marks(const doe::Problem& problem, const std::vector<Mark>& ma
                          doe::detail::with_unit(v.upper, v.unit) + "; give a value within it");
     }
   }
+}
+
+/// The middle of the box, against which a recommendation is held where no mark is the reference: half way along each
+/// variable, rounded down to a whole value where it has to be one.
+inline Eigen::VectorXd middle_of(const doe::Problem& problem) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(problem.variables.size()));
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
+    const double half = v.lower + 0.5 * (v.upper - v.lower);
+    x[k] = v.kind == doe::VariableKind::real ? half : std::floor(half);
+  }
+  return x;
 }
 
 }  // namespace drawpoint::studies

@@ -64,11 +64,11 @@ std::string why_shown(const ReportInput& input, const std::optional<Recommendati
 
 /// By the first run that can be shown; a few that cannot become warnings.
 void illustrate(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
-                const OptionValues& options, const Folder& folder) {
+                const OptionValues& options, const Folder& folder,
+                const std::optional<Recommendation>& recommended) {
   const int most_attempts = 5;
   input.illustrations = nlohmann::json::array();
   if (!study.illustrate) return;
-  const auto recommended = recommend(input);
   int attempts = 0;
   for (const Run* run :
        recommended ? runs_near(input.problem, recommended->x, runs) : good_runs(runs, study.problem)) {
@@ -115,14 +115,14 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   return summary;
 }
 
-void tell_of_models(Summary& summary, const ReportInput& input) {
+void tell_of_models(Summary& summary, const ReportInput& input,
+                    const std::optional<Recommendation>& recommended) {
   auto said = summary.nrmse.begin();
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     if (!doe::is_standard_error(input.problem, j)) {
       summary.mean_errors[said->first] = input.mean_errors[j];
       (said++)->second = input.validations[j].nrmse;
     }
-  const auto recommended = recommend(input);
   summary.answer = answer_sentences(input, recommended);
   if (recommended) {
     summary.recommended = recommended->x;
@@ -162,13 +162,14 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
     return summary;
   }
   add_hauls(input, study, logged, store.identity().options, folder);
-  tell_of_models(summary, input);
+  const std::optional<Recommendation> recommended = recommend(input);
+  tell_of_models(summary, input, recommended);
   const StopState reached = stop_state(stop_rule_from(store.sampling().until, study.problem), study.problem,
                                        input.validations, input.mean_errors);
   summary.until = reached.text;
   summary.until_met = reached.met;
   add_warnings(input, runs);
-  illustrate(input, study, logged, store.identity().options, folder);
+  illustrate(input, study, logged, store.identity().options, folder, recommended);
   contrast(input, study, logged, store.identity().options, folder);
   summary.findings = hold_findings(input, study, logged, store.identity().options, folder);
   write_report(folder.report(), input);

@@ -29,7 +29,7 @@ std::string choice_text(const ReportInput& input, const Recommendation& recommen
   return "the best " + input.problem.responses[objectives.front()].name + of;
 }
 
-/// Of the mean of many runs, which no interval of one run is within.
+/// The interval of the mean of many runs lies within that of one run.
 Interval95 interval_of_mean(const ReportInput& input, const PlannedPoints& points, std::size_t j,
                             const Interval95& run) {
   if (!knows_error(input.models[j], points.X.topRows(1))) return {run.mean, unknown_number, unknown_number};

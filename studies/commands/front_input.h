@@ -10,7 +10,7 @@
 
 namespace drawpoint::studies {
 
-/// Of the folder of the settings, with models and a front. Throws std::runtime_error that begins with the command
+/// Reads the folder of the settings, with models and a front. Throws std::runtime_error that begins with the command
 /// and says what to do where it has none.
 ReportInput input_with_front(const Study& study, const Settings& settings, const std::string& command);
 

@@ -83,13 +83,4 @@ Eigen::VectorXd point_named(const doe::Problem& problem, const std::string& opti
   }
 }
 
-std::vector<double> middle_of(const doe::Problem& problem) {
-  std::vector<double> x;
-  for (const doe::Variable& v : problem.variables) {
-    const double half = v.lower + 0.5 * (v.upper - v.lower);
-    x.push_back(v.kind == doe::VariableKind::real ? half : std::floor(half));
-  }
-  return x;
-}
-
 }  // namespace drawpoint::studies

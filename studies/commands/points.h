@@ -19,7 +19,4 @@ Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<do
 /// option and says which variables there are.
 Eigen::VectorXd point_named(const doe::Problem& problem, const std::string& option, const std::string& text);
 
-/// Half way along each variable, whole where it has to be.
-std::vector<double> middle_of(const doe::Problem& problem);
-
 }  // namespace drawpoint::studies

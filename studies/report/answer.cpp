@@ -80,7 +80,7 @@ bool is_better(const ReportInput& input, const Gain& gain) {
   return doe::sign_of(input.problem.responses[gain.response].goal) * gain.difference() < 0;
 }
 
-/// Of the gains: the names of those that are sure to be better, sure to be worse, and open.
+/// Names the responses that are better with 95 %, worse with 95 %, and not told apart.
 struct Judged {
   std::vector<std::string> better, worse, open;
 };

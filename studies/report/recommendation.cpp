@@ -115,13 +115,7 @@ std::vector<Gain> gains_of(const ReportInput& input, const Eigen::VectorXd& x, c
 Reference reference_of(const doe::Problem& problem, const std::vector<Mark>& marks) {
   for (const Mark& mark : marks)
     if (mark.name == reference_name) return {mark.name, mark.x};
-  Eigen::VectorXd middle(static_cast<Eigen::Index>(problem.variables.size()));
-  for (std::size_t k = 0; k < problem.variables.size(); ++k) {
-    const doe::Variable& v = problem.variables[k];
-    const double x = 0.5 * (v.lower + v.upper);
-    middle[static_cast<Eigen::Index>(k)] = v.kind == doe::VariableKind::real ? x : std::floor(x);
-  }
-  return {"the middle of the box", middle};
+  return {"the middle of the box", middle_of(problem)};
 }
 
 Eigen::MatrixXd predicted_means(const ReportInput& input, const Eigen::MatrixXd& X) {

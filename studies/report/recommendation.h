@@ -22,7 +22,7 @@
 
 namespace drawpoint::studies {
 
-/// Of the mean of many runs, recommended less reference, unit of the response; the ends hold it with 95 %, and are
+/// How far the mean of many runs differs, recommended less reference, in the response's unit; the ends hold it with 95 %, and are
 /// not numbers where the model does not know its error.
 struct Gain {
   std::size_t response = 0;  ///< an objective

@@ -17,7 +17,7 @@ struct Crash {
 };
 using Attempt = std::variant<doe::Outcome, Crash>;
 
-/// Of {"values": {response: number}} or {"failure": text}; anything else is a crash whose reason says what it is.
+/// Takes {"values": {response: number}} or {"failure": text}; anything else is a crash whose reason says what it is.
 Attempt reply_of(const std::string& text, const doe::Problem& problem);
 
 }  // namespace drawpoint::studies

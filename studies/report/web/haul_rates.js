@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What strategies give with another haul: load over the time of a cycle and its haul.
 
-/// Of the models.
+/// What the models say.
 export const rateOf = ({load, seconds}, haul) => load / (seconds + haul);
 
-/// Of a run, by its cycles: the mean of their rates.
+/// What a run gave: the mean of its cycles' rates.
 export const rateOfRun = ({loads, seconds}, haul) =>
   loads.reduce((sum, load, c) => sum + load / (seconds[c] + haul), 0) / loads.length;
 
