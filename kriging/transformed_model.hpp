@@ -229,11 +229,12 @@ inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, co
 /// Throws as transform_for and fit.
 inline TransformedModel fit_transformed(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
                                         const ResponseRange& range, const FitOptions& options = {}) {
-  const Transform transform = transform_for(scale, y, range);
+  const bool told = options.noise == Noise::known || options.noise == Noise::pooled;
+  const Transform transform =
+      transform_for(scale, y, range, told ? options.noise_variance : Eigen::VectorXd());
   if (transform.scale == Scale::linear) return fit(X, y, options);
   Eigen::VectorXd z = y;
   for (double& entry : z) entry = transformed(transform, entry);
-  const bool told = options.noise == Noise::known || options.noise == Noise::pooled;
   if (!told) return {fit(X, z, options), transform, y};
   return {fit(X, z, detail::with_noise_on_scale(options, transform, y)), transform, y};
 }

@@ -113,8 +113,20 @@ struct Fitted {
   kriging::TransformedModel model;
 };
 
-Fitted fit_response(const doe::Evaluations& runs, const doe::Response& response) {
+/// Where noise that the runs tell may be taken from, the first to be kept without a reason. On a scale that is not
+/// linear it has one size: what a run has in the mean is the median and the noise about it, and noise of another size
+/// at every point would leave out what it adds where it is large beside the response. A run that tells an error of 0
+/// among others that do not has seen too few samples to know: nothing was lost in three cycles, which is no proof that
+/// nothing ever is; a fit that took its word would go through it.
+std::vector<kriging::NoiseSource> sources_for(const kriging::RunNoise& noise, kriging::Scale scale) {
   using kriging::NoiseSource;
+  if (scale != kriging::Scale::linear) return {NoiseSource::pooled, NoiseSource::estimated};
+  if (noise.variance.minCoeff() == 0)
+    return {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::modelled};
+  return {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::told, NoiseSource::modelled};
+}
+
+Fitted fit_response(const doe::Evaluations& runs, const doe::Response& response) {
   const Eigen::MatrixXd X = runs.X();
   const Eigen::VectorXd y = runs.y(response.name);
   const kriging::ResponseRange range = range_of(response);
@@ -124,8 +136,7 @@ Fitted fit_response(const doe::Evaluations& runs, const doe::Response& response)
   kriging::FitChoice kind = kriging::choose_fit(X, y, range, {kinds.begin(), kinds.end()}, noise);
   if (noise.noise != kriging::Noise::known) return {kinds[kind.best], std::move(kind.model)};
   std::vector<StudyWay> sources;
-  for (const auto source :
-       {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::told, NoiseSource::modelled})
+  for (const kriging::NoiseSource source : sources_for(noise, scale))
     sources.push_back(ways_to_fit(runs.problem, response, scale, source)[kind.best]);
   kriging::FitChoice choice = kriging::choose_refitted(X, y, range, {sources.begin(), sources.end()}, noise);
   return {sources[choice.best], std::move(choice.model)};

@@ -107,6 +107,26 @@ TEST(MeanResponse, HasItsSlope) {
           << to_string(t.scale);
 }
 
+// Runs scatter by 0.2 in the median of those that scatter at all; the rest is comparison.
+TEST(TransformFor, PutsTheScatterBelowRunsThatAreCloserToABound) {
+  const ResponseRange positive{0, infinity}, share{0, 10};
+  const VectorXd variance = (VectorXd(4) << 0.0, 0.01, 0.04, 0.25).finished();
+  const VectorXd close = (VectorXd(4) << 0.01, 0.5, 3.0, 9.0).finished();
+  const VectorXd far = (VectorXd(4) << 0.3, 0.5, 3.0, 9.0).finished();
+  const VectorXd touching = (VectorXd(4) << 0.0, 0.01, 3.0, 9.0).finished();
+  EXPECT_EQ(transform_for(Scale::logarithm, close, positive, variance).offset, 0.2);
+  EXPECT_EQ(transform_for(Scale::logarithm, touching, positive, variance).offset, 0.2);
+  EXPECT_EQ(transform_for(Scale::logarithm, far, positive, variance).offset, 0.0)
+      << "noise does not reach it";
+  EXPECT_EQ(transform_for(Scale::logarithm, close, positive, VectorXd::Zero(4)).offset, 0.0) << "exact runs";
+  EXPECT_EQ(transform_for(Scale::square_root, close, positive, variance).offset, 0.0);
+  EXPECT_EQ(transform_for(Scale::logit, close, share, variance).offset, 0.2);
+  EXPECT_EQ(transform_for(Scale::logit, close, share, variance).upper_offset, 0.0);
+  for (const double unit : {1e-8, 1e8})
+    EXPECT_NEAR(transform_for(Scale::logarithm, unit * close, positive, unit * unit * variance).offset,
+                0.2 * unit, 1e-12 * unit);
+}
+
 TEST(TransformFor, PutsHalfOfTheLeastDistanceBelowRunsOnABound) {
   const ResponseRange positive{0, infinity}, share{0, 1};
   const VectorXd inside = Eigen::Vector3d(0.2, 0.5, 0.9), touching = Eigen::Vector3d(0.0, 0.5, 0.9);
