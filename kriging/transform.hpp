@@ -207,26 +207,34 @@ inline bool allows(const ResponseRange& range, Scale scale) {
 
 namespace detail {
 
-/// Half of the least distance above 0, where some distance is 0; the scatter, where that is more and some distance is
-/// below it; else 0.
-inline double offset_of(const Eigen::VectorXd& distances, double scatter) {
-  double above = std::numeric_limits<double>::infinity();
-  for (const double distance : distances)
-    if (distance > 0) above = std::min(above, distance);
-  const double least = distances.size() > 0 ? distances.minCoeff() : above;
-  const double half = least <= 0 && std::isfinite(above) ? 0.5 * above : 0.0;
-  return least < scatter && std::isfinite(above) ? std::max(half, scatter) : half;
+/// Half of the least distance above 0, where some distance is 0; else 0.
+inline double half_least(const Eigen::VectorXd& distances) {
+  double least = std::numeric_limits<double>::infinity();
+  bool touches = false;
+  for (const double distance : distances) {
+    if (distance > 0)
+      least = std::min(least, distance);
+    else
+      touches = true;
+  }
+  return touches && std::isfinite(least) ? 0.5 * least : 0.0;
 }
 
-/// Median of the deviations above 0; 0 where there is none.
-inline double usual_deviation(const Eigen::VectorXd& variance) {
-  std::vector<double> noisy;
-  for (const double v : variance)
-    if (v > 0) noisy.push_back(v);
-  if (noisy.empty()) return 0;
-  const auto middle = noisy.begin() + static_cast<std::ptrdiff_t>(noisy.size() / 2);
-  std::nth_element(noisy.begin(), middle, noisy.end());
-  return std::sqrt(*middle);
+/// Median deviation of the runs that scatter by more than their distance; 0 without such runs or variances.
+inline double scatter_across(const Eigen::VectorXd& distances, const Eigen::VectorXd& variance) {
+  std::vector<double> across;
+  for (Eigen::Index i = 0; i < variance.size(); ++i) {
+    const double deviation = std::sqrt(std::max(variance[i], 0.0));
+    if (deviation > distances[i]) across.push_back(deviation);
+  }
+  if (across.empty()) return 0;
+  const auto middle = across.begin() + static_cast<std::ptrdiff_t>(across.size() / 2);
+  std::nth_element(across.begin(), middle, across.end());
+  return *middle;
+}
+
+inline double offset_of(const Eigen::VectorXd& distances, const Eigen::VectorXd& variance) {
+  return std::max(half_least(distances), scatter_across(distances, variance));
 }
 
 inline void check_range(const Eigen::VectorXd& y, Scale scale, const ResponseRange& range) {
@@ -250,20 +258,19 @@ inline void check_range(const Eigen::VectorXd& y, Scale scale, const ResponseRan
 
 /// The transform of a response whose runs are y, all within the range. Where runs lie on a bound of a
 /// logarithm or logit, its offset is half of the least other distance from it; runs that all lie there have
-/// none, and leave the scale linear. Where the noise of runs is known (variances, unit of y squared) and some run lies
-/// closer to the bound than runs usually scatter, the offset is that scatter, their median deviation: with less, noise
-/// that nothing tells from the bound would span decades. Throws std::invalid_argument for a range that lacks what the
-/// scale needs, and for y outside of it.
+/// none, and leave the scale linear. Where the noise of runs is known (variances, unit of y squared) and some scatter by
+/// more than their distance from the bound, the offset is at least the median of their deviations: with less, noise
+/// would span decades. Throws std::invalid_argument for a range that lacks what the scale needs, and for y outside of
+/// it.
 inline Transform transform_for(Scale scale, const Eigen::VectorXd& y, const ResponseRange& range,
                                const Eigen::VectorXd& noise_variance = {}) {
   if (scale == Scale::linear) return {};
   detail::check_range(y, scale, range);
   Transform t{scale, range.lower, scale == Scale::logit ? range.upper : 0.0};
   if (scale == Scale::square_root) return t;
-  const double scatter = detail::usual_deviation(noise_variance);
-  t.offset = detail::offset_of(detail::affine(y, 1.0, -range.lower), scatter);
+  t.offset = detail::offset_of(detail::affine(y, 1.0, -range.lower), noise_variance);
   if (scale == Scale::logit)
-    t.upper_offset = detail::offset_of(detail::affine(y, -1.0, range.upper), scatter);
+    t.upper_offset = detail::offset_of(detail::affine(y, -1.0, range.upper), noise_variance);
   const bool all = std::all_of(y.begin(), y.end(), [&](double value) { return reaches(t, value); });
   return all ? t : Transform{};
 }

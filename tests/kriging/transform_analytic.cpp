@@ -107,23 +107,24 @@ TEST(MeanResponse, HasItsSlope) {
           << to_string(t.scale);
 }
 
-// Runs scatter by 0.2 in the median of those that scatter at all; the rest is comparison.
-TEST(TransformFor, PutsTheScatterBelowRunsThatAreCloserToABound) {
+// Of the runs at 0.01, 0.1, 0.4 and 9 the first three scatter by more than that: 0.1, 0.2 and 0.5. Noise that is a
+// share of the response reaches no bound, however small some runs are.
+TEST(TransformFor, PutsTheScatterBelowRunsWhoseNoiseReachesABound) {
   const ResponseRange positive{0, infinity}, share{0, 10};
-  const VectorXd variance = (VectorXd(4) << 0.0, 0.01, 0.04, 0.25).finished();
-  const VectorXd close = (VectorXd(4) << 0.01, 0.5, 3.0, 9.0).finished();
-  const VectorXd far = (VectorXd(4) << 0.3, 0.5, 3.0, 9.0).finished();
-  const VectorXd touching = (VectorXd(4) << 0.0, 0.01, 3.0, 9.0).finished();
-  EXPECT_EQ(transform_for(Scale::logarithm, close, positive, variance).offset, 0.2);
+  const VectorXd y = (VectorXd(4) << 0.01, 0.1, 0.4, 9.0).finished();
+  const VectorXd variance = (VectorXd(4) << 0.01, 0.04, 0.25, 0.04).finished();
+  const VectorXd touching = (VectorXd(4) << 0.0, 0.1, 0.4, 9.0).finished();
+  const VectorXd proportional = (0.3 * y).array().square();
+  EXPECT_EQ(transform_for(Scale::logarithm, y, positive, variance).offset, 0.2);
   EXPECT_EQ(transform_for(Scale::logarithm, touching, positive, variance).offset, 0.2);
-  EXPECT_EQ(transform_for(Scale::logarithm, far, positive, variance).offset, 0.0)
-      << "noise does not reach it";
-  EXPECT_EQ(transform_for(Scale::logarithm, close, positive, VectorXd::Zero(4)).offset, 0.0) << "exact runs";
-  EXPECT_EQ(transform_for(Scale::square_root, close, positive, variance).offset, 0.0);
-  EXPECT_EQ(transform_for(Scale::logit, close, share, variance).offset, 0.2);
-  EXPECT_EQ(transform_for(Scale::logit, close, share, variance).upper_offset, 0.0);
+  EXPECT_EQ(transform_for(Scale::logarithm, y, positive, proportional).offset, 0.0);
+  EXPECT_EQ(transform_for(Scale::logarithm, y, positive, VectorXd::Zero(4)).offset, 0.0) << "exact runs";
+  EXPECT_EQ(transform_for(Scale::logarithm, touching, positive, VectorXd::Zero(4)).offset, 0.05);
+  EXPECT_EQ(transform_for(Scale::square_root, y, positive, variance).offset, 0.0);
+  EXPECT_EQ(transform_for(Scale::logit, y, share, variance).offset, 0.2);
+  EXPECT_EQ(transform_for(Scale::logit, y, share, variance).upper_offset, 0.0);
   for (const double unit : {1e-8, 1e8})
-    EXPECT_NEAR(transform_for(Scale::logarithm, unit * close, positive, unit * unit * variance).offset,
+    EXPECT_NEAR(transform_for(Scale::logarithm, unit * y, positive, unit * unit * variance).offset,
                 0.2 * unit, 1e-12 * unit);
 }
 
