@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <drawpoint/engine/loading/arm_linkage.hpp>
+#include <drawpoint/engine/loading/lhd.hpp>
 #include <drawpoint/engine/world/world.hpp>
 #include <drawpoint/tests/end_to_end/support.hpp>
 
@@ -11,7 +13,7 @@ using namespace drawpoint::test;
 namespace {
 
 const std::string pile = PILE_SCENARIO, table = MASS_RATIO_TABLE, study = ACCURACY_STUDY, fill = BUCKET_FILL,
-                  sweep = STRATEGY_SWEEP, ledger = RUN_LEDGER;
+                  sweep = STRATEGY_SWEEP, ledger = RUN_LEDGER, sheet = DATA_SHEET;
 const std::string tiny = pile + " --rocks 40 --settle 60 --steps 20 --dig 20 --json";
 
 using ScenarioCommands = StudyTest;
@@ -157,6 +159,32 @@ TEST_F(ScenarioCommands, LedgerAccountsForRockAndWork) {
   const Ended none = this->run(ledger + " " + (dir() / "none.h5").string());
   EXPECT_EQ(none.code, 1);
   EXPECT_TRUE(contains(none.err, "none.h5")) << none.err;
+}
+
+// What the docs keep is what the machine is, to the four digits that are printed. Axles carry the whole mass. Breakout
+// by tilt again from the lever of the linkage, which knows no weights but the bucket's: bell-crank, link and cylinder
+// take some kN m of 650.
+TEST_F(ScenarioCommands, DataSheetIsThatOfTheDocs) {
+  const Ended printed = run(sheet);
+  ASSERT_EQ(printed.code, 0) << printed.err;
+  EXPECT_EQ(printed.out, contents(MACHINE_SHEET));
+  const auto value = [&](const std::string& quantity) {
+    const std::size_t at = printed.out.find("\"" + quantity + "\",");
+    EXPECT_NE(at, std::string::npos) << quantity;
+    return std::stod(printed.out.substr(printed.out.find(',', at + quantity.size() + 3) + 1));
+  };
+  EXPECT_NEAR(value("front axle, empty, bucket on the floor") + value("rear axle, empty"),
+              value("operating mass"), 0.01);
+  EXPECT_NEAR(value("rear axle, empty") / value("operating mass"), 0.56, 1e-3);
+  using namespace engine::loading;
+  const ArmLinkage arm;
+  const Eigen::Vector2d boom = arm.G - arm.F;
+  const double push = pushing_force(Hydraulics{}.tilt, Hydraulics{}.pressure),
+               weight = 9.81 * bucket_mass({}) * (bucket_centre({}).x() - arm.G.x()),
+               lever = sandvik_lh621().K.x() - arm.G.x();
+  const double tilt = (push * tilt_lever(arm, std::atan2(boom.y(), boom.x()), 0) - weight) / lever;
+  EXPECT_NEAR(1e3 * value("breakout at the edge, tilt") / tilt, 1, 0.02);
+  EXPECT_NEAR(value("thrust at 1.4 m/s"), 0.73 * 382 / 1.4, 0.5);
 }
 
 TEST_F(ScenarioCommands, WrongUsageNamesValueAndRange) {
