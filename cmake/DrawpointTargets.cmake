@@ -35,6 +35,9 @@ function(drawpoint_compile_once name)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/compiled.cpp> $<INSTALL_INTERFACE:include/drawpoint/${name}/compiled.cpp>)
 
   add_library(drawpoint_${name}_once STATIC EXCLUDE_FROM_ALL compiled.cpp)
+  # for the Python module, a shared library
+  set_target_properties(drawpoint_${name}_once PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                        VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(drawpoint_${name}_once PUBLIC drawpoint_${name} PRIVATE drawpoint_build_flags)
   target_compile_definitions(drawpoint_${name}_once PUBLIC ${definition})
   drawpoint_compiled_apart(drawpoint_${name}_once ${definition} ON)

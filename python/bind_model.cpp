@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <drawpoint/python/bind.h>
+#include <algorithm>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/save.hpp>
+#include <drawpoint/kriging/validate.hpp>
+
+/// The fitted model: predictions, numbers, text.
+
+namespace drawpoint::python {
+
+namespace {
+
+using Points = Eigen::Ref<const Eigen::MatrixXd>;  // column-major arrays are read where they lie
+
+kriging::Target target_of(bool observation) {
+  return observation ? kriging::Target::observation : kriging::Target::latent;
+}
+
+/// Calls f(first row, rows) for some thousand rows at a time: beside the array there is never a copy of all of
+/// it, and between two calls Ctrl-C ends the work.
+template <class F>
+void in_blocks(Eigen::Index rows, const F& f) {
+  constexpr Eigen::Index block = 4096;  // a multiple of the model's own block, so that bits stay
+  for (Eigen::Index from = 0; from < rows || from == 0; from += block) {
+    {
+      const py::gil_scoped_release release;
+      f(from, std::min(block, rows - from));
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+Eigen::VectorXd mean_of(const kriging::Model& model, const Points& X) {
+  Eigen::VectorXd mean(X.rows());
+  in_blocks(X.rows(), [&](Eigen::Index from, Eigen::Index rows) {
+    mean.segment(from, rows) = model.mean(X.middleRows(from, rows));
+  });
+  return mean;
+}
+
+std::pair<Eigen::VectorXd, Eigen::VectorXd> prediction_of(const kriging::Model& model, const Points& X,
+                                                          bool observation) {
+  Eigen::VectorXd mean(X.rows()), variance(X.rows());
+  in_blocks(X.rows(), [&](Eigen::Index from, Eigen::Index rows) {
+    const kriging::Prediction p = model.predict(X.middleRows(from, rows), target_of(observation));
+    mean.segment(from, rows) = p.mean;
+    variance.segment(from, rows) = p.variance;
+  });
+  return {std::move(mean), std::move(variance)};
+}
+
+}  // namespace
+
+void bind_model(py::module_& m) {
+  using kriging::Model;
+  py::class_<Model>(m, "Model")
+      .def("mean", &mean_of)
+      .def("predict", &prediction_of)
+      .def("covariance", &Model::covariance, ReleaseGil())
+      .def("gradient",
+           [](const Model& model, const Eigen::VectorXd& x) {
+             const kriging::PredictionGradient g = model.gradient(x);
+             return std::pair(g.mean, g.variance);
+           })
+      .def(
+          "validate",
+          [](const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
+            return kriging::validate(model, X, y);
+          },
+          ReleaseGil())
+      .def("to_text", [](const Model& model) { return kriging::to_text(model); })
+      .def_static("from_text", [](const std::string& text) { return kriging::from_text(text); })
+      .def(
+          "save", [](const Model& model, const std::string& path) { kriging::save(model, path); },
+          ReleaseGil())
+      .def_static(
+          "load", [](const std::string& path) { return kriging::load(path); }, ReleaseGil())
+      .def_property_readonly("variables", &Model::variables)
+      .def_property_readonly("runs", &Model::runs)
+      .def_property_readonly("theta", [](const Model& model) { return model.theta(); })
+      .def_property_readonly("nugget", &Model::nugget)
+      .def_property_readonly("process_variance", &Model::process_variance)
+      .def_property_readonly("noise_variance", &Model::noise_variance)
+      .def_property_readonly("trend", &Model::trend_coefficients)
+      .def_property_readonly("constant", &Model::trend)
+      .def_property_readonly("log_likelihood", &Model::log_likelihood)
+      .def_property_readonly("condition", [](const Model& model) { return model.report().condition; })
+      .def_property_readonly("status",
+                             [](const Model& model) { return std::string(to_string(model.status())); })
+      .def_property_readonly("message", &Model::message)
+      .def_property_readonly(
+          "correlation",
+          [](const Model& model) { return std::string(to_string(model.correlation().family)); })
+      .def(py::pickle([](const Model& model) { return kriging::to_text(model); },
+                      [](const std::string& text) { return kriging::from_text(text); }));
+
+  py::class_<kriging::Validation>(m, "Validation")
+      .def_readonly("rmse", &kriging::Validation::rmse)
+      .def_readonly("nrmse", &kriging::Validation::nrmse)
+      .def_readonly("observed", &kriging::Validation::observed)
+      .def_readonly("predicted", &kriging::Validation::predicted)
+      .def_readonly("variance", &kriging::Validation::variance)
+      .def_readonly("observation_variance", &kriging::Validation::observation_variance)
+      .def(
+          "score",
+          [](const kriging::Validation& v, const std::string& error, double level) {
+            using kriging::ErrorFunction;
+            return kriging::score(
+                v,
+                named("kriging::score: error", error,
+                      {ErrorFunction::rmse, ErrorFunction::nrmse, ErrorFunction::mae, ErrorFunction::q2,
+                       ErrorFunction::nlpd, ErrorFunction::coverage, ErrorFunction::crps}),
+                level);
+          },
+          py::arg("error"), py::arg("level") = 0.95);
+}
+
+}  // namespace drawpoint::python
