@@ -1,6 +1,6 @@
 # Install, export and packages. A component is one module: its headers, its library if it has one, its export file.
 # The component `common` is what all need: the package config and the licence. The component `programs` is the
-# studies to run, with what studies/front/CMakeLists.txt adds to them; `everything` is a package that brings all
+# studies to run, with what studies/front/CMakeLists.txt adds to them, `python` the Python module; `everything` is a package that brings all
 # modules.
 
 if(NOT DRAWPOINT_INSTALL OR NOT DRAWPOINT_BUILD_TOOLKIT)
@@ -76,6 +76,18 @@ if(DRAWPOINT_BUILD_STUDIES)
   foreach(package libeigen3-dev libcli11-dev nlohmann-json3-dev libsqlitecpp-dev libcpp-httplib-dev)
     install(FILES /usr/share/doc/${package}/copyright RENAME copyright.${package}
             DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint COMPONENT programs EXCLUDE_FROM_ALL OPTIONAL)
+  endforeach()
+endif()
+
+if(TARGET drawpoint_python)
+  # The place of Debian's own packages of Python; pybind11 and Eigen are compiled into the module.
+  set(folder lib/python3/dist-packages/drawpoint)
+  install(TARGETS drawpoint_python LIBRARY DESTINATION ${folder} COMPONENT python EXCLUDE_FROM_ALL)
+  install(DIRECTORY python/drawpoint/ DESTINATION ${folder} COMPONENT python EXCLUDE_FROM_ALL
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+  foreach(package pybind11-dev libeigen3-dev nlohmann-json3-dev)
+    install(FILES /usr/share/doc/${package}/copyright RENAME copyright.${package}
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-drawpoint COMPONENT python EXCLUDE_FROM_ALL OPTIONAL)
   endforeach()
 endif()
 
@@ -163,6 +175,8 @@ function(drawpoint_deb component summary)
     set(package libdrawpoint-dev)
   elseif(component STREQUAL "programs")
     set(package drawpoint)
+  elseif(component STREQUAL "python")
+    set(package python3-drawpoint)
   endif()
   set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${package} PARENT_SCOPE)
   install(FILES ${PROJECT_SOURCE_DIR}/cmake/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
@@ -205,8 +219,17 @@ if(DRAWPOINT_BUILD_STUDIES)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "bash-completion, chromium, ffmpeg, python3, slurm-client")
 endif()
+if(TARGET drawpoint_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  drawpoint_deb(python "Drawpoint: designs, Kriging, optimisation and fronts in Python"
+                "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})" "python3 (<< ${Python_VERSION_MAJOR}.${next_minor})"
+                python3-numpy libblas3 liblapack3)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+endif()
 set(modules ${CPACK_COMPONENTS_ALL})
-list(REMOVE_ITEM modules common everything programs)
+list(REMOVE_ITEM modules common everything programs python)
 list(TRANSFORM modules REPLACE "(.+)" "libdrawpoint-\\1-dev ${same_version}")
 drawpoint_deb(everything "Drawpoint: everything to build on (brings all libdrawpoint-*-dev)" ${modules})
 include(CPack)

@@ -310,7 +310,7 @@ def choose_kriging(
     runs, response = _runs(X, y)
     variance = _noise(noise, response.size)
     pairs = [(c, t) for c in ("gaussian", "matern52") for t in ("constant", "linear")] if kinds is None else kinds
-    models = [Kriging(**{**params, "correlation": c, "trend": t}) for c, t in pairs]
+    models = [Kriging(**params).set_params(correlation=c, trend=t) for c, t in pairs]
     if variance is not None and any(model.noise_kind != "known" for model in models):
         raise ValueError("drawpoint.choose_kriging: allowed is the noise_kind \"known\"; fit other kinds one by one")
     options = [model._options(variance) for model in models]

@@ -54,6 +54,7 @@ inline const std::vector<Row>& dependency_table() {
       {"kriging/detail/saved_json.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"kriging/detail/saved_parts.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"pareto/", {"doe/", "pareto/"}, {"Eigen", "Ipopt"}, {}},
+      {"python/", {"doe/", "kriging/", "pareto/", "python/"}, {}, {"Eigen", "pybind11"}},
       {"engine/base/", rooms({"base"}), {"Eigen"}, {}},
       {"engine/geometry/", rooms({"base", "geometry"}), {"Eigen"}, {"Highway", "Qhull"}},
       {"engine/collision/", rooms({"base", "geometry", "collision"}), {"Eigen"}, {"FCL"}},
@@ -148,6 +149,7 @@ inline std::optional<std::string> package_of(const std::string& header) {
       {std::regex("httplib\\.h"), "cpp-httplib"},
       {std::regex("CLI/.*"), "CLI11"},
       {std::regex("nlohmann/.*"), "nlohmann-json"},
+      {std::regex("pybind11/.*"), "pybind11"},
       {std::regex("[a-z_0-9]+"), "standard"},
       {std::regex("(unistd|fcntl|spawn|poll|signal|glob|immintrin|malloc)\\.h|sys/[a-z]+\\.h"), "standard"}};
   for (const auto& [pattern, name] : packages) {
