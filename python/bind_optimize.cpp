@@ -77,7 +77,7 @@ py::dict dict_of(const kriging::Optimum& found) {
 }
 
 /// callback(x, y) of Python after each run; what it raises ends the search.
-std::function<void(const doe::Evaluation&)> reporter(const py::object& callback, std::size_t responses,
+std::function<void(const doe::Evaluation&)> reporter(py::handle callback, std::size_t responses,
                                                      Interrupt& interrupt) {
   if (callback.is_none()) return {};
   return [callback, responses, &interrupt](const doe::Evaluation& run) {

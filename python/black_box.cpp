@@ -57,7 +57,7 @@ Batch::Function of_points(PythonFunction function, Interrupt& interrupt) {
   };
 }
 
-Batch::Function of_arrays(const py::object& f, Interrupt& interrupt) {
+Batch::Function of_arrays(py::handle f, Interrupt& interrupt) {
   return [f, &interrupt](const Eigen::MatrixXd& X, std::span<const doe::Seed>) {
     const py::gil_scoped_acquire gil;
     try {

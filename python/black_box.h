@@ -20,13 +20,13 @@ namespace drawpoint::python {
 /// Exception, and what is no number, is a failed run; any other exception ends the search.
 class PythonFunction {
  public:
-  PythonFunction(py::object f, bool seeded, Interrupt& interrupt)
-      : f_(std::move(f)), seeded_(seeded), interrupt_(&interrupt) {}
+  PythonFunction(py::handle f, bool seeded, Interrupt& interrupt)
+      : f_(f), seeded_(seeded), interrupt_(&interrupt) {}
 
   doe::Outcome operator()(const Eigen::VectorXd& x, doe::Seed seed, const std::stop_token& stop) const;
 
  private:
-  py::object f_;
+  py::handle f_;  // the caller's: copied without the GIL, which a reference count would need
   bool seeded_;
   Interrupt* interrupt_;
 };

@@ -48,9 +48,14 @@ class Interrupt {
   auto run(bool apart, const Body& body) -> decltype(body()) {
     const py::gil_scoped_release release;
     if (!apart) {
-      auto result = body();
-      rethrow();
-      return result;
+      try {
+        auto result = body();
+        rethrow();
+        return result;
+      } catch (...) {
+        rethrow();
+        throw;
+      }
     }
     std::packaged_task<decltype(body())()> task(body);
     auto result = task.get_future();

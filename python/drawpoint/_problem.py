@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Optional, Sequence, Tuple, Union
+from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -55,6 +55,8 @@ def add_responses(problem: _core.Problem, goals: Sequence[Goal], names: Optional
     all_goals: list[Goal] = [goals] if isinstance(goals, str) else list(goals)
     each_name = _one_each("response_names", names, len(all_goals)) or [f"y{k}" for k in range(len(all_goals))]
     for name, goal in zip(each_name, all_goals):
+        if not isinstance(goal, str) and len(goal) != 2:
+            raise ValueError(f'drawpoint: goal is {goal!r}; allowed are a name, or a pair such as ("at_most", 2.0)')
         kind, limit = (goal, float("nan")) if isinstance(goal, str) else (goal[0], float(goal[1]))
         problem.add_response(name, kind, limit)
     problem.check()
@@ -83,7 +85,7 @@ def signs(goals: Optional[Sequence[str]], columns: int) -> npt.NDArray[np.float6
     return np.array([-1.0 if goal == "maximize" else 1.0 for goal in one_each])
 
 
-def _one_each(what: str, values: Optional[Sequence], count: int) -> Optional[list]:
+def _one_each(what: str, values: Optional[Sequence[Any]], count: int) -> Optional[list[Any]]:
     if values is None:
         return None
     if isinstance(values, str) or len(values) != count:

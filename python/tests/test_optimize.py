@@ -153,6 +153,7 @@ def test_an_exit_ends_the_search_and_is_no_failed_run(threads, tmp_path):
         ((bowl, [0, 0], [1, 1], 9), {"goals": ["record"]}, "the problem has 0 objectives"),
         ((bowl, [0, 0], [1, 1], 9), {"goals": ["least"]}, 'goal is "least"; allowed are minimize, maximize, at_most'),
         ((bowl, [0, 0], [1, 1], 9), {"goals": ["minimize", "at_most"]}, "give a finite limit"),
+        ((bowl, [0, 0], [1, 1], 9), {"goals": [("at_most",)]}, "allowed are a name, or a pair"),
         ((lambda x: (1.0, 2.0), [0], [1], 9), {}, "returned 2 values where the problem has 1 responses"),
     ],
 )
@@ -178,10 +179,11 @@ try:
         print("running", flush=True)
         drawpoint.nsga2([model, model], [0, 0], [1, 1], generations=10**8)
     elif sys.argv[1] == "predict":
-        X = np.zeros((3_000_000, 2), order="F")
+        runs = drawpoint.halton(300, [0, 0], [1, 1])
+        large = drawpoint.Kriging(starts=1, deterministic=True).fit(runs, np.sin(9 * runs).sum(axis=1))
+        X = np.zeros((4_000_000, 2), order="F")  # half a minute
         print("running", flush=True)
-        for _ in range(1000):
-            drawpoint._core.Model.predict(model.model_, X, False)
+        large.predict(X, return_std=True)
     elif sys.argv[1] == "nsga2":
         drawpoint.nsga2(lambda x: (slow(x), 1.0), [0, 0], [1, 1])
     else:
