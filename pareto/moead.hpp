@@ -58,13 +58,8 @@ class Moead : public Search {
 /// As nsga2: same problems, same errors, same result; at most one point per direction.
 template <class F>
 Front moead(const F& black_box, const doe::Problem& problem, const MoeadOptions& options = {}) {
-  doe::require_black_box<F>();
-  if constexpr (doe::BlackBox<F>) {
-    Moead search(problem, options);
-    return finish(search, black_box);
-  } else {
-    return {};  // so that the message above stands alone
-  }
+  Moead search(problem, options);
+  return finish(search, black_box);
 }
 
 }  // namespace drawpoint::pareto

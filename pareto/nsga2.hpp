@@ -60,13 +60,8 @@ class Nsga2 : public Search {
 /// The same on a black box, to the end. Evaluations that fail are ranked last and counted.
 template <class F>
 Front nsga2(const F& black_box, const doe::Problem& problem, const Nsga2Options& options = {}) {
-  doe::require_black_box<F>();
-  if constexpr (doe::BlackBox<F>) {
-    Nsga2 search(problem, options);
-    return finish(search, black_box);
-  } else {
-    return {};  // so that the message above stands alone
-  }
+  Nsga2 search(problem, options);
+  return finish(search, black_box);
 }
 
 }  // namespace drawpoint::pareto

@@ -39,13 +39,8 @@ class Nsga3 : public Search {
 /// As nsga2: same problems, same errors, same result; at most `population` points, from the last generation.
 template <class F>
 Front nsga3(const F& black_box, const doe::Problem& problem, const Nsga3Options& options = {}) {
-  doe::require_black_box<F>();
-  if constexpr (doe::BlackBox<F>) {
-    Nsga3 search(problem, options);
-    return finish(search, black_box);
-  } else {
-    return {};  // so that the message above stands alone
-  }
+  Nsga3 search(problem, options);
+  return finish(search, black_box);
 }
 
 }  // namespace drawpoint::pareto

@@ -36,13 +36,8 @@ class SmsEmoa : public Search {
 /// As nsga2: same problems, same errors, same result.
 template <class F>
 Front sms_emoa(const F& black_box, const doe::Problem& problem, const SmsEmoaOptions& options = {}) {
-  doe::require_black_box<F>();
-  if constexpr (doe::BlackBox<F>) {
-    SmsEmoa search(problem, options);
-    return finish(search, black_box);
-  } else {
-    return {};  // so that the message above stands alone
-  }
+  SmsEmoa search(problem, options);
+  return finish(search, black_box);
 }
 
 }  // namespace drawpoint::pareto

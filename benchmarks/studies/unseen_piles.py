@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether one strategy beats another on piles that the study has not seen, in several kinds of rock. Each pile meets all
-strategies with the same seed, so that differences are paired. One row per rock, pile and strategy, written as it comes;
-rows that the table has already are not made again.
+"""Whether one strategy beats another on piles that the study has not seen, of several kinds. Each pile meets all strategies
+with the same seed, so that differences are paired. One row per kind, pile and strategy, written as it comes; rows that the
+table has already are not made again.
 
     unseen_piles.py PROGRAM runs.csv --folder FOLDER --strategy reference=0,1.1,.5,.5,3,1.5 --strategy recommended=...
-                    [--rocks mine,well_broken] [--piles 10] [--cycles 3] [--jobs 2] [--differences differences.csv]
+                    --kind usual --kind low:pile-mass=70 --kind well_broken:sizes=well_broken,pile-mass=70
+                    [--piles 10] [--cycles 3] [--jobs 2] [--differences differences.csv]
 
-FOLDER keeps the piles that are poured: seeds 101 and on, where a study's own has seed 1. Differences are those of every
+A kind is a name and the options of the study that differ from its defaults. FOLDER keeps the piles that are poured: seeds 101 and on, where a study's own has seed 1. Differences are those of every
 strategy from the first: mean over the piles and half of its 95 % interval by Student's t.
 """
 
@@ -28,10 +29,13 @@ STUDENT = [None, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
            2.120, 2.110, 2.101, 2.093, 2.086]
 
 
-def evaluated(given, rock, pile, x):
-    shared = given.folder / f"{rock}_{pile}"
-    words = [given.program, "evaluate", f"--x={x}", "--seed", pile, "--pile", pile, "--sizes", rock, "--cycles",
-             given.cycles, "--shared", shared, "--json"]
+def evaluated(given, kind, pile, x):
+    shared = given.folder / f"{kind}_{pile}"
+    words = [given.program, "evaluate", f"--x={x}", "--seed", pile, "--pile", pile, "--cycles", given.cycles, "--shared",
+             shared, "--json"]
+    for option in filter(None, given.kinds[kind].split(",")):
+        name, value = option.split("=", 1)
+        words += [f"--{name}", value]
     ended = subprocess.run([str(word) for word in words], capture_output=True, text=True)
     if ended.returncode:
         raise SystemExit(f"unseen_piles.py: {' '.join(map(str, words))}\n{ended.stderr[-2000:]}")
@@ -46,54 +50,55 @@ def rows_of(table):
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
-def pile_runs(given, rock, pile, missing):
+def pile_runs(given, kind, pile, missing):
     """The strategies of one pile, one after the other: the first pours it."""
-    return [(name, evaluated(given, rock, pile, given.strategies[name])) for name in missing]
+    return [(name, evaluated(given, kind, pile, given.strategies[name])) for name in missing]
 
 
 def make_runs(given):
     rows = rows_of(given.table)
-    made = {(row["rock"], row["pile"], row["strategy"]) for row in rows}
+    made = {(row["kind"], row["pile"], row["strategy"]) for row in rows}
     with open(given.table, "a", newline="") as file, concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
         writer = csv.writer(file, lineterminator="\n")
         if not rows:
-            words = " ".join(f"--strategy {name}={x}" for name, x in given.strategies.items())
+            words = " ".join([f"--strategy {name}={x}" for name, x in given.strategies.items()] +
+                             [f"--kind {kind}" for kind in given.given_kinds])
             file.write(f"# unseen_piles.py {given.program.name} --cycles {given.cycles} {words}\n")
         header = list(rows[0])[3:] if rows else None
         waiting = []
-        for rock in given.rocks.split(","):
+        for kind in given.kinds:
             for pile in range(FIRST_PILE, FIRST_PILE + given.piles):
-                missing = [name for name in given.strategies if (rock, str(pile), name) not in made]
+                missing = [name for name in given.strategies if (kind, str(pile), name) not in made]
                 if missing:
-                    waiting.append((rock, pile, pool.submit(pile_runs, given, rock, pile, missing)))
-        for rock, pile, future in waiting:
+                    waiting.append((kind, pile, pool.submit(pile_runs, given, kind, pile, missing)))
+        for kind, pile, future in waiting:
             for name, values in future.result():
                 if header is None:
                     header = list(values)
-                    writer.writerow(["rock", "pile", "strategy", *header])
-                writer.writerow([rock, pile, name, *(f"{values[key]:.6g}" for key in header)])
+                    writer.writerow(["kind", "pile", "strategy", *header])
+                writer.writerow([kind, pile, name, *(f"{values[key]:.6g}" for key in header)])
                 file.flush()
-                print(rock, pile, name, f"{values[header[0]]:.4g}", file=sys.stderr, flush=True)
+                print(kind, pile, name, f"{values[header[0]]:.4g}", file=sys.stderr, flush=True)
 
 
 def differences(given):
     rows = rows_of(given.table)
     first, *others = given.strategies
-    responses = [key for key in rows[0] if key not in ("rock", "pile", "strategy")]
-    value = {(row["rock"], row["pile"], row["strategy"]): row for row in rows}
-    for rock in dict.fromkeys(row["rock"] for row in rows):
-        piles = [pile for (kind, pile, name) in value if kind == rock and name == first]
+    responses = [key for key in rows[0] if key not in ("kind", "pile", "strategy")]
+    value = {(row["kind"], row["pile"], row["strategy"]): row for row in rows}
+    for kind in dict.fromkeys(row["kind"] for row in rows):
+        piles = [pile for (of, pile, name) in value if of == kind and name == first]
         for response in responses:
-            base = [float(value[rock, pile, first][response]) for pile in piles]
-            yield [rock, first, response, len(base), f"{statistics.mean(base):.4g}", "", ""]
+            base = [float(value[kind, pile, first][response]) for pile in piles]
+            yield [kind, first, response, len(base), f"{statistics.mean(base):.4g}", "", ""]
             for other in others:
-                paired = [pile for pile in piles if (rock, pile, other) in value]
-                gained = [float(value[rock, pile, other][response]) - float(value[rock, pile, first][response])
+                paired = [pile for pile in piles if (kind, pile, other) in value]
+                gained = [float(value[kind, pile, other][response]) - float(value[kind, pile, first][response])
                           for pile in paired]
                 half = (STUDENT[min(len(gained) - 1, 20)] * statistics.stdev(gained) / math.sqrt(len(gained))
                         if len(gained) > 1 else math.nan)
-                mean = statistics.mean(float(value[rock, pile, other][response]) for pile in paired)
-                yield [rock, other, response, len(gained), f"{mean:.4g}", f"{statistics.mean(gained):.3g}", f"{half:.2g}"]
+                mean = statistics.mean(float(value[kind, pile, other][response]) for pile in paired)
+                yield [kind, other, response, len(gained), f"{mean:.4g}", f"{statistics.mean(gained):.3g}", f"{half:.2g}"]
 
 
 def main():
@@ -102,18 +107,19 @@ def main():
     parser.add_argument("table", type=pathlib.Path)
     parser.add_argument("--folder", type=pathlib.Path, required=True)
     parser.add_argument("--strategy", action="append", required=True, metavar="NAME=X", dest="given_strategies")
-    parser.add_argument("--rocks", default="mine,well_broken")
+    parser.add_argument("--kind", action="append", required=True, metavar="NAME[:OPTION=VALUE,...]", dest="given_kinds")
     parser.add_argument("--piles", type=int, default=10)
     parser.add_argument("--cycles", type=int, default=3)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--differences", type=pathlib.Path)
     given = parser.parse_args()
     given.strategies = dict(text.split("=", 1) for text in given.given_strategies)
+    given.kinds = {kind.split(":", 1)[0]: kind.partition(":")[2] for kind in given.given_kinds}
     given.folder.mkdir(parents=True, exist_ok=True)
     make_runs(given)
     with (open(given.differences, "w", newline="") if given.differences else sys.stdout) as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["rock", "strategy", "response", "piles", "mean", "more than the first", "95 % half width"])
+        writer.writerow(["kind", "strategy", "response", "piles", "mean", "more than the first", "95 % half width"])
         writer.writerows(differences(given))
 
 

@@ -60,12 +60,12 @@ def trade_off(runs, front):
 
 
 def unseen_piles(rows):
-    strategies, rocks = list(dict.fromkeys(row["strategy"] for row in rows)), list(dict.fromkeys(row["rock"] for row in rows))
+    strategies, kinds = list(dict.fromkeys(row["strategy"] for row in rows)), list(dict.fromkeys(row["kind"] for row in rows))
     figure, panels = plt.subplots(1, 2, figsize=(7.2, 3.2))
     for axes, response, label in zip(panels, ("production", "energy"), ("production [kg/s]", "energy [kJ/t]")):
-        for at, rock in enumerate(rocks):
-            for pile in dict.fromkeys(row["pile"] for row in rows if row["rock"] == rock):
-                mine = {row["strategy"]: float(row[response]) for row in rows if (row["rock"], row["pile"]) == (rock, pile)}
+        for at, kind in enumerate(kinds):
+            for pile in dict.fromkeys(row["pile"] for row in rows if row["kind"] == kind):
+                mine = {row["strategy"]: float(row[response]) for row in rows if (row["kind"], row["pile"]) == (kind, pile)}
                 places = [at * (len(strategies) + 1) + k for k in range(len(strategies))]
                 axes.plot(places, [mine.get(name, float("nan")) for name in strategies], "-", color=GREY, alpha=0.4,
                           linewidth=0.8)
@@ -73,8 +73,8 @@ def unseen_piles(rows):
                     axes.plot(place, mine.get(name, float("nan")), "o", color=colour, markersize=4)
         axes.set_ylabel(label)
         axes.set_ylim(bottom=0)
-        axes.set_xticks([at * (len(strategies) + 1) + (len(strategies) - 1) / 2 for at in range(len(rocks))],
-                        [rock.replace("_", " ") for rock in rocks])
+        axes.set_xticks([at * (len(strategies) + 1) + (len(strategies) - 1) / 2 for at in range(len(kinds))],
+                        [kind.replace("_", " ") for kind in kinds])
     for name, colour in zip(strategies, FAMILIES.values()):
         panels[1].plot([], [], "o", color=colour, markersize=4, label=name.replace("_", " "))
     panels[1].legend()

@@ -51,8 +51,8 @@ std::vector<const Run*> runs_near(const doe::Problem& problem, const Eigen::Vect
   return runs;
 }
 
-std::string why_shown(const ReportInput& input, const std::optional<Recommendation>& recommended,
-                      const Run& run) {
+std::string why_shown(const ReportInput& input, const Run& run) {
+  const std::optional<Recommendation>& recommended = input.recommended;
   const std::string who =
       "Run " + std::to_string(run.id) + ", " + detail::point_text(input.problem, run.x) + ", ";
   if (!recommended) return who + "has a tenth of the runs before it in the first objective, or nearly so.";
@@ -64,18 +64,17 @@ std::string why_shown(const ReportInput& input, const std::optional<Recommendati
 
 /// By the first run that can be shown; a few that cannot become warnings.
 void illustrate(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
-                const OptionValues& options, const Folder& folder,
-                const std::optional<Recommendation>& recommended) {
+                const OptionValues& options, const Folder& folder) {
   const int most_attempts = 5;
   input.illustrations = nlohmann::json::array();
   if (!study.illustrate) return;
   int attempts = 0;
-  for (const Run* run :
-       recommended ? runs_near(input.problem, recommended->x, runs) : good_runs(runs, study.problem)) {
+  for (const Run* run : input.recommended ? runs_near(input.problem, input.recommended->x, runs)
+                                          : good_runs(runs, study.problem)) {
     if (attempts++ == most_attempts) return;
     try {
       input.illustrations = study.illustrate(folder.log(run->id), options);
-      input.shown = why_shown(input, recommended, *run);
+      input.shown = why_shown(input, *run);
       input.facts.emplace_back("Run shown", std::to_string(run->id));
       return;
     } catch (const std::exception& e) {
@@ -115,17 +114,16 @@ Summary summary_of(const Study& study, const std::vector<Run>& runs) {
   return summary;
 }
 
-void tell_of_models(Summary& summary, const ReportInput& input,
-                    const std::optional<Recommendation>& recommended) {
+void tell_of_models(Summary& summary, const ReportInput& input) {
   auto said = summary.nrmse.begin();
   for (std::size_t j = 0; j < input.validations.size(); ++j)
     if (!doe::is_standard_error(input.problem, j)) {
       summary.mean_errors[said->first] = input.mean_errors[j];
       (said++)->second = input.validations[j].nrmse;
     }
-  summary.answer = answer_sentences(input, recommended);
-  if (recommended) {
-    summary.recommended = recommended->x;
+  summary.answer = answer_sentences(input);
+  if (input.recommended) {
+    summary.recommended = input.recommended->x;
     summary.problem = input.problem;
   }
   summary.flat = texts_of(input.flat, input.problem);
@@ -151,25 +149,25 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   const std::vector<const Run*> logged = runs_with_log(study, store.identity(), runs, folder, input.warnings);
   input.headlines = summary.headlines =
       headlines_of(study, logged, store.identity().options, folder, input.warnings);
-  input.facts = facts(store, runs);
+  input.facts = facts(study, store, runs);
   try {
     add_models(input, store.identity().seed);
   } catch (const std::invalid_argument& e) {
     summary.error = "no models, so no report: " + std::string(e.what());
     const std::string failures = failure_warning(input);
     if (!failures.empty()) summary.error += "; " + failures;
-    summary.answer = answer_sentences(input, {});
+    summary.answer = answer_sentences(input);
     return summary;
   }
+  input.recommended = recommend(input);
   add_hauls(input, study, logged, store.identity().options, folder);
-  const std::optional<Recommendation> recommended = recommend(input);
-  tell_of_models(summary, input, recommended);
+  tell_of_models(summary, input);
   const StopState reached = stop_state(stop_rule_from(store.sampling().until, study.problem), study.problem,
                                        input.validations, input.mean_errors);
   summary.until = reached.text;
   summary.until_met = reached.met;
   add_warnings(input, runs);
-  illustrate(input, study, logged, store.identity().options, folder, recommended);
+  illustrate(input, study, logged, store.identity().options, folder);
   contrast(input, study, logged, store.identity().options, folder);
   summary.findings = hold_findings(input, study, logged, store.identity().options, folder);
   write_report(folder.report(), input);

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/models/confirmations.h>
 #include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/progress.h>
+#include <drawpoint/studies/store/option_values.h>
 #include <sys/utsname.h>
 
 #include <ctime>
@@ -87,14 +88,18 @@ void add_options(const Identity& identity, std::vector<std::pair<std::string, st
   if (!identity.simulator.empty()) all.emplace_back("Simulator", identity.simulator);
 }
 
-std::vector<std::pair<std::string, std::string>> facts(const Store& store, const std::vector<Run>& runs) {
+std::vector<std::pair<std::string, std::string>> facts(const Study& study, const Store& store,
+                                                       const std::vector<Run>& runs) {
   const Identity& identity = store.identity();
   std::vector<std::pair<std::string, std::string>> all = {{"Design", design(store, runs)},
                                                           {"Seed", std::to_string(identity.seed)}};
+  if (const std::string typed = typed_options(study.options, study.presets, identity.options); !typed.empty())
+    all.emplace_back("Options that differ from the defaults", typed);
   add_options(identity, all);
   const Sampling& sampling = store.sampling();
   if (!sampling.until.empty()) all.emplace_back("Until", sampling.until);
-  if (!sampling.stopped.empty()) all.emplace_back("Stopped", sampling.stopped);
+  if (const StopNote& stopped = sampling.stopped; !stopped.why.empty())
+    all.emplace_back("Stopped", stopped.why + "; to go on: " + stopped.go_on);
   all.insert(all.end(), {{"Runs made", time_span(runs)},
                          {"Time in runs", time_in_runs(runs)},
                          {"Machine", machine()},

@@ -12,7 +12,8 @@
 namespace drawpoint::studies {
 
 /// (label, value) in the order to show.
-std::vector<std::pair<std::string, std::string>> facts(const Store& store, const std::vector<Run>& runs);
+std::vector<std::pair<std::string, std::string>> facts(const Study& study, const Store& store,
+                                                       const std::vector<Run>& runs);
 
 /// What the runs are made with: a row of the options with their values, one of the simulator; none that is empty.
 void add_options(const Identity& identity, std::vector<std::pair<std::string, std::string>>& all);

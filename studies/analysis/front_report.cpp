@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,17 +24,15 @@ struct FrontView {
   explicit FrontView(const ReportInput& in)
       : input(in),
         points(with_predictions(in.models, in.problem, in.front.X)),
-        decision(decision_points(in.front, in.problem)) {
-    if ((recommendation = recommend(in))) recommended = recommendation->row;
-  }
+        decision(decision_points(in.front, in.problem)),
+        recommended(in.recommended ? in.recommended->row : -1) {}
 
   Eigen::VectorXd place(int row) const { return input.front.X.row(row).transpose(); }
 
   const ReportInput& input;
   PlannedPoints points;
   DecisionPoints decision;
-  std::optional<Recommendation> recommendation;
-  int recommended = -1;  ///< -1: none, or a place that was simulated
+  int recommended;  ///< -1: none, or a place that was simulated
 };
 
 std::vector<int> rows_shown(const FrontView& view, int most) {
@@ -167,10 +164,10 @@ std::string places_text(const FrontView& view, const std::vector<int>& shown) {
 
 /// Where a simulated place is recommended, which is no point of the table.
 std::string recommended_text(const FrontView& view) {
-  if (!view.recommendation || view.recommendation->row >= 0) return "";
-  const Recommendation& found = *view.recommendation;
+  if (!view.input.recommended || view.input.recommended->row >= 0) return "";
+  const Recommendation& found = *view.input.recommended;
   std::string text = "Recommended is a simulated place: " + detail::point_text(view.input.problem, found.x);
-  if (!found.simulated.empty()) text += ", run " + std::to_string(found.simulated.front()->run);
+  if (!found.simulated.empty()) text += ", run " + std::to_string(found.simulated.front().run);
   return text + ".\n";
 }
 

@@ -32,8 +32,10 @@ std::vector<const Run*> runs_with_log(const Study& study, const Identity& identi
                                       std::vector<std::string>& warnings) {
   std::vector<const Run*> sound;
   std::string others;
+  std::size_t wrote = 0;
   for (const auto& run : runs) {
     if (run.status != Status::done) continue;
+    wrote += !run.log.empty();
     const LogState state = log_state(folder, run);
     if (state == LogState::sound) sound.push_back(&run);
     if (state == LogState::other)
@@ -43,6 +45,12 @@ std::vector<const Run*> runs_with_log(const Study& study, const Identity& identi
     warnings.push_back("Logs that are damaged, or not what their run wrote, are left out: " + others +
                        ". The responses in the store stand. To have a log again: " +
                        how_made_again(study, identity, folder, "N", "run_000N.h5") + ".");
+  else if (!sound.empty() && sound.size() < wrote)
+    warnings.push_back(
+        "The folder has the logs of " + std::to_string(sound.size()) + " of " + std::to_string(wrote) +
+        " runs: what is read from logs, as the figures below the answer, is by these alone. To have a "
+        "log again: " +
+        how_made_again(study, identity, folder, "N", "run_000N.h5") + ".");
   return sound;
 }
 

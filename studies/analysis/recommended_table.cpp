@@ -89,32 +89,31 @@ std::string simulated_text(const RecommendedTable& table, const ReportInput& inp
     return "Not simulated yet; to have it simulated:\n  " + confirming_point(input, table.recommended.x) +
            "\n";
   std::string text;
-  for (const doe::Evaluation* run : runs) {
+  for (const doe::Evaluation& run : runs) {
     std::vector<std::string> values;
     for (const RecommendedResponse& r : table.responses)
       values.push_back(input.problem.responses[r.response].name + " " +
-                       detail::number(run->outcome.values()[static_cast<Eigen::Index>(r.response)]));
-    text += "Simulated by run " + std::to_string(run->run) + ": " + detail::listed(values) + "\n";
+                       detail::number(run.outcome.values()[static_cast<Eigen::Index>(r.response)]));
+    text += "Simulated by run " + std::to_string(run.run) + ": " + detail::listed(values) + "\n";
   }
   return text;
 }
 
-std::vector<std::int64_t> numbers_of(const std::vector<const doe::Evaluation*>& runs) {
+std::vector<std::int64_t> numbers_of(const std::vector<doe::Evaluation>& runs) {
   std::vector<std::int64_t> numbers;
-  for (const doe::Evaluation* run : runs) numbers.push_back(run->run);
+  for (const doe::Evaluation& run : runs) numbers.push_back(run.run);
   return numbers;
 }
 
 }  // namespace
 
-RecommendedTable recommended_table(const ReportInput& input, const Reference& against) {
-  RecommendedTable table{
-      .recommended = *recommend(input, against), .choice = {}, .success = 1, .responses = {}};
+RecommendedTable recommended_table(const ReportInput& input) {
+  RecommendedTable table{.recommended = *input.recommended, .choice = {}, .success = 1, .responses = {}};
   const Recommendation& recommended = table.recommended;
   table.choice = choice_text(input, recommended);
   if (recommended.row >= 0 && input.success.size() > 0) table.success = input.success[recommended.row];
   Eigen::MatrixXd X(2, recommended.x.size());
-  X << recommended.x.transpose(), against.x.transpose();
+  X << recommended.x.transpose(), recommended.reference.x.transpose();
   const PlannedPoints points = with_predictions(input.models, input.problem, X);
   for (std::size_t j = 0; j < input.problem.responses.size(); ++j)
     if (input.problem.responses[j].goal != doe::Goal::record)

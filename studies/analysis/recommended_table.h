@@ -34,8 +34,8 @@ struct RecommendedTable {
   std::vector<RecommendedResponse> responses;
 };
 
-/// Requires an input with models and a front. `against`: the reference, or one of reference_of().
-RecommendedTable recommended_table(const ReportInput& input, const Reference& against);
+/// Requires an input with models, a front and what is recommended of it.
+RecommendedTable recommended_table(const ReportInput& input);
 
 /// With the command that has it simulated: input.going_on says of which program and folder.
 std::string text(const RecommendedTable& table, const ReportInput& input);

@@ -12,6 +12,7 @@
 #include <drawpoint/studies/runs/printed_text.h>
 #include <drawpoint/studies/runs/session.h>
 #include <drawpoint/studies/store/left_out.h>
+#include <drawpoint/studies/store/marks.h>
 
 #include <algorithm>
 #include <map>
@@ -47,7 +48,7 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.study = study.name;
   input.about = study.about;
   input.problem = study.problem;
-  input.marks = study.marks;
+  input.marks = with_marks(study.marks, store.marks());
   Tables tables = tables_of(runs, study.problem);
   input.warnings = tables.thinned;
   input.training = std::move(tables.training);

@@ -107,7 +107,8 @@ std::string json_line(const Summary& summary) {
   line["unfinished"] = summary.unfinished;
   line["adaptive_wanted"] = summary.adaptive_wanted;
   if (!summary.until.empty()) line.update({{"until", summary.until}, {"until_met", summary.until_met}});
-  if (!summary.stopped.empty()) line["stopped"] = summary.stopped;
+  if (const StopNote& stopped = summary.stopped; !stopped.why.empty())
+    line.update({{"stopped", stopped.why}, {"go_on", stopped.go_on}});
   line["answer"] = summary.answer;
   line["recommended"] = recommended_json(summary);
   line["headlines"] = nlohmann::ordered_json::object();
@@ -160,7 +161,9 @@ std::string text(const Summary& summary) {
   }
   if (!summary.until.empty())
     result += std::string(summary.until_met ? "reached: " : "not reached: ") + summary.until + "\n";
-  if (!summary.stopped.empty()) result += "stopped: " + summary.stopped + "; the same command goes on\n";
+  const StopNote& stopped = summary.stopped;
+  if (!stopped.why.empty() && !(stopped.enough && summary.until_met))  // which stands there already
+    result += "stopped: " + stopped.why + "; to go on: " + stopped.go_on + "\n";
   return result;
 }
 

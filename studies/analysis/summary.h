@@ -39,7 +39,7 @@ struct Summary {
   int adaptive_wanted = 0;                                     ///< adaptive points in all
   std::string until = {};     ///< the errors that were wanted, beside those reached; empty: none were
   bool until_met = false;     ///< all of them are
-  std::string stopped = {};   ///< what ended the last command before the study was complete
+  StopNote stopped = {};      ///< what ended the last command before the study was complete
   std::string no_front = {};  ///< why there is none; empty where there is one
   int front = 0;              ///< points of the Pareto front
   pareto::Polishing polishing = pareto::Polishing();  ///< of the front; GCC 12 warns where this is {}
@@ -51,8 +51,8 @@ struct Summary {
 };
 
 /// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "left_out", "unfinished",
-/// "adaptive_wanted", "until" and "until_met", "stopped" where there is something to say, "answer": sentences,
-/// "recommended": {variable: value} or null, "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
+/// "adaptive_wanted", "until" and "until_met", "stopped" and "go_on" where there is something to say, "answer":
+/// sentences, "recommended": {variable: value} or null, "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
 /// number or null}, "mean_error": {response: mean_error_json}, "flat": [{"response", "text"}], "front",
 /// "confirmed": {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round},
 /// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and

@@ -29,9 +29,8 @@ std::vector<Run> next_runs(Store& store, const Study& study, const Settings& set
   std::vector<Run> asked = waiting(store.runs(), most);
   if (!asked.empty()) return asked;
   const int round = static_cast<int>(store.sampling().rounds.size()) + 1;
-  const bool planned = settings.ask.confirm
-                           ? add_round(store, study, settings.confirm, round, STDERR_FILENO)
-                           : add_batch(store, std::numeric_limits<double>::infinity(), STDERR_FILENO);
+  const bool planned = settings.ask.confirm ? add_round(store, study, settings.confirm, round, STDERR_FILENO)
+                                            : add_batch(store, "", STDERR_FILENO);
   if (planned) asked = waiting(store.runs(), most);
   return asked;
 }

@@ -80,7 +80,8 @@ void add_preset_option(CLI::App& command, const Study& study, OptionValues& valu
   if (study.presets.empty()) return;
   std::string help;
   for (const Preset& preset : study.presets)
-    help += (help.empty() ? "" : "; ") + preset.name + ": " + preset.help;
+    help += (help.empty() ? "" : "; ") + preset.name + ": " + preset.help + " (" +
+            options_text(preset.values) + ")";
   command
       .add_option_function<std::string>(
           "--preset", [&](const std::string& name) { values = preset_named(study.presets, name).values; },
@@ -288,8 +289,7 @@ std::string meant_by(const CLI::App& app, const CLI::ParseError& error) {
   return did_you_mean(what.substr(at, what.find_first_of(" =", at) - at), known);
 }
 
-int parse_and_act(int argc, char** argv, const Study& declared) {
-  Study study = declared;  // with the marks that are typed
+int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.command = joined(argc, argv);
@@ -321,7 +321,7 @@ int parse_and_act(int argc, char** argv, const Study& declared) {
                  program.c_str());
     return wrong_usage;
   }
-  add_marks(study, parsed.settings);
+  check_typed_marks(study, parsed.settings);
   return parsed.action();
 }
 

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
+#include <drawpoint/studies/commands/marks.h>
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/interrupt.h>
 #include <drawpoint/studies/runs/session.h>
@@ -47,6 +48,7 @@ int work_in_folder(const Study& study, const Settings& settings,
   const InterruptGuard guard(resume_message(folder));
   try {
     Store store = open(folder);
+    keep_marks(store, study, settings, message_descriptor(settings));
     prepare_shared(study, store.identity().options, folder, message_descriptor(settings));
     work(store, folder);
     const EndsAtOnce now;

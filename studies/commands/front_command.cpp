@@ -39,7 +39,8 @@ ReportInput input_with_front(const Study& study, const Settings& settings, const
 int front_command(const Study& study, const Settings& settings) {
   if (!has_objective(study.problem))
     throw UsageError("front: no response is minimized or maximized, so there is no front");
-  const ReportInput input = input_with_front(study, settings, "front");
+  ReportInput input = input_with_front(study, settings, "front");
+  input.recommended = recommend(input);
   const FrontSettings& wanted = settings.front;
   if (settings.json) {
     nlohmann::ordered_json line = {{"study", study.name}};

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/marks.h>
 
-#include <algorithm>
+#include <drawpoint/studies/store/marks.h>
+
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace drawpoint::studies {
@@ -26,7 +29,8 @@ double number_of(const std::string& word, const std::string& text) {
   throw UsageError("--mark " + text + ": \"" + word + "\" is no number; give NAME=VALUE,VALUE,...");
 }
 
-Mark mark_of(const doe::Problem& problem, const std::string& text) {
+/// Of one --mark: a point, or without one the name alone, which is to be taken away.
+Mark typed_mark(const doe::Problem& problem, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--mark " + text + ": no name; give NAME=" + names_of_variables(problem));
@@ -36,34 +40,100 @@ Mark mark_of(const doe::Problem& problem, const std::string& text) {
   return {text.substr(0, equals), Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()))};
 }
 
+bool takes_away(const Mark& typed) { return typed.x.size() == 0; }
+
+/// One of each name, all of them of the problem.
+std::vector<Mark> typed_marks(const doe::Problem& problem, const Settings& settings) {
+  std::vector<Mark> typed, points;
+  for (std::size_t i = 0; i < settings.marks.size(); ++i) {
+    const Mark mark = typed_mark(problem, settings.marks[i]);
+    if (const auto same = mark_named(typed, mark.name); same != typed.end())
+      throw UsageError("--mark " + settings.marks[static_cast<std::size_t>(same - typed.begin())] +
+                       " and --mark " + settings.marks[i] +
+                       ": one name, two points; give each point a name of its own");
+    typed.push_back(mark);
+    if (!takes_away(mark)) points.push_back(mark);
+  }
+  try {
+    check_marks(problem, points);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError("--mark: " + std::string(e.what()));
+  }
+  return typed;
+}
+
+/// "it has today and reference"
+std::string names_of_marks(const std::vector<Mark>& marks) {
+  if (marks.empty()) return "it has none";
+  std::string names;
+  for (const Mark& mark : marks) names += (names.empty() ? "it has " : ", ") + mark.name;
+  return names;
+}
+
+[[noreturn]] void refuse_to_take_away(const Study& study, const std::vector<Mark>& stored,
+                                      const Settings& settings, const std::string& name) {
+  std::vector<Mark> declared = study.marks;
+  if (mark_named(declared, name) != declared.end())
+    throw UsageError("--mark " + name + "=: the study itself declares this mark; give --mark " + name + "=" +
+                     names_of_variables(study.problem) + " to put another point in its place");
+  throw UsageError("--mark " + name + "=: the folder " + settings.out.string() +
+                   " has no mark of this name to take away; " + names_of_marks(stored));
+}
+
+/// What the folder has, with what is typed.
+std::vector<Mark> changed_marks(const Study& study, std::vector<Mark> stored, const Settings& settings) {
+  for (const Mark& typed : typed_marks(study.problem, settings)) {
+    if (!takes_away(typed)) {
+      stored = with_marks(std::move(stored), {typed});
+      continue;
+    }
+    const auto same = mark_named(stored, typed.name);
+    if (same == stored.end()) refuse_to_take_away(study, stored, settings, typed.name);
+    stored.erase(same);
+  }
+  return stored;
+}
+
+std::vector<Mark> stored_marks(const Folder& folder) {
+  try {
+    return Store::open(folder.store(), Access::read).marks();
+  } catch (const std::exception&) {  // none yet, busy or damaged: whoever opens it next says so
+    return {};
+  }
+}
+
+/// Of those that were there before.
+void say_what_changes(std::vector<Mark> before, std::vector<Mark> now, int messages) {
+  for (const Mark& old : before) {
+    const auto same = mark_named(now, old.name);
+    if (same == now.end())
+      dprintf(messages, "mark %s is taken away\n", mark_text(old).c_str());
+    else if (same->x != old.x)
+      dprintf(messages, "mark %s takes the place of %s\n", mark_text(*same).c_str(), mark_text(old).c_str());
+  }
+}
+
 }  // namespace
 
 void add_mark_option(CLI::App& command, const doe::Problem& problem, Settings& settings) {
   command
       .add_option("--mark", settings.marks,
                   "a point to show by its name: NAME=" + names_of_variables(problem) +
-                      "; the one called reference is what the recommendation is compared with and chosen to "
-                      "be no worse than; repeatable")
+                      ", which the folder keeps; NAME= takes it away. The one called reference is what the "
+                      "recommendation is compared with and chosen to be no worse than; repeatable")
       ->allow_extra_args(false)
       ->group("Report");
 }
 
-void add_marks(Study& study, const Settings& settings) {
-  for (const std::string& text : settings.marks) {
-    Mark mark = mark_of(study.problem, text);
-    const auto same = std::find_if(study.marks.begin(), study.marks.end(),
-                                   [&](const Mark& other) { return other.name == mark.name; });
-    if (same == study.marks.end())
-      study.marks.push_back(std::move(mark));
-    else
-      *same = std::move(mark);
-  }
-  try {
-    check_marks(study.problem, study.marks);
-  } catch (const std::invalid_argument& e) {
-    if (settings.marks.empty()) throw;
-    throw UsageError("--mark: " + std::string(e.what()));
-  }
+void check_typed_marks(const Study& study, const Settings& settings) {
+  if (!settings.marks.empty()) changed_marks(study, stored_marks(Folder{settings.out}), settings);
+}
+
+void keep_marks(Store& store, const Study& study, const Settings& settings, int messages) {
+  if (settings.marks.empty()) return;
+  const std::vector<Mark> stored = store.marks(), now = changed_marks(study, stored, settings);
+  if (to_text(now) != to_text(stored)) store.set_marks(now);
+  say_what_changes(with_marks(study.marks, stored), with_marks(study.marks, now), messages);
 }
 
 }  // namespace drawpoint::studies

@@ -9,6 +9,7 @@
 #include <drawpoint/studies/sampling/adaptive.h>
 #include <drawpoint/studies/sampling/confirmation.h>
 #include <drawpoint/studies/sampling/criteria.h>
+#include <drawpoint/studies/store/marks.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -21,6 +22,13 @@ std::string repeats_text(const Batch& batch) {
   if (batch.repeats == 0) return "";
   return ", " + std::to_string(batch.repeats) +
          (batch.repeats == 1 ? " of them a run made again" : " of them runs made again");
+}
+
+/// For the last words of this command, and for whoever asks later.
+void remember(Store& store, const StopNote& stopped) {
+  Sampling sampling = store.sampling();
+  sampling.stopped = stopped;
+  store.set_sampling(sampling);
 }
 
 Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
@@ -36,16 +44,20 @@ void check_request(const Study& study, const Settings& settings) {
   if (!std::filesystem::exists(Folder{settings.out}.store())) check_new_study(study, settings);
 }
 
-bool add_batch(Store& store, double seconds_left, int messages) {
+bool add_batch(Store& store, const std::string& time_is_up, int messages) {
   const std::vector<Run> runs = store.runs();
   const int wanted = store.sampling().points;
   const int made = count_points(runs, Kind::adaptive);
-  if (made < wanted && seconds_left <= 0.0) {
-    dprintf(messages, "no further adaptive runs, the time is up: %d of %d made\n", made, wanted);
+  if (made < wanted && !time_is_up.empty()) {
+    dprintf(messages, "no further adaptive runs, %s: %d of %d made\n", time_is_up.c_str(), made, wanted);
+    remember(store, {.why = time_is_up + ": left out are " + std::to_string(wanted - made) + " of " +
+                            std::to_string(wanted) + " adaptive points",
+                     .go_on = "give the same command again"});
     return false;
   }
   if (made < wanted) dprintf(messages, "fitting the models, choosing adaptive points ...\n");
   const Batch batch = chosen_batch(store, runs);
+  if (!batch.stopped.why.empty()) remember(store, batch.stopped);
   const char* what = batch.message.c_str();
   switch (batch.status) {
     case BatchStatus::planned:
@@ -79,10 +91,13 @@ bool add_round(Store& store, const Study& study, const ConfirmSettings& settings
   {
     const EndsAtOnce now;
     plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings),
-                      settings.points, study.marks);
+                      settings.points, with_marks(study.marks, store.marks()));
   }
+  if (round == 1 || plan.runs.empty())
+    for (const std::string& known : plan.known)
+      dprintf(messages, "%s%s\n", plan.runs.empty() ? "nothing to simulate: " : "", known.c_str());
   if (plan.runs.empty()) {
-    dprintf(messages, "%s\n", plan.nothing.c_str());
+    if (!plan.nothing.empty()) dprintf(messages, "%s\n", plan.nothing.c_str());
     return false;
   }
   const int points = count_points(plan.runs, Kind::confirmation) - count_points(runs, Kind::confirmation);

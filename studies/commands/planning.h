@@ -8,15 +8,17 @@
 #include <drawpoint/studies/study.hpp>
 
 #include <Eigen/Core>
+#include <string>
 
 namespace drawpoint::studies {
 
 /// Throws UsageError for options of `run` and `ask` that cannot be: asked before anything is written.
 void check_request(const Study& study, const Settings& settings);
 
-/// Plans a batch of adaptive runs and says so. False when the study has what it wants, or no models to go by.
-/// Requires that no run is planned.
-bool add_batch(Store& store, double seconds_left, int messages);
+/// Plans a batch of adaptive runs and says so. False when the study has what it wants, or no models to go by, which
+/// the store remembers. `time_is_up`: why no batch may be begun any more; empty: one may. Requires that no run is
+/// planned.
+bool add_batch(Store& store, const std::string& time_is_up, int messages);
 
 /// The points that the user names, checked.
 Eigen::MatrixXd named_points(const doe::Problem& problem, const ConfirmSettings& settings);

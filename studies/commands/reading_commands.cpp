@@ -81,6 +81,7 @@ void add_share_options(CLI::App& command, Settings& settings) {
   command.add_option("--output", settings.share.file,
                      "file to write (default: the folder's name and .drawpoint, beside it)");
   command.add_flag("!--no-logs", settings.share.logs, "without the logs of runs, which are most of it");
+  command.add_flag("--replace", settings.share.replace, "write over a file that is there already");
   command.footer("An SQLite archive, which sqlite3 -Ax unpacks too, unchecked.\n" + example_of(command) +
                  " results/ore --output ore.drawpoint");
 }
@@ -99,6 +100,7 @@ void add_recommend_options(CLI::App& command, Settings& settings, const doe::Pro
                   "a point, as NAME=VALUE,..., to compare with, and to be no worse than where that can be "
                   "(default: the middle of the box)")
       ->check([](const std::string& text) { return text.empty() ? "give NAME=VALUE,... of a point" : ""; });
+  add_mark_option(command, problem, settings);
   std::string all;
   for (const doe::Variable& v : problem.variables)
     all += (all.empty() ? "" : ",") + v.name + "=" + doe::detail::number_text(v.lower);

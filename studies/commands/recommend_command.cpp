@@ -4,6 +4,7 @@
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/front_input.h>
 #include <drawpoint/studies/commands/json_output.h>
+#include <drawpoint/studies/commands/marks.h>
 #include <drawpoint/studies/commands/points.h>
 #include <drawpoint/studies/runs/session.h>
 
@@ -13,6 +14,10 @@ namespace drawpoint::studies {
 int recommend_command(const Study& study, const Settings& settings) {
   if (!has_objective(study.problem))
     throw UsageError("recommend: no response is minimized or maximized, so nothing is better than anything");
+  if (!settings.marks.empty()) {
+    Store store = open_store(study, Folder{settings.out});
+    keep_marks(store, study, settings, message_descriptor(settings));
+  }
   ReportInput input = input_with_front(study, settings, "recommend");
   input.going_on.program = settings.program;
   input.going_on.folder = out_option(Folder{settings.out});
@@ -20,7 +25,8 @@ int recommend_command(const Study& study, const Settings& settings) {
       settings.against.empty()
           ? reference_of(study.problem, input.marks)
           : Reference{"the reference", point_named(study.problem, "--against", settings.against)};
-  const RecommendedTable table = recommended_table(input, against);
+  input.recommended = recommend(input, against);
+  const RecommendedTable table = recommended_table(input);
   if (settings.json) {
     nlohmann::ordered_json line = {{"study", study.name}};
     line.update(as_json(table, input));

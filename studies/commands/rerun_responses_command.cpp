@@ -38,14 +38,15 @@ Sampling sampling_anew(Sampling sampling, const std::vector<Run>& runs) {
 }
 
 /// The folder appears complete or not at all.
-void write_folder(const Folder& to, const Folder& from, const Identity& identity, const Sampling& sampling,
+void write_folder(const Folder& to, const Folder& from, const Identity& identity, const Store& source,
                   const std::vector<Run>& runs) {
   const Folder draft{to.path.string() + ".unfinished"};
   fs::remove_all(draft.path);
   bring_files(from, draft, runs);
   {
     Store store = Store::create(draft.store(), identity);
-    store.set_sampling(sampling);
+    store.set_sampling(sampling_anew(source.sampling(), runs));
+    if (const std::vector<Mark> marks = source.marks(); !marks.empty()) store.set_marks(marks);
     store.add(runs);
   }
   fs::rename(draft.path, to.path);
@@ -70,7 +71,7 @@ int rerun_responses_command(const Study& study, const Settings& settings) {
   dprintf(message_descriptor(settings), "taking the responses of %zu runs from their logs ...\n",
           stored.size());
   const std::vector<Run> runs = runs_with_responses_anew(study, from, stored, identity.options);
-  write_folder(to, from, identity, sampling_anew(source.sampling(), runs), runs);
+  write_folder(to, from, identity, source, runs);
   return conclude(study, open_store(study, to), to, settings);
 }
 

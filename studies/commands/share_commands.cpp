@@ -111,6 +111,9 @@ int share_command(const Study& study, const Settings& settings) {
   const fs::path file = output_file(
       folder, settings.share.file.empty() ? default_share(folder) : settings.share.file, "--output");
   if (fs::is_directory(file)) throw UsageError("--output: " + file.string() + " is a folder; name a file");
+  if (fs::exists(file) && !settings.share.replace)
+    throw UsageError("share: " + file.string() +
+                     " is there already; --replace writes over it, --output names another");
   const std::vector<Run> runs = store.runs();
   const std::set<std::int64_t> damaged =
       settings.share.logs ? damaged_logs(folder, runs) : std::set<std::int64_t>();

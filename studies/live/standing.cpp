@@ -16,6 +16,9 @@ std::string runs_text(int runs) { return std::to_string(runs) + (runs == 1 ? " r
 
 std::string adaptive_note(const Contents& contents, const Counts& counts) {
   if (counts.adaptive_points >= contents.sampling.points) return "";
+  if (const StopNote& stopped = contents.sampling.stopped; !stopped.why.empty())
+    return " The command that chose adaptive points stopped: " + stopped.why +
+           "; to go on: " + stopped.go_on + ".";
   return " " + std::to_string(counts.adaptive_points) + " of " + std::to_string(contents.sampling.points) +
          " adaptive points are chosen.";
 }
@@ -50,7 +53,8 @@ Standing ended(const Study& study, const Contents& contents, const Counts& count
   if (counts.of(Status::done) == 0)
     return end(" None has succeeded: mend what the failures below name, and make them again.",
                making_command(study) + " --retry-failed");
-  if (counts.adaptive_points < contents.sampling.points && counts.of(Kind::confirmation, Status::done) == 0)
+  if (counts.adaptive_points < contents.sampling.points && !contents.sampling.stopped.enough &&
+      counts.of(Kind::confirmation, Status::done) == 0)
     return end(" Next: those that are left, unless the command says that no more are wanted.",
                making_command(study));
   if (!has_objective(contents.identity.problem)) return end(" Next: the report.", "report");

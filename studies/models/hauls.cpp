@@ -65,7 +65,7 @@ std::vector<Mark> places_of(const ReportInput& input, std::size_t response, cons
       if (detail::largest_difference(input.problem, other.x, x) <= same_place) return;
     places.push_back({name, x});
   };
-  if (const auto recommended = recommend(input)) add("recommended", recommended->x);
+  if (input.recommended) add("recommended", input.recommended->x);
   const auto objectives = detail::objectives(input.problem);
   const auto found = std::find(objectives.begin(), objectives.end(), response);
   if (found != objectives.end()) {

@@ -14,8 +14,8 @@
 
 namespace drawpoint::studies {
 
-/// work: cycles of runs, the validation runs among them. Nothing where the runs allow no models, the input has no
-/// front, or `rate` is no response. Costs two fits.
+/// work: cycles of runs, the validation runs among them. Requires that input.recommended is known. Nothing where the
+/// runs allow no models, the input has no front, or `rate` is no response. Costs two fits.
 std::optional<HaulChoice> choice_of_haul(const ReportInput& input, const std::string& rate, double haul,
                                          const std::vector<WorkOfRun>& work);
 

@@ -44,7 +44,7 @@ std::string values_text(const ReportInput& input, const Eigen::VectorXd& values)
 std::string simulated_text(const ReportInput& input, const Recommendation& r) {
   if (r.simulated.empty())
     return "predicted and not simulated yet; " + confirming_point(input, r.x) + " simulates it";
-  const doe::Evaluation& last = *r.simulated.front();
+  const doe::Evaluation& last = r.simulated.front();
   return "simulated" +
          (r.simulated.size() > 1 ? " by " + counted(r.simulated.size(), "run") : std::string()) + ": run " +
          std::to_string(last.run) + " gave " + values_text(input, last.outcome.values());
@@ -200,15 +200,18 @@ std::string command_text(const ReportInput& input, const std::string& command) {
 std::string confirming_point(const ReportInput& input, const Eigen::VectorXd& x) {
   if (input.confirming != "confirm") return command_text(input, input.confirming);  // runs are made elsewhere
   std::string values;
-  for (const double value : x) values += (values.empty() ? "" : ",") + doe::detail::number_text(value);
+  for (const double value : x) {
+    if (!values.empty()) values += ',';
+    values += doe::detail::number_text(value);
+  }
   return command_text(input, "confirm --points 0 --rounds 1 --x=" + values);
 }
 
-std::vector<std::string> answer_sentences(const ReportInput& input,
-                                          const std::optional<Recommendation>& recommended) {
-  if (!recommended) return nothing_yet(input);
-  std::vector<std::string> sentences = {what_to_do(input, *recommended), what_it_gains(input, *recommended),
-                                        how_sure(input, *recommended)};
+std::vector<std::string> answer_sentences(const ReportInput& input) {
+  if (!input.recommended) return nothing_yet(input);
+  const Recommendation& recommended = *input.recommended;
+  std::vector<std::string> sentences = {what_to_do(input, recommended), what_it_gains(input, recommended),
+                                        how_sure(input, recommended)};
   if (std::string haul = haul_text(input); !haul.empty()) sentences.push_back(std::move(haul));
   return sentences;
 }
@@ -216,8 +219,8 @@ std::vector<std::string> answer_sentences(const ReportInput& input,
 namespace detail {
 
 json answer_json(const ReportInput& input) {
-  const auto found = recommend(input);
-  json answer{{"sentences", answer_sentences(input, found)},
+  const std::optional<Recommendation>& found = input.recommended;
+  json answer{{"sentences", answer_sentences(input)},
               {"x", nullptr},
               {"row", -1},
               {"command", nullptr},
@@ -234,7 +237,7 @@ json answer_json(const ReportInput& input) {
   answer["reference"]["means"] =
       list(predicted_means(input, found->reference.x.transpose()).row(0).transpose());
   if (found->simulated.empty()) answer["command"] = confirming_point(input, found->x);
-  for (const doe::Evaluation* run : found->simulated) answer["simulated"].push_back(run->run);
+  for (const doe::Evaluation& run : found->simulated) answer["simulated"].push_back(run.run);
   return answer;
 }
 

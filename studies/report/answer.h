@@ -12,10 +12,9 @@
 
 namespace drawpoint::studies {
 
-/// Three sentences where there is a recommendation, which must be recommend(input), and a fourth where another haul than
-/// the runs count changes the order; else one or two.
-std::vector<std::string> answer_sentences(const ReportInput& input,
-                                          const std::optional<Recommendation>& recommended);
+/// Three sentences where something is recommended, and a fourth where another haul than the runs count changes the
+/// order; else one or two.
+std::vector<std::string> answer_sentences(const ReportInput& input);
 
 /// "lhd_loading confirm --out results/one", as it is typed: with the program and the folder, where they are known.
 std::string command_text(const ReportInput& input, const std::string& command);

@@ -24,46 +24,77 @@ struct Standard {
   bool binding = false;   ///< a place must be no worse in any objective
 };
 
-bool is_no_worse(const ReportInput& input, const Eigen::VectorXd& means, const Eigen::VectorXd& than) {
-  for (const std::size_t j : objectives(input.problem)) {
+/// n x r, within the ranges of the responses.
+Eigen::MatrixXd means_of(const std::vector<kriging::TransformedModel>& models, const doe::Problem& problem,
+                         const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd means(X.rows(), static_cast<Eigen::Index>(models.size()));
+  for (std::size_t j = 0; j < models.size(); ++j)
+    means.col(static_cast<Eigen::Index>(j)) =
+        models[j].mean(X).unaryExpr([&](double y) { return doe::within_range(problem.responses[j], y); });
+  return means;
+}
+
+Eigen::MatrixXd means_at(const Choice& choice, const Eigen::MatrixXd& X) {
+  return means_of(choice.models, choice.problem, X);
+}
+
+/// From the best of every objective at once, each scaled to its range on the front, of rows of means.
+Eigen::VectorXd distance_from_best(const Choice& choice, const Eigen::MatrixXd& means) {
+  const auto chosen = objectives(choice.problem);
+  const Eigen::MatrixXd front = pareto::minimised(choice.problem, choice.front.Y);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(means.rows());
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const double sign = doe::sign_of(choice.problem.responses[chosen[k]].goal);
+    const double low = front.col(column).minCoeff(), range = front.col(column).maxCoeff() - low;
+    if (!(range > 0)) continue;
+    const auto y = sign * means.col(static_cast<Eigen::Index>(chosen[k])).array();
+    squares.array() += ((y - low) / range).max(0.0).square();
+  }
+  return squares.cwiseSqrt();
+}
+
+bool is_no_worse(const Choice& choice, const Eigen::VectorXd& means, const Eigen::VectorXd& than) {
+  for (const std::size_t j : objectives(choice.problem)) {
     const auto k = static_cast<Eigen::Index>(j);
-    const double sign = doe::sign_of(input.problem.responses[j].goal);
+    const double sign = doe::sign_of(choice.problem.responses[j].goal);
     if (sign * means[k] > sign * than[k] + round_off * std::abs(than[k])) return false;
   }
   return true;
 }
 
-std::vector<int> likely_rows(const ReportInput& input) {
+std::vector<int> likely_rows(const Choice& choice) {
   std::vector<int> rows, all;
-  for (Eigen::Index i = 0; i < input.front.X.rows(); ++i) {
+  for (Eigen::Index i = 0; i < choice.front.X.rows(); ++i) {
     all.push_back(static_cast<int>(i));
-    if (input.success.size() == 0 || input.success[i] >= enough_success) rows.push_back(static_cast<int>(i));
+    if (choice.success.size() == 0 || choice.success[i] >= enough_success)
+      rows.push_back(static_cast<int>(i));
   }
   return rows.empty() ? all : rows;
 }
 
 /// The row of the front that the rule names; says in `standard` whether the reference binds.
-int best_row(const ReportInput& input, Standard& standard) {
-  const Eigen::MatrixXd means = predicted_means(input, input.front.X);
-  const std::vector<int> likely = likely_rows(input);
+int best_row(const Choice& choice, Standard& standard) {
+  const Eigen::MatrixXd means = means_at(choice, choice.front.X);
+  const std::vector<int> likely = likely_rows(choice);
   std::vector<int> better;
-  if (pareto::meets_limits(input.problem, standard.means))
+  if (pareto::meets_limits(choice.problem, standard.means))
     std::copy_if(likely.begin(), likely.end(), std::back_inserter(better),
-                 [&](int row) { return is_no_worse(input, means.row(row).transpose(), standard.means); });
+                 [&](int row) { return is_no_worse(choice, means.row(row).transpose(), standard.means); });
   standard.binding = !better.empty();
   const std::vector<int>& rows = better.empty() ? likely : better;
-  const Eigen::VectorXd distance = distance_from_best(input, means);
+  const Eigen::VectorXd distance = distance_from_best(choice, means);
   return *std::min_element(rows.begin(), rows.end(), [&](int a, int b) { return distance[a] < distance[b]; });
 }
 
-bool does_as_well(const ReportInput& input, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+bool does_as_well(const Choice& choice, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   Eigen::MatrixXd both(2, a.size());
   both << a.transpose(), b.transpose();
-  const Eigen::MatrixXd means = predicted_means(input, both);
-  if (detail::largest_difference(input.problem, a, b) <= same_place) return true;
-  const auto chosen = objectives(input.problem);
+  const Eigen::MatrixXd means = means_at(choice, both);
+  if (detail::largest_difference(choice.problem, a, b) <= same_place) return true;
+  const auto chosen = objectives(choice.problem);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const auto y = input.front.Y.col(static_cast<Eigen::Index>(k));
+    const auto y = choice.front.Y.col(static_cast<Eigen::Index>(k));
     const auto j = static_cast<Eigen::Index>(chosen[k]);
     if (!(std::abs(means(0, j) - means(1, j)) <= as_good * (y.maxCoeff() - y.minCoeff()))) return false;
   }
@@ -71,30 +102,46 @@ bool does_as_well(const ReportInput& input, const Eigen::VectorXd& a, const Eige
 }
 
 /// The simulated place that takes the stead of x, or nullptr.
-const CheckedRun* simulated_in_stead(const ReportInput& input, const Eigen::VectorXd& x,
+const CheckedRun* simulated_in_stead(const Choice& choice, const Eigen::VectorXd& x,
                                      const Standard& standard) {
   const CheckedRun* nearest = nullptr;
   double least = 0;
-  for (const CheckedRun& run : input.confirmations.runs) {
+  for (const CheckedRun& run : choice.confirmations.runs) {
     if (run.outcome.failed() || run.breaks_limit) continue;
-    const Eigen::MatrixXd means = predicted_means(input, run.x.transpose());
-    const double distance = distance_from_best(input, means)[0];
+    const Eigen::MatrixXd means = means_at(choice, run.x.transpose());
+    const double distance = distance_from_best(choice, means)[0];
     if (nearest && distance >= least) continue;
-    if (standard.binding && !is_no_worse(input, means.row(0).transpose(), standard.means)) continue;
-    if (!does_as_well(input, run.x, x)) continue;
+    if (standard.binding && !is_no_worse(choice, means.row(0).transpose(), standard.means)) continue;
+    if (!does_as_well(choice, run.x, x)) continue;
     nearest = &run;
     least = distance;
   }
   return nearest;
 }
 
-std::vector<const doe::Evaluation*> runs_at(const ReportInput& input, const Eigen::VectorXd& x) {
-  std::vector<const doe::Evaluation*> there;
+Standard standard_at(const Choice& choice, const Eigen::VectorXd& reference) {
+  return {means_at(choice, reference.transpose()).row(0)};
+}
+
+struct Place {
+  Eigen::VectorXd x;
+  int row;  ///< of the front; -1: it was simulated
+};
+
+Place chosen_place(const Choice& choice, Standard standard) {
+  const int row = best_row(choice, standard);
+  const Eigen::VectorXd x = choice.front.X.row(row);
+  if (const CheckedRun* run = simulated_in_stead(choice, x, standard)) return {run->x, -1};
+  return {x, row};
+}
+
+std::vector<doe::Evaluation> runs_at(const ReportInput& input, const Eigen::VectorXd& x) {
+  std::vector<doe::Evaluation> there;
   for (const auto* table : {&input.training, &input.validation})
     for (const doe::Evaluation& e : table->rows)
       if (!e.outcome.failed() && detail::largest_difference(input.problem, e.x, x) <= same_place)
-        there.push_back(&e);
-  std::sort(there.begin(), there.end(), [](const auto* a, const auto* b) { return a->run > b->run; });
+        there.push_back(e);
+  std::sort(there.begin(), there.end(), [](const auto& a, const auto& b) { return a.run > b.run; });
   return there;
 }
 
@@ -119,26 +166,12 @@ Reference reference_of(const doe::Problem& problem, const std::vector<Mark>& mar
 }
 
 Eigen::MatrixXd predicted_means(const ReportInput& input, const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd means(X.rows(), static_cast<Eigen::Index>(input.models.size()));
-  for (std::size_t j = 0; j < input.models.size(); ++j)
-    means.col(static_cast<Eigen::Index>(j)) = input.models[j].mean(X).unaryExpr(
-        [&](double y) { return doe::within_range(input.problem.responses[j], y); });
-  return means;
+  return means_of(input.models, input.problem, X);
 }
 
-Eigen::VectorXd distance_from_best(const ReportInput& input, const Eigen::MatrixXd& means) {
-  const auto chosen = objectives(input.problem);
-  const Eigen::MatrixXd front = pareto::minimised(input.problem, input.front.Y);
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(means.rows());
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const double sign = doe::sign_of(input.problem.responses[chosen[k]].goal);
-    const double low = front.col(column).minCoeff(), range = front.col(column).maxCoeff() - low;
-    if (!(range > 0)) continue;
-    const auto y = sign * means.col(static_cast<Eigen::Index>(chosen[k])).array();
-    squares.array() += ((y - low) / range).max(0.0).square();
-  }
-  return squares.cwiseSqrt();
+int recommended_row(const Choice& choice) {
+  if (choice.models.empty() || choice.front.X.rows() == 0) return -1;
+  return chosen_place(choice, standard_at(choice, reference_of(choice.problem, choice.marks).x)).row;
 }
 
 std::optional<Recommendation> recommend(const ReportInput& input) {
@@ -147,18 +180,15 @@ std::optional<Recommendation> recommend(const ReportInput& input) {
 
 std::optional<Recommendation> recommend(const ReportInput& input, const Reference& reference) {
   if (input.models.empty() || input.front.X.rows() == 0) return {};
-  Recommendation found;
-  found.reference = reference;
-  Standard standard{predicted_means(input, found.reference.x.transpose()).row(0)};
-  found.row = best_row(input, standard);
-  found.x = input.front.X.row(found.row);
-  if (const CheckedRun* run = simulated_in_stead(input, found.x, standard)) {
-    found.x = run->x;
-    found.row = -1;
-  }
-  found.simulated = runs_at(input, found.x);
-  found.gains = gains_of(input, found.x, standard, found.reference.x);
-  return found;
+  const Choice choice{input.problem, input.models,        input.front,
+                      input.marks,   input.confirmations, input.success};
+  const Standard standard = standard_at(choice, reference.x);
+  const Place place = chosen_place(choice, standard);
+  return Recommendation{.x = place.x,
+                        .row = place.row,
+                        .simulated = runs_at(input, place.x),
+                        .reference = reference,
+                        .gains = gains_of(input, place.x, standard, reference.x)};
 }
 
 }  // namespace drawpoint::studies

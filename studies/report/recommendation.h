@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The one strategy that a report recommends, and what it gains.
+/// Which strategy a report recommends, and what it gains.
 ///
 /// The rule: of the points of the front where a run succeeds with a chance of 0.9 or more, and of these of the ones
 /// that are predicted to be no worse than the reference in any objective, the one nearest to the best of every
@@ -22,32 +22,23 @@
 
 namespace drawpoint::studies {
 
-/// How far the mean of many runs differs, recommended less reference, in the response's unit; the ends hold it with 95 %, and are
-/// not numbers where the model does not know its error.
-struct Gain {
-  std::size_t response = 0;  ///< an objective
-  double here = 0, there = 0, lower = 0, upper = 0;
-
-  double difference() const { return here - there; }
-  /// Whether both ends are on the same side of 0.
-  bool is_sure() const { return lower > 0 || upper < 0; }
-};
-
-struct Reference {
-  std::string name;  ///< "the middle of the box", or that of the mark
-  Eigen::VectorXd x;
-};
 Reference reference_of(const doe::Problem& problem, const std::vector<Mark>& marks);
 
-struct Recommendation {
-  Eigen::VectorXd x;
-  int row = -1;                                   ///< of the front; -1: a place that was simulated
-  std::vector<const doe::Evaluation*> simulated;  ///< runs in this place that succeeded, the last first
-  Reference reference;
-  std::vector<Gain> gains;  ///< one per objective
+/// What decides which place is recommended; `success` may be empty, and confirmations none.
+struct Choice {
+  const doe::Problem& problem;
+  const std::vector<kriging::TransformedModel>& models;  ///< one per response
+  const pareto::Front& front;
+  const std::vector<Mark>& marks;
+  const CheckedRuns& confirmations;
+  const Eigen::VectorXd& success;
 };
 
-/// None without models or a front. Costs a few thousand draws of two points per objective.
+/// The row of the front; -1: none, or a place that was simulated.
+int recommended_row(const Choice& choice);
+
+/// None without models or a front. Costs a few thousand draws of two points per objective: ReportInput::recommended
+/// keeps it for all who say something of it.
 std::optional<Recommendation> recommend(const ReportInput& input);
 /// The same against another reference.
 std::optional<Recommendation> recommend(const ReportInput& input, const Reference& reference);
@@ -57,8 +48,5 @@ inline constexpr double same_place = 0.02;
 
 /// Means of all responses at the rows of X (n x d), within their ranges: n x r.
 Eigen::MatrixXd predicted_means(const ReportInput& input, const Eigen::MatrixXd& X);
-
-/// Distance from the best of every objective at once, each scaled to its range on the front, of rows of means.
-Eigen::VectorXd distance_from_best(const ReportInput& input, const Eigen::MatrixXd& means);
 
 }  // namespace drawpoint::studies

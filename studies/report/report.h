@@ -14,6 +14,7 @@
 #include <drawpoint/studies/report/flat_responses.h>
 #include <drawpoint/studies/report/front_uncertainty.h>
 #include <drawpoint/studies/report/haul_choice.h>
+#include <drawpoint/studies/report/recommended.h>
 #include <drawpoint/studies/report/run_noise.h>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/doe/problem.hpp>
@@ -59,14 +60,15 @@ struct ReportInput {
   std::vector<kriging::MeanError> mean_errors = {};  ///< one per validation; empty: as the page finds them
   pareto::Front front;                               ///< found on the models; no rows when there is none
   std::string no_front = {};                         ///< why there is none; empty where there is one
-  Eigen::VectorXd success = {};        ///< of a run at each point of the front; empty: no run failed
-  FrontUncertainty uncertainty = {};   ///< of the front
-  std::vector<Mark> marks = {};        ///< points with names
-  CheckedRuns confirmations = {};      ///< points of predicted fronts that were simulated
-  std::string confirming = "confirm";  ///< the command that has them simulated
-  Continuation going_on = {};          ///< how more runs are made
-  pareto::Polishing polishing;         ///< of the front
-  std::string not_polished;            ///< why it was not; empty when it was
+  Eigen::VectorXd success = {};       ///< of a run at each point of the front; empty: no run failed
+  FrontUncertainty uncertainty = {};  ///< of the front
+  std::vector<Mark> marks = {};       ///< points with names
+  std::optional<Recommendation> recommended = {};  ///< what recommend() finds in all this; empty: nothing
+  CheckedRuns confirmations = {};                  ///< points of predicted fronts that were simulated
+  std::string confirming = "confirm";              ///< the command that has them simulated
+  Continuation going_on = {};                      ///< how more runs are made
+  pareto::Polishing polishing;                     ///< of the front
+  std::string not_polished;                        ///< why it was not; empty when it was
   nlohmann::json illustrations =
       nlohmann::json::array();                         ///< panels; a faulty one is left out with a caution
   std::string shown = {};                              ///< which run these are of, and why, in a sentence

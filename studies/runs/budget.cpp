@@ -42,6 +42,8 @@ void Budget::run_ended(double seconds) {
   ++runs_;
 }
 
-bool Budget::has_room() const { return seconds_left() > (runs_ > 0 ? seconds_in_runs_ / runs_ : 0.0); }
+double Budget::mean_seconds() const { return runs_ > 0 ? seconds_in_runs_ / runs_ : 0.0; }
+
+bool Budget::has_room() const { return seconds_left() > mean_seconds(); }
 
 }  // namespace drawpoint::studies

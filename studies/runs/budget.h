@@ -19,6 +19,8 @@ class Budget {
   explicit Budget(const std::string& text);
 
   void run_ended(double seconds);
+  double mean_seconds() const;  ///< of the runs that ended; 0 where none has
+  int runs() const { return runs_; }
   double seconds_left() const;  ///< 0 or less: spent
   bool has_room() const;        ///< for one more run
   const std::string& text() const { return text_; }

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/runs/execution.h>
 #include <drawpoint/studies/runs/first_failures.h>
 #include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/runs/plan.h>
 #include <drawpoint/studies/runs/progress.h>
 #include <drawpoint/studies/runs/run_files.h>
 #include <drawpoint/studies/runs/run_process.h>
@@ -130,6 +131,17 @@ void start_some(std::deque<const Run*>& waiting, Store& store, const Folder& fol
   }
 }
 
+/// Wherever the budget ends, as large a share of the validation points is made as of the others.
+void share_out(std::deque<const Run*>& waiting, const std::vector<Run>& runs) {
+  const double validation = count_points(runs, Kind::validation),
+               others = std::max(count_points(runs, Kind::training), count_points(runs, Kind::adaptive));
+  const auto share = [&](const Run* run) {
+    return static_cast<double>(run->point) / (run->kind == Kind::validation ? validation : others);
+  };
+  std::stable_sort(waiting.begin(), waiting.end(),
+                   [&](const Run* a, const Run* b) { return share(a) < share(b); });
+}
+
 ProgressState state_of(const std::vector<Run>& runs) {
   ProgressState state;
   state.total = static_cast<int>(runs.size());
@@ -190,6 +202,7 @@ int carry_out_runs(Store& store, const Folder& folder, const Settings& settings,
   }
   if (InterruptGuard::requested()) throw Interrupted{};
   if (waiting.empty()) return 0;
+  if (!budget.text().empty()) share_out(waiting, runs);
   if (settings.slurm) {
     require_own_file();
     dprintf(message_descriptor, "%zu runs go to Slurm\n", waiting.size());

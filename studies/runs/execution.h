@@ -23,7 +23,8 @@ namespace drawpoint::studies {
 void prepare_shared(const Study& study, const OptionValues& options, const Folder& folder,
                     int message_descriptor);
 
-/// Until no run is planned, or the budget is spent: returns how many runs that leaves out. Tasks of a cluster
+/// Until no run is planned, or the budget is spent: returns how many runs that leaves out, training and validation
+/// runs in proportion. Tasks of a cluster
 /// then go on, and the next command takes them over. Requires an InterruptGuard. Throws Interrupted after a
 /// signal, with all children ended, std::runtime_error where the study stops.
 int carry_out_runs(Store& store, const Folder& folder, const Settings& settings, int message_descriptor,

@@ -124,7 +124,7 @@ struct Points {
 Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<Run>& existing,
                      const Points& points) {
   kept.until = settings.until.value_or(kept.until);
-  kept.stopped.clear();
+  kept.stopped = {};
   if (settings.until && !kept.until.empty() && kept.points == 0)
     kept.points = adaptive_per_training_point * points.training;
   kept.points = settings.adaptive.value_or(kept.points);

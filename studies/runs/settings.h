@@ -52,8 +52,9 @@ struct ExportSettings {
 /// Options of `share` and `open`.
 struct ShareSettings {
   std::filesystem::path file =
-      {};            ///< all files of the study; of `share` empty: the folder's name, beside it
-  bool logs = true;  ///< those of runs go with it
+      {};                ///< all files of the study; of `share` empty: the folder's name, beside it
+  bool logs = true;      ///< those of runs go with it
+  bool replace = false;  ///< of `share`: a file that is there already
 };
 
 /// Options of `front`.

@@ -12,6 +12,7 @@
 #include <drawpoint/doe/propose.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -97,6 +98,31 @@ BatchPoints chosen_points(const Identity& identity, const Sampling& sampling, co
   return chosen;
 }
 
+/// The largest error of a mean that counts, as a share of its range.
+double largest_error(const doe::Problem& problem, const std::vector<kriging::MeanError>& errors) {
+  double largest = 0.0;
+  for (std::size_t j = 0; j < errors.size(); ++j)
+    if (!doe::is_standard_error(problem, j)) largest = std::max(largest, error_that_counts(errors[j]));
+  return largest;
+}
+
+/// Which errors are as small as they were wanted, or nothing.
+StopNote reached(const Sampling& sampling, const doe::Problem& problem, const Models& fitted) {
+  if (target_met(sampling, problem, fitted.mean_errors)) {
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "--target %.3g is reached: the largest error of a mean is %.3g of its range",
+                  sampling.target, largest_error(problem, fitted.mean_errors));
+    return {.why = text, .go_on = "give a smaller --target, or --target 0", .enough = true};
+  }
+  const StopState state =
+      stop_state(stop_rule_from(sampling.until, problem), problem, fitted.validations, fitted.mean_errors);
+  if (!state.met) return {};
+  return {.why = "--until is reached: " + state.text,
+          .go_on = "give smaller errors in --until, or --until ''",
+          .enough = true};
+}
+
 }  // namespace
 
 Batch next_batch(const Identity& identity, const Sampling& sampling, const std::vector<Run>& runs) {
@@ -107,21 +133,22 @@ Batch next_batch(const Identity& identity, const Sampling& sampling, const std::
   try {
     fitted = fit_models(tables);
   } catch (const std::invalid_argument& e) {
-    return {.status = BatchStatus::no_models, .message = e.what()};
+    return {.status = BatchStatus::no_models,
+            .message = e.what(),
+            .stopped = {.why = std::string("there are no models to choose adaptive points by: ") + e.what(),
+                        .go_on = "give more --runs, or --retry-failed where runs failed"}};
   }
   const std::string nrmse = nrmse_text(fitted, identity.problem);
   Batch batch{.status = BatchStatus::target_met,
               .message = std::to_string(tables.training.rows.size()) + " runs for the models so far" +
                          (nrmse.empty() ? "" : "; " + nrmse)};
-  if (target_met(sampling, identity.problem, fitted.mean_errors)) return batch;
-  if (stop_state(stop_rule_from(sampling.until, identity.problem), identity.problem, fitted.validations,
-                 fitted.mean_errors)
-          .met)
-    return batch;
+  batch.stopped = reached(sampling, identity.problem, fitted);
+  if (batch.stopped.enough) return batch;
   const BatchPoints chosen = chosen_points(identity, sampling, runs, {tables, fitted, Failures(tables)});
   if (chosen.X.rows() == 0) {
     batch.status = BatchStatus::exhausted;
     batch.message = chosen.nothing;
+    batch.stopped = {.why = chosen.nothing, .go_on = "name other criteria with --criteria"};
     return batch;
   }
   batch.repeats = chosen.repeats;

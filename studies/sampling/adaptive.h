@@ -30,6 +30,7 @@ struct Batch {
   std::vector<Run> runs = {};  ///< none but where planned
   int repeats = 0;             ///< the last so many of them are at points of earlier runs
   std::string message = {};    ///< what the models are worth, or why there are none; empty when complete
+  StopNote stopped = {};       ///< why no run is planned though more are wanted; empty where there is one
 };
 
 /// Requires that no run is planned or running. Throws UsageError for criteria that there are not,

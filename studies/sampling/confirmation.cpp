@@ -9,13 +9,6 @@
 namespace drawpoint::studies {
 namespace {
 
-bool is_row(const Eigen::RowVectorXd& x, const Eigen::MatrixXd& X) {
-  for (Eigen::Index i = 0; i < X.rows(); ++i) {
-    if (X.row(i) == x) return true;
-  }
-  return false;
-}
-
 Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dimension) {
   Eigen::MatrixXd X(0, dimension);
   for (const Run& run : runs) {
@@ -24,21 +17,30 @@ Eigen::MatrixXd confirmed_places(const std::vector<Run>& runs, Eigen::Index dime
   return X;
 }
 
-/// The row of the front that is recommended; -1: none, or a place that was simulated.
-int recommended_row(const Models& fitted, const PredictedFront& predicted, const Tables& tables,
-                    const std::vector<Run>& runs, const std::vector<Mark>& marks) {
-  ReportInput known;
-  known.problem = predicted.problem;
-  known.training = tables.training;
-  known.validation = tables.validation;
-  known.models = fitted.models;
-  known.front = predicted.found.front;
-  known.marks = marks;
-  known.confirmations = check_predictions(runs, predicted.problem, Kind::confirmation);
-  if (!predicted.failures.none() && known.front.X.rows() > 0)
-    known.success = predicted.failures.probability_of_success(known.front.X);
-  const auto recommended = recommend(known);
-  return recommended ? recommended->row : -1;
+/// First of those to be simulated; -1: none.
+int row_to_confirm_first(const Models& fitted, const PredictedFront& predicted, const std::vector<Run>& runs,
+                         const std::vector<Mark>& marks) {
+  const pareto::Front& front = predicted.found.front;
+  const CheckedRuns confirmations = check_predictions(runs, predicted.problem, Kind::confirmation);
+  Eigen::VectorXd success;
+  if (!predicted.failures.none() && front.X.rows() > 0)
+    success = predicted.failures.probability_of_success(front.X);
+  return recommended_row({predicted.problem, fitted.models, front, marks, confirmations, success});
+}
+
+/// "--x=0.25,5 was simulated before, by run 17; the report has what came out"; empty: it was not.
+std::string made_before(const std::vector<Run>& runs, const Eigen::RowVectorXd& x) {
+  const Run* made = nullptr;
+  for (const Run& run : runs)
+    if (run.kind == Kind::confirmation && run.x.transpose() == x) made = &run;
+  if (made == nullptr) return "";
+  std::string text = "--x";
+  for (const double value : x) text += (text == "--x" ? "=" : ",") + doe::detail::number_text(value);
+  const std::string by = ", by run " + std::to_string(made->id);
+  if (made->left_out) return text + " was simulated before" + by + ", which is left out: " + made->reason;
+  if (made->status == Status::failed)
+    return text + " was tried before" + by + ", which failed; --retry-failed makes it again";
+  return text + " was simulated before" + by + "; the report has what came out";
 }
 
 }  // namespace
@@ -51,17 +53,24 @@ RoundPlan plan_round(const Identity& identity, const std::vector<Run>& runs, con
   const PredictedFront predicted = predicted_front(fitted.models, tables, identity.seed);
   Eigen::MatrixXd X = confirmed_places(runs, static_cast<Eigen::Index>(problem.variables.size()));
   const Eigen::Index before = X.rows();
+  std::vector<std::string> known;
   for (Eigen::Index i = 0; i < named.rows(); ++i) {
-    if (!is_row(named.row(i), X.topRows(before))) append_place(X, named.row(i));
+    const std::string text = made_before(runs, named.row(i));
+    if (text.empty())
+      append_place(X, named.row(i));
+    else
+      known.push_back(text);
   }
   RoundPlan plan{.round = {.first = static_cast<std::int64_t>(runs.size()) + 1,
-                           .named = static_cast<int>(X.rows() - before)}};
+                           .named = static_cast<int>(X.rows() - before)},
+                 .known = known};
   for (const int row : points_to_confirm(predicted.found.front, predicted.problem, X, points,
-                                         recommended_row(fitted, predicted, tables, runs, marks)))
+                                         row_to_confirm_first(fitted, predicted, runs, marks)))
     append_place(X, predicted.found.front.X.row(row));
   if (X.rows() == before) {
-    plan.nothing = predicted.missing.empty() ? "every point of the front that matters has been simulated"
-                                             : "there is no front: " + predicted.missing;
+    if (points > 0)
+      plan.nothing = predicted.missing.empty() ? "every point of the front that matters has been simulated"
+                                               : "there is no front: " + predicted.missing;
     return plan;
   }
   const Eigen::MatrixXd added = X.bottomRows(X.rows() - before);

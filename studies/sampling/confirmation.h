@@ -16,7 +16,8 @@ namespace drawpoint::studies {
 struct RoundPlan {
   std::vector<Run> runs = {};
   ConfirmationRound round = {};
-  std::string nothing = {};  ///< why there are no runs
+  std::string nothing = {};  ///< why there are no runs of the front; empty: there are, or none was wanted
+  std::vector<std::string> known = {};  ///< of each named point that was simulated before: by which run
 };
 
 /// The runs of a round: at the points that the user names (k x d) but for those that are confirmed already,

@@ -19,7 +19,8 @@ constexpr std::array taken = {"runs",    "validation",   "replicates",   "jobs",
                               "rounds",  "from",         "what",         "format",     "file",
                               "with",    "limit",        "all",          "keep-going", "no-spot-check",
                               "why",     "replace",      "slurm-array",  "until",      "budget",
-                              "against", "output",       "no-logs",      "preset"};
+                              "against", "output",       "no-logs",      "preset",     "mark",
+                              "count",   "confirm"};
 
 bool whole_number_within(const std::string& text, int least, int most) {
   int value = 0;
@@ -130,6 +131,31 @@ void check(const std::vector<Preset>& presets, const std::vector<StudyOption>& o
       if (const std::string wrong = complaint(*option, value); !wrong.empty())
         throw std::invalid_argument(place + "what is not allowed: " + wrong);
     }
+}
+
+std::string options_text(const OptionValues& values) {
+  std::string text;
+  for (const auto& [name, value] : values) text += (text.empty() ? "--" : " --") + name + " " + value;
+  return text;
+}
+
+std::string typed_options(const std::vector<StudyOption>& options, const std::vector<Preset>& presets,
+                          const OptionValues& values) {
+  const auto besides = [&](const OptionValues& given) {
+    const OptionValues without = with_defaults(options, given);
+    OptionValues differing;
+    for (const auto& [name, value] : values)
+      if (value_in(without, name) != value) differing[name] = value;
+    return differing;
+  };
+  OptionValues least = besides({});
+  std::string text;
+  for (const Preset& preset : presets)
+    if (const OptionValues differing = besides(preset.values); differing.size() + 1 < least.size()) {
+      least = differing;
+      text = "--preset " + preset.name;
+    }
+  return text + (text.empty() || least.empty() ? "" : " ") + options_text(least);
 }
 
 }  // namespace drawpoint::studies

@@ -34,6 +34,13 @@ std::string preset_complaint(const std::vector<Preset>& presets, const std::stri
 /// Throws std::invalid_argument for a preset of options or values that the study does not have.
 void check(const std::vector<Preset>& presets, const std::vector<StudyOption>& options);
 
+/// "--materials lindmark2016 --cycles 30"
+std::string options_text(const OptionValues& values);
+/// The shortest that is typed for these values, such as "--preset lindmark2016 --cycles 4"; empty where all are the
+/// defaults.
+std::string typed_options(const std::vector<StudyOption>& options, const std::vector<Preset>& presets,
+                          const OptionValues& values);
+
 /// Throws std::invalid_argument for a name that cannot be one, or that a command has already, and for a
 /// default that is not allowed.
 void check(const std::vector<StudyOption>& options);

@@ -33,7 +33,11 @@ std::string to_text(const Sampling& sampling) {
   for (const ConfirmationRound& round : sampling.rounds)
     entry["rounds"].push_back({round.first, round.named});
   if (!sampling.until.empty()) entry["until"] = sampling.until;
-  if (!sampling.stopped.empty()) entry["stopped"] = sampling.stopped;
+  if (const StopNote& stopped = sampling.stopped; !stopped.why.empty()) {
+    entry["stopped"] = stopped.why;
+    entry["go_on"] = stopped.go_on;
+    entry["enough"] = stopped.enough;
+  }
   return entry.dump();
 }
 
@@ -44,7 +48,9 @@ Sampling sampling_from(const std::string& text) {
                     .criteria = entry.at("criteria").get<std::string>(),
                     .target = entry.at("target").get<double>(),
                     .until = entry.value("until", ""),
-                    .stopped = entry.value("stopped", "")};
+                    .stopped = {.why = entry.value("stopped", ""),
+                                .go_on = entry.value("go_on", "give the same command again"),
+                                .enough = entry.value("enough", false)}};
   for (const auto& round : entry.at("rounds"))
     sampling.rounds.push_back({whole_number(round.at(0), 1), whole_number(round.at(1), 0)});
   return sampling;

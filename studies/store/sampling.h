@@ -16,6 +16,13 @@ struct ConfirmationRound {
   int named = 0;           ///< so many of its points, the first ones, were named by the user
 };
 
+/// What ended the last command before the study had all runs that it may have; `why` empty: nothing did.
+struct StopNote {
+  std::string why = {};    ///< "--until is reached: nrmse(cost) 0.08, wanted < 0.1"
+  std::string go_on = {};  ///< what to give the command for more runs: "give smaller errors in --until"
+  bool enough = false;     ///< the models are as good as was wanted
+};
+
 struct Sampling {
   int points = 0;  ///< adaptive points in all, 0 or more
   int batch = 8;   ///< points that are chosen together, 1 or more
@@ -26,7 +33,7 @@ struct Sampling {
       0.0;  ///< error of the mean over the range of every response but standard errors, at which to stop; 0: none
   /// Errors at which to stop, such as "nrmse(cost) < 0.1"; empty: none. models/stop_rule.h reads it.
   std::string until = {};
-  std::string stopped = {};  ///< what ended the last command before the study was complete; empty: nothing
+  StopNote stopped = {};
 };
 
 /// As one JSON object. Throws std::invalid_argument for a target that is not finite.

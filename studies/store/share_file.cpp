@@ -21,10 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int share_id = 0x44727773;
+constexpr int store_id = 0x44727770;  // store.h
 constexpr const char* share_version = "1";
 
+constexpr const char* name_another = "; name the file that the command share made";
+constexpr const char* copy_again = "; copy it again from where it was made";
+
+/// To be opened.
 [[noreturn]] void refuse_share(const fs::path& file, const std::string& what) {
-  throw std::runtime_error("share: " + file.string() + " " + what);
+  throw std::runtime_error("open: " + file.string() + " " + what);
 }
 
 /// A complaint of SQLite becomes one of ours.
@@ -33,9 +38,36 @@ auto of_share(const fs::path& file, const F& f) {
   try {
     return f();
   } catch (const SQLite::Exception& e) {
-    refuse_share(file, std::string("is no whole file of the command share, or cannot be used: ") + e.what() +
-                           "; copy it again from where it was made");
+    refuse_share(file, std::string("is damaged, or cannot be read: ") + e.what() + copy_again);
   }
+}
+
+/// The number of these bytes, the largest first.
+std::uintmax_t big_endian(const std::string& bytes) {
+  std::uintmax_t number = 0;
+  for (const char byte : bytes) number = number << 8 | static_cast<unsigned char>(byte);
+  return number;
+}
+
+/// How long the file was when SQLite wrote it, by its header (sqlite.org/fileformat.html, section 1.3).
+std::uintmax_t whole_size(const std::string& header) {
+  const std::uintmax_t page = big_endian(header.substr(16, 2)), pages = big_endian(header.substr(28, 4));
+  return (page == 1 ? 65536 : page) * pages;
+}
+
+/// SQLite itself takes an empty file for a database without a table, and does not miss its last page before it
+/// needs it.
+void require_whole(const fs::path& file, doe::detail::StrangerFile& there) {
+  static const std::string magic("SQLite format 3\0", 16);
+  constexpr std::size_t header_size = 100;
+  const std::string header = there.text(0, header_size), size = std::to_string(there.size());
+  if (there.size() == 0) refuse_share(file, std::string("is empty") + copy_again);
+  if (header.substr(0, magic.size()) != magic.substr(0, header.size()))
+    refuse_share(
+        file, std::string("is no file of the command share (it does not begin as these do)") + name_another);
+  if (header.size() < header_size) refuse_share(file, "ends after " + size + " bytes" + copy_again);
+  if (const std::uintmax_t whole = whole_size(header); there.size() < whole)
+    refuse_share(file, "has " + size + " of its " + std::to_string(whole) + " bytes" + copy_again);
 }
 
 std::string bytes_to_share(const FileToShare& file) {
@@ -88,19 +120,26 @@ void fill_share(const std::string& draft, const std::vector<FileToShare>& files,
 }
 
 SQLite::Database opened_share(const fs::path& file) {
-  const doe::detail::StrangerFile there(file, doe::detail::Links::follow);
-  if (there.missing()) refuse_share(file, "is not there; name the file that the command share made");
-  if (!there.fault().empty()) refuse_share(file, there.fault());
+  doe::detail::StrangerFile there(file, doe::detail::Links::follow);
+  if (there.missing()) refuse_share(file, std::string("is not there") + name_another);
+  if (!there.fault().empty()) refuse_share(file, there.fault() + name_another);
+  require_whole(file, there);
   SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
-  if (database.execAndGet("PRAGMA application_id").getInt() != share_id)
-    refuse_share(file, "is an SQLite file, but none of the command share; name the one that it made");
+  const int id = database.execAndGet("PRAGMA application_id").getInt();
+  if (id == store_id)
+    refuse_share(file, std::string("is the store of a study alone; give the folder in which it lies to --out "
+                                   "of another command") +
+                           name_another);
+  if (id != share_id)
+    refuse_share(file, std::string("is an SQLite file, but none of the command share") + name_another);
   return database;
 }
 
 void write_unpacked(const fs::path& place, const std::string& bytes) {
   fs::create_directories(place.parent_path());
   if (fs::exists(fs::symlink_status(place)))
-    throw std::runtime_error("share: two files of one name: " + place.string());
+    throw std::runtime_error("open: two files of one name: " + place.string() +
+                             "; nothing was unpacked; share the folder again");
   doe::write_file(place, bytes);
 }
 
@@ -149,7 +188,12 @@ void write_share(const fs::path& file, const std::vector<FileToShare>& files,
   facts["version"] = share_version;
   facts["files"] = std::to_string(files.size());
   doe::detail::TemporaryFile draft(file);
-  of_share(file, [&] { fill_share(draft.path(), files, facts); });
+  try {
+    fill_share(draft.path(), files, facts);
+  } catch (const SQLite::Exception& e) {
+    throw std::runtime_error("share: " + file.string() + " cannot be written: " + e.what() +
+                             "; free some space, or name another file with --output");
+  }
   draft.replace_target();
 }
 

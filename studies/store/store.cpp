@@ -5,6 +5,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <drawpoint/studies/store/columns.h>
 #include <drawpoint/studies/store/left_out.h>
+#include <drawpoint/studies/store/marks.h>
 #include <drawpoint/studies/store/plain_text.h>
 #include <drawpoint/studies/store/row_checksum.h>
 #include <drawpoint/studies/store/rows.h>
@@ -113,6 +114,8 @@ Store Store::open(const fs::path& file, Access access) {
 }
 
 void Store::check_format() const {
+  std::error_code ignored;
+  if (fs::file_size(file_, ignored) == 0) refuse(file_, "is empty, and not the store of a Drawpoint study");
   if (pragma(*database_, "application_id") != application_id) {
     refuse(file_, "is an SQLite file, but not the store of a Drawpoint study");
   }
@@ -201,15 +204,36 @@ void Store::change(std::int64_t id, const F& f) {
   });
 }
 
-void Store::set_sampling(const Sampling& sampling) {
+void Store::put_setting(const std::string& key, const std::string& value) {
   with_context(file_, [&] {
     SQLite::Transaction transaction(*database_);
-    put_in_study(*database_, "sampling", to_text(sampling));
+    put_in_study(*database_, key, value);
     seal_study();
     transaction.commit();
   });
+}
+
+void Store::set_sampling(const Sampling& sampling) {
+  put_setting("sampling", to_text(sampling));
   sampling_ = sampling;
 }
+
+std::vector<Mark> Store::marks() const {
+  return with_context(file_, [&] {
+    SQLite::Statement query(*database_, "SELECT value FROM study WHERE key = 'marks'");
+    if (!query.executeStep()) return std::vector<Mark>();
+    try {
+      std::vector<Mark> marks = marks_from(query.getColumn(0).getString());
+      check_marks(identity_.problem, marks);
+      return marks;
+    } catch (const nlohmann::json::exception&) {
+    } catch (const std::invalid_argument&) {
+    }
+    refuse(file_, "is damaged (marks in table study are not readable)");
+  });
+}
+
+void Store::set_marks(const std::vector<Mark>& marks) { put_setting("marks", to_text(marks)); }
 
 void Store::add(const std::vector<Run>& runs) {
   std::string columns = "id, kind, point, replicate, seed, status, reason, seconds, started, finished, log";

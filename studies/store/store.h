@@ -4,8 +4,8 @@
 /// The store of a study: one SQLite file (application id 0x44727770, schema version in user_version).
 ///
 ///     study(key, value)  name, problem (JSON), seed, replicates, corners, options (JSON), simulator,
-///                        created, rows (how many runs there are), sampling (JSON; the only entry that a
-///                        user may change), checksum
+///                        created, rows (how many runs there are), checksum; and what a user may change:
+///                        sampling (JSON) and, where there are any, marks (JSON)
 ///     runs               one row per run: id (1, 2, ... without a gap), kind, point, replicate, seed, status,
 ///                        reason, seconds, started, finished, log, checksum, then one REAL column for each
 ///                        variable and each response, named as in the problem, and for each response what was
@@ -30,6 +30,7 @@
 #include <drawpoint/studies/store/columns.h>
 #include <drawpoint/studies/store/identity.h>
 #include <drawpoint/studies/store/sampling.h>
+#include <drawpoint/studies/mark.hpp>
 
 #include <Eigen/Core>
 #include <array>
@@ -123,8 +124,10 @@ class Store {
   /// In order of id. Those that are left out have failed, with the reason for that.
   std::vector<Run> runs() const;
   std::vector<Correction> corrections() const;  ///< in order of number
+  std::vector<Mark> marks() const;              ///< that the folder's user has named, at this moment
 
   void set_sampling(const Sampling& sampling);
+  void set_marks(const std::vector<Mark>& marks);
   void add(const std::vector<Run>& runs);  ///< planned ones, or ones that have ended elsewhere; all or none
   void mark_running(std::int64_t id);
   void mark_planned(std::int64_t id);
@@ -146,6 +149,7 @@ class Store {
   void read_identity();
   void seal_rows(const std::string& condition);
   void seal_study();
+  void put_setting(const std::string& key, const std::string& value);
   void write_done(std::int64_t id, const Eigen::VectorXd& y, double seconds, const std::string& log);
   void write_failed(std::int64_t id, const std::string& reason, double seconds, const std::string& log);
   std::vector<Correction> read_corrections() const;

@@ -281,6 +281,8 @@ TEST_F(BadInput, ALogThatIsNotItsRunsIsNamed) {
   EXPECT_FALSE(contains(page(), "run_0003.h5"));
   std::ofstream(dir() / "logs" / "run_0003.h5", std::ios::app) << "x";
   EXPECT_TRUE(contains(page(), "damaged, or not what their run wrote, are left out: run_0003.h5"));
+  std::filesystem::remove(dir() / "logs" / "run_0003.h5");
+  EXPECT_TRUE(contains(page(), "The folder has the logs of 5 of 6 runs"));
 }
 
 // What is planned does not count as made.

@@ -34,6 +34,29 @@ class LoadingStudies : public StudyTest {
   }
 };
 
+TEST_F(LoadingStudies, APresetIsShownWithItsValuesAndTheFolderKnowsIt) {
+  const Ended help = run(LHD_LOADING " run --help");
+  std::string line;  // as wide as it is printed, without its breaks
+  for (const char c : help.out)
+    if (c != '\n' && (c != ' ' || line.empty() || line.back() != ' '))
+      line += c;
+    else if (!line.empty() && line.back() != ' ')
+      line += ' ';
+  for (const char* part :
+       {"--materials lindmark2016", "--pile-mass 800", "--cycles 30", "--spill before_front"})
+    EXPECT_TRUE(contains(line, part));
+  const std::string ask = LHD_LOADING " ask --runs 6 --validation 0 --file " + (place_ / "runs.csv").string();
+  const auto status = [&] { return run(LHD_LOADING " status" + out()); };
+  ASSERT_EQ(run(ask + " --preset lindmark2016" + out()).code, 0);
+  EXPECT_TRUE(contains(status().out, "options: --preset lindmark2016\n"));
+  std::filesystem::remove_all(dir());
+  ASSERT_EQ(run(ask + " --preset lindmark2016 --cycles 4" + out()).code, 0);
+  EXPECT_TRUE(contains(status().out, "options: --preset lindmark2016 --cycles 4\n"));
+  std::filesystem::remove_all(dir());
+  ASSERT_EQ(run(ask + " --haul 60" + out()).code, 0);
+  EXPECT_TRUE(contains(status().out, "options: --haul 60\n"));
+}
+
 TEST_F(LoadingStudies, TheStrategyOfALoader) {
   ASSERT_NO_FATAL_FAILURE(make(LHD_LOADING));
   expect_equal_from_logs(LHD_LOADING, "quote(production) || quote(joint_damage) || quote(rock_spill)");

@@ -72,4 +72,31 @@ TEST_F(Recommending, SaysWhatIsTrueOfAKnownFunctionBesideAReferenceAndHowToSimul
             query("SELECT " + said["x"]["x"].dump()));
 }
 
+TEST_F(Recommending, APlaceThatWasSimulatedIsSaidWithItsRunAndNotMadeAgain) {
+  ASSERT_EQ(run(study + " --runs 12 --validation 4" + out()).code, 0);
+  const std::string place = " confirm --points 0 --x=0.25,5" + out();
+  ASSERT_EQ(run(study + place).code, 0);
+  ASSERT_EQ(count("kind = 'confirmation'"), 1);
+  const Ended again = run(study + place);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(contains(again.out,
+                       "nothing to simulate: --x=0.25,5 was simulated before, by run 17; the report "
+                       "has what came out\n"));
+  EXPECT_FALSE(contains(again.out, "every point of the front that matters"));
+  EXPECT_EQ(count("kind = 'confirmation'"), 1);
+  // Beside a new one it is said too; of one that failed, how it is made again.
+  const Ended two = run(study + " confirm --points 0 --x=0.25,5 --x=0.3,6" + out());
+  EXPECT_TRUE(contains(two.out, "--x=0.25,5 was simulated before, by run 17"));
+  EXPECT_TRUE(contains(two.out, "round 1: 1 point to simulate"));
+  const std::string bad = " confirm --points 0 --rounds 1 --x=0.75,5" + out();
+  ASSERT_EQ(run("env TROUBLE=throw " + study + bad + " --no-spot-check").code, 0);
+  const Ended failed = run(study + bad);
+  EXPECT_TRUE(contains(failed.out,
+                       "--x=0.75,5 was tried before, by run 19, which failed; --retry-failed makes "
+                       "it again\n"));
+  // The front's own words are for the front.
+  const Ended asked = run(study + " confirm --points 60 --rounds 30" + out());
+  EXPECT_EQ(asked.code, 0) << asked.err;
+}
+
 }  // namespace

@@ -72,7 +72,7 @@ TEST_F(Sharing, WhatIsOpenedIsWhatWasShared) {
 
 TEST_F(Sharing, ADamagedOrHostileFileMakesNothing) {
   make_study();
-  const auto share_anew = [&] { ASSERT_EQ(run(study + " share " + dir().string()).code, 0); };
+  const auto share_anew = [&] { ASSERT_EQ(run(study + " share --replace " + dir().string()).code, 0); };
   share_anew();
   change_share("UPDATE sqlar SET data = zeroblob(sz) WHERE name = 'report.html'");
   expect_unopened("\"report.html\" does not fit its checksum; nothing was unpacked");
@@ -91,12 +91,56 @@ TEST_F(Sharing, ADamagedOrHostileFileMakesNothing) {
   expect_unopened(
       "has version \"2\" of the format, and this program (1) cannot read it; take the program that made it");
   share_anew();
-  fs::resize_file(shared(), fs::file_size(shared()) / 2);
-  expect_unopened("copy it again from where it was made");
-  fs::copy_file(database(), shared(), fs::copy_options::overwrite_existing);
-  expect_unopened("is an SQLite file, but none of the command share");
   fs::remove(shared());
-  expect_unopened("is not there; name the file that the command share made");
+  expect_unopened("open: " + shared().string() + " is not there; name the file that the command share made");
+}
+
+TEST_F(Sharing, WhatIsNoWholeFileOfTheCommandIsNamedWithWhatIsWrongAndWhatToDo) {
+  make_study();
+  ASSERT_EQ(run(study + " share " + dir().string()).code, 0);
+  const auto whole = fs::file_size(shared());
+  const std::string place = "open: " + shared().string() + " ",
+                    again = "; copy it again from where it was made";
+  for (const std::uintmax_t bytes :
+       {whole - 1, whole - 4096, whole / 2, std::uintmax_t(5000), std::uintmax_t(101)}) {
+    fs::resize_file(shared(), bytes);
+    expect_unopened(place + "has " + std::to_string(bytes) + " of its " + std::to_string(whole) + " bytes" +
+                    again);
+  }
+  for (const std::uintmax_t bytes : {60, 16}) {
+    fs::resize_file(shared(), bytes);
+    expect_unopened(place + "ends after " + std::to_string(bytes) + " bytes" + again);
+  }
+  fs::resize_file(shared(), 0);
+  expect_unopened(place + "is empty" + again);
+  const std::string name = "; name the file that the command share made";
+  std::ofstream(shared()) << "run,x,y\n1,0.5,2\n";
+  expect_unopened(place + "is no file of the command share (it does not begin as these do)" + name);
+  fs::copy_file(database(), shared(), fs::copy_options::overwrite_existing);
+  expect_unopened(
+      place + "is the store of a study alone; give the folder in which it lies to --out of another command" +
+      name);
+  fs::remove(shared());
+  SQLite::Database(shared().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE t (a)");
+  expect_unopened(place + "is an SQLite file, but none of the command share" + name);
+  fs::remove(shared());
+  fs::create_directory(shared());
+  expect_unopened(place + "is a directory, no file" + name);
+}
+
+TEST_F(Sharing, AFileThatIsThereIsReplacedOnlyWhenAsked) {
+  make_study();
+  std::ofstream(shared()) << "somebody's";
+  const std::string line = study + " share " + dir().string();
+  for (const std::string& to : {std::string(), " --output " + shared().string()}) {
+    expect_refused(line + to, 2,
+                   "share: " + shared().string() +
+                       " is there already; --replace writes over it, --output names another");
+    EXPECT_EQ(contents(shared()), "somebody's");
+  }
+  EXPECT_EQ(run(line + " --replace").code, 0);
+  EXPECT_EQ(run(opening()).code, 0);
 }
 
 TEST_F(Sharing, NothingIsSharedWhileADriverWritesAndDamageIsSaid) {

@@ -4,6 +4,7 @@
 
 #include <drawpoint/tests/end_to_end/support.hpp>
 
+#include <algorithm>
 #include <chrono>
 
 using namespace drawpoint;
@@ -82,9 +83,12 @@ TEST_F(Stopping, ABudgetSaysWhatItLeavesOutAndTheSameCommandGoesOn) {
   EXPECT_GE(left, 10);
   EXPECT_EQ(done + left, 64) << "none is left running";
   EXPECT_LT(seconds, 20.0);
-  const std::string words = "the budget of 2s was spent with " + std::to_string(left) +
-                            " planned runs left out and 8 adaptive points not chosen";
-  EXPECT_TRUE(contains(stopped.err, "stopped: " + words));
+  const int validated = count("kind = 'validation' AND status = 'done'");
+  const std::string words = "the budget of 2s is spent: left out are " +
+                            std::to_string(count("kind = 'training' AND status = 'planned'")) +
+                            " of 60 training and " + std::to_string(4 - validated) +
+                            " of 4 validation runs, and 8 adaptive points";
+  EXPECT_TRUE(contains(stopped.err, "stopped: " + words + "; to go on: give the same command again\n"));
   EXPECT_EQ(stopped.json()["stopped"], words);
   EXPECT_EQ(sampling()["stopped"], words);
   EXPECT_TRUE(contains(run(TROUBLED_STUDY " status" + out()).out, "stopped: " + words));
@@ -93,6 +97,63 @@ TEST_F(Stopping, ABudgetSaysWhatItLeavesOutAndTheSameCommandGoesOn) {
   EXPECT_EQ(count("status = 'done'"), 72);
   EXPECT_FALSE(rest.json().contains("stopped"));
   EXPECT_FALSE(sampling().contains("stopped"));
+}
+
+TEST_F(Stopping, ABudgetBuysValidationRunsWithTheTrainingRuns) {
+  const std::string line = "env TROUBLE=slow " TROUBLED_STUDY " --jobs 2 --budget 3s" + out();
+  ASSERT_LE(run(line + " --runs 90 --validation 30").code, 1);
+  const auto done = [&](const std::string& kind) {
+    return count("status = 'done' AND kind = '" + kind + "'");
+  };
+  ASSERT_GE(done("training"), 4);
+  ASSERT_GE(count("status = 'planned'"), 10) << "the budget ended it";
+  EXPECT_NEAR(done("validation"), done("training") / 3.0, 1.0);
+  // Where validation was forgotten before, it comes first now.
+  const int before = done("training");
+  ASSERT_LE(run(line + " --validation 90").code, 1);
+  EXPECT_NEAR(done("validation"), done("training"), 1.0 + std::max(0, before - done("validation")));
+  EXPECT_GT(done("validation"), before / 3 + 2);
+}
+
+TEST_F(Stopping, ABudgetInWhichNoRunFitsSaysHowLongOneTakesAndWhatWouldDo) {
+  const std::string line = "env TROUBLE=slow " TROUBLED_STUDY + out();
+  ASSERT_EQ(run(line + " --runs 6 --validation 2").code, 0);
+  const Ended none = run(line + " --runs 9 --budget 0.1s");
+  EXPECT_EQ(none.code, 0) << none.err;
+  EXPECT_TRUE(contains(none.out,
+                       "no run fits into the budget of 0.1s: one takes 0.2 s, the mean of 8 runs; left out "
+                       "are 3 of 9 training runs"));
+  EXPECT_TRUE(contains(none.out, "to go on: give --budget 2s or more, or leave it out\n"));
+  EXPECT_FALSE(contains(none.out, "making run")) << "no time for that either";
+  EXPECT_EQ(count("status = 'planned'"), 3);
+  const Ended enough = run(line + " --budget 2s");
+  EXPECT_EQ(enough.code, 0) << enough.err;
+  EXPECT_EQ(count("status = 'planned'"), 0) << "what is advised does";
+}
+
+TEST_F(Stopping, StatusSaysWhatEndedTheSamplingAndWhatGoesOn) {
+  const auto status = [&] { return run(demo + " status" + out()).out; };
+  const std::string begin = demo + " --runs 16 --validation 10" + out();
+  ASSERT_EQ(run(begin + " --until 'nrmse(production) < 0.5'").code, 0);
+  EXPECT_TRUE(contains(status(), "adaptive points: 0 of at most 64 wanted\n"));
+  EXPECT_TRUE(contains(status(), "stopped: --until is reached: nrmse(production) 0."));
+  EXPECT_TRUE(contains(status(), "to go on: give smaller errors in --until, or --until ''\n"));
+  const Ended json = run(demo + " status --json" + out());
+  EXPECT_EQ(json.json()["go_on"], "give smaller errors in --until, or --until ''");
+  // With what it says it goes on; the next one is a target.
+  ASSERT_EQ(run(begin + " --until '' --target 0.9 --adaptive 8 --batch 4").code, 0);
+  EXPECT_TRUE(contains(status(), "stopped: --target 0.9 is reached: the largest error of a mean is 0."));
+  EXPECT_TRUE(contains(status(), "to go on: give a smaller --target, or --target 0\n"));
+  ASSERT_EQ(run(begin + " --target 0 --hours 0").code, 0);
+  const int left = 8 - count("kind = 'adaptive'");
+  EXPECT_TRUE(contains(status(), "stopped: --hours is over: left out are " + std::to_string(left) +
+                                     " of 8 adaptive points\n"));
+  EXPECT_TRUE(contains(status(), "to go on: give the same command again\n"));
+  const Ended all = run(begin + " --target 0");
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_EQ(count("kind = 'adaptive'"), 8);
+  EXPECT_FALSE(contains(status(), "stopped: "));
+  EXPECT_TRUE(contains(status(), "adaptive points: 8 of 8 wanted\n"));
 }
 
 }  // namespace

@@ -55,9 +55,15 @@ ReportInput known_study(double noise, doe::Seed seed = 1, int n = 24) {
   return in;
 }
 
+/// As analyse() asks for it once, for all who say something of it.
+ReportInput with_recommendation(ReportInput in) {
+  in.recommended = recommend(in);
+  return in;
+}
+
 std::string all_of(const ReportInput& in) {
   std::string text;
-  for (const std::string& sentence : answer_sentences(in, recommend(in))) text += sentence + "\n";
+  for (const std::string& sentence : answer_sentences(with_recommendation(in))) text += sentence + "\n";
   return text;
 }
 
@@ -138,9 +144,11 @@ TEST(Recommendation, ASimulatedPlaceTakesItsSteadWhereItDoesAsWell) {
   EXPECT_EQ(found->row, -1);
   EXPECT_NEAR(found->x[0], before + 0.03, 1e-12);
   ASSERT_EQ(found->simulated.size(), 1u);
-  EXPECT_EQ(found->simulated[0]->run, 50);
+  EXPECT_EQ(found->simulated[0].run, 50);
   EXPECT_TRUE(has(all_of(in), "simulated: run 50 gave production")) << all_of(in);
-  EXPECT_TRUE(has(front_points_text(in, 3, false), "Recommended is a simulated place: x0 = 0.6")) << before;
+  EXPECT_TRUE(
+      has(front_points_text(with_recommendation(in), 3, false), "Recommended is a simulated place: x0 = 0.6"))
+      << before;
   in.confirmations.runs[0].breaks_limit = true;
   EXPECT_GE(recommend(in)->row, 0) << "what broke a limit is not recommended";
 }
@@ -219,6 +227,33 @@ TEST(Marks, AreRefusedOutsideOfTheBox) {
   EXPECT_TRUE(has(refused({{"a", Eigen::Vector2d(0, 0)}, {"a", Eigen::Vector2d(1, 0)}}), "given twice"));
 }
 
+// What was found once is what everybody says of it: the sentences, the page, the front's table and the hauls.
+TEST(Recommendation, IsFoundOnceForAllWhoSayIt) {
+  ReportInput in = with_recommendation(known_study(0));
+  in.recommended->x = in.front.X.row(7);
+  in.recommended->row = 7;
+  EXPECT_TRUE(has(answer_sentences(in)[0], "Take x0 = 0.0700, x1 = 0: "));
+  EXPECT_EQ(detail::answer_json(in)["row"], 7);
+  EXPECT_EQ(front_points_json(in, 1)["points"][7]["chosen"], true);
+  std::vector<WorkOfRun> work;
+  for (const doe::Evaluation& e : in.training.rows) work.push_back({e.run, e.x, {1000}, {10 + 20 * e.x[0]}});
+  EXPECT_EQ(choice_of_haul(in, "production", 0, work)->strategies[0].x, in.recommended->x);
+  in.recommended.reset();
+  EXPECT_TRUE(detail::answer_json(in)["x"].is_null());
+  EXPECT_NE(choice_of_haul(in, "production", 0, work)->strategies[0].name, "recommended");
+}
+
+// A round of confirmation asks for the row alone, with what it has: no tables and no report.
+TEST(Recommendation, NeedsModelsFrontAndMarksAlone) {
+  ReportInput in = known_study(0);
+  for (const int row : {-1, 30}) {
+    if (row >= 0) in.marks = {{"reference", in.front.X.row(row).transpose()}};
+    EXPECT_EQ(recommended_row({in.problem, in.models, in.front, in.marks, in.confirmations, in.success}),
+              recommend(in)->row);
+  }
+  EXPECT_EQ(recommended_row({in.problem, {}, in.front, in.marks, in.confirmations, in.success}), -1);
+}
+
 TEST(Hauls, TurnWhereTheRatesAreEqual) {
   EXPECT_NEAR(turning_haul(1000, 10, 2000, 30, 600), 10, 1e-12);  // 1000 / (10 + h) = 2000 / (30 + h)
   EXPECT_TRUE(std::isnan(turning_haul(1000, 10, 2000, 30, 9)));
@@ -237,7 +272,7 @@ TEST(Hauls, AreWhatTheCyclesGiveAnew) {
   in.marks = {{"quick", Eigen::Vector2d(0, 0.5)},
               {"full", Eigen::Vector2d(1, 0.5)},
               {"run 1", in.training.rows[0].x}};
-  const auto choice = choice_of_haul(in, "production", 0, work);
+  const auto choice = choice_of_haul(with_recommendation(in), "production", 0, work);
   ASSERT_TRUE(choice);
   EXPECT_NEAR(choice->deviation, 0, 1e-12) << "equal cycles have one rate";
   const auto of = [&](const std::string& name) -> const HauledStrategy& {
@@ -271,7 +306,7 @@ TEST(Hauls, SayWhatTheRatioOfMeansAddsToIt) {
   ReportInput in = known_study(0);
   std::vector<WorkOfRun> work;
   for (const doe::Evaluation& e : in.training.rows) work.push_back({e.run, e.x, {1000, 3000}, {10, 50}});
-  const auto choice = choice_of_haul(in, "production", 0, work);
+  const auto choice = choice_of_haul(with_recommendation(in), "production", 0, work);
   ASSERT_TRUE(choice);
   EXPECT_NEAR(choice->deviation, 1 - 2000.0 / 30 / 80, 1e-12);
 }

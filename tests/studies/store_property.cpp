@@ -211,7 +211,7 @@ TEST_F(StoreTest, RefusesTextAndEmptyFiles) {
   EXPECT_NE(complaint([&] { Store::open(file_); }).find("not a database"), std::string::npos);
   EXPECT_EQ(test::contents(file_), before);
   test::write_file(file_, "");
-  EXPECT_NE(complaint([&] { Store::open(file_); }).find("not the store"), std::string::npos);
+  EXPECT_NE(complaint([&] { Store::open(file_); }).find("is empty, and not the store"), std::string::npos);
 }
 
 TEST_F(StoreTest, RefusesADamagedFile) {

@@ -37,8 +37,10 @@ inline int free_port() {
 
 class SlurmCluster {
  public:
-  /// Nodes n1, n2, ... with two cores each. SLURM_CONF of this process then names the cluster.
-  SlurmCluster(const std::filesystem::path& folder, int nodes) : folder_(folder), nodes_(nodes) {
+  /// Nodes n1, n2, ..., each of which counts as so many cores, whatever the machine has. SLURM_CONF of this process then
+  /// names the cluster.
+  SlurmCluster(const std::filesystem::path& folder, int nodes, int cores = 2)
+      : folder_(folder), nodes_(nodes), cores_(cores) {
     for (const char* part : {"state", "spool", "log"}) std::filesystem::create_directories(folder_ / part);
     write_configuration();
     setenv("SLURM_CONF", (folder_ / "slurm.conf").c_str(), 1);
@@ -135,15 +137,15 @@ class SlurmCluster {
             "JobAcctGatherType=jobacct_gather/none\nSelectType=select/"
             "cons_tres\nSelectTypeParameters=CR_Core\n"
             "SchedulerType=sched/backfill\nSchedulerParameters=sched_min_interval=0,bf_interval=1\n"
-            "KillWait=1\nReturnToService=2\n";
+            "KillWait=1\nReturnToService=2\nSlurmdParameters=config_overrides\n";
     for (int node = 1; node <= nodes_; ++node)
       file << "NodeName=n" << node << " NodeHostname=" << name << " NodeAddr=127.0.0.1 Port=" << free_port()
-           << " CPUs=2 State=UNKNOWN\n";
+           << " CPUs=" << cores_ << " State=UNKNOWN\n";
     file << "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n";
   }
 
   std::filesystem::path folder_;
-  int nodes_;
+  int nodes_, cores_;
 };
 
 }  // namespace drawpoint::support
