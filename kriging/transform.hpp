@@ -260,12 +260,14 @@ inline void check_range(const Eigen::VectorXd& y, Scale scale, const ResponseRan
 /// logarithm or logit, its offset is half of the least other distance from it; runs that all lie there have
 /// none, and leave the scale linear. Where the noise of runs is known (variances, unit of y squared) and some scatter by
 /// more than their distance from the bound, the offset is at least the median of their deviations: with less, noise
-/// would span decades. Throws std::invalid_argument for a range that lacks what the scale needs, and for y outside of
-/// it.
+/// would span decades. Throws std::invalid_argument for a range that lacks what the scale needs, for y outside of it, and
+/// for variances that are not one per run.
 inline Transform transform_for(Scale scale, const Eigen::VectorXd& y, const ResponseRange& range,
                                const Eigen::VectorXd& noise_variance = {}) {
   if (scale == Scale::linear) return {};
   detail::check_range(y, scale, range);
+  if (noise_variance.size() > 0)
+    detail::check_run_noise(noise_variance, y.size(), "kriging::transform_for: ");
   Transform t{scale, range.lower, scale == Scale::logit ? range.upper : 0.0};
   if (scale == Scale::square_root) return t;
   t.offset = detail::offset_of(detail::affine(y, 1.0, -range.lower), noise_variance);

@@ -210,9 +210,8 @@ inline double pooled_on_scale(const Transform& t, const Eigen::VectorXd& y, cons
   return high * high;
 }
 
-/// The options with the noise of each run as it is on the scale of z; `known` and `pooled` only.
+/// The options, checked, with the noise of each run as it is on the scale of z; `known` and `pooled` only.
 inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, const Eigen::VectorXd& y) {
-  check_noise(options, y.size());
   if (options.noise == Noise::pooled) {
     options.noise_variance.setConstant(pooled_on_scale(t, y, options.noise_variance));
     return options;
@@ -230,6 +229,7 @@ inline FitOptions with_noise_on_scale(FitOptions options, const Transform& t, co
 inline TransformedModel fit_transformed(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
                                         const ResponseRange& range, const FitOptions& options = {}) {
   const bool told = options.noise == Noise::known || options.noise == Noise::pooled;
+  if (told) detail::check_noise(options, y.size());
   const Transform transform =
       transform_for(scale, y, range, told ? options.noise_variance : Eigen::VectorXd());
   if (transform.scale == Scale::linear) return fit(X, y, options);

@@ -19,9 +19,17 @@ struct Mark {
   Eigen::VectorXd x;  ///< d entries, natural units, within the box
 };
 
+/// "1.2,0.8": the values of a point as --x and --mark take them, to the last digit.
+inline std::string typed_values(const Eigen::VectorXd& x) {
+  std::string text;
+  for (const double value : x) text += (text.empty() ? "" : ",") + doe::detail::number_text(value);
+  return text;
+}
+
 inline constexpr const char* reference_name = "reference";
 
-/// Throws std::invalid_argument where a mark has no name, another's name, or lies outside of the box.
+/// Throws std::invalid_argument where a mark has no name, another's name, lies outside of the box or
+/// between whole values.
 inline void check_marks(const doe::Problem& problem, const std::vector<Mark>& marks) {
   const auto reject = [](const Mark& mark, const std::string& what) {
     throw std::invalid_argument("studies::Mark \"" + mark.name + "\": " + what);
@@ -41,6 +49,10 @@ inline void check_marks(const doe::Problem& problem, const std::vector<Mark>& ma
         reject(mark, v.name + " = " + doe::detail::with_unit(x, v.unit) + " is outside its range " +
                          doe::detail::number_text(v.lower) + " to " +
                          doe::detail::with_unit(v.upper, v.unit) + "; give a value within it");
+      if (v.kind != doe::VariableKind::real && x != std::floor(x))
+        reject(mark, v.name + " = " + doe::detail::number_text(x) +
+                         " is not whole; give a whole number from " + doe::detail::number_text(v.lower) +
+                         " to " + doe::detail::number_text(v.upper));
     }
   }
 }

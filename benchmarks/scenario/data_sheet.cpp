@@ -60,7 +60,7 @@ class DataSheet {
         {"width over the edge", "m", lhd_.bucket_width, "3.1 (LH621: width of the machine)"},
         {"mouth, from edge to lip", "m", (lhd_.bucket_profile[1] - lhd_.bucket_profile[0]).norm(), ""},
         {"breakout at the edge, lift", "kN", 1e-3 * breakout(lhd_.lift_rods, lhd_.tilt_rod),
-         "330 (ST14: 22.3 t, by payload); beyond the line below the tilt valve opens"},
+         "330 (ST14: 22.3 t, by payload); the relief valve of the tilt opens at the breakout by tilt"},
         {"breakout at the edge, tilt", "kN",
          1e-3 * breakout({lhd_.tilt_rod, lhd_.tilt_rod}, lhd_.lift_rods[0]), "330"},
         {"thrust at standstill", "kN", 1e-3 * thrust(0), "350 to 450 by the converter (estimate)"},
@@ -101,7 +101,7 @@ class DataSheet {
     return sum / area(profile);
   }
 
-  // By virtual work: the cylinders push `pushing`, the other stand still, and the edge moves up against the breakout
+  // By virtual work: the cylinders push `pushing`, the others stand still, and the edge moves up against the breakout
   // while the arm's own weight is lifted.
   double breakout(const std::array<int, 2>& pushing, int standing) {
     machine_.place(Eigen::Isometry3d::Identity());
@@ -132,7 +132,7 @@ class DataSheet {
            lhd_.loaded_radius;
   }
 
-  // Of the rods with the whole flow of the pump [m/s].
+  // At which the rods move when the pump gives them its whole flow [m/s].
   double speed(const Cylinder& cylinder, int cylinders, double way) const {
     return options_.hydraulics.pump_flow / (cylinders * flow(cylinder, way));
   }

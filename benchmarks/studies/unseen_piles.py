@@ -5,23 +5,24 @@
 with the same seed, so that differences are paired. One row per kind, pile and strategy, written as it comes; rows that the
 table has already are not made again.
 
-    unseen_piles.py PROGRAM runs.csv --folder FOLDER --strategy reference=0,1.1,.5,.5,3,1.5 --strategy recommended=...
+    unseen_piles.py PROGRAM runs.csv --folder FOLDER --strategy reference=0,1.1,.5,.5,1,1.5 --strategy recommended=...
                     --kind usual --kind low:pile-mass=70 --kind well_broken:sizes=well_broken,pile-mass=70
                     [--piles 10] [--cycles 3] [--jobs 2] [--differences differences.csv]
 
-A kind is a name and the options of the study that differ from its defaults. FOLDER keeps the piles that are poured: seeds 101 and on, where a study's own has seed 1. Differences are those of every
-strategy from the first: mean over the piles and half of its 95 % interval by Student's t.
+A kind is a name and the options of the study that differ from its defaults. FOLDER keeps the piles that are poured: seeds
+101 and on, where a study's own has seed 1. Differences are those of every strategy from the first: mean over the piles and
+half of its 95 % interval by Student's t.
 """
 
 import argparse
 import concurrent.futures
 import csv
-import json
 import math
 import pathlib
 import statistics
-import subprocess
 import sys
+
+from evaluation import evaluated
 
 FIRST_PILE = 101
 # 97.5 % quantiles of Student's t by degrees of freedom.
@@ -29,18 +30,9 @@ STUDENT = [None, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
            2.120, 2.110, 2.101, 2.093, 2.086]
 
 
-def evaluated(given, kind, pile, x):
-    shared = given.folder / f"{kind}_{pile}"
-    words = [given.program, "evaluate", f"--x={x}", "--seed", pile, "--pile", pile, "--cycles", given.cycles, "--shared",
-             shared, "--json"]
-    for option in filter(None, given.kinds[kind].split(",")):
-        name, value = option.split("=", 1)
-        words += [f"--{name}", value]
-    ended = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if ended.returncode:
-        raise SystemExit(f"unseen_piles.py: {' '.join(map(str, words))}\n{ended.stderr[-2000:]}")
-    said = json.loads(ended.stdout.strip().splitlines()[-1])
-    return said.get("values", said)
+def options_of(given, kind, pile):
+    chosen = dict(option.split("=", 1) for option in given.kinds[kind].split(",") if option)
+    return {"seed": pile, "pile": pile, "cycles": given.cycles, "shared": given.folder / f"{kind}_{pile}", **chosen}
 
 
 def rows_of(table):
@@ -52,7 +44,7 @@ def rows_of(table):
 
 def pile_runs(given, kind, pile, missing):
     """The strategies of one pile, one after the other: the first pours it."""
-    return [(name, evaluated(given, kind, pile, given.strategies[name])) for name in missing]
+    return [(name, evaluated(given.program, given.strategies[name], options_of(given, kind, pile))) for name in missing]
 
 
 def make_runs(given):

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/marks.h>
 
+#include <drawpoint/studies/commands/points.h>
+#include <drawpoint/studies/commands/run_options.h>
 #include <drawpoint/studies/store/marks.h>
 
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
@@ -13,30 +16,24 @@
 namespace drawpoint::studies {
 namespace {
 
-std::string names_of_variables(const doe::Problem& problem) {
-  std::string names;
-  for (const auto& variable : problem.variables) names += (names.empty() ? "" : ",") + variable.name;
-  return names;
-}
-
-double number_of(const std::string& word, const std::string& text) {
-  std::size_t end = 0;
-  try {
-    const double value = std::stod(word, &end);
-    if (end == word.size()) return value;
-  } catch (const std::exception&) {
-  }
+/// A word beyond the variables is read as a number: check_marks says how many there are to be.
+double value_of(const doe::Problem& problem, std::size_t k, const std::string& word,
+                const std::string& text) {
+  static const doe::Variable beyond{};
+  const double value = typed_value(k < problem.variables.size() ? problem.variables[k] : beyond, word);
+  if (std::isfinite(value)) return value;
   throw UsageError("--mark " + text + ": \"" + word + "\" is no number; give NAME=VALUE,VALUE,...");
 }
 
-/// Of one --mark: a point, or without one the name alone, which is to be taken away.
+/// What one --mark says: a point, or the name alone where that point is to be taken away.
 Mark typed_mark(const doe::Problem& problem, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw UsageError("--mark " + text + ": no name; give NAME=" + names_of_variables(problem));
+    throw UsageError("--mark " + text + ": no name; give NAME=" + names_of(problem));
   std::vector<double> x;
   std::istringstream words(text.substr(equals + 1));
-  for (std::string word; std::getline(words, word, ',');) x.push_back(number_of(word, text));
+  for (std::string word; std::getline(words, word, ',');)
+    x.push_back(value_of(problem, x.size(), word, text));
   return {text.substr(0, equals), Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()))};
 }
 
@@ -75,7 +72,7 @@ std::string names_of_marks(const std::vector<Mark>& marks) {
   std::vector<Mark> declared = study.marks;
   if (mark_named(declared, name) != declared.end())
     throw UsageError("--mark " + name + "=: the study itself declares this mark; give --mark " + name + "=" +
-                     names_of_variables(study.problem) + " to put another point in its place");
+                     names_of(study.problem) + " to put another point in its place");
   throw UsageError("--mark " + name + "=: the folder " + settings.out.string() +
                    " has no mark of this name to take away; " + names_of_marks(stored));
 }
@@ -102,7 +99,7 @@ std::vector<Mark> stored_marks(const Folder& folder) {
   }
 }
 
-/// Of those that were there before.
+/// Speaks of marks that were there before; what is new needs no word.
 void say_what_changes(std::vector<Mark> before, std::vector<Mark> now, int messages) {
   for (const Mark& old : before) {
     const auto same = mark_named(now, old.name);
@@ -118,7 +115,7 @@ void say_what_changes(std::vector<Mark> before, std::vector<Mark> now, int messa
 void add_mark_option(CLI::App& command, const doe::Problem& problem, Settings& settings) {
   command
       .add_option("--mark", settings.marks,
-                  "a point to show by its name: NAME=" + names_of_variables(problem) +
+                  "a point to show by its name: NAME=" + names_of(problem) +
                       ", which the folder keeps; NAME= takes it away. The one called reference is what the "
                       "recommendation is compared with and chosen to be no worse than; repeatable")
       ->allow_extra_args(false)

@@ -12,9 +12,7 @@
 #include <string>
 
 namespace drawpoint::studies {
-namespace {
 
-/// What is typed for the variable; NaN: nothing that it can be.
 double typed_value(const doe::Variable& variable, const std::string& text) {
   const auto level = std::find(variable.levels.begin(), variable.levels.end(), text);
   if (level != variable.levels.end()) return static_cast<double>(level - variable.levels.begin());
@@ -22,8 +20,6 @@ double typed_value(const doe::Variable& variable, const std::string& text) {
   const double value = std::strtod(text.c_str(), &end);
   return text.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
 }
-
-}  // namespace
 
 Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x) {
   const auto& variables = problem.variables;

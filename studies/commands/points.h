@@ -11,6 +11,9 @@
 
 namespace drawpoint::studies {
 
+/// What is typed for the variable: a number, or the name of a level; NaN for what is neither.
+double typed_value(const doe::Variable& variable, const std::string& text);
+
 /// One or more points, one after the other in `x`, as rows. Throws UsageError for a wrong number of values
 /// and for a value out of its range.
 Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x);

@@ -199,12 +199,7 @@ std::string command_text(const ReportInput& input, const std::string& command) {
 
 std::string confirming_point(const ReportInput& input, const Eigen::VectorXd& x) {
   if (input.confirming != "confirm") return command_text(input, input.confirming);  // runs are made elsewhere
-  std::string values;
-  for (const double value : x) {
-    if (!values.empty()) values += ',';
-    values += doe::detail::number_text(value);
-  }
-  return command_text(input, "confirm --points 0 --rounds 1 --x=" + values);
+  return command_text(input, "confirm --points 0 --rounds 1 --x=" + typed_values(x));
 }
 
 std::vector<std::string> answer_sentences(const ReportInput& input) {

@@ -34,8 +34,7 @@ std::string made_before(const std::vector<Run>& runs, const Eigen::RowVectorXd& 
   for (const Run& run : runs)
     if (run.kind == Kind::confirmation && run.x.transpose() == x) made = &run;
   if (made == nullptr) return "";
-  std::string text = "--x";
-  for (const double value : x) text += (text == "--x" ? "=" : ",") + doe::detail::number_text(value);
+  const std::string text = "--x=" + typed_values(x.transpose());
   const std::string by = ", by run " + std::to_string(made->id);
   if (made->left_out) return text + " was simulated before" + by + ", which is left out: " + made->reason;
   if (made->status == Status::failed)

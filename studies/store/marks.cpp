@@ -24,12 +24,7 @@ std::vector<Mark> marks_from(const std::string& text) {
   return marks;
 }
 
-std::string mark_text(const Mark& mark) {
-  std::string text = mark.name;
-  for (const double value : mark.x)
-    text += (text.size() == mark.name.size() ? "=" : ",") + doe::detail::number_text(value);
-  return text;
-}
+std::string mark_text(const Mark& mark) { return mark.name + "=" + typed_values(mark.x); }
 
 std::vector<Mark>::iterator mark_named(std::vector<Mark>& marks, const std::string& name) {
   return std::find_if(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.name == name; });

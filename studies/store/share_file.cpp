@@ -6,6 +6,7 @@
 #include <drawpoint/studies/store/folder.h>
 #include <drawpoint/studies/store/plain_text.h>
 #include <drawpoint/studies/store/run_logs.h>
+#include <drawpoint/studies/store/store.h>
 #include <sys/stat.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 #include <drawpoint/doe/detail/hash.hpp>
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int share_id = 0x44727773;
-constexpr int store_id = 0x44727770;  // store.h
 constexpr const char* share_version = "1";
 
 constexpr const char* name_another = "; name the file that the command share made";
@@ -126,7 +126,7 @@ SQLite::Database opened_share(const fs::path& file) {
   require_whole(file, there);
   SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
   const int id = database.execAndGet("PRAGMA application_id").getInt();
-  if (id == store_id)
+  if (id == store_application_id)
     refuse_share(file, std::string("is the store of a study alone; give the folder in which it lies to --out "
                                    "of another command") +
                            name_another);

@@ -28,7 +28,6 @@ using detail::read_rows;
 using detail::refuse;
 using detail::with_context;
 
-constexpr int application_id = 0x44727770;
 constexpr int schema_version = 5;
 constexpr int lock_patience = 30000;   // [ms] for another program that reads the file
 constexpr int reader_patience = 2000;  // [ms] of who only reads, and may ask again
@@ -88,7 +87,7 @@ Store Store::create(const fs::path& file, const Identity& identity) {
   with_context(draft, [&] {
     SQLite::Database database(draft.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, lock_patience);
     SQLite::Transaction transaction(database);
-    database.exec("PRAGMA application_id = " + std::to_string(application_id));
+    database.exec("PRAGMA application_id = " + std::to_string(store_application_id));
     database.exec("PRAGMA user_version = " + std::to_string(schema_version));
     database.exec("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL)");
     database.exec(create_runs(columns_of(identity.problem)));
@@ -116,7 +115,7 @@ Store Store::open(const fs::path& file, Access access) {
 void Store::check_format() const {
   std::error_code ignored;
   if (fs::file_size(file_, ignored) == 0) refuse(file_, "is empty, and not the store of a Drawpoint study");
-  if (pragma(*database_, "application_id") != application_id) {
+  if (pragma(*database_, "application_id") != store_application_id) {
     refuse(file_, "is an SQLite file, but not the store of a Drawpoint study");
   }
   const int version = pragma(*database_, "user_version");

@@ -55,6 +55,9 @@ enum class Kind {
   imported,      ///< made elsewhere
   validation     ///< independent, for judging the models
 };
+/// Of SQLite, in the header of the file of a store.
+inline constexpr int store_application_id = 0x44727770;
+
 inline constexpr std::array all_kinds = {Kind::training, Kind::adaptive, Kind::confirmation, Kind::imported,
                                          Kind::validation};
 enum class Status { planned, running, done, failed };

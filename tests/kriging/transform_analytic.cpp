@@ -107,7 +107,7 @@ TEST(MeanResponse, HasItsSlope) {
           << to_string(t.scale);
 }
 
-// Of the runs at 0.01, 0.1, 0.4 and 9 the first three scatter by more than that: 0.1, 0.2 and 0.5. Noise that is a
+// The first three of the runs at 0.01, 0.1, 0.4 and 9 scatter by more than that: 0.1, 0.2 and 0.5. Noise that is a
 // share of the response reaches no bound, however small some runs are.
 TEST(TransformFor, PutsTheScatterBelowRunsWhoseNoiseReachesABound) {
   const ResponseRange positive{0, infinity}, share{0, 10};
@@ -123,6 +123,9 @@ TEST(TransformFor, PutsTheScatterBelowRunsWhoseNoiseReachesABound) {
   EXPECT_EQ(transform_for(Scale::square_root, y, positive, variance).offset, 0.0);
   EXPECT_EQ(transform_for(Scale::logit, y, share, variance).offset, 0.2);
   EXPECT_EQ(transform_for(Scale::logit, y, share, variance).upper_offset, 0.0);
+  EXPECT_THROW(transform_for(Scale::logarithm, y, positive, variance.head(3)), std::invalid_argument)
+      << "one variance per run";
+  EXPECT_THROW(transform_for(Scale::logarithm, y, positive, -variance), std::invalid_argument);
   for (const double unit : {1e-8, 1e8})
     EXPECT_NEAR(transform_for(Scale::logarithm, unit * y, positive, unit * unit * variance).offset,
                 0.2 * unit, 1e-12 * unit);

@@ -55,7 +55,7 @@ ReportInput known_study(double noise, doe::Seed seed = 1, int n = 24) {
   return in;
 }
 
-/// As analyse() asks for it once, for all who say something of it.
+/// analyse() does this once, for all who say something of the recommendation.
 ReportInput with_recommendation(ReportInput in) {
   in.recommended = recommend(in);
   return in;
@@ -225,6 +225,14 @@ TEST(Marks, AreRefusedOutsideOfTheBox) {
   EXPECT_TRUE(
       has(refused({{"today", Eigen::VectorXd::Zero(3)}}), "it has 3 values; give 2, one per variable"));
   EXPECT_TRUE(has(refused({{"a", Eigen::Vector2d(0, 0)}, {"a", Eigen::Vector2d(1, 0)}}), "given twice"));
+}
+
+TEST(Marks, OfACategoryAreWhole) {
+  doe::Problem problem = of_two();
+  problem.variables[0] = doe::categorical_variable("rock", {"ore", "waste"});
+  const auto check = [&](double level) { check_marks(problem, {{"today", Eigen::Vector2d(level, 0.5)}}); };
+  EXPECT_NO_THROW(check(1));
+  EXPECT_THROW(check(0.5), std::invalid_argument);
 }
 
 // What was found once is what everybody says of it: the sentences, the page, the front's table and the hauls.
