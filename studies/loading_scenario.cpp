@@ -93,6 +93,13 @@ std::vector<StudyOption> loading_options() {
        "contact coefficients",
        "calibrated",
        {engine::loading::material_names.begin(), engine::loading::material_names.end()}},
+      {.name = "rock-friction",
+       .help = "per cent of what --materials have on rock, floor, steel and tyre: a mine's own rock is "
+               "rougher or smoother",
+       .value = "100",
+       .least = 10,
+       .most = 200,
+       .before = "100"},
       {"solver",
        "contacts: solved as far as force and load need it, or as loosely as in Lindmark (2016), whose "
        "materials need it",
@@ -268,7 +275,9 @@ Scenario loading_scenario(const RunContext& run) {
   if (solved_loosely(chosen(run, "solver"))) scenario.world = engine::loading::lindmark2016_solver();
   scenario = engine::loading::with_speeds(scenario, chosen(run, "speeds"));
   scenario.executor.moves = operator_of(run);
-  scenario.materials = engine::loading::materials_named(chosen(run, "materials"));
+  scenario.materials =
+      engine::loading::with_rock_friction(engine::loading::materials_named(chosen(run, "materials")),
+                                          std::stod(chosen(run, "rock-friction")) / 100);
   scenario.curl = engine::loading::curl_named(chosen(run, "curl"));
   scenario.lift = engine::loading::lift_named(chosen(run, "lift"));
   scenario.executor.lift_end = engine::loading::lift_end_named(chosen(run, "lift-end"));

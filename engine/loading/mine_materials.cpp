@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 #include <drawpoint/engine/loading/mine_materials.hpp>
 #include <stdexcept>
@@ -14,6 +15,10 @@ constexpr double rock_stiffness = 1e9, soft_stiffness = 1e8;  // rock on rock; o
 engine::Material tyre_on_floor() {
   constexpr double stiffness = 2e6, quarter = 14e3;
   return {.friction = 0.8, .stiffness = stiffness, .damping_time = 0.2 * std::sqrt(quarter / stiffness)};
+}
+
+std::array<engine::Material*, 4> pairs_of_rock(MineMaterials& m) {
+  return {&m.rock_rock, &m.rock_terrain, &m.rock_steel, &m.rock_tyre};
 }
 
 }  // namespace
@@ -50,10 +55,15 @@ MineMaterials materials_named(const std::string& name) {
 
 MineMaterials with_resistance(MineMaterials m, std::optional<double> rolling,
                               std::optional<double> spinning) {
-  for (engine::Material* pair : {&m.rock_rock, &m.rock_terrain, &m.rock_steel, &m.rock_tyre}) {
+  for (engine::Material* pair : pairs_of_rock(m)) {
     pair->rolling = rolling.value_or(pair->rolling);
     pair->spinning = spinning.value_or(pair->spinning);
   }
+  return m;
+}
+
+MineMaterials with_rock_friction(MineMaterials m, double factor) {
+  for (engine::Material* pair : pairs_of_rock(m)) pair->friction *= factor;
   return m;
 }
 

@@ -53,6 +53,9 @@ inline constexpr std::array<std::string_view, 2> material_names = {"calibrated",
 MineMaterials with_resistance(MineMaterials materials, std::optional<double> rolling,
                               std::optional<double> spinning);
 
+/// The same with the friction of those four pairs times `factor` [1], for what is uncertain in a mine.
+MineMaterials with_rock_friction(MineMaterials materials, double factor);
+
 /// The table that a World takes, which checks the coefficients; its rows are the kinds of surface.
 engine::MaterialTable material_table(const MineMaterials& materials);
 

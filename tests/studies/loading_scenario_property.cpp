@@ -103,6 +103,18 @@ TEST(LoadingScenario, TheSkilledOperatorsNumbersAreHisOwnUnlessGiven) {
             "");
 }
 
+TEST(LoadingScenario, FrictionIsThatOfAllPairsThatARockTakesPartIn) {
+  const loading::MineMaterials usual = loading::calibrated_materials(),
+                               rough = with({{"rock-friction", "120"}}).materials;
+  EXPECT_DOUBLE_EQ(rough.rock_rock.friction, 1.2 * usual.rock_rock.friction);
+  EXPECT_DOUBLE_EQ(rough.rock_terrain.friction, 1.2 * usual.rock_terrain.friction);
+  EXPECT_DOUBLE_EQ(rough.rock_steel.friction, 1.2 * usual.rock_steel.friction);
+  EXPECT_DOUBLE_EQ(rough.rock_tyre.friction, 1.2 * usual.rock_tyre.friction);
+  EXPECT_EQ(rough.steel_terrain.friction, usual.steel_terrain.friction);
+  EXPECT_EQ(rough.tyre_terrain.friction, usual.tyre_terrain.friction);
+  EXPECT_EQ(with({}).materials.rock_steel.friction, usual.rock_steel.friction) << "bits of runs stay";
+}
+
 TEST(LoadingScenario, FinerRockIsSolvedAsFarAsTheScenes) {
   using namespace engine::granular;
   const loading::Scenario s = with({{"sizes", "mine_with_fines"}}), scene = with({});
