@@ -19,6 +19,7 @@
 #include <drawpoint/kriging/detail/likelihood.hpp>
 #include <drawpoint/kriging/detail/maximize.hpp>
 #include <drawpoint/kriging/detail/starting_points.hpp>
+#include <drawpoint/kriging/detail/trend.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <utility>
 #include <vector>
@@ -35,12 +36,15 @@ struct Search {
   double error_ratio = 1;  ///< root mean square leave-one-out error, chosen over highest
 };
 
-/// Of the runs: at most `many`, evenly picked.
+/// Of the runs: at most `many`, evenly picked, and of the trend's terms those that these tell apart.
 inline LikelihoodProblem thinned(const LikelihoodProblem& all) {
   LikelihoodProblem few = all;
   few.X = thinned(all.X, many);
   few.y = thinned(all.y, many);
-  if (all.F.size()) few.F = thinned(all.F, many);
+  if (all.F.size()) {
+    const Eigen::MatrixXd F = thinned(all.F, many);
+    few.F = columns_of(F, independent_columns(F));
+  }
   if (all.noise.size()) few.noise = thinned(all.noise, many);
   few.threads = 1;
   return few;
