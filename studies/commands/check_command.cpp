@@ -42,10 +42,7 @@ void show_exchange(const std::string& what, const std::string& text) {
 int check_command(const Study& study, const PointSettings& given) {
   require_simulator(study);
   PointSettings settings = given;
-  if (settings.x.empty()) {
-    const Eigen::VectorXd middle = middle_of(study.problem);
-    settings.x.assign(middle.begin(), middle.end());
-  }
+  if (settings.x.empty()) settings.x = typed(middle_of(study.problem));
   const Eigen::MatrixXd points = checked_points(study.problem, settings.x);
   if (points.rows() > 1) throw UsageError("--x: got " + std::to_string(points.rows()) + " points; give one");
   std::optional<TemporaryFolder> temporary;

@@ -72,7 +72,7 @@ RunToRepeat run_to_repeat(const Study& study, const PointSettings& given) {
   if (stored.run.kind == Kind::imported)
     throw UsageError("--run " + std::to_string(*given.run) +
                      ": it was made elsewhere and imported; give its point with --x to simulate it here");
-  stored.settings.x.assign(stored.run.x.begin(), stored.run.x.end());
+  stored.settings.x = typed(stored.run.x);
   stored.settings.seed = stored.run.seed;
   stored.settings.options = store.identity().options;
   if (stored.settings.shared.empty()) stored.settings.shared = folder.shared();

@@ -21,62 +21,84 @@ double typed_value(const doe::Variable& variable, const std::string& text) {
   return text.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
-Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x) {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string variables_of(const doe::Problem& problem) {
+  std::vector<std::string> names;
+  for (const doe::Variable& variable : problem.variables) names.push_back(variable.name);
+  return joined(names);
+}
+
+/// Why it is no value of the variable, after "NAME = TEXT"; empty where it is one.
+std::string complaint(const doe::Variable& v, double value) {
+  using doe::detail::number_text;
+  if (std::isnan(value))
+    return " is no number" + (v.levels.empty() ? "" : "; give one of " + joined(v.levels));
+  if (!(value >= v.lower && value <= v.upper))
+    return " is outside its range " + number_text(v.lower) + " to " + doe::detail::with_unit(v.upper, v.unit);
+  if (v.kind != doe::VariableKind::real && value != std::floor(value))
+    return " is not whole; give a whole number from " + number_text(v.lower) + " to " + number_text(v.upper);
+  return "";
+}
+
+/// Throws UsageError that begins with `before`.
+double checked_value(const doe::Variable& v, const std::string& before, const std::string& text) {
+  const double value = typed_value(v, text);
+  if (const std::string why = complaint(v, value); !why.empty())
+    throw UsageError(before + v.name + " = " +
+                     (std::isnan(value) ? "\"" + text + "\"" : doe::detail::with_unit(value, v.unit)) + why);
+  return value;
+}
+
+}  // namespace
+
+Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<std::string>& x) {
   const auto& variables = problem.variables;
   const std::size_t d = variables.size();
-  if (x.empty() || x.size() % d != 0) {
-    std::string names;
-    for (const auto& v : variables) names += (names.empty() ? "" : ", ") + v.name;
+  if (x.empty() || x.size() % d != 0)
     throw UsageError("--x: got " + std::to_string(x.size()) + " values, need " + std::to_string(d) + ": " +
-                     names);
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const doe::Variable& v = variables[i % d];
-    const bool inside = x[i] >= v.lower && x[i] <= v.upper;
-    if (inside && v.kind != doe::VariableKind::real && x[i] != std::floor(x[i]))
-      throw UsageError("--x: " + v.name + " = " + doe::detail::number_text(x[i]) +
-                       " is not whole; give a whole number from " + doe::detail::number_text(v.lower) +
-                       " to " + doe::detail::number_text(v.upper));
-    if (inside) continue;
-    throw UsageError("--x: " + v.name + " = " + doe::detail::with_unit(x[i], v.unit) +
-                     " is outside its range " + doe::detail::number_text(v.lower) + " to " +
-                     doe::detail::with_unit(v.upper, v.unit));
-  }
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const RowMajor>(x.data(), static_cast<Eigen::Index>(x.size() / d),
-                                    static_cast<Eigen::Index>(d));
+                     variables_of(problem));
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(x.size() / d), static_cast<Eigen::Index>(d));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    points(static_cast<Eigen::Index>(i / d), static_cast<Eigen::Index>(i % d)) =
+        checked_value(variables[i % d], "--x: ", x[i]);
+  return points;
+}
+
+std::vector<std::string> typed(const Eigen::VectorXd& point) {
+  std::vector<std::string> texts;
+  for (const double value : point) texts.push_back(doe::detail::number_text(value));
+  return texts;
 }
 
 Eigen::VectorXd point_named(const doe::Problem& problem, const std::string& option, const std::string& text) {
-  std::string names;
-  for (const auto& v : problem.variables) names += (names.empty() ? "" : ", ") + v.name;
+  const auto& variables = problem.variables;
   const auto refuse = [&](const std::string& what) {
-    throw UsageError(option + ": " + what + "; give NAME=VALUE,... for each of " + names);
+    throw UsageError(option + ": " + what + "; give NAME=VALUE,... for each of " + variables_of(problem));
   };
-  std::vector<std::optional<double>> x(problem.variables.size());
+  std::vector<std::optional<double>> x(variables.size());
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');) {
     const std::string name = part.substr(0, part.find('='));
-    const auto v = std::find_if(problem.variables.begin(), problem.variables.end(),
+    const auto v = std::find_if(variables.begin(), variables.end(),
                                 [&](const doe::Variable& variable) { return variable.name == name; });
-    if (part.find('=') == part.npos || v == problem.variables.end())
-      refuse("\"" + part + "\" names no variable");
-    auto& value = x[static_cast<std::size_t>(v - problem.variables.begin())];
+    if (part.find('=') == part.npos || v == variables.end()) refuse("\"" + part + "\" names no variable");
+    auto& value = x[static_cast<std::size_t>(v - variables.begin())];
     if (value) refuse(name + " stands there twice");
-    value = typed_value(*v, part.substr(name.size() + 1));
-    if (!std::isfinite(*value))
-      refuse("\"" + part + "\" has no number" + (v->levels.empty() ? "" : " and no level"));
+    value = checked_value(*v, option + ": ", part.substr(name.size() + 1));
   }
-  std::vector<double> point;
+  Eigen::VectorXd point(static_cast<Eigen::Index>(x.size()));
   for (std::size_t k = 0; k < x.size(); ++k) {
-    if (!x[k]) refuse(problem.variables[k].name + " is missing");
-    point.push_back(*x[k]);
+    if (!x[k]) refuse(variables[k].name + " is missing");
+    point[static_cast<Eigen::Index>(k)] = *x[k];
   }
-  try {
-    return checked_points(problem, point).row(0).transpose();
-  } catch (const UsageError& e) {
-    throw UsageError(option + std::string(e.what()).substr(std::string("--x").size()));
-  }
+  return point;
 }
 
 }  // namespace drawpoint::studies

@@ -26,7 +26,7 @@ struct UsageError : std::runtime_error {
 struct ConfirmSettings {
   int points = 6;              ///< of the front per round, 1 or more; with `x` 0 or more
   int rounds = 3;              ///< at most, 1 or more
-  std::vector<double> x = {};  ///< points besides those of the front, one after the other, natural units
+  std::vector<std::string> x = {};  ///< points besides those of the front, one after the other, as typed
 };
 
 /// Options of `ask`.
@@ -141,7 +141,7 @@ struct PointSettings {
   std::optional<std::int64_t> run =
       {};  ///< a run of the study in `out`, whose point, seed and options are taken
   std::filesystem::path out = {};
-  std::vector<double> x = {};  ///< in the order of the problem's variables, natural units
+  std::vector<std::string> x = {};  ///< in the order of the problem's variables, as typed
   doe::Seed seed = 1;
   std::filesystem::path log = {};     ///< empty: a temporary file
   std::filesystem::path shared = {};  ///< folder that Study::prepare fills

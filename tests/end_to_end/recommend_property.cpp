@@ -62,7 +62,7 @@ TEST_F(Recommending, SaysWhatIsTrueOfAKnownFunctionBesideAReferenceAndHowToSimul
   refused("x=1", "y is missing; give NAME=VALUE,... for each of x, y");
   refused("x=1,x=0", "x stands there twice");
   refused("x=1,z=0", "\"z=0\" names no variable");
-  refused("x=1,y=much", "\"y=much\" has no number");
+  refused("x=1,y=much", "y = \"much\" is no number");
   refused("x=7,y=0", "x = 7 m is outside its range 0 to 1 m");
   // The command that it gives simulates this point alone.
   const std::string line = said["confirm"];
