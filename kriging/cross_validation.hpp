@@ -8,8 +8,9 @@
 /// leave_one_out(model): closed form (left_out.hpp), θ and λ as fitted, β estimated anew without each run.
 /// Cost n³/3, no refits. The s² is that of all runs, and what is unknown of θ and λ is left out. θ and λ have
 /// seen the run, so the error is estimated somewhat low. k_fold and hold_out fit anew without the runs that
-/// they predict: honest, at the cost of the fits. Repeats are left out together, since one gives the others
-/// away: what is shared out at random, by the seed, are distinct points with all their runs.
+/// they predict: honest, at the cost of the fits. A fitter f(X, y, rows) is told which runs it gets, for the noise of
+/// each. Repeats are left out together, since one gives the others away: what is shared out at random, by the seed, are
+/// distinct points with all their runs.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -110,7 +111,7 @@ void predict_without(const std::vector<Eigen::Index>& out, const Eigen::MatrixXd
   const std::vector<Eigen::Index> in = rows_besides(out, X.rows());
   const Eigen::MatrixXd others = rows_of(X, in);  // with names: a fitter may take `auto&`
   const Eigen::VectorXd of_others = entries_of(v.observed, in);
-  const auto model = fitter(others, of_others);
+  const auto model = fitted(fitter, others, of_others, in);
   const Eigen::MatrixXd points = rows_of(X, out);
   const Prediction p = model.predict(points), run = model.predict(points, Target::observation);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -190,7 +191,7 @@ namespace detail {
 template <class F>
 Validation without_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const F& fitter,
                         const SplitOptions& options) {
-  const auto model = fitter(X, y);
+  const auto model = fitted(fitter, X, y, rows_besides({}, X.rows()));
   if constexpr (LeaveOneOutInClosedForm<std::remove_cvref_t<decltype(model)>>)
     if (const std::optional<Validation> v = leave_one_out(model)) return *v;
   const auto points = static_cast<Eigen::Index>(sites_of(X).size());

@@ -11,6 +11,7 @@
 #include <concepts>
 #include <drawpoint/kriging/model.hpp>
 #include <type_traits>
+#include <vector>
 
 namespace drawpoint::kriging {
 
@@ -32,6 +33,13 @@ concept Fitter = requires(const F& f, const Eigen::MatrixXd& X, const Eigen::Vec
   { f(X, y) } -> Surrogate;
 };
 
+/// Takes the numbers of the rows, too, for what else belongs to a run: its noise.
+template <class F>
+concept FitterOfRows = requires(const F& f, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                                const std::vector<Eigen::Index>& rows) {
+  { f(X, y, rows) } -> Surrogate;
+};
+
 static_assert(SmoothSurrogate<Model>);
 
 namespace detail {
@@ -47,9 +55,18 @@ constexpr void require_surrogate() {
 template <class F>
 constexpr void require_fitter() {
   static_assert(
-      Fitter<F>,
+      Fitter<F> || FitterOfRows<F>,
       "drawpoint: not a fitter. Expected f(X, y) giving a surrogate, X an Eigen::MatrixXd with one run a "
-      "row, y an Eigen::VectorXd");
+      "row, y an Eigen::VectorXd; or f(X, y, rows), rows the std::vector<Eigen::Index> of their numbers");
+}
+
+template <class F>
+auto fitted(const F& fitter, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+            const std::vector<Eigen::Index>& rows) {
+  if constexpr (FitterOfRows<F>)
+    return fitter(X, y, rows);
+  else
+    return fitter(X, y);
 }
 
 }  // namespace detail

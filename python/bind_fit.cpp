@@ -120,8 +120,11 @@ void bind_fit(py::module_& m) {
       "k_fold",
       [](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds, const kriging::FitOptions& options,
          doe::Seed seed) {
-        const auto fitter = [&](const Eigen::MatrixXd& P, const Eigen::VectorXd& v) {
-          return kriging::fit(P, v, options);
+        const auto fitter = [&](const Eigen::MatrixXd& P, const Eigen::VectorXd& v,
+                                const std::vector<Eigen::Index>& rows) {
+          kriging::FitOptions mine = options;
+          if (options.noise_variance.size() > 0) mine.noise_variance = options.noise_variance(rows);
+          return kriging::fit(P, v, mine);
         };
         return kriging::k_fold(X, y, folds, fitter, {.seed = seed});
       },

@@ -162,13 +162,21 @@ class Kriging:
         """Every run predicted without it and its repeats, in closed form, parameters as fitted."""
         return Validation(_core.leave_one_out(self._fitted()))
 
-    def k_fold(self, X: npt.ArrayLike, y: npt.ArrayLike, folds: int = 5, seed: int = 1) -> Validation:
-        """Every run predicted by a fit, with these parameters, to the other folds; the model of self stays.
+    def k_fold(
+        self,
+        X: npt.ArrayLike,
+        y: npt.ArrayLike,
+        folds: int = 5,
+        seed: int = 1,
+        noise: Optional[npt.ArrayLike] = None,
+    ) -> Validation:
+        """Every run predicted by a fit, with these parameters and noise as of fit(), to the other folds.
 
-        Raises ValueError for folds other than 2 to the number of different rows.
+        The model of self stays. Raises ValueError for folds other than 2 to the number of different rows.
         """
         runs, response = _runs(X, y)
-        return Validation(_core.k_fold(runs, response, folds, self._options(None), seed))
+        options = self._options(_noise(noise, response.size))
+        return Validation(_core.k_fold(runs, response, folds, options, seed))
 
     def covariance(self, X: npt.ArrayLike) -> Array:
         """Joint covariance of the response without noise at the rows of X, (m, d): (m, m), unit of y squared."""

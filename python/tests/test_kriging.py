@@ -126,6 +126,13 @@ def test_noise_that_is_known_is_not_fitted_through():
     assert known.leave_one_out().rmse > 0.15
     with pytest.raises(ValueError, match="deterministic is True"):
         Kriging(deterministic=True).fit(x, y, 0.04)
+    # each fold is fitted with the noise of its own runs: of two runs, one quiet and one loud, the quiet one is believed
+    told = np.where(np.arange(60) % 2 == 0, 1e-6, 4.0)
+    scattered = np.sin(6 * x[:, 0]) + np.where(told > 1, 2.0, 0.0)
+    believing = Kriging().k_fold(x, scattered, noise=told)
+    quiet = told < 1
+    assert abs(believing.predicted - np.sin(6 * x[:, 0]))[quiet].max() < 0.1
+    assert abs(Kriging().k_fold(x, scattered).predicted - np.sin(6 * x[:, 0]))[quiet].max() > 0.5
 
 
 def test_validation_counts_runs_that_the_model_has_not_seen(model):

@@ -165,6 +165,20 @@ TEST(KFold, PredictsEachRunByAModelThatHasNotSeenIt) {
   EXPECT_EQ(k_fold(X, y, 5, fitter, {.seed = 2}).predicted, k_fold(X, y, 5, fitter, {.seed = 2}).predicted);
 }
 
+TEST(KFold, TellsAFitterWhoseRunsTheRowsAre) {
+  const MatrixXd X = reference::design(14, 2, 8);
+  const VectorXd y = reference::values(wave, X), noise = VectorXd::LinSpaced(14, 0.01, 0.05);
+  int fits = 0;
+  const auto with_noise = [&](const MatrixXd& P, const VectorXd& v, const std::vector<Eigen::Index>& rows) {
+    ++fits;
+    EXPECT_EQ(P, X(rows, Eigen::all));
+    EXPECT_EQ(v, y(rows));
+    return fit(P, v, {.noise = Noise::known, .noise_variance = noise(rows)});
+  };
+  EXPECT_LT(k_fold(X, y, 7, with_noise).nrmse, 1);
+  EXPECT_EQ(fits, 7);
+}
+
 TEST(HoldOut, PredictsTheShareThatWasAskedFor) {
   const MatrixXd X = reference::design(20, 2, 8);
   const VectorXd y = reference::values(wave, X);
