@@ -6,6 +6,7 @@
 /// t = 0.58975.
 
 #include <drawpoint/studies/model/hauls.h>
+#include <drawpoint/studies/model/recommendation.h>
 #include <drawpoint/studies/say/front_report.h>
 #include <drawpoint/studies/say/page/answer.h>
 #include <drawpoint/studies/say/page/data.h>

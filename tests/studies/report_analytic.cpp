@@ -6,6 +6,7 @@
 #include <drawpoint/studies/model/fits/surface.h>
 #include <drawpoint/studies/model/fits/surface_error.h>
 #include <drawpoint/studies/model/fits/words.h>
+#include <drawpoint/studies/model/fronts/front_points.h>
 #include <drawpoint/studies/say/page/panels.h>
 #include <drawpoint/studies/say/page/report_summary.h>
 #include <drawpoint/doe/bounds.hpp>
