@@ -1,6 +1,6 @@
 # Install, export and packages. A component is one module: its headers, its library if it has one, its export file.
 # The component `common` is what all need: the package config and the licence. The component `programs` is the
-# studies to run, with what studies/front/CMakeLists.txt adds to them, `python` the Python module; `everything` is a package that brings all
+# studies to run, with what studies/launcher/CMakeLists.txt adds to them, `python` the Python module; `everything` is a package that brings all
 # modules.
 
 if(NOT DRAWPOINT_INSTALL OR NOT DRAWPOINT_BUILD_TOOLKIT)
@@ -35,7 +35,7 @@ function(drawpoint_install component)
   endif()
   foreach(folder IN LISTS folders)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/ DESTINATION include/drawpoint/${folder}
-            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" REGEX "/studies/[a-z]+$" EXCLUDE # rooms, all inside
+            COMPONENT ${component} FILES_MATCHING PATTERN "*.hpp" REGEX "/studies/[a-z_]+$" EXCLUDE # rooms, all inside
             REGEX "${drawpoint_headers_elsewhere}" EXCLUDE)
   endforeach()
 endfunction()
@@ -70,7 +70,7 @@ if(DRAWPOINT_BUILD_STUDIES)
           COMPONENT programs EXCLUDE_FROM_ALL)
   # Of what the programs hold: the report's libraries, and Debian's packages of headers and of a static library.
   foreach(library plotly.js-dist-min three)
-    install(FILES ${PROJECT_BINARY_DIR}/studies/report/npm/node_modules/${library}/LICENSE RENAME copyright.${library}
+    install(FILES ${PROJECT_BINARY_DIR}/studies/say/page/npm/node_modules/${library}/LICENSE RENAME copyright.${library}
             DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/drawpoint COMPONENT programs EXCLUDE_FROM_ALL)
   endforeach()
   foreach(package libeigen3-dev libcli11-dev nlohmann-json3-dev libsqlitecpp-dev libcpp-httplib-dev)

@@ -6,9 +6,9 @@
 /// With the machine's own engine of 382 kW and with its hydraulics, whose pump goes with the speed of the
 /// arm. The strategy's place across the drift (gamma, weak everywhere) stays in the middle.
 
-#include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/studies/loading_study.h>
-#include <drawpoint/studies/log_entries.h>
+#include <drawpoint/studies/loading/loading_scenario.h>
+#include <drawpoint/studies/loading/loading_study.h>
+#include <drawpoint/studies/loading/log_entries.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 

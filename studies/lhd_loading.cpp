@@ -3,9 +3,9 @@
 /// The case of Lindmark (2016): how should an LHD load from a muckpile in a drift, and what does each choice
 /// cost?
 
-#include <drawpoint/studies/loading_findings.h>
-#include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/studies/loading_study.h>
+#include <drawpoint/studies/loading/loading_findings.h>
+#include <drawpoint/studies/loading/loading_scenario.h>
+#include <drawpoint/studies/loading/loading_study.h>
 #include <drawpoint/engine/loading/log/rock_left.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 

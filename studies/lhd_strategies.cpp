@@ -5,9 +5,9 @@
 ///
 /// At what the machine's engine and hydraulics can do, haul counted, at the middle of the drift.
 
-#include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/studies/loading_study.h>
-#include <drawpoint/studies/log_entries.h>
+#include <drawpoint/studies/loading/loading_scenario.h>
+#include <drawpoint/studies/loading/loading_study.h>
+#include <drawpoint/studies/loading/log_entries.h>
 #include <drawpoint/engine/loading/log/responses.hpp>
 #include <drawpoint/engine/loading/log/run_measures.hpp>
 #include <drawpoint/engine/loading/strategy/families.hpp>

@@ -3,9 +3,9 @@
 
 /// default_mix: are adaptive runs as a study makes them by default ever worse than a plan? See the help text.
 
-#include <drawpoint/studies/models/tables.h>
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/sampling/adaptive.h>
+#include <drawpoint/studies/model/fits/tables.h>
+#include <drawpoint/studies/model/sampling/adaptive.h>
+#include <drawpoint/studies/run/plan.h>
 #include <drawpoint/benchmarks/toolkit/median.hpp>
 #include <drawpoint/benchmarks/toolkit/table_options.hpp>
 #include <drawpoint/benchmarks/toolkit/unit_box.hpp>

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/store/store.h>
 #include <drawpoint/benchmarks/toolkit/cpu_time.hpp>
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/detail/enumerators.hpp>

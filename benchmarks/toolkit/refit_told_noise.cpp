@@ -7,9 +7,9 @@
 /// the noise of a run [unit of the response], the error over the range of the validation runs, and how many of
 /// these lie within their 95 % interval.
 
-#include <drawpoint/studies/models/models.h>
-#include <drawpoint/studies/report/stated_interval.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/model/fits/models.h>
+#include <drawpoint/studies/model/fits/stated_interval.h>
+#include <drawpoint/studies/run/store/store.h>
 
 #include <cstdio>
 #include <exception>

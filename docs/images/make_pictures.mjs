@@ -20,18 +20,18 @@ const here = dirname(fileURLToPath(import.meta.url)),
   programs = join(root, 'build/release/studies');
 
 /// What decides how a picture looks. The simulator's name changes with what it simulates.
-const web = (...names) => names.map((name) => `studies/report/web/${name}.js`);
+const web = (...names) => names.map((name) => `studies/say/page/web/${name}.js`);
 const scene = web('scene', 'stage', 'scene_parts', 'surface_material', 'drift_mesh', 'tyre_mesh', 'rock_cover');
 const drawnBy = {
   'machine_and_front.jpg': [
     'engine/loading/libraries.hpp',
     'engine/loading/machine_looks.cpp',
-    'studies/loading_scene.cpp',
-    'studies/loading_looks.cpp',
+    'studies/loading/loading_scene.cpp',
+    'studies/loading/loading_looks.cpp',
     ...scene,
     ...web('front', 'projections'),
   ],
-  'report.png': ['studies/formula_demo.cpp', 'studies/report/web/style.css', ...web('main', 'header', 'summary', 'front')],
+  'report.png': ['studies/formula_demo.cpp', 'studies/say/page/web/style.css', ...web('main', 'header', 'summary', 'front')],
 };
 
 function digest(files) {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/export.h>
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/commands/output_file.h>
+#include <drawpoint/studies/commands/options/output_file.h>
 #include <drawpoint/studies/commands/planning.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/say/export.h>
 #include <unistd.h>
 
 #include <algorithm>

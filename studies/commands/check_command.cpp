@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/one_run.h>
-#include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/plain_text.h>
+#include <drawpoint/studies/commands/options/points.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/plain_text.h>
 
 #include <chrono>
 #include <cmath>

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/commands/did_you_mean.h>
 #include <drawpoint/studies/commands/freed_memory.h>
-#include <drawpoint/studies/commands/marks.h>
-#include <drawpoint/studies/commands/problem_text.h>
-#include <drawpoint/studies/commands/questions.h>
+#include <drawpoint/studies/commands/options/did_you_mean.h>
+#include <drawpoint/studies/commands/options/mark_options.h>
+#include <drawpoint/studies/commands/options/problem_text.h>
+#include <drawpoint/studies/commands/options/questions.h>
+#include <drawpoint/studies/commands/options/run_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
-#include <drawpoint/studies/commands/run_options.h>
-#include <drawpoint/studies/live/server.h>
-#include <drawpoint/studies/store/option_values.h>
-#include <drawpoint/studies/store/plain_text.h>
+#include <drawpoint/studies/run/store/option_values.h>
+#include <drawpoint/studies/run/store/plain_text.h>
+#include <drawpoint/studies/say/live/server.h>
+#include <drawpoint/studies/say/versions.h>
 #include <CLI/CLI.hpp>
 #include <drawpoint/doe/problem.hpp>
 

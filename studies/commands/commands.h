@@ -5,8 +5,8 @@
 /// a failed run or study), throws UsageError (exit code 2), Interrupted (130) or another std::exception (1).
 /// Messages go to standard output, or to standard error when that is kept for JSON.
 
-#include <drawpoint/studies/analysis/export.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/say/export.h>
 #include <drawpoint/studies/study.hpp>
 
 namespace drawpoint::studies {

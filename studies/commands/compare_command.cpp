@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
-#include <drawpoint/studies/commands/other_folder.h>
-#include <drawpoint/studies/comparison/comparison_report.h>
-#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/commands/options/other_folder.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/say/comparison_report.h>
 
 #include <cstdio>
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
+#include <drawpoint/studies/commands/options/points.h>
 #include <drawpoint/studies/commands/planning.h>
-#include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/models/confirmations.h>
-#include <drawpoint/studies/models/front.h>
-#include <drawpoint/studies/runs/execution.h>
-#include <drawpoint/studies/runs/interrupt.h>
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/sampling/confirmation.h>
+#include <drawpoint/studies/model/fronts/confirmations.h>
+#include <drawpoint/studies/model/fronts/front.h>
+#include <drawpoint/studies/model/sampling/confirmation_round.h>
+#include <drawpoint/studies/run/execution.h>
+#include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/session.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/one_run.h>
-#include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/runs/printed_text.h>
-#include <drawpoint/studies/runs/run_ends.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/plain_text.h>
+#include <drawpoint/studies/commands/options/points.h>
+#include <drawpoint/studies/run/program/printed_text.h>
+#include <drawpoint/studies/run/run_ends.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/plain_text.h>
 #include <fcntl.h>
 #include <unistd.h>
 #include <drawpoint/doe/black_box.hpp>

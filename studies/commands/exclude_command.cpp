@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

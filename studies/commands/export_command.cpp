@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/export.h>
-#include <drawpoint/studies/analysis/whole_study.h>
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/commands/output_file.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/commands/options/output_file.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/say/export.h>
+#include <drawpoint/studies/say/whole_study.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 
 #include <cstdio>

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/analysis.h>
-#include <drawpoint/studies/analysis/summary.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
-#include <drawpoint/studies/commands/marks.h>
-#include <drawpoint/studies/runs/execution.h>
-#include <drawpoint/studies/runs/interrupt.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/runs/spot_check.h>
-#include <drawpoint/studies/runs/workers.h>
+#include <drawpoint/studies/commands/options/mark_options.h>
+#include <drawpoint/studies/run/execution.h>
+#include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/spot_check.h>
+#include <drawpoint/studies/run/workers.h>
+#include <drawpoint/studies/say/analysis.h>
+#include <drawpoint/studies/say/study_summary.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #pragma once
 /// What the commands that make runs have in common.
 
-#include <drawpoint/studies/runs/settings.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
 #include <functional>

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/front_report.h>
-#include <drawpoint/studies/analysis/report_input.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/front_input.h>
 #include <drawpoint/studies/commands/json_output.h>
-#include <drawpoint/studies/models/front.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
+#include <drawpoint/studies/model/fronts/front.h>
+#include <drawpoint/studies/model/recommendation.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/say/front_report.h>
+#include <drawpoint/studies/say/report_input.h>
 
 #include <cstdio>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/studies/analysis/report_input.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/say/report_input.h>
 #include <drawpoint/studies/study.hpp>
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/live/server.h>
+#include <drawpoint/studies/say/live/server.h>
 
 #include <cstdio>
 #include <filesystem>

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/model_report.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
-#include <drawpoint/studies/commands/other_folder.h>
-#include <drawpoint/studies/models/suspects.h>
-#include <drawpoint/studies/models/unevenness.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/option_values.h>
+#include <drawpoint/studies/commands/options/other_folder.h>
+#include <drawpoint/studies/model/fits/suspects.h>
+#include <drawpoint/studies/model/fits/unevenness.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/option_values.h>
+#include <drawpoint/studies/say/model_report.h>
 
 #include <cstdio>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/one_run.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/option_values.h>
-#include <drawpoint/studies/store/plain_text.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/option_values.h>
+#include <drawpoint/studies/run/store/plain_text.h>
 #include <drawpoint/doe/black_box.hpp>
 
 #include <cerrno>

@@ -3,8 +3,8 @@
 #pragma once
 /// What the commands that make one run in this process have in common.
 
-#include <drawpoint/studies/runs/program_trouble.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/run/program/program_trouble.h>
+#include <drawpoint/studies/run/settings.h>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/studies/study.hpp>
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/commands/options/points.h>
 #include <drawpoint/studies/commands/planning.h>
-#include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/models/stop_rule.h>
-#include <drawpoint/studies/runs/interrupt.h>
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/sampling/adaptive.h>
-#include <drawpoint/studies/sampling/confirmation.h>
-#include <drawpoint/studies/sampling/criteria.h>
-#include <drawpoint/studies/store/marks.h>
+#include <drawpoint/studies/model/fits/stop_rule.h>
+#include <drawpoint/studies/model/sampling/adaptive.h>
+#include <drawpoint/studies/model/sampling/confirmation_round.h>
+#include <drawpoint/studies/model/sampling/criteria.h>
+#include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/marks.h>
 #include <unistd.h>
 
 #include <cstdio>

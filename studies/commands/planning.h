@@ -3,8 +3,8 @@
 #pragma once
 /// What a study does next, by what its runs have shown; for the commands that make runs and for `ask`.
 
-#include <drawpoint/studies/runs/settings.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/store.h>
 #include <drawpoint/studies/study.hpp>
 
 #include <Eigen/Core>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/commands/frame_options.h>
-#include <drawpoint/studies/commands/marks.h>
+#include <drawpoint/studies/commands/options/frame_options.h>
+#include <drawpoint/studies/commands/options/mark_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
-#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/run/session.h>
 #include <drawpoint/doe/problem.hpp>
 
 namespace drawpoint::studies {

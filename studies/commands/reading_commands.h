@@ -4,7 +4,7 @@
 /// The part of the command line that makes no runs: commands that read a folder, and say or write what is in
 /// it.
 
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/run/settings.h>
 #include <CLI/CLI.hpp>
 #include <drawpoint/studies/study.hpp>
 

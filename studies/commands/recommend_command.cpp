@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/recommended_table.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/front_input.h>
 #include <drawpoint/studies/commands/json_output.h>
-#include <drawpoint/studies/commands/marks.h>
-#include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/commands/options/mark_options.h>
+#include <drawpoint/studies/commands/options/points.h>
+#include <drawpoint/studies/model/recommendation.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/say/recommended_table.h>
 
 #include <cstdio>
 

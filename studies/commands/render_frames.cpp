@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/replay.h>
-#include <drawpoint/studies/commands/frame_options.h>
-#include <drawpoint/studies/commands/output_file.h>
+#include <drawpoint/studies/commands/options/frame_options.h>
+#include <drawpoint/studies/commands/options/output_file.h>
 #include <drawpoint/studies/commands/render_frames.h>
-#include <drawpoint/studies/frames/frame_files.h>
-#include <drawpoint/studies/frames/frame_times.h>
-#include <drawpoint/studies/frames/programs.h>
-#include <drawpoint/studies/frames/rendering.h>
-#include <drawpoint/studies/frames/scratch.h>
-#include <drawpoint/studies/frames/video.h>
-#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/say/frames/frame_files.h>
+#include <drawpoint/studies/say/frames/frame_times.h>
+#include <drawpoint/studies/say/frames/programs.h>
+#include <drawpoint/studies/say/frames/rendering.h>
+#include <drawpoint/studies/say/frames/scratch.h>
+#include <drawpoint/studies/say/frames/video.h>
+#include <drawpoint/studies/say/run_replay.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

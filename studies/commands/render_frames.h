@@ -3,10 +3,10 @@
 #pragma once
 /// A run's scene as pictures and as a film.
 
-#include <drawpoint/studies/analysis/replay.h>
-#include <drawpoint/studies/runs/settings.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/store.h>
+#include <drawpoint/studies/say/run_replay.h>
 #include <drawpoint/studies/study.hpp>
 
 namespace drawpoint::studies {

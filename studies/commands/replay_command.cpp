@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/replay.h>
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/commands/frame_options.h>
-#include <drawpoint/studies/commands/output_file.h>
+#include <drawpoint/studies/commands/options/frame_options.h>
+#include <drawpoint/studies/commands/options/output_file.h>
 #include <drawpoint/studies/commands/render_frames.h>
-#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/say/run_replay.h>
 
 #include <cstdio>
 #include <filesystem>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/responses_anew.h>
-#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/responses_anew.h>
+#include <drawpoint/studies/run/session.h>
 
 #include <algorithm>
 #include <cstdio>

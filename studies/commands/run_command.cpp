@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/folder_work.h>
-#include <drawpoint/studies/commands/marks.h>
+#include <drawpoint/studies/commands/options/mark_options.h>
 #include <drawpoint/studies/commands/planning.h>
-#include <drawpoint/studies/models/counts.h>
-#include <drawpoint/studies/runs/budget.h>
-#include <drawpoint/studies/runs/execution.h>
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/progress.h>
-#include <drawpoint/studies/runs/session.h>
+#include <drawpoint/studies/run/budget.h>
+#include <drawpoint/studies/run/counts.h>
+#include <drawpoint/studies/run/execution.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/progress.h>
+#include <drawpoint/studies/run/session.h>
 #include <unistd.h>
 
 #include <chrono>

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/analysis/versions.h>
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/json_output.h>
-#include <drawpoint/studies/commands/output_file.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/run_logs.h>
-#include <drawpoint/studies/store/share_file.h>
-#include <drawpoint/studies/store/times.h>
+#include <drawpoint/studies/commands/options/output_file.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/run_logs.h>
+#include <drawpoint/studies/run/store/share_file.h>
+#include <drawpoint/studies/run/store/times.h>
+#include <drawpoint/studies/say/versions.h>
 #include <unistd.h>
 
 #include <cstdio>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/commands.h>
-#include <drawpoint/studies/models/counts.h>
-#include <drawpoint/studies/runs/progress.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/marks.h>
-#include <drawpoint/studies/store/option_values.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/counts.h>
+#include <drawpoint/studies/run/progress.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/marks.h>
+#include <drawpoint/studies/run/store/option_values.h>
+#include <drawpoint/studies/run/store/store.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

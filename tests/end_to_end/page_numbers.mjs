@@ -6,8 +6,8 @@
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
-import {meanResponse, predictor, scaledMean} from '../../studies/report/web/kriging.js';
-import {scaledDeviation} from '../../studies/report/web/kriging_error.js';
+import {meanResponse, predictor, scaledMean} from '../../studies/say/page/web/kriging.js';
+import {scaledDeviation} from '../../studies/say/page/web/kriging_error.js';
 
 const [page, table] = process.argv.slice(2).map((file) => readFileSync(file, 'utf8'));
 const open = '<script type="application/json" id="report-data">',

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/live/server.h>
-#include <drawpoint/studies/store/run_logs.h>
+#include <drawpoint/studies/run/store/run_logs.h>
+#include <drawpoint/studies/say/live/server.h>
 #include <signal.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/tests/fuzz/own_folder.hpp>

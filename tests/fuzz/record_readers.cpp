@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/loading_figures.h>
+#include <drawpoint/studies/loading/loading_figures.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/record/contact_problem_file.hpp>
 #include <drawpoint/tests/fuzz/hdf5_edits.hpp>

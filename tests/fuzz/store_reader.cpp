@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/store/row_checksum.h>
-#include <drawpoint/studies/store/rows.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/store/row_checksum.h>
+#include <drawpoint/studies/run/store/rows.h>
+#include <drawpoint/studies/run/store/store.h>
 #include <drawpoint/doe/problem_json.hpp>
 #include <drawpoint/tests/fuzz/own_folder.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <drawpoint/studies/runs/imported_points.h>
-#include <drawpoint/studies/runs/program_reply.h>
-#include <drawpoint/studies/runs/run_ends.h>
-#include <drawpoint/studies/runs/told_outcomes.h>
-#include <drawpoint/studies/study_file.h>
+#include <drawpoint/studies/from_file/study_file.h>
+#include <drawpoint/studies/run/points/imported_points.h>
+#include <drawpoint/studies/run/points/told_outcomes.h>
+#include <drawpoint/studies/run/program/program_reply.h>
+#include <drawpoint/studies/run/run_ends.h>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/tests/fuzz/own_folder.hpp>
 

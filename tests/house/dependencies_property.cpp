@@ -92,10 +92,8 @@ TEST(Dependencies, AnInternalHeaderStaysInside) {
   EXPECT_EQ(first_breach("engine/machine/b.cpp", include), "");
   EXPECT_EQ(first_breach("engine/machine/b.h", include), "");
   EXPECT_EQ(first_breach("studies/a.cpp", "#include <drawpoint/studies/a.h>"), "");
-  EXPECT_NE(first_breach("studies/a.cpp", "#include <drawpoint/studies/store/a.h>"), "");
-  EXPECT_EQ(first_breach("studies/runs/a.cpp", "#include <drawpoint/studies/store/a.h>"), "");
-  EXPECT_EQ(first_breach("studies/store/a.cpp", "#include <drawpoint/studies/runs/a.h>"),
-            "studies/store/a.cpp:1: <drawpoint/studies/runs/a.h>: studies/store/ may not include it");
+  EXPECT_NE(first_breach("studies/a.cpp", "#include <drawpoint/studies/run/store/a.h>"), "");
+  EXPECT_EQ(first_breach("studies/a.cpp", "#include <drawpoint/studies/loading/a.h>"), "");
   EXPECT_NE(first_breach("studies/a.hpp", "#include <drawpoint/studies/b.h>"), "");
   const std::string shared = "#include <drawpoint/engine/geometry/a.h>";
   EXPECT_EQ(first_breach("engine/collision/b.h", shared), "");
@@ -104,6 +102,32 @@ TEST(Dependencies, AnInternalHeaderStaysInside) {
   EXPECT_EQ(first_breach("engine/machine/a.h", "#include <Simbody.h>\nSimTK::State s;"), "");
   EXPECT_EQ(first_breach("engine/loading/a.h", "#include <Simbody.h>"),
             "engine/loading/a.h:1: <Simbody.h>: engine/loading/ may not use Simbody");
+}
+
+TEST(Dependencies, TheRoomsOfStudiesIncludeOneWay) {
+  const std::vector<std::string> rooms{"run", "model", "say", "commands"};
+  for (std::size_t of = 0; of < rooms.size(); ++of)
+    for (std::size_t other = 0; other < rooms.size(); ++other) {
+      const std::string path = "studies/" + rooms[of] + "/a.cpp", header = "studies/" + rooms[other] + "/b.h";
+      const std::string why =
+          path + ":1: <drawpoint/" + header + ">: studies/" + rooms[of] + "/ may not include it";
+      EXPECT_EQ(first_breach(path, "#include <drawpoint/" + header + ">"), other <= of ? "" : why);
+    }
+  EXPECT_NE(first_breach("studies/run/store/a.cpp", "#include <drawpoint/studies/run/b.h>"), "");
+  EXPECT_NE(first_breach("studies/model/fits/a.cpp", "#include <drawpoint/studies/model/fronts/b.h>"), "");
+  EXPECT_NE(first_breach("studies/loading/a.cpp", "#include <drawpoint/studies/model/b.h>"), "");
+}
+
+// Below studies/ every folder of sources is a room of the table: a ground floor beside them has no row.
+TEST(Dependencies, EveryRoomOfStudiesHasItsRow) {
+  for (const Source& source : sources(root, {"studies"})) {
+    const auto end = source.path.find('/', std::string("studies/").size());
+    if (end == std::string::npos) continue;
+    const Row* row = row_of(source.path);
+    ASSERT_TRUE(row) << source.path;
+    EXPECT_TRUE(row->folder.size() > std::string("studies/").size())
+        << source.path << ": its room has no row in the dependency table";
+  }
 }
 
 TEST(Dependencies, AForwardDeclarationLeaksToo) {

@@ -79,55 +79,63 @@ inline const std::vector<Row>& dependency_table() {
        {"Eigen"},
        {}},
       {"studies/", {"doe/", "kriging/", "pareto/", "engine/", "studies/"}, {"Eigen", "nlohmann-json"}, {}},
-      {"studies/store/", study_rooms({"doe/"}, {"store"}), {"Eigen", "nlohmann-json"}, {"SQLiteCpp"}},
-      {"studies/runs/", study_rooms({"doe/"}, {"store", "runs"}), {"Eigen", "nlohmann-json"}, {}},
-      {"studies/report/",
-       study_rooms({"doe/", "kriging/", "pareto/"}, {"report"}),
+      // four rooms, run <- model <- say <- commands, and floors inside them
+      {"studies/run/", study_rooms({"doe/"}, {"run"}), {"Eigen", "nlohmann-json"}, {}},
+      {"studies/run/store/", study_rooms({"doe/"}, {"run/store"}), {"Eigen", "nlohmann-json"}, {"SQLiteCpp"}},
+      {"studies/model/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"run", "model"}),
        {"Eigen", "nlohmann-json"},
        {}},
-      {"studies/models/",
-       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "models"}),
+      {"studies/model/fits/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"run", "model/fits"}),
        {"Eigen", "nlohmann-json"},
        {}},
-      {"studies/analysis/",
-       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "models", "analysis"}),
+      {"studies/model/fronts/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"run", "model/fits", "model/fronts"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
+      {"studies/say/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"run", "model", "say"}),
        {"Eigen", "nlohmann-json"},
        {}},
       // the HDF5 files of engine/record, a library of its own
-      {"studies/analysis/whole_study.cpp",
-       study_rooms({"doe/", "engine/record/file.hpp"}, {"store", "analysis"}),
+      {"studies/say/whole_study.cpp",
+       study_rooms({"doe/", "engine/record/file.hpp"}, {"run/store", "say"}),
        {"nlohmann-json"},
        {}},
-      {"studies/analysis/versions.cpp",
-       study_rooms({"kriging/", "engine/record/hdf5_version.hpp"}, {"store", "analysis"}),
+      {"studies/say/versions.cpp",
+       study_rooms({"kriging/", "engine/record/hdf5_version.hpp"}, {"run/store", "say"}),
        {"Eigen"},
        {}},
-      {"studies/comparison/",
-       study_rooms({"doe/", "kriging/", "pareto/"},
-                   {"store", "runs", "report", "models", "analysis", "comparison"}),
+      {"studies/say/page/",
+       study_rooms({"doe/", "kriging/", "pareto/"}, {"model", "say/page"}),
        {"Eigen", "nlohmann-json"},
        {}},
-      {"studies/sampling/",
-       study_rooms({"doe/", "kriging/", "pareto/"}, {"store", "runs", "report", "models", "sampling"}),
-       {"Eigen", "nlohmann-json"},
-       {}},
-      {"studies/live/",
-       study_rooms({"doe/", "kriging/", "pareto/"},
-                   {"store", "runs", "report", "models", "analysis", "live"}),
-       {"Eigen", "nlohmann-json"},
-       {}},
-      {"studies/live/server.cpp", study_rooms({}, {"runs", "live", "loopback"}), {}, {"cpp-httplib"}},
-      {"studies/loopback/", study_rooms({}, {"loopback"}), {}, {"cpp-httplib"}},
-      {"studies/frames/", study_rooms({"doe/"}, {"runs", "report", "frames"}), {"nlohmann-json"}, {}},
-      {"studies/frames/frame_server.cpp", study_rooms({}, {"frames", "loopback"}), {}, {"cpp-httplib"}},
-      {"studies/front/",
-       {"studies/commands/did_you_mean.h", "studies/commands/option_tree.h"},
+      {"studies/say/live/server.cpp",
+       study_rooms({}, {"run", "say/live", "say/loopback"}),
        {},
-       {"CLI11"}},
+       {"cpp-httplib"}},
+      {"studies/say/loopback/", study_rooms({}, {"say/loopback"}), {}, {"cpp-httplib"}},
+      {"studies/say/frames/",
+       study_rooms({"doe/"}, {"run", "say/page", "say/frames"}),
+       {"nlohmann-json"},
+       {}},
+      {"studies/say/frames/frame_server.cpp",
+       study_rooms({}, {"say/frames", "say/loopback"}),
+       {},
+       {"cpp-httplib"}},
       {"studies/commands/",
-       study_rooms({"doe/"}, {"store", "runs", "models", "analysis", "sampling", "comparison", "live",
-                              "frames", "commands"}),
+       study_rooms({"doe/"}, {"run", "model", "say", "commands"}),
        {"Eigen", "nlohmann-json"},
+       {"CLI11"}},
+      {"studies/loading/",
+       study_rooms({"doe/", "kriging/", "pareto/", "engine/"}, {"loading"}),
+       {"Eigen", "nlohmann-json"},
+       {}},
+      {"studies/from_file/", study_rooms({"doe/"}, {"from_file"}), {"nlohmann-json"}, {}},
+      {"studies/launcher/",
+       {"studies/commands/options/did_you_mean.h", "studies/commands/options/option_tree.h"},
+       {},
        {"CLI11"}}};
   return table;
 }
@@ -174,7 +182,8 @@ inline const Row* row_of(const std::string& path) {
 inline bool internal(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".h"); }
 
 /// Whether the file may see the internal header: one of its own room, or both are in the rooms that make up
-/// contact solving or in those of the studies, which share theirs in the direction of the table.
+/// contact solving or in those of the studies, which share theirs in the direction of the table, or a study is one
+/// of loading.
 inline bool same_inside(const std::string& path, const std::string& header) {
   const auto room = [](const std::string& file) { return file.substr(0, file.rfind('/') + 1); };
   const auto contact = [](const std::string& file) {
@@ -185,7 +194,8 @@ inline bool same_inside(const std::string& path, const std::string& header) {
   const auto study_room = [](const std::string& file) {
     return file.starts_with("studies/") && file.find('/', 8) != std::string::npos;
   };
-  return room(path) == room(header) || (contact(path) && contact(header)) ||
+  const bool loading_study = room(path) == "studies/" && header.starts_with("studies/loading/");
+  return room(path) == room(header) || (contact(path) && contact(header)) || loading_study ||
          (study_room(path) && study_room(header));
 }
 

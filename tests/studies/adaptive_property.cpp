@@ -4,11 +4,11 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/models/failures.h>
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/settings.h>
-#include <drawpoint/studies/sampling/adaptive.h>
-#include <drawpoint/studies/sampling/criteria.h>
+#include <drawpoint/studies/model/fits/failures.h>
+#include <drawpoint/studies/model/sampling/adaptive.h>
+#include <drawpoint/studies/model/sampling/criteria.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/settings.h>
 
 #include <algorithm>
 #include <cmath>

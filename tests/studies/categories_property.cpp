@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A study's categorical variable is one in its models, not the number of its level.
 
-#include <drawpoint/studies/models/failures.h>
-#include <drawpoint/studies/models/models.h>
+#include <drawpoint/studies/model/fits/failures.h>
+#include <drawpoint/studies/model/fits/models.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 

@@ -4,9 +4,9 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/comparison/comparison.h>
-#include <drawpoint/studies/comparison/front_comparison.h>
-#include <drawpoint/studies/comparison/mean_differences.h>
+#include <drawpoint/studies/model/comparison/comparison.h>
+#include <drawpoint/studies/model/comparison/front_comparison.h>
+#include <drawpoint/studies/model/comparison/mean_differences.h>
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/models/confirmations.h>
-#include <drawpoint/studies/models/decision_points.h>
+#include <drawpoint/studies/model/fronts/confirmations.h>
+#include <drawpoint/studies/model/fronts/decision_points.h>
 
 #include <algorithm>
 #include <cmath>

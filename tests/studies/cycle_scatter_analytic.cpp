@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Scatter of cycles about run and number, on tables whose answers are known. Round-off of a few terms: 1e-12.
 
-#include <drawpoint/studies/cycle_scatter.h>
+#include <drawpoint/studies/loading/statistics/cycle_scatter.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The figures that decide findings, on numbers whose answers are known. Round-off of a few terms: 1e-12.
 
-#include <drawpoint/studies/finding_statistics.h>
+#include <drawpoint/studies/loading/statistics/finding_statistics.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

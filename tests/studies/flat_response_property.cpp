@@ -3,13 +3,13 @@
 /// A study of two objectives that compete and a third that is noise: the third is left out of the trade-off,
 /// and text, JSON and page say so.
 
-#include <drawpoint/studies/analysis/front_report.h>
-#include <drawpoint/studies/analysis/model_report.h>
-#include <drawpoint/studies/analysis/summary.h>
-#include <drawpoint/studies/models/decision_points.h>
-#include <drawpoint/studies/models/front.h>
-#include <drawpoint/studies/models/front_uncertainty.h>
-#include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/model/fronts/decision_points.h>
+#include <drawpoint/studies/model/fronts/front.h>
+#include <drawpoint/studies/model/fronts/front_uncertainty.h>
+#include <drawpoint/studies/say/front_report.h>
+#include <drawpoint/studies/say/model_report.h>
+#include <drawpoint/studies/say/page/data.h>
+#include <drawpoint/studies/say/study_summary.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>

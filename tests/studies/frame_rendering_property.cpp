@@ -5,9 +5,9 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/frames/frame_files.h>
-#include <drawpoint/studies/frames/rendering.h>
-#include <drawpoint/studies/runs/interrupt.h>
+#include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/say/frames/frame_files.h>
+#include <drawpoint/studies/say/frames/rendering.h>
 #include <signal.h>
 #include <drawpoint/tests/support/loopback_client.hpp>
 #include <drawpoint/tests/support/png_bytes.hpp>

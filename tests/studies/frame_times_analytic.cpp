@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Which moments become frames: counts and times known exactly.
 
-#include <drawpoint/studies/frames/frame_times.h>
+#include <drawpoint/studies/say/frames/frame_times.h>
 #include <gtest/gtest.h>
 
 using namespace drawpoint::studies;

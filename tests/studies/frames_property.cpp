@@ -4,12 +4,12 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/frames/frame_files.h>
-#include <drawpoint/studies/frames/frame_inbox.h>
-#include <drawpoint/studies/frames/png.h>
-#include <drawpoint/studies/frames/programs.h>
-#include <drawpoint/studies/frames/scratch.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/say/frames/frame_files.h>
+#include <drawpoint/studies/say/frames/frame_inbox.h>
+#include <drawpoint/studies/say/frames/png.h>
+#include <drawpoint/studies/say/frames/programs.h>
+#include <drawpoint/studies/say/frames/scratch.h>
 #include <drawpoint/tests/support/png_bytes.hpp>
 
 #include <chrono>

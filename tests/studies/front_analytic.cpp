@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <drawpoint/studies/models/front.h>
+#include <drawpoint/studies/model/fronts/front.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/fit.hpp>

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <drawpoint/studies/analysis/front_report.h>
-#include <drawpoint/studies/analysis/text_table.h>
-#include <drawpoint/studies/models/decision_points.h>
+#include <drawpoint/studies/model/fronts/decision_points.h>
+#include <drawpoint/studies/say/front_report.h>
+#include <drawpoint/studies/say/text_table.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <drawpoint/studies/models/front_uncertainty.h>
+#include <drawpoint/studies/model/fronts/front_uncertainty.h>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/fit.hpp>
 

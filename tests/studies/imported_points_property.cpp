@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Tables of points made elsewhere: what is taken of them, and that a wrong one is refused with its place.
 
-#include <drawpoint/studies/models/tables.h>
-#include <drawpoint/studies/runs/imported_points.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/model/fits/tables.h>
+#include <drawpoint/studies/run/points/imported_points.h>
+#include <drawpoint/studies/run/settings.h>
 #include <gtest/gtest.h>
 #include <drawpoint/tests/studies/support.hpp>
 

@@ -3,8 +3,8 @@
 /// The loading study that is kept in studies/results, refitted: real responses, noisy, with clusters of runs
 /// where a front was confirmed.
 
-#include <drawpoint/studies/models/models.h>
-#include <drawpoint/studies/report/stated_interval.h>
+#include <drawpoint/studies/model/fits/models.h>
+#include <drawpoint/studies/model/fits/stated_interval.h>
 #include <gtest/gtest.h>
 #include <drawpoint/tests/studies/support.hpp>
 

@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {axesOf, clock, connection, curve, firstAxes, keep, lags, mostPoints, nothingKept, pause, question, totals} from '../../studies/report/web/live_state.js';
+import {axesOf, clock, connection, curve, firstAxes, keep, lags, mostPoints, nothingKept, pause, question, totals} from '../../studies/say/page/web/live_state.js';
 
 const row = (run) => [run, 'training', [0.5], [run]];
 const answer = (epoch, from, runs, ended) => ({epoch, from, rows: runs.map(row), ended});

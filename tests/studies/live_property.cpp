@@ -6,10 +6,10 @@
 #include <drawpoint/tests/studies/support.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/live/site.h>
-#include <drawpoint/studies/live/standing.h>
-#include <drawpoint/studies/live/state.h>
-#include <drawpoint/studies/store/times.h>
+#include <drawpoint/studies/run/store/times.h>
+#include <drawpoint/studies/say/live/site.h>
+#include <drawpoint/studies/say/live/standing.h>
+#include <drawpoint/studies/say/live/state.h>
 #include <unistd.h>
 
 #include <ctime>

@@ -5,8 +5,8 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/live/server.h>
-#include <drawpoint/studies/store/run_logs.h>
+#include <drawpoint/studies/run/store/run_logs.h>
+#include <drawpoint/studies/say/live/server.h>
 #include <signal.h>
 #include <unistd.h>
 #include <drawpoint/tests/support/loopback_client.hpp>

@@ -5,9 +5,9 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/loading_contrasts.h>
-#include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/studies/report/haul_choice.h>
+#include <drawpoint/studies/loading/loading_contrasts.h>
+#include <drawpoint/studies/loading/loading_scenario.h>
+#include <drawpoint/studies/model/haul_choice.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 
 #include <gtest/gtest.h>

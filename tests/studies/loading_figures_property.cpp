@@ -4,7 +4,7 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/loading_figures.h>
+#include <drawpoint/studies/loading/loading_figures.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 /// the variables, without noise, on a uniform sample of fixed seed: effects are many standard errors away
 /// from 0. What is said of fronts is asked of surfaces whose points are chosen.
 
-#include <drawpoint/studies/loading_findings.h>
-#include <drawpoint/studies/loading_front_findings.h>
-#include <drawpoint/studies/loading_run_findings.h>
+#include <drawpoint/studies/loading/loading_findings.h>
+#include <drawpoint/studies/loading/loading_front_findings.h>
+#include <drawpoint/studies/loading/loading_run_findings.h>
 #include <gtest/gtest.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/tests/studies/loading_formulas.hpp>

@@ -3,7 +3,7 @@
 #pragma once
 /// Made-up loading studies: responses are formulas of the variables, and noise.
 
-#include <drawpoint/studies/loading_findings.h>
+#include <drawpoint/studies/loading/loading_findings.h>
 
 #include <cmath>
 #include <functional>

@@ -4,8 +4,8 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/loading_headlines.h>
-#include <drawpoint/studies/loading_scenario.h>
+#include <drawpoint/studies/loading/loading_headlines.h>
+#include <drawpoint/studies/loading/loading_scenario.h>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <drawpoint/engine/loading/log/responses.hpp>
 

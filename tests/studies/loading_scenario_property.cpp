@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Each option of the loading study chooses what it says, and nothing else.
 
-#include <drawpoint/studies/loading_scenario.h>
-#include <drawpoint/studies/store/option_values.h>
+#include <drawpoint/studies/loading/loading_scenario.h>
+#include <drawpoint/studies/run/store/option_values.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>

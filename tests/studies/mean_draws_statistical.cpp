@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Draws of mean responses from noisy runs: the terms they are made of, and how often they hold the truth.
 
-#include <drawpoint/studies/finding_statistics.h>
-#include <drawpoint/studies/mean_draws.h>
-#include <drawpoint/studies/polynomial_terms.h>
+#include <drawpoint/studies/loading/statistics/finding_statistics.h>
+#include <drawpoint/studies/loading/statistics/mean_draws.h>
+#include <drawpoint/studies/loading/statistics/polynomial_terms.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/sobol.hpp>

@@ -4,9 +4,9 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/analysis/summary.h>
-#include <drawpoint/studies/runs/progress.h>
-#include <drawpoint/studies/store/plain_text.h>
+#include <drawpoint/studies/run/progress.h>
+#include <drawpoint/studies/run/store/plain_text.h>
+#include <drawpoint/studies/say/study_summary.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -4,26 +4,26 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {bandOutline} from '../../studies/report/web/band_outline.js';
-import {byShade, colourAt} from '../../studies/report/web/cloud.js';
-import {cyclesOf, withBodies} from '../../studies/report/web/cycle_panels.js';
-import {csv, tsv} from '../../studies/report/web/delimited.js';
-import {number, setting} from '../../studies/report/web/format.js';
-import {predictor} from '../../studies/report/web/kriging.js';
-import {meanInterval, scaledDeviation} from '../../studies/report/web/kriging_error.js';
-import {ranked, rateOfRun, turnTexts} from '../../studies/report/web/haul_rates.js';
-import {brokenText, symbols} from '../../studies/report/web/limits.js';
-import {leftOutText, nestedVariables, outerLevels} from '../../studies/report/web/nested_levels.js';
-import {lineAt} from '../../studies/report/web/parallel_pointer.js';
-import {piecesOf} from '../../studies/report/web/parallel_trace.js';
-import {came, question} from '../../studies/report/web/question_words.js';
-import {distanceToCut, nearCut} from '../../studies/report/web/sampled.js';
-import {words} from '../../studies/report/web/inscription.js';
-import {Poses} from '../../studies/report/web/poses.js';
-import {peaksKept, sampleAt, valueAt} from '../../studies/report/web/signals.js';
-import {selecting} from '../../studies/report/web/selection.js';
-import {SvgPen} from '../../studies/report/web/svg_pen.js';
-import {shares} from '../../studies/report/web/shares.js';
+import {bandOutline} from '../../studies/say/page/web/band_outline.js';
+import {byShade, colourAt} from '../../studies/say/page/web/cloud.js';
+import {cyclesOf, withBodies} from '../../studies/say/page/web/cycle_panels.js';
+import {csv, tsv} from '../../studies/say/page/web/delimited.js';
+import {number, setting} from '../../studies/say/page/web/format.js';
+import {predictor} from '../../studies/say/page/web/kriging.js';
+import {meanInterval, scaledDeviation} from '../../studies/say/page/web/kriging_error.js';
+import {ranked, rateOfRun, turnTexts} from '../../studies/say/page/web/haul_rates.js';
+import {brokenText, symbols} from '../../studies/say/page/web/limits.js';
+import {leftOutText, nestedVariables, outerLevels} from '../../studies/say/page/web/nested_levels.js';
+import {lineAt} from '../../studies/say/page/web/parallel_pointer.js';
+import {piecesOf} from '../../studies/say/page/web/parallel_trace.js';
+import {came, question} from '../../studies/say/page/web/question_words.js';
+import {distanceToCut, nearCut} from '../../studies/say/page/web/sampled.js';
+import {words} from '../../studies/say/page/web/inscription.js';
+import {Poses} from '../../studies/say/page/web/poses.js';
+import {peaksKept, sampleAt, valueAt} from '../../studies/say/page/web/signals.js';
+import {selecting} from '../../studies/say/page/web/selection.js';
+import {SvgPen} from '../../studies/say/page/web/svg_pen.js';
+import {shares} from '../../studies/say/page/web/shares.js';
 
 /// One axis that all have values on, and one that run 2 lacks.
 function designs() {

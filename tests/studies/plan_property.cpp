@@ -5,8 +5,8 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/settings.h>
 
 #include <set>
 

@@ -5,10 +5,11 @@
 /// 10 in both, so that the point nearest to the best of both at once has the least (1 - t)² + t⁴: 2 t³ + t = 1,
 /// t = 0.58975.
 
-#include <drawpoint/studies/analysis/front_report.h>
-#include <drawpoint/studies/models/hauls.h>
-#include <drawpoint/studies/report/answer.h>
-#include <drawpoint/studies/report/data.h>
+#include <drawpoint/studies/model/hauls.h>
+#include <drawpoint/studies/model/recommendation.h>
+#include <drawpoint/studies/say/front_report.h>
+#include <drawpoint/studies/say/page/answer.h>
+#include <drawpoint/studies/say/page/data.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>

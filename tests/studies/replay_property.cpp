@@ -4,9 +4,9 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/analysis/replay.h>
-#include <drawpoint/studies/report/replay.h>
-#include <drawpoint/studies/store/run_logs.h>
+#include <drawpoint/studies/run/store/run_logs.h>
+#include <drawpoint/studies/say/page/replay_page.h>
+#include <drawpoint/studies/say/run_replay.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 
 #include <filesystem>

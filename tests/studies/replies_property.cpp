@@ -4,8 +4,8 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/runs/first_failures.h>
-#include <drawpoint/studies/runs/run_ends.h>
+#include <drawpoint/studies/run/first_failures.h>
+#include <drawpoint/studies/run/run_ends.h>
 
 #include <drawpoint/tests/support/shell_processes.hpp>
 

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <drawpoint/studies/report/panels.h>
-#include <drawpoint/studies/report/summary.h>
-#include <drawpoint/studies/report/surface.h>
-#include <drawpoint/studies/report/surface_error.h>
-#include <drawpoint/studies/report/text.h>
+#include <drawpoint/studies/model/fits/surface.h>
+#include <drawpoint/studies/model/fits/surface_error.h>
+#include <drawpoint/studies/model/fits/words.h>
+#include <drawpoint/studies/model/fronts/front_points.h>
+#include <drawpoint/studies/say/page/panels.h>
+#include <drawpoint/studies/say/page/report_summary.h>
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/tests/studies/report_cases.hpp>
 
@@ -19,7 +20,7 @@ using namespace drawpoint::studies::report_cases;
 
 namespace {
 
-/// What report/web/kriging.js computes.
+/// What say/page/web/kriging.js computes.
 double correlation_of_page(const kriging::CorrelationFunction& f, Eigen::Index k, double h) {
   const double theta = f.theta[k];
   if (f.family == kriging::Correlation::gaussian) return std::exp(-theta * h * h);
@@ -61,7 +62,7 @@ double product_of_page(const detail::Surface& s, const Eigen::VectorXd& a, const
   return c;
 }
 
-/// ∂ln c/∂ln θ of report/web/kriging_error.js.
+/// ∂ln c/∂ln θ of say/page/web/kriging_error.js.
 double slope_of_page(const kriging::CorrelationFunction& f, Eigen::Index k, double h) {
   const double theta = f.theta[k];
   if (f.family == kriging::Correlation::gaussian) return -theta * h * h;
@@ -71,7 +72,7 @@ double slope_of_page(const kriging::CorrelationFunction& f, Eigen::Index k, doub
   return once ? -u * u / (2 * (1 + u)) : -u * u * (1 + u) / (6 * (1 + u + u * u / 3));
 }
 
-/// What report/web/kriging_error.js computes: of z.
+/// What say/page/web/kriging_error.js computes: of z.
 double variance_of_page(const detail::Surface& s, const detail::SurfaceError& e, const Eigen::VectorXd& x) {
   const Eigen::Index n = s.X.rows(), d = x.size();
   const Eigen::VectorXd at = (x - s.centre).cwiseProduct(s.factor);

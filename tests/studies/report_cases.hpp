@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <drawpoint/studies/report/report.h>
+#include <drawpoint/studies/say/page/report.h>
 #include <drawpoint/doe/evaluate.hpp>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/uniform.hpp>

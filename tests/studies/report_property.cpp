@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <drawpoint/studies/analysis/findings.h>
-#include <drawpoint/studies/report/assets.h>
-#include <drawpoint/studies/report/page.h>
+#include <drawpoint/studies/say/findings.h>
+#include <drawpoint/studies/say/page/assets.h>
+#include <drawpoint/studies/say/page/page.h>
 #include <drawpoint/tests/studies/report_cases.hpp>
 #include <drawpoint/tests/support/told.hpp>
 #include <regex>

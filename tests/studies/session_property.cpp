@@ -5,9 +5,9 @@
 
 #include <drawpoint/tests/studies/support.hpp>
 
-#include <drawpoint/studies/runs/plan.h>
-#include <drawpoint/studies/runs/session.h>
-#include <drawpoint/studies/store/option_values.h>
+#include <drawpoint/studies/run/plan.h>
+#include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/option_values.h>
 #include <sys/wait.h>
 #include <drawpoint/doe/problem_json.hpp>
 

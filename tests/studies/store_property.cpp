@@ -5,11 +5,11 @@
 #include <drawpoint/tests/studies/support.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <drawpoint/studies/store/columns.h>
-#include <drawpoint/studies/store/folder.h>
-#include <drawpoint/studies/store/row_checksum.h>
-#include <drawpoint/studies/store/run_logs.h>
-#include <drawpoint/studies/store/store.h>
+#include <drawpoint/studies/run/store/columns.h>
+#include <drawpoint/studies/run/store/folder.h>
+#include <drawpoint/studies/run/store/row_checksum.h>
+#include <drawpoint/studies/run/store/run_logs.h>
+#include <drawpoint/studies/run/store/store.h>
 
 #include <cmath>
 #include <thread>

@@ -3,7 +3,7 @@
 #pragma once
 /// What the tests of studies share: a folder that goes away, a small problem, file contents.
 
-#include <drawpoint/studies/store/identity.h>
+#include <drawpoint/studies/run/store/identity.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <drawpoint/tests/support/files.hpp>

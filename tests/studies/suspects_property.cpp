@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A run that does not belong to the others is named by its number, with what they expect.
 
-#include <drawpoint/studies/models/suspects.h>
+#include <drawpoint/studies/model/fits/suspects.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Runs that tell their own standard error, from the table of runs to what is predicted of the next.
 
-#include <drawpoint/studies/analysis/model_report.h>
-#include <drawpoint/studies/models/models.h>
-#include <drawpoint/studies/models/suspects.h>
-#include <drawpoint/studies/report/data.h>
-#include <drawpoint/studies/sampling/repeats.h>
+#include <drawpoint/studies/model/fits/models.h>
+#include <drawpoint/studies/model/fits/suspects.h>
+#include <drawpoint/studies/model/sampling/repeats.h>
+#include <drawpoint/studies/say/model_report.h>
+#include <drawpoint/studies/say/page/data.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>

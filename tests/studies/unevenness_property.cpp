@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A response that jumps is said to, with the place and the size; one that does not is not spoken of.
 
-#include <drawpoint/studies/models/unevenness.h>
+#include <drawpoint/studies/model/fits/unevenness.h>
 #include <gtest/gtest.h>
 #include <drawpoint/doe/latin_hypercube.hpp>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A study in one HDF5 file: all of it, bit for bit, with units; equal studies give equal files, and what goes
 // wrong leaves the old one.
-#include <drawpoint/studies/analysis/export.h>
-#include <drawpoint/studies/analysis/whole_study.h>
+#include <drawpoint/studies/say/export.h>
+#include <drawpoint/studies/say/whole_study.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <drawpoint/engine/record/file.hpp>

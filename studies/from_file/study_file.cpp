@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/from_file/simulator_files.h>
+#include <drawpoint/studies/from_file/study_file.h>
+#include <drawpoint/doe/detail/hash.hpp>
+#include <drawpoint/doe/problem.hpp>
+#include <drawpoint/studies/external_program.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace drawpoint::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// An object of the file and its place, such as "variables[2]"; errors name both.
+class Section {
+ public:
+  Section(const json& object, fs::path file, std::string place)
+      : object_(object), file_(std::move(file)), place_(std::move(place)) {}
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(file_.string() + ": " + (place_.empty() ? "" : place_ + ": ") + what);
+  }
+
+  void allow_only(std::initializer_list<const char*> keys) const {
+    if (!object_.is_object()) fail("it is " + object_.dump() + "; give an object, {...}");
+    std::string names;
+    for (const char* key : keys) names += (names.empty() ? "" : ", ") + std::string(key);
+    for (const auto& [key, value] : object_.items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        fail("there is no \"" + key + "\"; the keys are " + names);
+  }
+
+  bool has(const char* key) const { return object_.contains(key); }
+
+  std::string text(const char* key) const {
+    const json& value = needed(key, "text");
+    if (!value.is_string()) wrong(key, value, "text in quotes");
+    return value.get<std::string>();
+  }
+
+  std::string text(const char* key, const std::string& otherwise) const {
+    return has(key) ? text(key) : otherwise;
+  }
+
+  double number(const char* key) const {
+    const json& value = needed(key, "a number");
+    if (!value.is_number()) wrong(key, value, "a number");
+    return value.get<double>();
+  }
+
+  double number(const char* key, double otherwise) const { return has(key) ? number(key) : otherwise; }
+
+  int integer(const char* key, int otherwise, int least) const {
+    if (!has(key)) return otherwise;
+    const json& value = object_[key];
+    const int most = 1'000'000;
+    if (!value.is_number_integer() || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
+      wrong(key, value, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    return value.get<int>();
+  }
+
+  bool truth(const char* key, bool otherwise) const {
+    if (!has(key)) return otherwise;
+    const json& value = object_[key];
+    if (!value.is_boolean()) wrong(key, value, "true or false");
+    return value.get<bool>();
+  }
+
+  std::vector<std::string> texts(const char* key) const {
+    std::vector<std::string> all = texts_or_none(key);
+    if (all.empty()) wrong(key, object_[key], "a list of texts, [\"...\", ...]");
+    return all;
+  }
+
+  std::vector<std::string> texts_or_none(const char* key) const {
+    const json& list = needed(key, "a list of texts");
+    std::vector<std::string> all;
+    if (!list.is_array()) wrong(key, list, "a list of texts, [\"...\", ...]");
+    for (const json& entry : list) {
+      if (!entry.is_string()) wrong(key, entry, "texts alone in this list");
+      all.push_back(entry.get<std::string>());
+    }
+    return all;
+  }
+
+  std::vector<double> numbers(const char* key) const {
+    const json& list = needed(key, "a list of numbers");
+    std::vector<double> all;
+    if (!list.is_array()) wrong(key, list, "a list of numbers, [1, ...]");
+    for (const json& entry : list) {
+      if (!entry.is_number()) wrong(key, entry, "numbers alone in this list");
+      all.push_back(entry.get<double>());
+    }
+    return all;
+  }
+
+  std::vector<Section> sections(const char* key) const {
+    const json& list = needed(key, "a list of objects");
+    if (!list.is_array() || list.empty()) wrong(key, list, "a list of objects, [{...}, ...]");
+    std::vector<Section> all;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      all.emplace_back(list[i], file_, std::string(key) + "[" + std::to_string(i) + "]");
+    return all;
+  }
+
+  Section section(const char* key) const { return {object_.at(key), file_, key}; }
+
+  /// The enumerator of this name among `all`.
+  template <class Enum>
+  Enum one_of(const char* key, std::initializer_list<Enum> all) const {
+    const std::string name = text(key);
+    std::string names;
+    for (const Enum value : all) {
+      if (to_string(value) == name) return value;
+      names += (names.empty() ? "" : ", ") + std::string(to_string(value));
+    }
+    wrong(key, object_[key], "one of " + names);
+  }
+
+ private:
+  const json& needed(const char* key, const std::string& what) const {
+    if (!object_.contains(key)) fail('"' + std::string(key) + "\" is missing; give " + what);
+    return object_[key];
+  }
+
+  [[noreturn]] void wrong(const char* key, const json& value, const std::string& wanted) const {
+    fail("\"" + std::string(key) + "\" is " + value.dump() + "; give " + wanted);
+  }
+
+  const json& object_;
+  fs::path file_;
+  std::string place_;
+};
+
+doe::Variable variable_from(const Section& in) {
+  in.allow_only({"name", "unit", "lower", "upper", "kind", "levels", "description"});
+  doe::Variable variable{.name = in.text("name"),
+                         .unit = in.text("unit", "1"),
+                         .lower = 0,
+                         .upper = 0,
+                         .description = in.text("description", "")};
+  if (in.has("kind"))
+    variable.kind = in.one_of(
+        "kind", {doe::VariableKind::real, doe::VariableKind::integer, doe::VariableKind::categorical});
+  if (variable.kind == doe::VariableKind::categorical) {
+    variable.levels = in.texts("levels");
+    variable.upper = static_cast<double>(variable.levels.size()) - 1.0;
+    return variable;
+  }
+  if (in.has("levels")) in.fail("levels are of a variable of the kind categorical; say so, or remove them");
+  variable.lower = in.number("lower");
+  variable.upper = in.number("upper");
+  return variable;
+}
+
+doe::Response response_from(const Section& in) {
+  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper", "description", "standard_error"});
+  doe::Response response{.name = in.text("name"), .unit = in.text("unit", "1")};
+  response.goal = in.one_of("goal", {doe::Goal::minimize, doe::Goal::maximize, doe::Goal::at_most,
+                                     doe::Goal::at_least, doe::Goal::record});
+  response.limit = in.number("limit", response.limit);
+  response.lower = in.number("lower", response.lower);
+  response.upper = in.number("upper", response.upper);
+  response.description = in.text("description", "");
+  response.standard_error = in.text("standard_error", "");
+  return response;
+}
+
+doe::Problem problem_from(const Section& in) {
+  doe::Problem problem;
+  for (const Section& entry : in.sections("variables")) problem.variables.push_back(variable_from(entry));
+  for (const Section& entry : in.sections("responses")) problem.responses.push_back(response_from(entry));
+  problem.deterministic = in.truth("deterministic", false);
+  for (const doe::Response& r : problem.responses)
+    if (problem.deterministic && !r.standard_error.empty())
+      in.fail("deterministic is true, and response \"" + r.name +
+              "\" has a standard_error; leave one of them out");
+  return problem;
+}
+
+std::vector<Mark> marks_from(const Section& in, const doe::Problem& problem) {
+  std::vector<Mark> marks;
+  for (const Section& entry : in.sections("marks")) {
+    entry.allow_only({"name", "x"});
+    const std::vector<double> x = entry.numbers("x");
+    marks.push_back({entry.text("name"),
+                     Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()))});
+  }
+  try {
+    check_marks(problem, marks);
+  } catch (const std::invalid_argument& e) {
+    in.fail(e.what());
+  }
+  return marks;
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The command with whole names of the files beside the study file, and in words with the checksums of these.
+struct Command {
+  std::vector<std::string> words;
+  std::string simulator;
+  std::string note =
+      {};  // what is taken as the program beside its own file, where the study file says nothing
+};
+
+/// Of the files that make the program beside those of its command: their names and checksum.
+std::string described(const SimulatorFiles& files, const fs::path& folder) {
+  constexpr std::size_t most_names = 5;
+  std::string names;
+  if (files.names.size() > most_names)
+    names = std::to_string(files.names.size()) + " files";
+  else
+    for (const fs::path& name : files.names)
+      names += (names.empty() ? "" : ", ") + name.lexically_relative(folder).string();
+  return names + " (checksum " + files.checksum + ")";
+}
+
+void add_files(const Section& in, const fs::path& folder, const std::vector<fs::path>& beside,
+               Command& command) {
+  try {
+    if (in.has("files")) {
+      const SimulatorFiles files = files_named(in.texts_or_none("files"), folder);
+      if (!files.names.empty()) command.simulator += "; files " + described(files, folder);
+      return;
+    }
+    const SimulatorFiles files = files_like(beside, folder);
+    if (files.names.empty() && files.note.empty()) return;
+    command.note = files.note;
+    if (files.names.empty()) return;
+    command.simulator += files_beside_it + described(files, folder);
+    command.note =
+        "the program is taken to be its own file and those beside it that end alike: " +
+        described(files, folder) +
+        "; runs after one of them has changed are another study's. \"files\" in the study file names "
+        "others, or [] none";
+  } catch (const std::runtime_error& e) {
+    in.fail(e.what());
+  }
+}
+
+Command command_from(const Section& in, const fs::path& folder) {
+  Command command;
+  std::vector<fs::path> files;
+  for (const std::string& word : in.texts("command")) {
+    std::error_code ignored;
+    const bool beside = !word.empty() && fs::is_regular_file(folder / word, ignored);
+    command.words.push_back(beside ? (folder / word).string() : word);
+    command.simulator += (command.simulator.empty() ? "" : " ") + word;
+    if (!beside) continue;
+    command.simulator += " (checksum " + doe::detail::checksum(content_of(folder / word)) + ")";
+    files.push_back(folder / word);
+  }
+  if (in.has("version")) command.simulator += "; version " + in.text("version");
+  add_files(in, folder, files, command);
+  return command;
+}
+
+bool streams_from(const Section& in) {
+  const std::string exchange = in.text("exchange", "files");
+  if (exchange != "files" && exchange != "streams")
+    in.fail("\"exchange\" is \"" + exchange +
+            "\"; give \"files\" (names as the last two words) or \"streams\" (standard input and output)");
+  return exchange == "streams";
+}
+
+Defaults defaults_from(const Section& in) {
+  in.allow_only({"runs", "validation", "adaptive"});
+  Defaults defaults;
+  defaults.runs = in.integer("runs", defaults.runs, 2);
+  defaults.validation = in.integer("validation", defaults.validation, 0);
+  defaults.adaptive = in.integer("adaptive", defaults.adaptive, 0);
+  return defaults;
+}
+
+json parsed(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || fs::is_directory(file, ignored) || !std::ifstream(file))
+    throw std::runtime_error(file.string() + ": cannot be read; give the JSON file of a study");
+  const std::string text = content_of(file);
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto once = [&](int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw std::runtime_error(file.string() + ": the key " + value.dump() +
+                               " stands twice in one object; remove one");
+    return true;
+  };
+  try {
+    return json::parse(text, once);
+  } catch (const json::exception& e) {
+    throw std::runtime_error(file.string() + ": no JSON: " + e.what());
+  }
+}
+
+/// A file's name, and what it and its simulator were when the study began; empty where it begins now.
+struct Word {
+  fs::path file;
+  std::string checksum;
+};
+
+Word parsed_word(const std::string& word) {
+  const auto colon = word.find(':');
+  if (word.empty() || word[0] != '@' || colon == std::string::npos) return {word, ""};
+  return {word.substr(colon + 1), word.substr(1, colon - 1)};
+}
+
+}  // namespace
+
+Study study_from(const std::string& word) {
+  const auto [file, expected] = parsed_word(word);
+  const json content = parsed(file);
+  const Section in(content, file, "");
+  in.allow_only({"name", "about", "variables", "responses", "deterministic", "command", "exchange", "files",
+                 "version", "attempts", "time_limit", "defaults", "marks"});
+  Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
+  if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
+  if (in.has("marks")) study.marks = marks_from(in, study.problem);
+  const bool elsewhere = !in.has("command");
+  for (const char* key : {"attempts", "time_limit", "exchange", "files", "version"})
+    if (elsewhere && in.has(key))
+      in.fail("\"" + std::string(key) +
+              "\" is of a command, and there is none; give \"command\", or leave it out: then runs are made "
+              "elsewhere");
+  const Command command = elsewhere ? Command{} : command_from(in, fs::absolute(file).parent_path());
+  study.simulator_note = command.note;
+  const std::string checksum = doe::detail::checksum(content.dump() + command.simulator);
+  if (!expected.empty() && expected != checksum)
+    in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
+  study.simulator = command.simulator;
+  study.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
+  if (elsewhere) return study;
+  const ExternalProgram program{.command = command.words,
+                                .time_limit = in.number("time_limit", 0.0),
+                                .attempts = in.integer("attempts", 1, 1),
+                                .streams = streams_from(in)};
+  try {
+    study.black_box = external_program(study.problem, program);
+  } catch (const std::invalid_argument& e) {
+    in.fail(e.what());
+  }
+  return study;
+}
+
+}  // namespace drawpoint::studies
