@@ -29,10 +29,10 @@ namespace {
 constexpr int failure = 1;
 constexpr int wrong_usage = 2;
 /// Those that are told; prepare is for `run` alone.
-constexpr std::array<const char*, 20> commands = {
-    "run",   "check",    "confirm",         "ask",       "tell",    "exclude", "status", "live",
-    "fit",   "validate", "front",           "recommend", "compare", "report",  "replay", "export",
-    "share", "open",     "rerun-responses", "evaluate"};
+constexpr std::array<const char*, 21> commands = {
+    "run",    "check",  "confirm",  "ask",   "tell",    "exclude",         "status",
+    "live",   "fit",    "validate", "front", "predict", "recommend",       "compare",
+    "report", "replay", "export",   "share", "open",    "rerun-responses", "evaluate"};
 
 /// Behind the program and the study's leading words.
 std::vector<std::string> typed_words(int argc, char** argv, const Study& study) {

@@ -29,6 +29,8 @@ int fit_command(const Study& study, const Settings& settings);
 int validate_command(const Study& study, const Settings& settings);
 /// The predicted front in the terminal.
 int front_command(const Study& study, const Settings& settings);
+/// What the models expect at points of the user's, as a table.
+int predict_command(const Study& study, const Settings& settings);
 /// One strategy, what it gains, and how to simulate it.
 int recommend_command(const Study& study, const Settings& settings);
 /// The folder in one file, for another machine.

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/run/session.h>
 #include <drawpoint/studies/run/store/folder.h>
 #include <drawpoint/studies/say/export.h>
+#include <drawpoint/studies/say/findings.h>
 #include <drawpoint/studies/say/whole_study.h>
 #include <drawpoint/doe/detail/atomic_file.hpp>
 
@@ -38,10 +39,18 @@ void export_study(const Identity& identity, const std::vector<Run>& runs, const 
   if (!no_front.empty()) std::fprintf(stderr, "without a front: %s\n", no_front.c_str());
 }
 
+ExportTable table_of(const Study& study, const Store& store, const Folder& folder, const std::string& what) {
+  if (what == "findings") return findings_table(study, store, folder);
+  if (what == "front") return front_table(store.identity(), store.runs());
+  return runs_table(store.identity(), store.runs());
+}
+
 }  // namespace
 
 int export_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
+  if (settings.exported.what == "findings" && !study.findings)
+    throw UsageError("--what findings: this study has none to hold its runs against; give runs or front");
   const Store store = open_store(study, folder);
   ExportSettings wanted = settings.exported;
   wanted.file = output_file(folder, wanted.file);
@@ -49,10 +58,7 @@ int export_command(const Study& study, const Settings& settings) {
     export_study(store.identity(), store.runs(), wanted);
     return 0;
   }
-  write_table(study,
-              wanted.what == "front" ? front_table(store.identity(), store.runs())
-                                     : runs_table(store.identity(), store.runs()),
-              wanted);
+  write_table(study, table_of(study, store, folder, wanted.what), wanted);
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #include <drawpoint/studies/commands/commands.h>
 #include <drawpoint/studies/commands/options/frame_options.h>
 #include <drawpoint/studies/commands/options/mark_options.h>
+#include <drawpoint/studies/commands/options/run_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
 #include <drawpoint/studies/run/session.h>
 #include <drawpoint/doe/problem.hpp>
@@ -19,8 +20,11 @@ constexpr int most_points = 1'000'000;
 constexpr int most_run = 1'000'000'000;
 
 void add_export_options(CLI::App& command, const Study& study, ExportSettings& settings) {
-  command.add_option("--what", settings.what, "every run, or the front that the models predict")
-      ->check(CLI::IsMember({"runs", "front"}))
+  command
+      .add_option(
+          "--what", settings.what,
+          "every run, the front that the models predict, or the study's findings held against its runs")
+      ->check(CLI::IsMember({"runs", "front", "findings"}))
       ->default_str("runs");
   add_table_options(command, settings, {"csv", "json", "hdf5"});
   command.footer("hdf5 is the whole study in one file: problem, runs and front.\n" + example_of(command) +
@@ -37,6 +41,19 @@ void add_front_options(CLI::App& command, FrontSettings& settings) {
       ->capture_default_str();
   command.add_flag("--all", settings.every_point, "show every point");
   command.footer(example_of(command) + " --limit 10");
+}
+
+void add_predict_options(CLI::App& command, Settings& settings, const doe::Problem& problem) {
+  command.add_option("--x", settings.predict.x, "a point: " + names_of(problem) + "; repeatable")
+      ->delimiter(',');
+  command.add_option("--points", settings.predict.points,
+                     "table of points, comma-separated, with a column per variable; others are left alone");
+  add_table_options(command, settings.exported, {"csv", "json"});
+  command.footer(
+      "Of each response: what is expected, the interval that should hold 95 of 100 runs there, and the "
+      "standard error "
+      "of what is expected.\n" +
+      example_of(command) + " --points grid.csv --file surface.csv");
 }
 
 void add_compare_options(CLI::App& command, Settings& settings) {
@@ -201,6 +218,10 @@ void define_reading_commands(CLI::App& app, const Study& study, Settings& settin
   add_front_options(
       commands.add_with_json("front", "show the predicted front, and how far to trust it", front_command),
       settings.front);
+  CLI::App& predict = commands.add("predict", "say what the models expect at points of your own, as a table",
+                                   predict_command);
+  add_folder_option(predict, settings);
+  add_predict_options(predict, settings, study.problem);
   add_recommend_options(
       commands.add_with_json("recommend",
                              "say one strategy, what it gains and how sure that is, and how to simulate it",

@@ -24,8 +24,8 @@ struct UsageError : std::runtime_error {
 
 /// Options of `confirm`.
 struct ConfirmSettings {
-  int points = 6;              ///< of the front per round, 1 or more; with `x` 0 or more
-  int rounds = 3;              ///< at most, 1 or more
+  int points = 6;                   ///< of the front per round, 1 or more; with `x` 0 or more
+  int rounds = 3;                   ///< at most, 1 or more
   std::vector<std::string> x = {};  ///< points besides those of the front, one after the other, as typed
 };
 
@@ -44,9 +44,15 @@ struct ExcludeSettings {
 
 /// Options of `export`; of `ask` but for `what`.
 struct ExportSettings {
-  std::string what = {};            ///< runs, which empty stands for, or front
+  std::string what = {};            ///< runs, which empty stands for, front or findings
   std::string format = "csv";       ///< or json; of `export` also hdf5, the whole study
   std::filesystem::path file = {};  ///< empty: standard output
+};
+
+/// Options of `predict`.
+struct PredictSettings {
+  std::vector<std::string> x = {};    ///< points, one after the other, as typed
+  std::filesystem::path points = {};  ///< a table of points; empty: none
 };
 
 /// Options of `share` and `open`.
@@ -115,6 +121,7 @@ struct Settings {
   ExcludeSettings exclude = {};
   ExportSettings exported = {};
   FrontSettings front = {};
+  PredictSettings predict = {};
   ReplaySettings replay = {};
   ShareSettings share = {};
   std::string against = {};  ///< of recommend: a point as NAME=VALUE,...; empty: the middle of the box

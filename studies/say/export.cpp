@@ -83,6 +83,42 @@ const char* ending_of_errors(const doe::Problem& problem) {
   return "_standard_error";
 }
 
+void append_expected_columns(ExportTable& table, const doe::Problem& problem) {
+  append_variables(table, problem);
+  append_responses(table, problem, "", "what the models expect of a run");
+  append_responses(table, problem, "_lower", lower_end);
+  append_responses(table, problem, "_upper", upper_end);
+  append_responses(table, problem, ending_of_errors(problem),
+                   "standard error of what the models expect, noise left out");
+}
+
+ExportColumn success_column() {
+  return {"success", "1", ColumnType::number, "probability that a run succeeds"};
+}
+
+/// Of the columns of append_expected_columns, what the models expect at points.
+class Expected {
+ public:
+  Expected(const std::vector<kriging::TransformedModel>& models, const doe::Problem& problem,
+           const Eigen::MatrixXd& X)
+      : problem_(problem),
+        points_(with_predictions(models, problem, X)),
+        errors_(standard_errors(models, X)) {}
+
+  std::vector<json> row(Eigen::Index i) const {
+    std::vector<json> row;
+    append_point(row, problem_, points_.X.row(i));
+    for (const Eigen::MatrixXd* values : {&points_.predicted, &points_.lower, &points_.upper, &errors_})
+      append_numbers(row, values->row(i));
+    return row;
+  }
+
+ private:
+  const doe::Problem& problem_;
+  PlannedPoints points_;
+  Eigen::MatrixXd errors_;
+};
+
 std::string csv_text(const json& value) {
   if (value.is_null()) return "";
   if (value.is_string()) return value.get<std::string>();
@@ -130,34 +166,38 @@ ExportTable front_table(const Identity& identity, const std::vector<Run>& runs, 
   const PredictedFront predicted = predicted_front(fitted.models, tables, identity.seed);
   const pareto::Front& front = predicted.found.front;
   ExportTable table;
-  append_variables(table, problem);
-  append_responses(table, problem, "", "what the models expect of a run");
-  append_responses(table, problem, "_lower", lower_end);
-  append_responses(table, problem, "_upper", upper_end);
-  append_responses(table, problem, ending_of_errors(problem),
-                   "standard error of what the models expect, noise left out");
+  append_expected_columns(table, problem);
   table.columns.push_back(
       {"non_dominated", "1", ColumnType::number,
        "probability that the mean keeps every limit while no other point of the front is at "
        "least as good in all objectives and better in one"});
-  table.columns.push_back({"success", "1", ColumnType::number, "probability that a run succeeds"});
+  table.columns.push_back(success_column());
   if (missing) *missing = predicted.missing;
   if (front.X.rows() == 0) return table;
-  const PlannedPoints points = with_predictions(fitted.models, problem, front.X);
-  const Eigen::MatrixXd errors = standard_errors(fitted.models, front.X);
+  const Expected expected(fitted.models, problem, front.X);
   const Eigen::VectorXd on_front =
       uncertainty_of(front, fitted.models, predicted.problem, identity.seed).non_dominated;
   const Eigen::VectorXd success = predicted.failures.probability_of_success(front.X);
   for (Eigen::Index i = 0; i < front.X.rows(); ++i) {
-    std::vector<json> row;
-    append_point(row, problem, front.X.row(i));
-    append_numbers(row, front.responses.row(i));
-    append_numbers(row, points.lower.row(i));
-    append_numbers(row, points.upper.row(i));
-    append_numbers(row, errors.row(i));
+    std::vector<json> row = expected.row(i);
     row.push_back(on_front.size() > 0 ? json(on_front[i]) : json());
     row.push_back(number_or_null(success[i]));
     table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ExportTable predictions_table(const Identity& identity, const std::vector<Run>& runs,
+                              const Eigen::MatrixXd& X) {
+  const Tables tables = tables_of(runs, identity.problem);
+  const Expected expected(models_or_reason(tables).models, identity.problem, X);
+  const Eigen::VectorXd success = Failures(tables).probability_of_success(X);
+  ExportTable table;
+  append_expected_columns(table, identity.problem);
+  table.columns.push_back(success_column());
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    table.rows.push_back(expected.row(i));
+    table.rows.back().push_back(number_or_null(success[i]));
   }
   return table;
 }

@@ -39,6 +39,11 @@ ExportTable asked_table(const Identity& identity, const std::vector<Run>& runs);
 ExportTable front_table(const Identity& identity, const std::vector<Run>& runs,
                         std::string* missing = nullptr);
 
+/// What the present models expect at the points X (n x d, natural units), with the columns of front_table but for being
+/// non-dominated. Throws std::runtime_error if the runs do not allow models.
+ExportTable predictions_table(const Identity& identity, const std::vector<Run>& runs,
+                              const Eigen::MatrixXd& X);
+
 /// The problem: a row per variable or response.
 ExportTable variables_table(const doe::Problem& problem);
 ExportTable responses_table(const doe::Problem& problem);

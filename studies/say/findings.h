@@ -5,6 +5,7 @@
 
 #include <drawpoint/studies/run/store/folder.h>
 #include <drawpoint/studies/run/store/store.h>
+#include <drawpoint/studies/say/export.h>
 #include <drawpoint/studies/say/page/report.h>
 #include <drawpoint/studies/study.hpp>
 
@@ -17,5 +18,9 @@ namespace drawpoint::studies {
 std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
                                    const std::vector<const Run*>& logged, const OptionValues& options,
                                    const Folder& folder);
+
+/// The same as a table of id, claim, verdict and grounds, from a study's folder. Throws std::runtime_error where the runs
+/// do not allow models or the study's findings throw.
+ExportTable findings_table(const Study& study, const Store& store, const Folder& folder);
 
 }  // namespace drawpoint::studies

@@ -63,7 +63,7 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " frobnicate", 2,
                  "unknown command \"frobnicate\"; the commands are run, check, confirm, ask, tell, exclude, "
                  "status, live, fit, validate, "
-                 "front, recommend, compare, report, replay, export, share, open, rerun-responses, evaluate");
+                 "front, predict, recommend, compare, report, replay, export, share, open, rerun-responses, evaluate");
   expect_refused(study + " front --limit 0" + out(), 2, "--limit");
   expect_refused(study + " front" + out(), 1, "there is no study in");
   expect_refused(study + " compare" + out(), 2, "--with is required");

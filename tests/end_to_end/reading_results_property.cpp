@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/engine/loading/log/loading_log.hpp>
 #include <nlohmann/json.hpp>
 
@@ -37,12 +38,26 @@ double most_production(const std::string& table) {
   return most;
 }
 
+/// The first fields of each line of a table, all but `less` of them.
+std::vector<std::vector<std::string>> fields_of(const std::string& table, std::size_t less) {
+  std::vector<std::vector<std::string>> rows;
+  doe::detail::CsvReader reader(table);
+  while (auto record = reader.next()) {
+    record->resize(record->size() - less);
+    rows.push_back(*record);
+  }
+  return rows;
+}
+
 }  // namespace
 
 TEST_F(ReadingResults, TheDocumentsCommandsWorkAsTyped) {
   write_short_log(place_ / "run_0001.h5");
   const std::vector<std::string> printed = follow(contents(READING_RESULTS), place_);
   ASSERT_EQ(printed.size(), 9u);
+
+  // The same models at the same points: the same numbers, but for the chance of being non-dominated and of success.
+  EXPECT_EQ(fields_of(contents(place_ / "expected.csv"), 1), fields_of(contents(place_ / "front.csv"), 2));
 
   const Ended table = run(FORMULA_DEMO " export --what front --format json --out " +
                           (place_ / "results/formula_demo").string());

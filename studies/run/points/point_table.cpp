@@ -97,6 +97,24 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
   return place;
 }
 
+Eigen::MatrixXd points_of_table(const std::filesystem::path& file, const std::string& option,
+                                const doe::Problem& problem) {
+  std::vector<std::size_t> columns;
+  std::vector<double> values;
+  const auto first = [&](const TableHeader& header) {
+    for (const doe::Variable& v : problem.variables) columns.push_back(header.column(v.name, v.unit));
+  };
+  const auto row = [&](const doe::detail::CsvRecord& record, const TablePlace& place) {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      values.push_back(variable_from(record[columns[k]], problem.variables[k], place));
+  };
+  const TablePlace end = read_table(file, option, first, row);
+  if (values.empty()) end.fail("the table has no rows; give one per point");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto d = static_cast<Eigen::Index>(columns.size());
+  return Eigen::Map<const RowMajor>(values.data(), static_cast<Eigen::Index>(values.size()) / d, d);
+}
+
 double number_from(const std::string& text, const std::string& name, const TablePlace& place) {
   double value = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -9,6 +9,7 @@
 #include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/doe/problem.hpp>
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -51,6 +52,11 @@ class TableHeader {
 TablePlace read_table(const std::filesystem::path& file, const std::string& option,
                       const std::function<void(const TableHeader&)>& first,
                       const std::function<void(const doe::detail::CsvRecord&, const TablePlace&)>& row);
+
+/// The points of a table, one row each (n x d). Throws UsageError as read_table, for a column that is missing, for what is
+/// no value of its variable, and for a table without rows.
+Eigen::MatrixXd points_of_table(const std::filesystem::path& file, const std::string& option,
+                                const doe::Problem& problem);
 
 // Fields of a row. They throw UsageError with the place for what cannot be.
 
