@@ -75,6 +75,39 @@ TEST(Documents, ADeadLinkIsFound) {
       (std::vector<std::string>{"gone.md", "gone/b.png"}));
 }
 
+// Of a table in Markdown: what stands in the column, counted from 0, of the row that begins with the word.
+std::string cell_of(const std::string& page, const std::string& first, int column) {
+  const std::regex row("\\n\\| " + first + "[^|]*((\\|[^|\\n]*)+)\\|\\n");
+  std::smatch match;
+  if (!std::regex_search(page, match, row)) return "";
+  std::istringstream cells(match[1]);
+  std::string cell;
+  for (int k = 0; k <= column; ++k) std::getline(cells, cell, '|');
+  return cell.empty() ? "" : cell.substr(1);
+}
+
+// What `export --what findings` wrote.
+std::vector<std::pair<std::string, std::string>> verdicts_of(const std::filesystem::path& table) {
+  static const std::regex row("\n(F[0-9]+),.*,(reproduced|not reproduced|unclear),");
+  const std::string text = read_text(table);
+  std::vector<std::pair<std::string, std::string>> verdicts;
+  for (std::sregex_iterator match(text.begin(), text.end(), row), end; match != end; ++match)
+    verdicts.emplace_back((*match)[1], (*match)[2]);
+  return verdicts;
+}
+
+TEST(Documents, TheFindingsAreThoseOfTheKeptStudies) {
+  const std::string page = read_text(root / "docs/explanation/findings.md");
+  int column = 0;
+  for (const char* study : {"lindmark2016", "drawpoint"}) {
+    ++column;
+    const auto verdicts = verdicts_of(root / "studies/results" / study / "findings.csv");
+    EXPECT_EQ(verdicts.size(), 16u) << study;
+    for (const auto& [finding, verdict] : verdicts)
+      EXPECT_TRUE(cell_of(page, finding + " ", column).starts_with(verdict)) << finding << " of " << study;
+  }
+}
+
 TEST(Documents, TheApiReferenceShowsTheProgramsOfTheCookbook) {
   const std::string reference = read_text(root / "docs/reference/api.dox");
   int programs = 0;
