@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/options/points.h>
 #include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/joined.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,9 @@ double typed_value(const doe::Variable& variable, const std::string& text) {
 Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<double>& x) {
   const auto& variables = problem.variables;
   const std::size_t d = variables.size();
-  if (x.empty() || x.size() % d != 0) {
-    std::string names;
-    for (const auto& v : variables) names += (names.empty() ? "" : ", ") + v.name;
+  if (x.empty() || x.size() % d != 0)
     throw UsageError("--x: got " + std::to_string(x.size()) + " values, need " + std::to_string(d) + ": " +
-                     names);
-  }
+                     joined(variables, &doe::Variable::name));
   for (std::size_t i = 0; i < x.size(); ++i) {
     const doe::Variable& v = variables[i % d];
     const bool inside = x[i] >= v.lower && x[i] <= v.upper;
@@ -48,10 +46,9 @@ Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<do
 }
 
 Eigen::VectorXd point_named(const doe::Problem& problem, const std::string& option, const std::string& text) {
-  std::string names;
-  for (const auto& v : problem.variables) names += (names.empty() ? "" : ", ") + v.name;
   const auto refuse = [&](const std::string& what) {
-    throw UsageError(option + ": " + what + "; give NAME=VALUE,... for each of " + names);
+    throw UsageError(option + ": " + what + "; give NAME=VALUE,... for each of " +
+                     joined(problem.variables, &doe::Variable::name));
   };
   std::vector<std::optional<double>> x(problem.variables.size());
   std::istringstream parts(text);
