@@ -7,20 +7,10 @@ import subprocess
 import sys
 import tempfile
 
-import matplotlib
 import numpy as np
+from plot_style import BLUE, GREEN, GREY, ORANGE, style
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-# Colours and a grey that can be read on white and on black; no background.
-BLUE, ORANGE, GREEN, GREY = "#3d85c6", "#e0782f", "#4c9f70", "#8a8a8a"
-plt.rcParams.update({
-    "svg.hashsalt": "cookbook", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
-    "savefig.transparent": True, "text.color": GREY, "axes.edgecolor": GREY, "axes.labelcolor": GREY,
-    "xtick.color": GREY, "ytick.color": GREY, "axes.spines.top": False, "axes.spines.right": False,
-    "legend.frameon": False, "legend.labelcolor": GREY, "figure.figsize": (6.0, 3.4), "lines.linewidth": 1.8,
-})
+plt = style("cookbook")
 
 
 def rows(table, what):

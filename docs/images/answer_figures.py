@@ -9,21 +9,12 @@ import csv
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
 IMAGES = pathlib.Path(__file__).parent
-# Colours and a grey that can be read on white and on black; no background.
-GREY = "#8a8a8a"
-FAMILIES = {"slice": "#3d85c6", "drive_and_curl": "#e0782f", "steps": "#4c9f70", "edge_dropped": "#a464b8"}
-plt.rcParams.update({
-    "svg.hashsalt": "answer", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
-    "savefig.transparent": True, "text.color": GREY, "axes.edgecolor": GREY, "axes.labelcolor": GREY,
-    "xtick.color": GREY, "ytick.color": GREY, "axes.spines.top": False, "axes.spines.right": False,
-    "legend.frameon": False, "legend.labelcolor": GREY, "lines.linewidth": 1.8,
-})
+sys.path.insert(0, str(IMAGES.parent / "cookbook"))
+from plot_style import BLUE, GREEN, GREY, ORANGE, VIOLET, style  # noqa: E402
+
+plt = style("answer")
+FAMILIES = {"slice": BLUE, "drive_and_curl": ORANGE, "steps": GREEN, "edge_dropped": VIOLET}
 
 
 def table(file):

@@ -8,6 +8,7 @@
 #include <drawpoint/studies/commands/options/questions.h>
 #include <drawpoint/studies/commands/options/run_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/studies/run/store/option_values.h>
 #include <drawpoint/studies/run/store/plain_text.h>
 #include <drawpoint/studies/say/live/server.h>
@@ -39,12 +40,6 @@ std::vector<std::string> typed_words(int argc, char** argv, const Study& study) 
   return {argv + std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv + argc};
 }
 
-std::string names_of_commands() {
-  std::string names;
-  for (const char* command : commands) names += (names.empty() ? "" : ", ") + std::string(command);
-  return names;
-}
-
 /// `prog --runs 5` means `prog run --runs 5`.
 std::vector<std::string> with_command(std::vector<std::string> words) {
   const std::string first = words.empty() ? "" : words.front();
@@ -54,14 +49,14 @@ std::vector<std::string> with_command(std::vector<std::string> words) {
   if (!first.empty() && first[0] != '-' && !named)
     throw UsageError("unknown command \"" + first + "\"" +
                      did_you_mean(first, {commands.begin(), commands.end()}) + "; the commands are " +
-                     names_of_commands());
+                     joined(commands));
   if (!help && !named) words.insert(words.begin(), "run");
   return words;
 }
 
 /// The first `count` words of the command line. `drawpoint NAME` is the first where that program started this
 /// one.
-std::string joined(int count, char** argv) {
+std::string first_words(int count, char** argv) {
   std::string text;
   for (int i = 0; i < count; ++i) {
     if (i > 0) text += ' ';
@@ -72,7 +67,7 @@ std::string joined(int count, char** argv) {
 
 /// What is typed before a command.
 std::string program_of(int argc, char** argv, const Study& study) {
-  return joined(std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv);
+  return first_words(std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv);
 }
 
 /// Before the options that it sets: CLI11 takes them in this order, whatever was typed first.
@@ -292,7 +287,7 @@ std::string meant_by(const CLI::App& app, const CLI::ParseError& error) {
 int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
-  parsed.settings.command = joined(argc, argv);
+  parsed.settings.command = first_words(argc, argv);
   parsed.settings.leading_words = study.leading_words;
   parsed.settings.finish_log = study.finish_log;
   const std::string program = parsed.settings.program = program_of(argc, argv, study);
@@ -310,7 +305,7 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   define_point_commands(app, parsed, study);
   app.footer(first_options(app) + problem_text(study.problem));
   const std::vector<std::string> typed = typed_words(argc, argv, study);
-  if (answered(app, typed, joined(std::min(argc, 1), argv), study)) return 0;
+  if (answered(app, typed, first_words(std::min(argc, 1), argv), study)) return 0;
   auto words = with_command(typed);
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   try {

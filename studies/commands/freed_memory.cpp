@@ -4,6 +4,7 @@
 #include <drawpoint/studies/commands/freed_memory.h>
 
 #include <cstdlib>
+#include <initializer_list>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif

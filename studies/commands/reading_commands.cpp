@@ -6,6 +6,7 @@
 #include <drawpoint/studies/commands/options/run_options.h>
 #include <drawpoint/studies/commands/reading_commands.h>
 #include <drawpoint/studies/run/session.h>
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/doe/problem.hpp>
 
 namespace drawpoint::studies {
@@ -118,10 +119,10 @@ void add_recommend_options(CLI::App& command, Settings& settings, const doe::Pro
                   "(default: the middle of the box)")
       ->check([](const std::string& text) { return text.empty() ? "give NAME=VALUE,... of a point" : ""; });
   add_mark_option(command, problem, settings);
-  std::string all;
-  for (const doe::Variable& v : problem.variables)
-    all += (all.empty() ? "" : ",") + v.name + "=" + doe::detail::number_text(v.lower);
-  command.footer(example_of(command) + " --against " + all);
+  const auto at_lower = [](const doe::Variable& v) {
+    return v.name + "=" + doe::detail::number_text(v.lower);
+  };
+  command.footer(example_of(command) + " --against " + joined(problem.variables, at_lower, ","));
 }
 
 void add_json_flag(CLI::App& command, Settings& settings) {

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/commands/json_output.h>
 #include <drawpoint/studies/commands/options/mark_options.h>
 #include <drawpoint/studies/commands/options/points.h>
+#include <drawpoint/studies/model/fronts/front.h>
 #include <drawpoint/studies/model/recommendation.h>
 #include <drawpoint/studies/run/session.h>
 #include <drawpoint/studies/say/recommended_table.h>

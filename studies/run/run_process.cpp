@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/run/run_process.h>
+#include <drawpoint/studies/mark.hpp>
 
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
@@ -10,21 +10,6 @@
 namespace drawpoint::studies {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-std::string joined(const Eigen::VectorXd& x) {
-  std::string text;
-  for (const double value : x) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.17g", value);
-    if (!text.empty()) text += ',';
-    text += number;
-  }
-  return text;
-}
-
-}  // namespace
 
 /// The link in /proc works even when a rebuild has replaced the file; the real name
 /// looks better in `ps`.
@@ -53,15 +38,16 @@ std::vector<std::string> whole_line(std::vector<std::string> leading, const std:
 doe::Process process_of_run(const Run& run, const Folder& given, const OptionValues& options,
                             const Settings& settings) {
   const Folder folder{fs::absolute(given.path)};
-  return {.id = run.id,
-          .executable = own_executable(),
-          .arguments = whole_line(settings.leading_words,
-                                  {"evaluate", "--x=" + joined(run.x), "--seed=" + std::to_string(run.seed),
-                                   "--log=" + folder.unfinished_log(run.id).string(),
-                                   "--shared=" + folder.shared().string(), "--result-descriptor=3"},
-                                  options),
-          .output = folder.printed(run.id),
-          .time_limit = settings.time_limit};
+  return {
+      .id = run.id,
+      .executable = own_executable(),
+      .arguments = whole_line(settings.leading_words,
+                              {"evaluate", "--x=" + typed_values(run.x), "--seed=" + std::to_string(run.seed),
+                               "--log=" + folder.unfinished_log(run.id).string(),
+                               "--shared=" + folder.shared().string(), "--result-descriptor=3"},
+                              options),
+      .output = folder.printed(run.id),
+      .time_limit = settings.time_limit};
 }
 
 }  // namespace drawpoint::studies

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/studies/run/workers.h>
 #include <sys/resource.h>
 #include <drawpoint/doe/slurm_jobs.hpp>
@@ -118,9 +119,7 @@ std::string arrays_of(const Folder& folder) {
   for (const auto& entry : fs::directory_iterator(folder.slurm(), none))
     names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
+  return joined(names, std::identity{}, ",");
 }
 
 }  // namespace drawpoint::studies

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/model/fits/words.h>
 #include <drawpoint/studies/model/fronts/decision_points.h>
 #include <drawpoint/studies/model/fronts/front_points.h>
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/studies/say/front_report.h>
 #include <drawpoint/studies/say/number_or_null.h>
 #include <drawpoint/studies/say/page/cautions.h>
@@ -78,9 +79,7 @@ std::string marks_text(const FrontView& view, int row, const std::vector<int>& s
     if (shown_for(view, marked, shown) != row) continue;
     if (std::find(told.begin(), told.end(), mark) == told.end()) told.push_back(mark);
   }
-  std::string text;
-  for (const std::string& mark : told) text += (text.empty() ? "" : ", ") + mark;
-  return text;
+  return joined(told);
 }
 
 /// Simulations in the place of a row.

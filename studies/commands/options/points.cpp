@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/commands/options/points.h>
 #include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/joined.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,18 +23,6 @@ double typed_value(const doe::Variable& variable, const std::string& text) {
 }
 
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-std::string variables_of(const doe::Problem& problem) {
-  std::vector<std::string> names;
-  for (const doe::Variable& variable : problem.variables) names.push_back(variable.name);
-  return joined(names);
-}
 
 /// Why it is no value of the variable, after "NAME = TEXT"; empty where it is one.
 std::string complaint(const doe::Variable& v, double value) {
@@ -63,7 +52,7 @@ Eigen::MatrixXd checked_points(const doe::Problem& problem, const std::vector<st
   const std::size_t d = variables.size();
   if (x.empty() || x.size() % d != 0)
     throw UsageError("--x: got " + std::to_string(x.size()) + " values, need " + std::to_string(d) + ": " +
-                     variables_of(problem));
+                     joined(problem.variables, &doe::Variable::name));
   Eigen::MatrixXd points(static_cast<Eigen::Index>(x.size() / d), static_cast<Eigen::Index>(d));
   for (std::size_t i = 0; i < x.size(); ++i)
     points(static_cast<Eigen::Index>(i / d), static_cast<Eigen::Index>(i % d)) =
@@ -80,7 +69,8 @@ std::vector<std::string> typed(const Eigen::VectorXd& point) {
 Eigen::VectorXd point_named(const doe::Problem& problem, const std::string& option, const std::string& text) {
   const auto& variables = problem.variables;
   const auto refuse = [&](const std::string& what) {
-    throw UsageError(option + ": " + what + "; give NAME=VALUE,... for each of " + variables_of(problem));
+    throw UsageError(option + ": " + what + "; give NAME=VALUE,... for each of " +
+                     joined(problem.variables, &doe::Variable::name));
   };
   std::vector<std::optional<double>> x(variables.size());
   std::istringstream parts(text);

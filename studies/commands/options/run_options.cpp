@@ -3,6 +3,7 @@
 #include <drawpoint/studies/commands/options/run_options.h>
 #include <drawpoint/studies/model/sampling/criteria.h>
 #include <drawpoint/studies/run/budget.h>
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/doe/problem.hpp>
 
 #include <charconv>
@@ -61,9 +62,7 @@ std::string seed_complaint(const std::string& text) {
 }
 
 std::string names_of(const doe::Problem& problem) {
-  std::string names;
-  for (const auto& variable : problem.variables) names += (names.empty() ? "" : ",") + variable.name;
-  return names;
+  return joined(problem.variables, &doe::Variable::name, ",");
 }
 
 void add_run_options(CLI::App& command, Settings& settings, const Defaults& defaults) {

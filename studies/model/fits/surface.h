@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the page needs of a surrogate: its mean, as a formula that the browser evaluates, and which variables
+/// A surrogate as numbers: its mean, as a formula that a browser evaluates, and which variables
 /// matter.
 ///
 /// The mean is constant + Σₜ βₜ sₐ s_b + Σᵢ wᵢ c(s, cᵢ) with s = (x - centre)·factor, the terms sₐ s_b of the

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the page needs to know how sure a surrogate is of its mean, beside its formula (surface.h): the
+/// How sure a surrogate is of its mean, as numbers beside its formula (surface.h): the
 /// browser computes the same variance as kriging::Model (kriging/model.hpp has the formula), noise of single
 /// runs left out.
 ///

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/model/sampling/criteria.h>
 #include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/doe/criterion.hpp>
 
 #include <algorithm>
@@ -21,11 +22,10 @@ constexpr std::array<const char*, 12> criterion_names = {
     "predicted",    repeat};
 
 [[noreturn]] void refuse_criterion(const std::string& part) {
-  std::string names;
-  for (const char* name : criterion_names) names += (names.empty() ? "" : ", ") + std::string(name);
   throw UsageError(
       "\"" + part +
-      "\" is no criterion and weight; give NAME=WEIGHT with commas between, weights above 0, of " + names);
+      "\" is no criterion and weight; give NAME=WEIGHT with commas between, weights above 0, of " +
+      joined(criterion_names));
 }
 
 CriterionShare share_from(const std::string& part) {

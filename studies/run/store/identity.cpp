@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/run/store/identity.h>
+#include <drawpoint/studies/run/store/joined.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +59,7 @@ std::string between(const doe::Response& there, const doe::Response& here) {
 
 template <class Item>
 std::string names_of(const std::vector<Item>& items) {
-  std::string text;
-  for (const auto& item : items) text += (text.empty() ? "" : ", ") + item.name;
-  return text;
+  return joined(items, &Item::name);
 }
 
 template <class Item>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/run/store/joined.h>
 #include <drawpoint/studies/run/store/option_values.h>
 
 #include <algorithm>
@@ -52,9 +53,7 @@ std::string value_in(const OptionValues& values, const std::string& name) {
 std::string allowed_values(const StudyOption& option) {
   if (option.choices.empty())
     return "whole numbers from " + std::to_string(option.least) + " to " + std::to_string(option.most);
-  std::string text;
-  for (const auto& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
-  return text;
+  return joined(option.choices);
 }
 
 std::string complaint(const StudyOption& option, const std::string& value) {
@@ -112,12 +111,9 @@ const Preset& preset_named(const std::vector<Preset>& presets, const std::string
 }
 
 std::string preset_complaint(const std::vector<Preset>& presets, const std::string& name) {
-  std::string names;
-  for (const Preset& preset : presets) {
+  for (const Preset& preset : presets)
     if (preset.name == name) return "";
-    names += (names.empty() ? "" : ", ") + preset.name;
-  }
-  return "\"" + name + "\" is not one of the values of --preset; allowed: " + names;
+  return "\"" + name + "\" is not one of the values of --preset; allowed: " + joined(presets, &Preset::name);
 }
 
 void check(const std::vector<Preset>& presets, const std::vector<StudyOption>& options) {
