@@ -13,7 +13,10 @@ import sys
 
 import numpy as np
 
-GREY = "#8a8a8a"
+IMAGES = pathlib.Path(__file__).parent
+sys.path.insert(0, str(IMAGES.parent / "cookbook"))
+from plot_style import GREY, style  # noqa: E402
+
 ALPHA, BETA = np.linspace(0.2, 2, 37), np.linspace(0, 1, 21)
 POINTS = {"plus": (1.2, 0.8, "+"), "circle": (0.3, 0.6, "o"), "cross": (1.8, 0.1, "x")}
 RESPONSES = {"production": "production [kg/s]", "joint_damage": "joint damage [s]", "rock_spill": "rock spill"}
@@ -34,14 +37,7 @@ def surfaces(file):
 
 
 def draw(files):
-    import matplotlib
-
-    matplotlib.use("svg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"svg.hashsalt": "findings", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 9,
-                         "savefig.transparent": True, "text.color": GREY, "axes.edgecolor": GREY,
-                         "axes.labelcolor": GREY, "xtick.color": GREY, "ytick.color": GREY})
+    plt = style("findings")
     figure, axes = plt.subplots(2, 3, figsize=(9.4, 5.2), sharex=True, sharey=True)
     for row, (file, whose) in zip(axes, zip(files, ("the source's settings", "ours"))):
         for panel, (name, values) in zip(row, surfaces(file).items()):
@@ -56,7 +52,7 @@ def draw(files):
     for panel in axes[:, 0]:
         panel.set_ylabel("beta")
     figure.tight_layout()
-    figure.savefig(pathlib.Path(__file__).parent / "findings.svg", metadata={"Date": None})
+    figure.savefig(IMAGES / "findings.svg", metadata={"Date": None})
 
 
 if sys.argv[1:] == ["grid"]:
