@@ -6,18 +6,21 @@
 /// fit(X, y) up to 2000 runs.
 ///
 /// θ, the exponents and λ maximise Vecchia's likelihood (detail/nearest/vecchia.hpp), with the prior and the
-/// options of fit. Simplified: a run is conditioned on `neighbours` earlier ones only, which loses
-/// NearestError::log_density per run and where noise is large costs most, and a prediction rests on
-/// `neighbourhood` runs (nearest_model.hpp). Where λ is below what blocks of 2 · neighbourhood runs need to be
-/// factored (detail/nearest/neighbourhood.hpp: 7e-11 times (neighbourhood/400)²) it is raised to that.
-/// Runs are sorted first and then put in random order, so the order of the rows changes no bit. Deterministic on
-/// any number of threads. Cost: n² d for the neighbours, n neighbours³ a gradient, n neighbourhood²; memory n
-/// (neighbours + 2 neighbourhood). Refused: Structure::additive, whose runs tell of each other at any distance,
-/// and Trend::blind.
+/// options of fit. Simplified: a run is conditioned on the nearest of earlier ones only, and a prediction rests on
+/// the nearest runs (nearest_model.hpp). NearestError says what twice as many would change. Of smooth functions
+/// without noise the error of the mean is up to that of exact Kriging of a quarter of the runs; of noisy ones, whose
+/// noise is averaged over the neighbourhood alone, it is larger by a third where 400 of 1000 runs are neighbours
+/// (docs/measurements/kriging.md, thousands of runs). λ is never below what the largest blocks need to be factored
+/// (detail/nearest/neighbourhood.hpp), 1.4e-10 by default.
+/// Runs are sorted first and then put in random order, so the order of the rows changes no bit; nor does the number
+/// of threads. Cost: a gradient is 2 n neighbours² flops times ten, the model n neighbourhood² times three, the
+/// search of neighbours n² d/neighbours; memory n (d + neighbours/4 + neighbourhood/8) numbers. Refused:
+/// Structure::additive, whose runs tell of each other at any distance, and Trend::blind.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/kriging/any_surrogate.hpp>
 #include <drawpoint/kriging/detail/nearest/approximation_error.hpp>
@@ -54,11 +57,13 @@ inline void check_nearest(const NearestOptions& nearest, const FitOptions& optio
   check_count("neighbourhood", nearest.neighbourhood, 8, 4000);
   if (options.structure == Structure::additive)
     throw std::invalid_argument(
-        "kriging::fit_nearest: structure is additive; allowed are product and isotropic, since in a sum far runs "
+        "kriging::fit_nearest: structure is additive; allowed are product and isotropic, since in a sum far "
+        "runs "
         "tell as much as near ones; choose one of them");
   if (options.trend == Trend::blind)
     throw std::invalid_argument(
-        "kriging::fit_nearest: trend is blind; allowed are constant, linear, quadratic and user; use quadratic");
+        "kriging::fit_nearest: trend is blind; allowed are constant, linear, quadratic and user; use "
+        "quadratic");
 }
 
 /// All that can be wrong with what fit_nearest is given, rows named as they were given.
@@ -75,10 +80,10 @@ inline void check_fit_nearest(const Eigen::MatrixXd& X, const Eigen::VectorXd& y
 inline void check_repeats(const std::vector<std::vector<Index>>& sites, int neighbours) {
   for (const std::vector<Index>& site : sites)
     if (2 * static_cast<int>(site.size()) > std::max(neighbours, 2))
-      throw std::invalid_argument(
-          "kriging::fit_nearest: " + std::to_string(site.size()) + " runs stand at the point of run " +
-          std::to_string(site.front()) + "; allowed are half of neighbours, " + std::to_string(neighbours / 2) +
-          "; average them with kriging::replicates, or raise neighbours");
+      throw std::invalid_argument("kriging::fit_nearest: " + std::to_string(site.size()) +
+                                  " runs stand at the point of run " + std::to_string(site.front()) +
+                                  "; allowed are half of neighbours, " + std::to_string(neighbours / 2) +
+                                  "; average them with kriging::replicates, or raise neighbours");
 }
 
 /// Rows by their inputs, responses and noise, so that no order of the rows is better than another; then at
@@ -142,8 +147,9 @@ inline void report_nearest(const Search& found, const NearestError& error, const
   report.condition = std::numeric_limits<double>::quiet_NaN();
   report.status = found.best.converged ? Status::converged : Status::not_converged;
   const auto rounded = [](double value) {
-    const double unit = std::pow(10.0, std::floor(std::log10(std::max(std::abs(value), 1e-300))) - 1.0);
-    return text(std::stod(text(unit)) * std::round(value / unit));
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.2g", value);
+    return std::string(digits);
   };
   report.message = "Vecchia's likelihood by " + std::to_string(nearest.neighbours) +
                    " nearest runs, to which twice as many add " + rounded(error.log_density) +
@@ -210,8 +216,8 @@ inline NearestModel fit_nearest(const Eigen::MatrixXd& X, const Eigen::VectorXd&
   const auto sites = detail::sites_of(X);
   if (given.noise_variance.size() == 0 && detail::repeats_agree(sites, y)) {
     const std::vector<Eigen::Index> once = detail::first_runs(sites);
-    return fit_nearest(detail::rows_of(X, once), detail::entries_of(y, once),
-                       detail::with_exact_runs(given), nearest);
+    return fit_nearest(detail::rows_of(X, once), detail::entries_of(y, once), detail::with_exact_runs(given),
+                       nearest);
   }
   detail::check_repeats(sites, nearest.neighbours);
   const std::vector<Eigen::Index> order = detail::order_of(X, y, given.noise_variance, given.seed);

@@ -101,7 +101,7 @@ class NearestModel {
   Eigen::Index runs() const { return state_.all.observed.size(); }
   const CorrelationFunction& correlation() const { return state_.all.correlation; }
   const Eigen::VectorXd& theta() const { return correlation().theta; }  ///< as Model::theta
-  double nugget() const { return state_.all.nugget; }                  ///< λ
+  double nugget() const { return state_.all.nugget; }                   ///< λ
   /// s², unit of y squared.
   double process_variance() const {
     return state_.all.y_scale * state_.all.y_scale * state_.all.process_variance;
@@ -193,8 +193,7 @@ inline void NearestModel::predict_part(const Eigen::MatrixXd& X, const Eigen::Ma
   detail::add_product(part.mean.data(), 1.0, F, s.gls.beta.data());
   part.mean = detail::affine(part.mean, s.y_scale, s.y_centre);
   if (!runs.factor) return;
-  part.variance =
-      detail::affine(runs.relative_variance(C, detail::whitened_trend(s, F)), process_variance());
+  part.variance = detail::affine(runs.relative_variance(C, detail::whitened_trend(s, F)), process_variance());
 }
 
 inline Eigen::VectorXd NearestModel::mean_gradient(const Eigen::VectorXd& x) const {

@@ -171,16 +171,19 @@ TEST(Nearest, RefusesWhatItCannotFit) {
             "kriging::fit_nearest: neighbours is 7; allowed are 8 to 4000; use the default");
   EXPECT_EQ(nearest_refusal([](auto&, auto&, auto& n) { n.neighbourhood = 4001; }),
             "kriging::fit_nearest: neighbourhood is 4001; allowed are 8 to 4000; use the default");
-  EXPECT_EQ(nearest_refusal([](auto&, auto& o, auto&) { o.structure = Structure::additive; }),
-            "kriging::fit_nearest: structure is additive; allowed are product and isotropic, since in a sum far "
-            "runs tell as much as near ones; choose one of them");
+  EXPECT_EQ(
+      nearest_refusal([](auto&, auto& o, auto&) { o.structure = Structure::additive; }),
+      "kriging::fit_nearest: structure is additive; allowed are product and isotropic, since in a sum far "
+      "runs tell as much as near ones; choose one of them");
   EXPECT_EQ(nearest_refusal([](auto&, auto& o, auto&) { o.trend = Trend::blind; }),
-            "kriging::fit_nearest: trend is blind; allowed are constant, linear, quadratic and user; use quadratic");
+            "kriging::fit_nearest: trend is blind; allowed are constant, linear, quadratic and user; use "
+            "quadratic");
   EXPECT_EQ(nearest_refusal([](auto& r, auto&, auto&) { r.X(7, 2) = std::nan(""); }),
             "kriging::fit: X(7, 2) is nan; allowed are finite numbers; leave failed runs out");
   EXPECT_EQ(nearest_refusal([](auto& r, auto&, auto&) {
               for (int i = 10; i < 40; ++i) r.X.row(i) = r.X.row(3);
             }),
-            "kriging::fit_nearest: 31 runs stand at the point of run 3; allowed are half of neighbours, 24; average "
+            "kriging::fit_nearest: 31 runs stand at the point of run 3; allowed are half of neighbours, 24; "
+            "average "
             "them with kriging::replicates, or raise neighbours");
 }

@@ -57,8 +57,8 @@ class Cells {
     Index input = -1;
     double most = 0;
     for (Index k = 0; k < X.cols(); ++k) {
-      const auto [low, high] = std::minmax_element(
-          runs.begin(), runs.end(), [&](int a, int b) { return X(a, k) < X(b, k); });
+      const auto [low, high] =
+          std::minmax_element(runs.begin(), runs.end(), [&](int a, int b) { return X(a, k) < X(b, k); });
       const double width = std::sqrt(f.theta[k]) * distance_between(f.levels, k, X(*low, k), X(*high, k));
       if (!(width > most)) continue;
       most = width;
@@ -75,8 +75,8 @@ class Cells {
     const std::size_t size = values.size(), half = size / 2;
     std::size_t at = 0;
     for (std::size_t i = 1; i < size; ++i)
-      if (values[i - 1] < values[i] && (at == 0 || std::max(i, half) - std::min(i, half) <
-                                                       std::max(at, half) - std::min(at, half)))
+      if (values[i - 1] < values[i] &&
+          (at == 0 || std::max(i, half) - std::min(i, half) < std::max(at, half) - std::min(at, half)))
         at = i;
     const double middle = std::midpoint(values[at - 1], values[at]);
     return middle > values[at - 1] ? middle : values[at];

@@ -97,8 +97,7 @@ struct LocalRuns {
     solve_right(block_of(factor->matrix()), block_of(R));
     Eigen::VectorXd variance = row_squares(R);
     // Round-off may leave a small negative number at a run.
-    for (Index i = 0; i < variance.size(); ++i)
-      variance[i] = std::max(1.0 - variance[i] + missing[i], 0.0);
+    for (Index i = 0; i < variance.size(); ++i) variance[i] = std::max(1.0 - variance[i] + missing[i], 0.0);
     return variance;
   }
 };

@@ -64,8 +64,7 @@ inline std::vector<SearchStart> starts_of_few(Likelihood& few, const Box& box, c
                                               Search& found) {
   const std::vector<Climb> ranked = climbs(few, box, options);
   const bool by_error = options.estimation == Estimation::penalized_likelihood;
-  const Choice choice =
-      by_error && std::isfinite(ranked.front().value()) ? chosen(few, ranked) : Choice{};
+  const Choice choice = by_error && std::isfinite(ranked.front().value()) ? chosen(few, ranked) : Choice{};
   found.tried = static_cast<int>(ranked.size());
   found.agreed = agreeing(ranked, ranked[choice.place].value());
   return starts_on_all(ranked, choice.place, 1.0);

@@ -86,9 +86,8 @@ class VecchiaLikelihood {
     if (!whiten(p)) return g;
     const double s2 = estimates_.process_variance;
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(g.size(), blocks());
-    for_each_task(blocks(), in_.threads, [&](int b) {
-      conditional(b).add_slopes(places_, z_, s2, column(sums, b));
-    });
+    for_each_task(blocks(), in_.threads,
+                  [&](int b) { conditional(b).add_slopes(places_, z_, s2, column(sums, b)); });
     for (Index b = 0; b < sums.cols(); ++b) add_scaled(g.data(), 1.0, column(sums, b), g.size());
     if (in_.known_noise > 0)
       g[g.size() - 1] += 0.5 * static_cast<double>(runs()) - 0.5 * sum_of_squares_ / s2;
