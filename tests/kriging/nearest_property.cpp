@@ -114,6 +114,22 @@ TEST(Nearest, ExactRunsAreMet) {
   EXPECT_LT(std::sqrt(p.variance.maxCoeff()), 0.05 * std::sqrt(elsewhere.variance.mean()));
 }
 
+// Noise that is known and next to none leaves the model what it is without.
+TEST(Nearest, KnownNoiseMayBeSmall) {
+  const ManyRuns runs = many_waves(600, 0.0);
+  const VectorXd truth = reference::values(reference::waves5, wave_points);
+  const double none =
+      (fit_nearest(runs.X, runs.y, {.noise = Noise::none}, few_neighbours).mean(wave_points) - truth).norm();
+  for (const double deviation : {1e-5, 1e-8}) {
+    FitOptions options;
+    options.noise = Noise::known;
+    options.noise_variance = VectorXd::Constant(600, deviation * deviation);
+    options.noise_variance[0] = 0.0;
+    const NearestModel model = fit_nearest(runs.X, runs.y, options, few_neighbours);
+    EXPECT_LT((model.mean(wave_points) - truth).norm(), 1.5 * none) << deviation;
+  }
+}
+
 TEST(Nearest, RepeatsThatAgreeCountOnce) {
   const ManyRuns runs = many_waves(300, 0.0);
   MatrixXd X(330, 5);

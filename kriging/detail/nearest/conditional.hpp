@@ -15,6 +15,7 @@
 #include <cmath>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/likelihood.hpp>
+#include <drawpoint/kriging/detail/nearest/least_nugget.hpp>
 #include <vector>
 
 namespace drawpoint::kriging::detail {
@@ -44,7 +45,7 @@ class Conditional {
       : in_(in), f_(f), nugget_(nugget), family_(family), X_(rows_of(in.X, family.rows)) {
     fill_correlation(X_, f, C_);
     L_ = C_;
-    const double floor = in.noise.size() || in.known_noise > 0 ? noise_floor : 0.0;
+    const double floor = block_floor(in.noise.size() || in.known_noise > 0, L_.rows());
     for (Index a = 0; a < L_.rows(); ++a) L_(a, a) += nugget * noise_weight(a) + floor;
     regular_ = factor(block_of(L_), 1);
     clear_upper(L_);

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/model_state.hpp>
-#include <limits>
+#include <drawpoint/kriging/detail/nearest/least_nugget.hpp>
 #include <optional>
 #include <vector>
 
@@ -21,15 +21,6 @@ struct Neighbourhood {
   std::vector<int> rows;  ///< ascending
   Eigen::VectorXd alpha;  ///< one entry a row
 };
-
-/// A nugget from which on a matrix of n correlations is positive definite in double precision, whatever the
-/// points: Cholesky's factorisation succeeds where the least eigenvalue, here the nugget or more, is above
-/// n γ_{n+1}, γ_k = k u/(1 − k u), u = 2⁻⁵³ (Demmel; Higham 2002, "Accuracy and Stability of Numerical
-/// Algorithms", theorem 10.7). Doubled for the round-off of the correlations themselves.
-inline double least_nugget(Index n) {
-  const auto size = static_cast<double>(n);
-  return size * (size + 1.0) * std::numeric_limits<double>::epsilon();
-}
 
 inline Eigen::MatrixXd rows_at(const Eigen::MatrixXd& A, const std::vector<int>& rows) {
   return rows_of(A, std::vector<Index>(rows.begin(), rows.end()));
@@ -46,13 +37,10 @@ inline Eigen::MatrixXd whitened_trend(const ModelState& s, Eigen::MatrixXd F) {
 class LocalFactor {
  public:
   LocalFactor(const ModelState& s, const std::vector<int>& rows) : rows_(rows) {
-    const double least = least_nugget(static_cast<Index>(rows.size()));
     fill_correlation(rows_at(s.X, rows), s.correlation, L_);
-    const double floor = s.noise.size() || s.known_noise > 0 ? noise_floor : 0.0;
-    for (Index a = 0; a < L_.rows(); ++a) {
-      const double weight = s.noise.size() ? s.noise[rows[static_cast<std::size_t>(a)]] : 1.0;
-      L_(a, a) += std::max(s.nugget * weight + floor, least);
-    }
+    const double floor = block_floor(s.noise.size() || s.known_noise > 0, L_.rows());
+    for (Index a = 0; a < L_.rows(); ++a)
+      L_(a, a) += s.nugget * (s.noise.size() ? s.noise[rows[static_cast<std::size_t>(a)]] : 1.0) + floor;
     factor(block_of(L_), 1);
     clear_upper(L_);
   }
