@@ -47,10 +47,12 @@ inline Eigen::MatrixXd points_of_cells(const ModelState& s, const Cells& cells) 
   Eigen::MatrixXd points(each * chosen, d), x(1, d);
   Index size = 0;
   for (Index i = 0; i < draws && size < points.rows(); ++i) {
-    for (Index k = 0; k < d; ++k)
-      x(0, k) = is_category(s.correlation.levels, k)
-                    ? static_cast<double>(random.below(s.correlation.levels[static_cast<std::size_t>(k)]))
-                    : 2.0 * random.uniform() - 1.0;
+    for (Index k = 0; k < d; ++k) {
+      if (is_category(s.correlation.levels, k))
+        x(0, k) = random.below(s.correlation.levels[static_cast<std::size_t>(k)]);
+      else
+        x(0, k) = s.input.factor[k] > 0 ? 2.0 * random.uniform() - 1.0 : 0.0;  // 0: it never varies
+    }
     const int cell = cells.at(x, 0);
     if (cell % step != 0 || ++found[static_cast<std::size_t>(cell)] > each) continue;
     points.row(size++) = x;
