@@ -23,7 +23,7 @@ double share_held(const Prediction& p, const VectorXd& truth) {
 }  // namespace
 
 TEST(Nearest, SmoothFunctionOfSixInputsIsMet) {
-  const MatrixXd X = reference::design(2500, 6, 1), points = reference::design(2000, 6, 2);
+  const MatrixXd X = reference::design(1800, 6, 1), points = reference::design(2000, 6, 2);
   const VectorXd y = reference::values(reference::circuit6, X),
                  truth = reference::values(reference::circuit6, points);
   const NearestModel model = fit_nearest(X, y, {.noise = Noise::none, .threads = 2});
@@ -34,7 +34,7 @@ TEST(Nearest, SmoothFunctionOfSixInputsIsMet) {
 
 // 2000 latent values lie close together, so the share held varies more between data sets than 0.5 %: some 2 %.
 TEST(Nearest, IntervalsOfTheLatentFunctionHold) {
-  const MatrixXd X = reference::design(2500, 5, 3), points = reference::design(2000, 5, 4);
+  const MatrixXd X = reference::design(1800, 5, 3), points = reference::design(2000, 5, 4);
   const VectorXd truth = reference::values(reference::friedman5, points);
   doe::RandomStream random(5);
   VectorXd y = reference::values(reference::friedman5, X);
@@ -47,7 +47,7 @@ TEST(Nearest, IntervalsOfTheLatentFunctionHold) {
 
 // The error is told from 128 points of eight cells at most; over the box it is the same within a factor of two.
 TEST(Nearest, ErrorThatIsToldIsThatOfPredictions) {
-  const MatrixXd X = reference::design(2500, 6, 1), points = reference::design(2000, 6, 2);
+  const MatrixXd X = reference::design(1800, 6, 1), points = reference::design(2000, 6, 2);
   const VectorXd y = reference::values(reference::hartmann6, X);
   constexpr NearestOptions own{.neighbours = 64, .neighbourhood = 100};
   const NearestModel model = fit_nearest(X, y, {.threads = 2}, own);
