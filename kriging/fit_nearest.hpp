@@ -8,9 +8,9 @@
 /// θ, the exponents and λ maximise Vecchia's likelihood (detail/nearest/vecchia.hpp), with the prior and the
 /// options of fit. Simplified: a run is conditioned on the nearest of earlier ones only, and a prediction rests on
 /// the nearest runs (nearest_model.hpp). NearestError says what twice as many would change. Of smooth functions
-/// without noise the error of the mean is up to that of exact Kriging of a quarter of the runs; of noisy ones, whose
-/// noise is averaged over the neighbourhood alone, it is larger by a third where 400 of 1000 runs are neighbours
-/// (docs/measurements/kriging.md, thousands of runs). λ is never below what the largest blocks need to be factored
+/// without noise the error of the mean is three to six times that of exact Kriging on the same runs, of rough ones the
+/// same. Noise is averaged over the neighbourhood alone: with 2000 runs the error is half as large again, and more runs
+/// lower it little (docs/measurements/kriging.md, thousands of runs). λ is never below what the largest blocks need to be factored
 /// (detail/nearest/least_nugget.hpp), 1.4e-10 by default.
 /// Runs are sorted first and then put in random order, so the order of the rows changes no bit; nor does the number
 /// of threads. Cost: a gradient is 2 n neighbours² flops times ten, the model n neighbourhood² times three, the
