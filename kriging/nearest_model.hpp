@@ -5,15 +5,16 @@
 /// A Kriging model of many runs, each prediction resting on the nearest of them. A value: copy it, share it
 /// between threads.
 ///
-/// The runs are cut into cells (detail/nearest/cells.hpp). At a point of a cell with the neighbourhood N the mean
-/// and the variance are those of model.hpp with R_NN, r_N and F_N in the place of R, r and F; β, s², θ, λ and
-/// FᵀR⁻¹F are those of all runs, by Vecchia's likelihood (detail/nearest/vecchia.hpp).
+/// The runs are cut into cells (detail/nearest/cells.hpp). At a point of a cell with the neighbourhood N the
+/// mean and the variance are those of model.hpp with R_NN, r_N and F_N in the place of R, r and F; β, s², θ,
+/// λ and FᵀR⁻¹F are those of all runs, by Vecchia's likelihood (detail/nearest/vecchia.hpp).
 ///
-/// Simplified: runs outside the neighbourhood do not count, so means jump a little where cells meet; NearestError
-/// says what twice the runs would change, and NearestOptions::neighbourhood buys less. θ, the exponents and λ are
-/// taken as known in variances. Where a run stands the mean misses it by λα, round-off for exact simulators.
-/// Cost, N runs a neighbourhood: N³/3 a cell when it is made and again in each call with variances, N² a point;
-/// means N d. Memory n d + 2 n N/cell. Bits do not depend on the number of threads.
+/// Simplified: runs outside the neighbourhood do not count, so means jump a little where cells meet;
+/// NearestError says what twice the runs would change, and NearestOptions::neighbourhood buys less. θ, the
+/// exponents and λ are taken as known in variances. Where a run stands the mean misses it by λα, round-off
+/// for exact simulators. Cost, N runs a neighbourhood: N³/3 a cell when it is made and again in each call
+/// with variances, N² a point; means N d. Memory n d + 2 n N/cell. Bits do not depend on the number of
+/// threads.
 
 #include <Eigen/Core>
 #include <drawpoint/doe/detail/threads.hpp>
@@ -93,8 +94,8 @@ class NearestModel {
   double operator()(const Eigen::VectorXd& x) const { return mean(x.transpose())[0]; }
   static constexpr bool predicts = true;  ///< for doe::Predictor
 
-  /// Derivatives of the mean at one point x of d entries inside its cell; 0 by a category. Cost N d. Throws as
-  /// predict.
+  /// Derivatives of the mean at one point x of d entries inside its cell; 0 by a category. Cost N d. Throws
+  /// as predict.
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& x) const;
 
   Eigen::Index variables() const { return state_.all.input.centre.size(); }

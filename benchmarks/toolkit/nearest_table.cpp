@@ -7,11 +7,11 @@
 //                                       default: two threads, all functions, exact up to 2000,
 //                                       RUNS 1000 2000 4000 16000 50000
 //
-// Random Latin hypercubes; circuit6, waves6 and hartmann6 are exact simulators, fitted as such; noisy6 is circuit6
-// with normal noise of a twentieth of its range. Errors are root mean squares of the latent mean at 20 000 random
-// points (2000 for exact Kriging), over the range there; `held` is the share of these inside of the 95 % intervals.
-// Times of predictions are of 100 000 points with variances (2000, times 50). Each row is a process of its own, whose
-// peak of resident memory is told.
+// Random Latin hypercubes; circuit6, waves6 and hartmann6 are exact simulators, fitted as such; noisy6 is
+// circuit6 with normal noise of a twentieth of its range. Errors are root mean squares of the latent mean at
+// 20 000 random points (2000 for exact Kriging), over the range there; `held` is the share of these inside of
+// the 95 % intervals. Times of predictions are of 100 000 points with variances (2000, times 50). Each row is
+// a process of its own, whose peak of resident memory is told.
 
 #include <sys/resource.h>
 #include <sys/wait.h>

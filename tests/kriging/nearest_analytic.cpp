@@ -81,9 +81,9 @@ constexpr NearestOptions all_runs{.neighbours = 4000, .neighbourhood = 4000};
 
 }  // namespace
 
-// 100 runs in blocks of seven to twelve, each with all runs of the blocks before as neighbours, and one block of all. LL
-// is good to the condition times the precision times its size, 1e4 · 1e-16 · 1e2 = 1e-10, in both; the gradient's terms
-// are of the size of LL.
+// 100 runs in blocks of seven to twelve, each with all runs of the blocks before as neighbours, and one block
+// of all. LL is good to the condition times the precision times its size, 1e4 · 1e-16 · 1e2 = 1e-10, in both;
+// the gradient's terms are of the size of LL.
 TEST(Nearest, LikelihoodIsExactWhereAllEarlierRunsAreNeighbours) {
   for (const LikelihoodCase& c : likelihood_cases()) {
     Likelihood exact(c.problem);

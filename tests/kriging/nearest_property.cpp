@@ -103,8 +103,8 @@ TEST(Nearest, ScalesWithTheUnits) {
   }
 }
 
-// The mean misses run i by λαᵢ: at λ <= 1e-6, and next to 1e-10 where smooth runs allow it, nothing that a plot or
-// a search sees.
+// The mean misses run i by λαᵢ: at λ <= 1e-6, and next to 1e-10 where smooth runs allow it, nothing that a
+// plot or a search sees.
 TEST(Nearest, ExactRunsAreMet) {
   const ManyRuns runs = many_waves(600, 0.0);
   const NearestModel model = fit_nearest(runs.X, runs.y, {.noise = Noise::none}, few_neighbours);

@@ -32,7 +32,8 @@ TEST(Nearest, SmoothFunctionOfSixInputsIsMet) {
   EXPECT_LT(root_mean_square(model.mean(points) - truth), 1e-4 * range);
 }
 
-// 2000 latent values lie close together, so the share held varies more between data sets than 0.5 %: some 2 %.
+// 2000 latent values lie close together, so the share held varies more between data sets than 0.5 %: some 2
+// %.
 TEST(Nearest, IntervalsOfTheLatentFunctionHold) {
   const MatrixXd X = reference::design(1800, 5, 3), points = reference::design(2000, 5, 4);
   const VectorXd truth = reference::values(reference::friedman5, points);
@@ -45,7 +46,8 @@ TEST(Nearest, IntervalsOfTheLatentFunctionHold) {
   EXPECT_LT(root_mean_square(model.mean(points) - truth), 0.3);
 }
 
-// The error is told from 128 points of eight cells at most; over the box it is the same within a factor of two.
+// The error is told from 128 points of eight cells at most; over the box it is the same within a factor of
+// two.
 TEST(Nearest, ErrorThatIsToldIsThatOfPredictions) {
   const MatrixXd X = reference::design(1800, 6, 1), points = reference::design(2000, 6, 2);
   const VectorXd y = reference::values(reference::hartmann6, X);

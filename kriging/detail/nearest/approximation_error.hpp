@@ -68,8 +68,8 @@ inline Eigen::MatrixXd natural_points(const InputScale& input, Eigen::MatrixXd X
   return X;
 }
 
-/// What is predicted at points of one cell, standardised: the part of the mean beside the trend, and the variance
-/// in units of s².
+/// What is predicted at points of one cell, standardised: the part of the mean beside the trend, and the
+/// variance in units of s².
 struct LocalPrediction {
   Eigen::VectorXd mean, variance;
 };

@@ -4,9 +4,9 @@
 
 /// The box cut into cells of few runs each, so that the points of a cell share one neighbourhood of runs.
 ///
-/// A cell with more runs than allowed is halved between two of its runs, across the input in which it is widest
-/// in the present length scales. Its neighbourhood is its own runs and those most correlated with their middle.
-/// Cost n log²n, and n d a cell for the neighbourhoods.
+/// A cell with more runs than allowed is halved between two of its runs, across the input in which it is
+/// widest in the present length scales. Its neighbourhood is its own runs and those most correlated with
+/// their middle. Cost n log²n, and n d a cell for the neighbourhoods.
 
 #include <Eigen/Core>
 #include <algorithm>

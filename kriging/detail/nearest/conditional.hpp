@@ -7,8 +7,8 @@
 /// With R = L Lᵀ of (N, block), z = y − Fβ and u the entries of L⁻¹z that belong to the block,
 ///   ln p = −Σ ln Lᵢᵢ − n_b/2 ln(2π s²) − |u|²/(2s²), i in the block
 ///   ∂ln p = Σ Wₐ_b ∂Rₐ_b,  W = ½ (ααᵀ − α_Nα_Nᵀ)/s² − ½ HHᵀ
-/// with α = R⁻¹z, α_N = (R_NN⁻¹z_N, 0) and H the block's columns of L⁻ᵀ, for HHᵀ = R⁻¹ − R_NN⁻¹. Cost k³/3 for
-/// k runs in all; slopes k² (n_b + 3 d) more.
+/// with α = R⁻¹z, α_N = (R_NN⁻¹z_N, 0) and H the block's columns of L⁻ᵀ, for HHᵀ = R⁻¹ − R_NN⁻¹. Cost k³/3
+/// for k runs in all; slopes k² (n_b + 3 d) more.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -40,7 +40,8 @@ struct Family {
 
 class Conditional {
  public:
-  /// Asks regular() first: the rest is defined where R is numerically positive definite. All are kept by reference.
+  /// Asks regular() first: the rest is defined where R is numerically positive definite. All are kept by
+  /// reference.
   Conditional(const LikelihoodProblem& in, const CorrelationFunction& f, double nugget, const Family& family)
       : in_(in), f_(f), nugget_(nugget), family_(family), X_(rows_of(in.X, family.rows)) {
     fill_correlation(X_, f, C_);

@@ -19,8 +19,8 @@ namespace drawpoint::kriging::detail {
 /// Blocks for so many neighbours: an eighth leaves neighbours on all sides.
 inline Index runs_of_cell(Index neighbours) { return std::max<Index>(neighbours / 8, 1); }
 
-/// One family a cell of `cells` of the rows of X: n x d, scaled; each with the `neighbours` runs of earlier cells
-/// that are most correlated with its middle, or all. Cost n d/2 a cell.
+/// One family a cell of `cells` of the rows of X: n x d, scaled; each with the `neighbours` runs of earlier
+/// cells that are most correlated with its middle, or all. Cost n d/2 a cell.
 inline std::vector<Family> families_of(const Eigen::MatrixXd& X, const CorrelationFunction& f,
                                        const Cells& cells, Index neighbours, int threads) {
   doe::RandomStream random(1);

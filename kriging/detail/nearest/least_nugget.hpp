@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// What the diagonal of a block needs beyond 1, so that it can be factored whatever its points and length scales.
+/// What the diagonal of a block needs beyond 1, so that it can be factored whatever its points and length
+/// scales.
 ///
-/// Cholesky's factorisation of a matrix of k rows with ones on its diagonal succeeds where the least eigenvalue, here
-/// the nugget or more, is above k γ_{k+1}, γ_k = k u/(1 − k u), u = 2⁻⁵³: 9e-12 for 400 rows. The limit is twice that,
-/// for the round-off of the correlations themselves, a few u each, k of them in a row. Source: Higham 2002, "Accuracy
-/// and Stability of Numerical Algorithms", theorem 10.7.
+/// Cholesky's factorisation of a matrix of k rows with ones on its diagonal succeeds where the least
+/// eigenvalue, here the nugget or more, is above k γ_{k+1}, γ_k = k u/(1 − k u), u = 2⁻⁵³: 9e-12 for 400
+/// rows. The limit is twice that, for the round-off of the correlations themselves, a few u each, k of them
+/// in a row. Source: Higham 2002, "Accuracy and Stability of Numerical Algorithms", theorem 10.7.
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -4,10 +4,10 @@
 
 /// The search for the parameters of many runs.
 ///
-/// The climbs of search.hpp on 250 of the runs start climbs of Vecchia's likelihood, first of 2000 runs, then of
-/// all: runs in random order are a sample of themselves. After a climb that moves a parameter by more than 0.1, blocks
-/// and neighbours are chosen anew and climbed with once more; a third time moves the maximum as much as it
-/// moves by chance. Cost: some 25 gradients of 2000 runs, or twice that, and 15 of all.
+/// The climbs of search.hpp on 250 of the runs start climbs of Vecchia's likelihood, first of 2000 runs, then
+/// of all: runs in random order are a sample of themselves. After a climb that moves a parameter by more than
+/// 0.1, blocks and neighbours are chosen anew and climbed with once more; a third time moves the maximum as
+/// much as it moves by chance. Cost: some 25 gradients of 2000 runs, or twice that, and 15 of all.
 
 #include <Eigen/Core>
 #include <algorithm>

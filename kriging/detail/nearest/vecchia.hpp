@@ -2,23 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Vecchia's likelihood in blocks: each block of runs is conditioned on its nearest runs of earlier blocks alone,
-/// not on all of them.
+/// Vecchia's likelihood in blocks: each block of runs is conditioned on its nearest runs of earlier blocks
+/// alone, not on all of them.
 ///
 ///   LL = Σ_b ln p(y_b | y of the neighbours of b)
-/// The rows that whiten (conditional.hpp) are uncorrelated with variance s²: with u of y and Φ of F, β is the least
-/// squares solution of Φβ = u, S = |u − Φβ|², s² = S/n (or τ²/λ), and
+/// The rows that whiten (conditional.hpp) are uncorrelated with variance s²: with u of y and Φ of F, β is the
+/// least squares solution of Φβ = u, S = |u − Φβ|², s² = S/n (or τ²/λ), and
 ///   LL = −n/2 ln(2π s²) − Σ ln Lᵢᵢ − S/(2s²),  ∂LL/∂p = Σ_b ∂ln p_b/∂p
-/// since β and s² are stationary. With all earlier runs as neighbours it is that of likelihood.hpp.
-/// Blocks share their factor, so that a run has hundreds of neighbours for the price of some 80 of its own. A smooth
-/// response needs them: of few neighbours the likelihood is highest at other length scales.
-/// The noise is inside the blocks: R = C + λ diag(w). Conditioning the latent field instead needs the factor of its
-/// sparse precision, which is singular to round-off where the correlation is smooth; the price is that noise is
-/// averaged over the neighbours only. Cost n/b (m + b)³/3 for m neighbours and blocks of b; O(n m/b) memory. Sums are
-/// made in a fixed order: equal bits on any number of threads. Sources: Vecchia 1988, J. R. Statist. Soc. B 50(2);
-/// Stein, Chi, Welty 2004, J. R. Statist. Soc. B 66(2), "Approximating likelihoods for large spatial data sets";
-/// Guinness 2018, Technometrics 60(4), "Permutation and grouping methods for sharpening Gaussian process
-/// approximations".
+/// since β and s² are stationary. With all earlier runs as neighbours it is that of likelihood.hpp. Blocks
+/// share their factor, so that a run has hundreds of neighbours for the price of some 80 of its own. A smooth
+/// response needs them: of few neighbours the likelihood is highest at other length scales. The noise is
+/// inside the blocks: R = C + λ diag(w). Conditioning the latent field instead needs the factor of its sparse
+/// precision, which is singular to round-off where the correlation is smooth; the price is that noise is
+/// averaged over the neighbours only. Cost n/b (m + b)³/3 for m neighbours and blocks of b; O(n m/b) memory.
+/// Sums are made in a fixed order: equal bits on any number of threads. Sources: Vecchia 1988, J. R. Statist.
+/// Soc. B 50(2); Stein, Chi, Welty 2004, J. R. Statist. Soc. B 66(2), "Approximating likelihoods for large
+/// spatial data sets"; Guinness 2018, Technometrics 60(4), "Permutation and grouping methods for sharpening
+/// Gaussian process approximations".
 
 #include <Eigen/Core>
 #include <algorithm>
