@@ -15,7 +15,7 @@
 /// 1.4e-10 by default.
 /// Runs are sorted first and then put in random order, so the order of the rows changes no bit; nor does the
 /// number of threads. Cost: a value of the likelihood 4 n neighbours², a gradient three times that, the model
-/// 3 n neighbourhood², choosing neighbours 4 n² d/neighbours; memory n (d + 8 neighbourhood/neighbours + 20)
+/// 3 n neighbourhood², choosing neighbours 4 n² d/neighbours; memory n (2 d + 30)
 /// numbers. Refused: Structure::additive, whose runs tell of each other at any distance, and Trend::blind.
 
 #include <Eigen/Core>
