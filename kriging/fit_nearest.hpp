@@ -25,12 +25,6 @@
 
 namespace drawpoint::kriging {
 
-struct NearestOptions {
-  int neighbours = 200;     ///< of a block of an eighth as many runs in the likelihood, 8 to 4000
-  int neighbourhood = 400;  ///< runs that a prediction rests on, 8 to 4000
-  int exact_up_to = 2000;   ///< runs that fit_any leaves to fit, 0 or more
-};
-
 /// X: n x d, one run per row, natural units; y: n, any unit. Throws std::invalid_argument as fit, for options
 /// out of their range, and for more repeats at one point than half of the neighbours. Repeats that all agree
 /// count once, as in fit.

@@ -29,6 +29,13 @@
 
 namespace drawpoint::kriging {
 
+/// What a fit by nearest runs is given beside FitOptions.
+struct NearestOptions {
+  int neighbours = 200;     ///< of a block of an eighth as many runs in the likelihood, 8 to 4000
+  int neighbourhood = 400;  ///< runs that a prediction rests on, 8 to 4000
+  int exact_up_to = 2000;   ///< runs that fit_any leaves to fit, 0 or more
+};
+
 /// What the approximation changes, estimated when the model is fitted; 0 where all runs are neighbours.
 struct NearestError {
   /// What twice the neighbours add to the log likelihood of some blocks, per run.

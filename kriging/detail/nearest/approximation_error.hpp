@@ -93,9 +93,10 @@ inline void add_prediction_change(const ModelState& s, const Eigen::VectorXd& re
   std::map<int, std::vector<Index>> by_cell;
   for (Index i = 0; i < points.rows(); ++i) by_cell[cells.at(points, i)].push_back(i);
   double change = 0, variance = 0;
-  for (const auto& [cell, rows] : by_cell) {
+  for (const auto& entry : by_cell) {
+    const std::vector<Index>& rows = entry.second;
     const auto with = [&](Index size) {
-      return predict_locally(s, neighbourhood_of(s.X, s.correlation, cells.runs(cell), size),
+      return predict_locally(s, neighbourhood_of(s.X, s.correlation, cells.runs(entry.first), size),
                              rows_of(points, rows), whitened, residual);
     };
     const LocalPrediction own = with(neighbourhood), twice = with(2 * neighbourhood);

@@ -10,7 +10,7 @@
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
-#include <drawpoint/kriging/fit_nearest.hpp>
+#include <drawpoint/kriging/nearest_model.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <string>
