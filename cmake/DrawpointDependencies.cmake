@@ -46,7 +46,7 @@ endif()
 if(DRAWPOINT_BUILD_TESTS)
   find_package(GTest 1.12 REQUIRED)
   find_package(rapidcheck REQUIRED)
-  find_package(nlohmann_json 3.11 QUIET) # for kriging/save.hpp and save_fidelities.hpp alone
+  find_package(nlohmann_json 3.11 QUIET) # for kriging/save*.hpp alone
 endif()
 if(DRAWPOINT_BUILD_BENCHMARKS)
   find_package(benchmark 1.7 REQUIRED)

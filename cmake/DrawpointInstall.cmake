@@ -190,7 +190,7 @@ set(toolkit "libdrawpoint-doe-dev ${same_version}" coinor-libipopt-dev libblas-d
 drawpoint_deb(common "Drawpoint: CMake package files" cmake)
 drawpoint_deb(doe "Drawpoint: designed experiments over any black box (headers)" "libdrawpoint-common-dev ${same_version}" "libeigen3-dev (>= 3.4)")
 drawpoint_deb(kriging "Drawpoint: regression Kriging (headers)" ${toolkit})
-set(CPACK_DEBIAN_KRIGING_PACKAGE_SUGGESTS nlohmann-json3-dev) # for kriging/save.hpp and save_fidelities.hpp alone
+set(CPACK_DEBIAN_KRIGING_PACKAGE_SUGGESTS nlohmann-json3-dev) # for kriging/save*.hpp alone
 drawpoint_deb(pareto "Drawpoint: multi-objective search (headers)" ${toolkit})
 if(TARGET drawpoint_record)
   list(APPEND CPACK_COMPONENTS_ALL record)

@@ -10,3 +10,4 @@
 
 #include <drawpoint/kriging/detail/fit_definition.hpp>
 #include <drawpoint/kriging/detail/model_definitions.hpp>
+#include <drawpoint/kriging/detail/nearest/fit_definition.hpp>

@@ -18,9 +18,11 @@
 #include <drawpoint/kriging/fidelity_model.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/fit_fidelities.hpp>
+#include <drawpoint/kriging/fit_nearest.hpp>
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/mean_error.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/nearest_model.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
 #include <drawpoint/kriging/optimize.hpp>
@@ -49,6 +51,8 @@
 ///   transform.hpp                  scales for responses with bounds: square root, logarithm, logit
 ///   transformed_model.hpp          a model on such a scale, predicting on the response's own
 ///   choose_fit.hpp                 the way to fit, and the scale, that leave-one-out prefers
+///   fit_nearest.hpp                thousands of runs: each prediction by the nearest of them, and fit_any
+///   nearest_model.hpp              that model
 ///   fit_fidelities.hpp             co-Kriging: few true runs and more of a cheaper setting, in one model
 ///   fidelity_model.hpp             that model
 ///   replicates.hpp                 repeated runs as one run with a known noise
@@ -88,7 +92,7 @@
 ///   acquisition_joint.hpp          batches that are worth most together
 ///   run_gain.hpp                   what one more run teaches, and which runs to make again
 ///
-/// Apart from these, and not included here because they need nlohmann-json: save.hpp and save_fidelities.hpp,
-/// models as JSON files.
+/// Apart from these, and not included here because they need nlohmann-json: save.hpp, save_fidelities.hpp and
+/// save_nearest.hpp, models as JSON files.
 /// What stands in detail/ may change in any version. Needs doe, Eigen and Ipopt.
 namespace drawpoint::kriging {}

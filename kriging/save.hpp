@@ -12,8 +12,8 @@
 /// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,
 /// that the text is exactly what this writer makes (so no byte may differ), the checksum (64-bit FNV-1a of
 /// the text of "model": against accidents, not against intent), every size, that numbers are finite and that
-/// L's diagonal is positive. A model with a trend of user functions cannot be saved. This header and
-/// save_fidelities.hpp alone of the module need nlohmann-json (Debian: nlohmann-json3-dev).
+/// L's diagonal is positive. A model with a trend of user functions cannot be saved. This header,
+/// save_fidelities.hpp and save_nearest.hpp alone of the module need nlohmann-json (Debian: nlohmann-json3-dev).
 
 #include <Eigen/Core>
 #include <filesystem>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The parts that saved models of one level (save.hpp) and of several (save_fidelities.hpp) share.
+/// The parts that saved models of one level (save.hpp) and of several (save_fidelities.hpp), and of many runs
+/// (save_nearest.hpp) share.
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -51,6 +51,7 @@ inline const std::vector<Row>& dependency_table() {
       // included by no other header of the module
       {"kriging/save.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"kriging/save_fidelities.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
+      {"kriging/save_nearest.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"kriging/detail/saved_json.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"kriging/detail/saved_parts.hpp", {"doe/", "kriging/"}, {"Eigen", "nlohmann-json"}, {}},
       {"pareto/", {"doe/", "pareto/"}, {"Eigen", "Ipopt"}, {}},

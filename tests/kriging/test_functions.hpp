@@ -4,7 +4,7 @@
 
 /// Functions on [0, 1]^d by which fits are judged, beyond the three of reference_cases.hpp.
 ///
-/// friedman5, borehole8, piston7, hartmann3 and hartmann6 with their usual constants (Surjanovic, Bingham,
+/// friedman5, borehole8, piston7, circuit6, hartmann3 and hartmann6 with their usual constants (Surjanovic, Bingham,
 /// "Virtual Library of Simulation Experiments"); franke2: Franke 1979. waves5, rational5, saturating4 and
 /// step3 are ours: smooth waves, a ratio, a production that saturates, and a jump. process4 is a draw of the
 /// Gaussian process that a fit takes for granted: rates 4, 2, 1 and 0.5 on [0, 1]⁴, by 500 random cosines
@@ -99,6 +99,14 @@ inline double hartmann6(const Eigen::VectorXd& x) {
        1451, 3522, 2883, 3047, 6650, 4047, 8828, 8732, 5743, 1091, 381)
           .finished();
   return hartmann(x, A, 1e-4 * P);
+}
+
+/// Midpoint voltage of a push-pull circuit [V]; not among test_functions().
+inline double circuit6(const Eigen::VectorXd& u) {
+  const auto at = [&](int k, double low, double high) { return low + (high - low) * u[k]; };
+  const double b1 = at(0, 50, 150), b2 = at(1, 25, 70), f = at(2, 0.5, 3), c1 = at(3, 1.2, 2.5),
+               c2 = at(4, 0.25, 1.2), gain = at(5, 50, 300) * (c2 + 9);
+  return ((12 * b2 / (b1 + b2) + 0.74) * gain + 11.35 * f + 0.74 * f * gain / c1) / (gain + f);
 }
 
 inline double franke2(const Eigen::VectorXd& u) {
