@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Points as they are typed: numbers, names of levels, and what is neither.
 
-#include <drawpoint/studies/commands/points.h>
-#include <drawpoint/studies/runs/settings.h>
+#include <drawpoint/studies/commands/options/points.h>
+#include <drawpoint/studies/run/settings.h>
 #include <gtest/gtest.h>
 
 #include <string>
