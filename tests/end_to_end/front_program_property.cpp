@@ -108,7 +108,7 @@ TEST_F(Front, HelpCompletionAndManPageNameTheSameOptions) {
   for (const std::string study : {"formula_demo", "lhd_loading"}) {
     const std::string page = told(study + " man-page");
     const Lines commands = lines("complete " + study + " ''");
-    EXPECT_EQ(commands.size(), 20u);
+    EXPECT_EQ(commands.size(), 21u);
     for (const std::string& command : commands) {
       Lines options = options_in_help(study + " " + command);
       EXPECT_EQ(lines("complete " + study + " " + command + " --"), options) << study << " " << command;
