@@ -60,10 +60,11 @@ TEST_F(BadInput, WrongUsage) {
   expect_refused(study + " export --format xls" + out(), 2, "--format");
   expect_refused(study + " ask --format hdf5" + out(), 2, "--format");
   expect_refused(study + " export" + out(), 1, "there is no study in");
-  expect_refused(study + " frobnicate", 2,
-                 "unknown command \"frobnicate\"; the commands are run, check, confirm, ask, tell, exclude, "
-                 "status, live, fit, validate, "
-                 "front, predict, recommend, compare, report, replay, export, share, open, rerun-responses, evaluate");
+  expect_refused(
+      study + " frobnicate", 2,
+      "unknown command \"frobnicate\"; the commands are run, check, confirm, ask, tell, exclude, "
+      "status, live, fit, validate, "
+      "front, predict, recommend, compare, report, replay, export, share, open, rerun-responses, evaluate");
   expect_refused(study + " front --limit 0" + out(), 2, "--limit");
   expect_refused(study + " front" + out(), 1, "there is no study in");
   expect_refused(study + " compare" + out(), 2, "--with is required");
