@@ -82,6 +82,7 @@ TEST(RunStudy, AnUnknownStudyIsRefusedWithTheList) {
   EXPECT_TRUE(has(answer.text, "there is no study \"no_such_study\"")) << answer.text;
   EXPECT_TRUE(has(answer.text, "lhd_loading")) << answer.text;
   EXPECT_TRUE(has(answer.text, "formula_demo")) << answer.text;
+  EXPECT_TRUE(has(answer.text, "external_program")) << answer.text;
 }
 
 TEST(RunStudy, AnOptionBeforeTheNameKeepsItsValue) {
