@@ -177,7 +177,9 @@ inline Model constant_model(const TrainingData& data, const FitOptions& options)
   return Model(std::move(s));
 }
 
-inline ModelState state_of(const TrainingData& data, const Likelihood& likelihood, FitReport report) {
+/// What the data and the parameters at which a likelihood stands say of a model, gls and L apart.
+template <class AnyLikelihood>
+ModelState state_at(const TrainingData& data, const AnyLikelihood& likelihood) {
   ModelState s;
   s.input = data.input;
   s.y_centre = data.y_centre;
@@ -192,11 +194,16 @@ inline ModelState state_of(const TrainingData& data, const Likelihood& likelihoo
   s.X = data.X;
   s.F = data.F;
   s.y = data.y;
-  s.L = likelihood.cholesky();
-  s.gls = likelihood.least_squares();
   s.process_variance = likelihood.estimates().process_variance;
   s.log_likelihood =
       likelihood.estimates().log_likelihood - static_cast<double>(data.X.rows()) * std::log(data.y_scale);
+  return s;
+}
+
+inline ModelState state_of(const TrainingData& data, const Likelihood& likelihood, FitReport report) {
+  ModelState s = state_at(data, likelihood);
+  s.L = likelihood.cholesky();
+  s.gls = likelihood.least_squares();
   s.report = std::move(report);
   return s;
 }
@@ -207,26 +214,41 @@ inline double response_roundoff(const TrainingData& data) {
   return 64.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, size / data.y_scale);
 }
 
+/// Parameters of the box at which no two runs are correlated.
+inline Eigen::VectorXd uncorrelated(const Box& box, const FitOptions& options) {
+  Eigen::VectorXd p = box.upper;
+  p[p.size() - 1] = std::log(std::clamp(1.0, options.nugget_lower, options.nugget_upper));
+  return p;
+}
+
+/// Whether the squared errors of uncorrelated runs from the trend sum to round-off.
+inline bool trend_meets_all(const TrainingData& data, double sum_of_squares) {
+  const double roundoff = response_roundoff(data), n = static_cast<double>(data.y.size());
+  return sum_of_squares <= roundoff * roundoff * n;
+}
+
+/// The trend alone is the model.
+inline void become_trend(ModelState& s, const TrainingData& data) {
+  s.process_variance = std::pow(response_roundoff(data), 2);
+  s.log_likelihood = std::numeric_limits<double>::infinity();
+  s.report.status = Status::exact_trend;
+  s.report.message =
+      "the trend meets all " + std::to_string(data.y.size()) + " runs to round-off: the model is the trend";
+  add_remarks(data, s.report);
+}
+
 /// The trend and round-off, where the trend alone meets all runs; empty where it does not. There is nothing
 /// to correlate then, and the likelihood has no bound.
 inline std::optional<Model> exact_trend(const TrainingData& data, const FitOptions& options) {
   if (data.trend.is_constant() || data.known_noise > 0) return {};
   Likelihood likelihood(likelihood_problem(data, options));
-  Eigen::VectorXd p = parameter_box(data, likelihood, options).upper;  // no two runs correlated
-  p[p.size() - 1] = std::log(std::clamp(1.0, options.nugget_lower, options.nugget_upper));
-  likelihood.value(p);
+  likelihood.value(uncorrelated(parameter_box(data, likelihood, options), options));
   if (likelihood.least_squares().beta.size() == 0) return {};  // repeats without a nugget: R is singular
-  const double roundoff = response_roundoff(data), n = static_cast<double>(data.y.size());
-  if (!(likelihood.least_squares().sum_of_squares <= roundoff * roundoff * n)) return {};
+  if (!trend_meets_all(data, likelihood.least_squares().sum_of_squares)) return {};
   FitReport report;
-  report.status = Status::exact_trend;
-  report.message =
-      "the trend meets all " + std::to_string(data.y.size()) + " runs to round-off: the model is the trend";
   report.evaluations = likelihood.factorizations();
-  add_remarks(data, report);
   ModelState state = state_of(data, likelihood, std::move(report));
-  state.process_variance = roundoff * roundoff;
-  state.log_likelihood = std::numeric_limits<double>::infinity();
+  become_trend(state, data);
   return Model(std::move(state));
 }
 

@@ -36,16 +36,25 @@ struct Search {
   double error_ratio = 1;  ///< root mean square leave-one-out error, chosen over highest
 };
 
-/// Of the runs: at most `many`, evenly picked, and of the trend's terms those that these tell apart.
-inline LikelihoodProblem thinned(const LikelihoodProblem& all) {
-  LikelihoodProblem few = all;
-  few.X = thinned(all.X, many);
-  few.y = thinned(all.y, many);
+/// The problem of some of its runs, with those terms of the trend that these tell apart: with others its likelihood is
+/// −∞ everywhere. `take` gives their rows of a matrix.
+template <class Take>
+LikelihoodProblem problem_of_some(const LikelihoodProblem& all, const Take& take) {
+  LikelihoodProblem some = all;
+  some.X = take(all.X);
+  some.y = take(all.y);
   if (all.F.size()) {
-    const Eigen::MatrixXd F = thinned(all.F, many);
-    few.F = columns_of(F, independent_columns(F));
+    const Eigen::MatrixXd F = take(all.F);
+    some.F = columns_of(F, independent_columns(F));
   }
-  if (all.noise.size()) few.noise = thinned(all.noise, many);
+  if (all.noise.size()) some.noise = take(all.noise);
+  return some;
+}
+
+/// At most `many` runs, evenly picked.
+inline LikelihoodProblem thinned(const LikelihoodProblem& all) {
+  LikelihoodProblem few =
+      problem_of_some(all, [](const Eigen::MatrixXd& rows) { return thinned(rows, many); });
   few.threads = 1;
   return few;
 }

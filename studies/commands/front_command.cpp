@@ -17,18 +17,7 @@ namespace drawpoint::studies {
 ReportInput input_with_front(const Study& study, const Settings& settings, const std::string& command) {
   const Store store = open_store(study, Folder{settings.out});
   const std::vector<Run> runs = store.runs();
-  ReportInput input = input_of(study, store, runs);
-  try {
-    add_models(input, store.identity().seed);
-  } catch (const std::invalid_argument& e) {
-    if (input.training.X().rows() == 0) {
-      std::string said = command + ": no training run has given values";
-      if (const std::string failed = failure_warning(input); !failed.empty()) said += ": " + failed;
-      throw std::runtime_error(said + "; the command status says more");
-    }
-    throw std::runtime_error(command + ": there are no models: " + std::string(e.what()) +
-                             "; make more runs with the command run, or ask and tell");
-  }
+  ReportInput input = input_with_models(study, store, runs, command);
   if (!input.no_front.empty())
     throw std::runtime_error(
         command + ": there is no front: " + input.no_front +

@@ -96,7 +96,7 @@ ExportColumn success_column() {
   return {"success", "1", ColumnType::number, "probability that a run succeeds"};
 }
 
-/// Of the columns of append_expected_columns, what the models expect at points.
+/// Holds what the models expect at points, and gives the columns of append_expected_columns.
 class Expected {
  public:
   Expected(const std::vector<kriging::TransformedModel>& models, const doe::Problem& problem,

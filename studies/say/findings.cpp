@@ -79,25 +79,17 @@ std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
 
 ExportTable findings_table(const Study& study, const Store& store, const Folder& folder) {
   const std::vector<Run> runs = store.runs();
-  ReportInput input = input_of(study, store, runs);
-  try {
-    add_models(input, store.identity().seed);
-  } catch (const std::invalid_argument& e) {
-    throw std::runtime_error("findings: there are no models: " + std::string(e.what()) +
-                             "; make more runs with the command run, or ask and tell");
-  }
-  input.warnings.clear();
+  const ReportInput input = input_with_models(study, store, runs, "findings");
   const OptionValues& options = store.identity().options;
-  const std::vector<const Run*> logged = runs_with_log(study, store.identity(), runs, folder, input.warnings);
+  std::vector<std::string> of_logs;  // what is wrong with some, which the report says
+  const std::vector<const Run*> logged = runs_with_log(study, store.identity(), runs, folder, of_logs);
   ExportTable table{.columns = {{"finding", "", ColumnType::text, "its name"},
                                 {"claim", "", ColumnType::text, "in a sentence"},
                                 {"verdict", "", ColumnType::text, "reproduced, not reproduced or unclear"},
                                 {"grounds", "", ColumnType::text, "what decided, or why nothing could"}},
                     .rows = {}};
-  for (const Finding& f : hold_findings(input, study, logged, options, folder))
+  for (const Finding& f : study.findings(results_of(input, logged, options, folder)))
     table.rows.push_back({f.id, f.claim, to_string(f.verdict), f.grounds});
-  if (table.rows.empty())
-    throw std::runtime_error(input.warnings.empty() ? "findings: none" : input.warnings.back());
   return table;
 }
 

@@ -19,8 +19,8 @@ std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
                                    const std::vector<const Run*>& logged, const OptionValues& options,
                                    const Folder& folder);
 
-/// The same as a table of id, claim, verdict and grounds, from a study's folder. Throws std::runtime_error where the runs
-/// do not allow models or the study's findings throw.
+/// The same as a table of id, claim, verdict and grounds, of a study that has findings. Throws std::runtime_error where
+/// the runs do not allow models, and as the study's findings.
 ExportTable findings_table(const Study& study, const Store& store, const Folder& folder);
 
 }  // namespace drawpoint::studies

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace drawpoint::studies {
@@ -87,6 +88,23 @@ void add_models(ReportInput& input, doe::Seed seed) {
   if (predicted.found.status == pareto::PolishedFrontStatus::not_polished)
     input.not_polished = std::move(predicted.found.message);
   input.no_front = std::move(predicted.missing);
+}
+
+ReportInput input_with_models(const Study& study, const Store& store, const std::vector<Run>& runs,
+                              const std::string& command) {
+  ReportInput input = input_of(study, store, runs);
+  try {
+    add_models(input, store.identity().seed);
+  } catch (const std::invalid_argument& e) {
+    if (input.training.X().rows() == 0) {
+      std::string said = command + ": no training run has given values";
+      if (const std::string failed = failure_warning(input); !failed.empty()) said += ": " + failed;
+      throw std::runtime_error(said + "; the command status says more");
+    }
+    throw std::runtime_error(command + ": there are no models: " + std::string(e.what()) +
+                             "; make more runs with the command run, or ask and tell");
+  }
+  return input;
 }
 
 void add_warnings(ReportInput& input, const std::vector<Run>& runs) {

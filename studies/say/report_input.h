@@ -20,6 +20,11 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
 /// models.
 void add_models(ReportInput& input, doe::Seed seed);
 
+/// Both, for a command that needs models: where there are none std::runtime_error begins with the command and says what
+/// to do.
+ReportInput input_with_models(const Study& study, const Store& store, const std::vector<Run>& runs,
+                              const std::string& command);
+
 /// Warnings about runs, models and front.
 void add_warnings(ReportInput& input, const std::vector<Run>& runs);
 

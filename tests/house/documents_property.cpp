@@ -75,7 +75,7 @@ TEST(Documents, ADeadLinkIsFound) {
       (std::vector<std::string>{"gone.md", "gone/b.png"}));
 }
 
-// Of a table in Markdown: what stands in the column, counted from 0, of the row that begins with the word.
+// Finds what stands in the column, counted from 0, of the row of a Markdown table that begins with the word.
 std::string cell_of(const std::string& page, const std::string& first, int column) {
   const std::regex row("\\n\\| " + first + "[^|]*((\\|[^|\\n]*)+)\\|\\n");
   std::smatch match;

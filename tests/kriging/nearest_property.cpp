@@ -6,6 +6,7 @@
 
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/detail/nearest/search.hpp>
 #include <drawpoint/kriging/fit_nearest.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
 #include <functional>
@@ -202,4 +203,18 @@ TEST(Nearest, RefusesWhatItCannotFit) {
             "kriging::fit_nearest: 31 runs stand at the point of run 3; allowed are half of neighbours, 24; "
             "average "
             "them with kriging::replicates, or raise neighbours");
+}
+
+// A term that one run alone has is singular in problems of the others, whatever λ: they leave it out.
+TEST(Nearest, ProblemsOfSomeRunsKeepTheTermsThatTheseTell) {
+  constexpr Eigen::Index n = 300;
+  LikelihoodProblem all;
+  all.X = Eigen::VectorXd::LinSpaced(n, -1, 1);
+  all.y = all.X.col(0);
+  all.F = Eigen::MatrixXd::Ones(n, 2);
+  all.F.col(1).head(n - 1).setZero();
+  EXPECT_EQ(detail::first_of(all, n).F, all.F);
+  EXPECT_EQ(detail::first_of(all, n - 1).F, Eigen::MatrixXd::Ones(n - 1, 1));
+  EXPECT_EQ(detail::thinned(all).F, Eigen::MatrixXd::Ones(250, 1))
+      << "every sixth run is left out, the last too";
 }

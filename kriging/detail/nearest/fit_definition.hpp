@@ -25,26 +25,10 @@ namespace detail {
 
 /// The state of the parameters at which the likelihood stands.
 inline ModelState state_of(const TrainingData& data, const VecchiaLikelihood& likelihood) {
-  ModelState s;
-  s.input = data.input;
-  s.y_centre = data.y_centre;
-  s.y_scale = data.y_scale;
-  s.observed = data.observed;
-  s.correlation = likelihood.correlation();
-  s.nugget = likelihood.nugget();
-  s.noise = data.noise;
-  s.known_noise = data.known_noise;
-  s.noise_unit = data.noise_unit;
-  s.trend = data.trend;
-  s.X = data.X;
-  s.F = data.F;
-  s.y = data.y;
+  ModelState s = state_at(data, likelihood);
   s.gls.beta = likelihood.beta();
   s.gls.T = likelihood.T();
   s.gls.sum_of_squares = likelihood.sum_of_squares();
-  s.process_variance = likelihood.estimates().process_variance;
-  s.log_likelihood =
-      likelihood.estimates().log_likelihood - static_cast<double>(data.X.rows()) * std::log(data.y_scale);
   return s;
 }
 
@@ -86,19 +70,12 @@ inline std::optional<NearestModel> nearest_exact_trend(const TrainingData& data,
                                                        const NearestOptions& nearest) {
   if (data.trend.is_constant() || data.known_noise > 0) return {};
   const LikelihoodProblem problem = likelihood_problem(data, options);
-  Eigen::VectorXd p = parameter_box(data, Likelihood(thinned(problem)), options).upper;
-  p[p.size() - 1] = std::log(std::clamp(1.0, options.nugget_lower, options.nugget_upper));
+  const Eigen::VectorXd p = uncorrelated(parameter_box(data, Likelihood(thinned(problem)), options), options);
   VecchiaLikelihood likelihood(problem, nearest.neighbours, p);
   likelihood.value(p);
-  const double roundoff = response_roundoff(data), n = static_cast<double>(data.y.size());
-  if (!(likelihood.sum_of_squares() <= roundoff * roundoff * n)) return {};
+  if (!trend_meets_all(data, likelihood.sum_of_squares())) return {};
   NearestState state{state_of(data, likelihood), nearest.neighbourhood, options.threads, {}};
-  state.all.process_variance = roundoff * roundoff;
-  state.all.log_likelihood = std::numeric_limits<double>::infinity();
-  state.all.report.status = Status::exact_trend;
-  state.all.report.message =
-      "the trend meets all " + std::to_string(data.y.size()) + " runs to round-off: the model is the trend";
-  add_remarks(data, state.all.report);
+  become_trend(state.all, data);
   return NearestModel(std::move(state));
 }
 

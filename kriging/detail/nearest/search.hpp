@@ -23,12 +23,8 @@ inline constexpr double least_climb = 0.05;  ///< log likelihood
 
 /// The first `count` runs.
 inline LikelihoodProblem first_of(const LikelihoodProblem& all, Index count) {
-  LikelihoodProblem some = all;
-  some.X = all.X.topRows(count);
-  some.y = all.y.head(count);
-  some.F = all.F.topRows(count);
-  if (all.noise.size()) some.noise = all.noise.head(count);
-  return some;
+  return problem_of_some(
+      all, [count](const Eigen::MatrixXd& rows) { return Eigen::MatrixXd(rows.topRows(count)); });
 }
 
 /// Climbs from p, with the neighbours of where it stands. The likelihood stands at the result.

@@ -55,7 +55,7 @@ enum class Kind {
   imported,      ///< made elsewhere
   validation     ///< independent, for judging the models
 };
-/// Of SQLite, in the header of the file of a store.
+/// SQLite keeps it in the header of the file of a store.
 inline constexpr int store_application_id = 0x44727770;
 
 inline constexpr std::array all_kinds = {Kind::training, Kind::adaptive, Kind::confirmation, Kind::imported,
