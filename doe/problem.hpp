@@ -63,6 +63,9 @@ struct Response {
   /// it is a mean of cycles or samples. That one is recorded, of the same unit and at least 0. Empty:
   /// unknown.
   std::string standard_error = {};
+  /// Of how many degrees of freedom that standard error is, in every run: one less than its independent samples. 0:
+  /// unknown, and then no run is weighed by its own word, which may be chance.
+  double standard_error_freedom = 0;
 };
 
 struct Problem {
@@ -210,6 +213,13 @@ inline void check_response(const Response& r) {
 
 /// That the response which tells the noise of `of` can.
 inline void check_standard_error(const Response& of, const std::vector<Response>& all) {
+  if (!(of.standard_error_freedom >= 0) || std::isinf(of.standard_error_freedom) ||
+      (of.standard_error.empty() && of.standard_error_freedom > 0))
+    reject("response \"" + of.name + "\": its standard error has " +
+           std::to_string(of.standard_error_freedom) +
+           " degrees of freedom; allowed are finite numbers from 0 on, and 0 without a standard error; leave "
+           "it out, or name "
+           "the standard error");
   if (of.standard_error.empty()) return;
   const std::string place =
       "response \"" + of.name + "\": its standard error is \"" + of.standard_error + "\", ";
@@ -231,7 +241,7 @@ inline void check_standard_error(const Response& of, const std::vector<Response>
 /// Throws std::invalid_argument that names the first fault: no variable or response, an empty or repeated
 /// name, a bound that is not finite or not in order, one that its kind does not allow, a constraint without a
 /// limit, a limit without a constraint or outside the response's range, a standard error that is no recorded
-/// response of that unit and at least 0.
+/// response of that unit and at least 0, degrees of freedom below 0 or of none.
 inline void check(const Problem& problem) {
   if (problem.variables.empty()) detail::reject("no variables; name at least one");
   if (problem.responses.empty()) detail::reject("no responses; name at least one");

@@ -5,7 +5,7 @@
 /// A problem as JSON, for stores, reports and programs in other languages:
 ///
 ///     {"variables": [{"name", "unit", "lower", "upper", "kind", "levels"}, ...],
-///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error"}, ...],
+///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error", "standard_error_freedom"}, ...],
 ///      "deterministic": true}
 ///
 /// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a
@@ -39,6 +39,7 @@ inline nlohmann::json to_json(const Problem& problem) {
     if (std::isfinite(r.lower)) entry["lower"] = r.lower;
     if (std::isfinite(r.upper)) entry["upper"] = r.upper;
     if (!r.standard_error.empty()) entry["standard_error"] = r.standard_error;
+    if (r.standard_error_freedom > 0) entry["standard_error_freedom"] = r.standard_error_freedom;
     responses.push_back(std::move(entry));
   }
   nlohmann::json json{{"variables", std::move(variables)}, {"responses", std::move(responses)}};
@@ -64,7 +65,8 @@ inline Problem problem_from_json(const nlohmann::json& json) {
          r.value("lower", -std::numeric_limits<double>::infinity()),
          r.value("upper", std::numeric_limits<double>::infinity()),
          {},
-         r.value("standard_error", std::string{})});
+         r.value("standard_error", std::string{}),
+         r.value("standard_error_freedom", 0.0)});
   problem.deterministic = json.value("deterministic", false);
   return problem;
 }

@@ -27,6 +27,7 @@
 #include <vector>
 
 #include <drawpoint/kriging/acquisition_constraints.hpp>
+#include <drawpoint/kriging/detail/front_view.hpp>
 
 namespace drawpoint::kriging {
 
@@ -38,6 +39,14 @@ struct FrontView {
 };
 
 namespace detail {
+
+/// Those rows of Y (n x m, all objectives minimised), with a reference point beyond them. sign: of the objectives.
+inline FrontView front_view(const Eigen::MatrixXd& Y, const Eigen::VectorXd& sign,
+                            const std::vector<Eigen::Index>& front) {
+  FrontView view{rows_of(Y, front), entry_products(sign, reference_beyond(Y, front))};
+  for (Eigen::Index k = 0; k < sign.size(); ++k) view.Y.col(k) *= sign[k];
+  return view;
+}
 
 /// Disjoint boxes [lower, upper], columns: what `front` (k x m) leaves undominated of {z <= reference}, every
 /// objective minimised. lower may be −∞.
@@ -231,9 +240,8 @@ doe::Criterion expected_hypervolume_improvement(const doe::Problem& problem, con
 }
 
 /// Improvement on the fitted values of the runs themselves that keep all limits, times the probability of
-/// feasibility. The reference point is theirs: the worst fitted value of each objective among all runs, so
-/// that better runs widen nothing. While no run is feasible the score is that probability alone. Throws as
-/// above, and when the models were fitted to different numbers of runs.
+/// feasibility. The reference point lies a tenth of their front's extent beyond it. While no run is feasible the score
+/// is that probability alone. Throws as above, and when the models were fitted to different numbers of runs.
 template <Regression S>
 doe::Criterion constrained_hypervolume_improvement(const doe::Problem& problem,
                                                    const std::vector<S>& models) {
@@ -244,13 +252,11 @@ doe::Criterion constrained_hypervolume_improvement(const doe::Problem& problem,
   if (runs.empty()) return feasible;
   const detail::Objectives objectives = detail::objectives_of(problem);
   const Eigen::Index m = objectives.sign.size();
-  FrontView front{Eigen::MatrixXd(static_cast<Eigen::Index>(runs.size()), m), Eigen::VectorXd(m)};
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const Eigen::VectorXd values = fitted_values(models[objectives.index[static_cast<std::size_t>(k)]]);
-    front.Y.col(k) = detail::entries_of(values, runs);
-    front.reference[k] =
-        objectives.sign[k] > 0 ? detail::largest_entry(values) : detail::smallest_entry(values);
-  }
+  Eigen::MatrixXd Y(models.front().runs(), m);
+  for (Eigen::Index k = 0; k < m; ++k)
+    Y.col(k) = detail::affine(fitted_values(models[objectives.index[static_cast<std::size_t>(k)]]),
+                              objectives.sign[k]);
+  const FrontView front = detail::front_view(Y, objectives.sign, detail::front_rows(Y, runs));
   return product_of_criteria({expected_hypervolume_improvement(problem, models, front), feasible});
 }
 

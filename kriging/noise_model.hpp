@@ -5,7 +5,7 @@
 /// The noise that a run has at a place, learnt from what runs tell of theirs.
 ///
 /// Standard errors of a few samples are off by chance, two samples' by their own size, so a fit should not
-/// take each for the truth (Noise::known). All together they know one size of noise well: of n runs of k
+/// take each for the truth (Noise::known), but draw it towards the others (moderated_noise.hpp). All together they know one size of noise well: of n runs of k
 /// samples each it is off by 1/√(2n(k − 1)) of itself (Noise::pooled), where the likelihood of the responses
 /// alone may be off by several times. Where noise varies smoothly over the box, a Kriging model of all
 /// standard errors, on the scale of their logarithm, knows it better than any of them; its own noise is how
@@ -18,9 +18,11 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/detail/training_data.hpp>
+#include <drawpoint/kriging/moderated_noise.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -31,7 +33,7 @@ namespace drawpoint::kriging {
 enum class NoiseSource {
   estimated,  ///< by the likelihood of the responses, one size
   pooled,     ///< what the runs tell, together: one size on the scale that is fitted
-  told,       ///< what each run tells
+  told,       ///< what each run tells, moderated by what all tell
   modelled,   ///< a model of what the runs tell
 };
 
@@ -98,12 +100,22 @@ using ExpectedNoise =
     std::function<Eigen::VectorXd(const Eigen::MatrixXd& others, const Eigen::VectorXd& told_by_others,
                                   const Eigen::MatrixXd& X, const Eigen::VectorXd& told)>;
 
+/// Of how many degrees of freedom the standard error of every run is, where that is well known by itself.
+inline constexpr double well_told = std::numeric_limits<double>::infinity();
+
 /// What a fit with noise from there expects of runs that it has not seen; empty where that is one size, which
-/// its model knows. options: as fit_noise.
-inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& options = {}) {
+/// its model knows. options: as fit_noise; freedom: as fit_with_noise.
+inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& options = {},
+                                    double freedom = well_told) {
   using Runs = const Eigen::MatrixXd&;
   using Entries = const Eigen::VectorXd&;
-  if (source == NoiseSource::told) return [](Runs, Entries, Runs, Entries told) { return told; };
+  if (source == NoiseSource::told)
+    return [freedom](Runs, Entries told_by_others, Runs, Entries told) -> Eigen::VectorXd {
+      if (std::isinf(freedom)) return told;
+      const SharedNoise shared =
+          shared_noise(told_by_others, Eigen::VectorXd::Constant(told_by_others.size(), freedom));
+      return told.unaryExpr([&](double v) { return shared.expected(v, freedom); });
+    };
   if (source != NoiseSource::modelled) return {};
   return [options](Runs others, Entries told_by_others, Runs X, Entries) {
     return noise_variance_at(fit_noise(others, told_by_others, options), X);
@@ -111,14 +123,17 @@ inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& option
 }
 
 /// A fit of runs that tell their noise as `source` has it. options: with Noise::nugget; noise_variance: n
-/// entries, unit of y squared, none needed for `estimated`. Throws as fit_transformed and fit_noise.
+/// entries, unit of y squared, none needed for `estimated`; freedom: the degrees of freedom of each of them, for
+/// `told`. Throws as fit_transformed, fit_noise and shared_noise.
 inline TransformedModel fit_with_noise(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
                                        const ResponseRange& range, const FitOptions& options,
-                                       NoiseSource source, const Eigen::VectorXd& noise_variance) {
+                                       NoiseSource source, const Eigen::VectorXd& noise_variance,
+                                       double freedom = well_told) {
   if (source == NoiseSource::estimated) return fit_transformed(X, y, scale, range, options);
   FitOptions known = options;
   known.noise = source == NoiseSource::pooled ? Noise::pooled : Noise::known;
-  known = with_known_noise(known, noise_variance);
+  known = with_known_noise(
+      known, source == NoiseSource::told ? moderated_noise(noise_variance, freedom) : noise_variance);
   if (source == NoiseSource::modelled && known.noise == Noise::known) known = with_modelled_noise(known, X);
   return fit_transformed(X, y, scale, range, known);
 }

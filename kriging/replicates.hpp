@@ -6,12 +6,13 @@
 ///
 /// Of the mᵢ runs at xᵢ: the mean ȳᵢ, and its variance. pooled: the noise is the same everywhere, so τᵢ² =
 /// s²/mᵢ with s² = Σᵢ Σⱼ (yᵢⱼ − ȳᵢ)²/Σᵢ (mᵢ − 1); needs one repeated point. own: each point has its own
-/// noise, τᵢ² = sᵢ²/mᵢ with sᵢ² = Σⱼ (yᵢⱼ − ȳᵢ)²/(mᵢ − 1); needs two runs at each point, and ten to be good
-/// to a third. Fitting means costs less than fitting all runs: the n³ is of the distinct points. Source:
+/// noise, τᵢ² = sᵢ²/mᵢ with sᵢ² = Σⱼ (yᵢⱼ − ȳᵢ)²/(mᵢ − 1), drawn towards those of the others as far as so few runs
+/// tell it (moderated_noise.hpp); needs two runs at each point. Fitting means costs less than fitting all runs: the n³ is of the distinct points. Source:
 /// Ankenman, Nelson, Staum 2010, Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling".
 
 #include <Eigen/Core>
 #include <drawpoint/kriging/detail/sites.hpp>
+#include <drawpoint/kriging/moderated_noise.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -59,7 +60,9 @@ inline Replicates replicates(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
   if (noise == ReplicateNoise::pooled)
     r.noise_variance = r.noise_variance.sum() / static_cast<double>(X.rows() - points) / count;
   else
-    r.noise_variance = r.noise_variance.array() / (count - 1.0) / count;
+    r.noise_variance =
+        moderated_noise((r.noise_variance.array() / (count - 1.0)).matrix(), (count - 1.0).matrix()).array() /
+        count;
   return r;
 }
 

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/python/bind.h>
+#include <algorithm>
 #include <drawpoint/kriging/choose_fit.hpp>
 #include <drawpoint/kriging/cross_validation.hpp>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/fit_nearest.hpp>
+#include <optional>
 
 /// Fits, the choice among ways to fit, and cross-validation.
 
@@ -91,6 +94,11 @@ py::list table_of(const kriging::FitChoice& choice) {
   return table;
 }
 
+/// Half as many neighbours in the likelihood as a prediction rests on, as by default.
+kriging::NearestOptions nearest_of(int neighbourhood) {
+  return {.neighbours = std::max(neighbourhood / 2, 8), .neighbourhood = neighbourhood};
+}
+
 py::tuple chosen(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                  const std::vector<kriging::FitOptions>& kinds, const Eigen::VectorXd& noise_variance) {
   kriging::RunNoise noise;
@@ -117,14 +125,20 @@ void bind_fit(py::module_& m) {
       "leave_one_out", [](const kriging::Model& model) { return kriging::leave_one_out(model); },
       ReleaseGil());
   m.def(
+      "fit_nearest",
+      [](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const kriging::FitOptions& options,
+         int neighbourhood) { return kriging::fit_nearest(X, y, options, nearest_of(neighbourhood)); },
+      ReleaseGil());
+  m.def(
       "k_fold",
       [](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, int folds, const kriging::FitOptions& options,
-         doe::Seed seed) {
+         doe::Seed seed, std::optional<int> neighbourhood) {
         const auto fitter = [&](const Eigen::MatrixXd& P, const Eigen::VectorXd& v,
                                 const std::vector<Eigen::Index>& rows) {
           kriging::FitOptions mine = options;
           if (options.noise_variance.size() > 0) mine.noise_variance = options.noise_variance(rows);
-          return kriging::fit(P, v, mine);
+          if (!neighbourhood) return kriging::AnySurrogate(kriging::fit(P, v, mine));
+          return kriging::AnySurrogate(kriging::fit_nearest(P, v, mine, nearest_of(*neighbourhood)));
         };
         return kriging::k_fold(X, y, folds, fitter, {.seed = seed});
       },

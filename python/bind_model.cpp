@@ -4,10 +4,12 @@
 #include <drawpoint/python/bind.h>
 #include <algorithm>
 #include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/nearest_model.hpp>
 #include <drawpoint/kriging/save.hpp>
+#include <drawpoint/kriging/save_nearest.hpp>
 #include <drawpoint/kriging/validate.hpp>
 
-/// The fitted model: predictions, numbers, text.
+/// The fitted models, of all runs and of the nearest: predictions, numbers, text.
 
 namespace drawpoint::python {
 
@@ -33,7 +35,8 @@ void in_blocks(Eigen::Index rows, const F& f) {
   }
 }
 
-Eigen::VectorXd mean_of(const kriging::Model& model, const Points& X) {
+template <class Model>
+Eigen::VectorXd mean_of(const Model& model, const Points& X) {
   Eigen::VectorXd mean(X.rows());
   in_blocks(X.rows(), [&](Eigen::Index from, Eigen::Index rows) {
     mean.segment(from, rows) = model.mean(X.middleRows(from, rows));
@@ -41,7 +44,8 @@ Eigen::VectorXd mean_of(const kriging::Model& model, const Points& X) {
   return mean;
 }
 
-std::pair<Eigen::VectorXd, Eigen::VectorXd> prediction_of(const kriging::Model& model, const Points& X,
+template <class Model>
+std::pair<Eigen::VectorXd, Eigen::VectorXd> prediction_of(const Model& model, const Points& X,
                                                           bool observation) {
   Eigen::VectorXd mean(X.rows()), variance(X.rows());
   in_blocks(X.rows(), [&](Eigen::Index from, Eigen::Index rows) {
@@ -52,19 +56,13 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> prediction_of(const kriging::Model& 
   return {std::move(mean), std::move(variance)};
 }
 
-}  // namespace
-
-void bind_model(py::module_& m) {
-  using kriging::Model;
-  py::class_<Model>(m, "Model")
-      .def("mean", &mean_of)
-      .def("predict", &prediction_of)
-      .def("covariance", &Model::covariance, ReleaseGil())
-      .def("gradient",
-           [](const Model& model, const Eigen::VectorXd& x) {
-             const kriging::PredictionGradient g = model.gradient(x);
-             return std::pair(g.mean, g.variance);
-           })
+/// What both kinds of model have. from_text(text) and load(path): of this kind.
+template <class Model>
+py::class_<Model> bind_regression(py::module_& m, const char* name, Model (*from_text)(const std::string&),
+                                  Model (*load)(const std::filesystem::path&)) {
+  py::class_<Model> bound(m, name);
+  bound.def("mean", &mean_of<Model>)
+      .def("predict", &prediction_of<Model>)
       .def(
           "validate",
           [](const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
@@ -72,30 +70,47 @@ void bind_model(py::module_& m) {
           },
           ReleaseGil())
       .def("to_text", [](const Model& model) { return kriging::to_text(model); })
-      .def_static("from_text", [](const std::string& text) { return kriging::from_text(text); })
+      .def_static("from_text", from_text)
       .def(
           "save", [](const Model& model, const std::string& path) { kriging::save(model, path); },
           ReleaseGil())
       .def_static(
-          "load", [](const std::string& path) { return kriging::load(path); }, ReleaseGil())
+          "load", [load](const std::string& path) { return load(path); }, ReleaseGil())
       .def_property_readonly("variables", &Model::variables)
       .def_property_readonly("runs", &Model::runs)
       .def_property_readonly("theta", [](const Model& model) { return model.theta(); })
       .def_property_readonly("nugget", &Model::nugget)
       .def_property_readonly("process_variance", &Model::process_variance)
       .def_property_readonly("noise_variance", &Model::noise_variance)
-      .def_property_readonly("trend", &Model::trend_coefficients)
-      .def_property_readonly("constant", &Model::trend)
       .def_property_readonly("log_likelihood", &Model::log_likelihood)
-      .def_property_readonly("condition", [](const Model& model) { return model.report().condition; })
       .def_property_readonly("status",
                              [](const Model& model) { return std::string(to_string(model.status())); })
       .def_property_readonly("message", &Model::message)
       .def_property_readonly(
           "correlation",
           [](const Model& model) { return std::string(to_string(model.correlation().family)); })
-      .def(py::pickle([](const Model& model) { return kriging::to_text(model); },
-                      [](const std::string& text) { return kriging::from_text(text); }));
+      .def(py::pickle([](const Model& model) { return kriging::to_text(model); }, from_text));
+  return bound;
+}
+
+}  // namespace
+
+void bind_model(py::module_& m) {
+  using kriging::Model, kriging::NearestModel;
+  bind_regression<Model>(m, "Model", &kriging::from_text, &kriging::load)
+      .def("covariance", &Model::covariance, ReleaseGil())
+      .def("gradient",
+           [](const Model& model, const Eigen::VectorXd& x) {
+             const kriging::PredictionGradient g = model.gradient(x);
+             return std::pair(g.mean, g.variance);
+           })
+      .def_property_readonly("trend", &Model::trend_coefficients)
+      .def_property_readonly("constant", &Model::trend)
+      .def_property_readonly("condition", [](const Model& model) { return model.report().condition; });
+  bind_regression<NearestModel>(m, "NearestModel", &kriging::nearest_from_text, &kriging::load_nearest)
+      .def_property_readonly("neighbourhood",
+                             [](const NearestModel& model) { return model.state().neighbourhood; })
+      .def_property_readonly("error_of_mean", [](const NearestModel& model) { return model.error().mean; });
 
   py::class_<kriging::Validation>(m, "Validation")
       .def_readonly("rmse", &kriging::Validation::rmse)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <drawpoint/python/black_box.h>
+#include <drawpoint/kriging/nearest_model.hpp>
 #include <drawpoint/kriging/surrogates.hpp>
 
 namespace drawpoint::python {
@@ -73,7 +74,10 @@ Batch::Function of_arrays(py::handle f, Interrupt& interrupt) {
 Batch::Function of_models(const std::string& place, const py::list& list, const doe::Problem& problem,
                           Interrupt& interrupt) {
   std::vector<kriging::AnySurrogate> models;
-  for (const py::handle model : list) models.emplace_back(model.cast<const kriging::Model&>());
+  for (const py::handle model : list)
+    models.push_back(py::isinstance<kriging::NearestModel>(model)
+                         ? kriging::AnySurrogate(model.cast<const kriging::NearestModel&>())
+                         : kriging::AnySurrogate(model.cast<const kriging::Model&>()));
   const kriging::Surrogates surrogates(std::move(models));
   const auto d = static_cast<Eigen::Index>(problem.variables.size());
   if (surrogates.variables() != d)

@@ -3,11 +3,12 @@
 
 /// told_noise_table: what it is worth that runs tell their own standard error. Each run is the mean of a few
 /// noisy samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell
-/// together, what each tells, and a model of that, and the choice among the four. Takes no options; prints a
+/// together, what each tells, that moderated by the others, and a model of that, and the choice among the five. Takes no options; prints a
 /// table: errors over the deviation of the response, and how many of fresh runs lie within their 95 %
 /// interval, where the noise is small and where it is large. A second table has what a study does, which
 /// chooses among four kinds of fit before the source: with estimated noise, with pooled noise, and with pooled
-/// noise and then the source that refits prefer; means over the designs, and the least share held.
+/// noise and then the source that refits prefer, of few samples each's own word as it is and moderated; means over the
+/// designs, and the least share held, and how often the model's interval of the mean holds the function.
 
 #include <algorithm>
 #include <array>
@@ -33,10 +34,20 @@ using Eigen::VectorXd;
 
 using kriging::NoiseSource;
 
-constexpr std::array sources = {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::told,
-                                NoiseSource::modelled};
-/// Columns: the four sources, and the chosen one.
-constexpr int designs = 15, fresh = 200, columns = 5;
+/// Where noise comes from.
+struct Source {
+  const char* name;
+  NoiseSource source;
+  bool moderated = false;  ///< by the samples of a run
+};
+
+constexpr std::array sources = {
+    Source{"pooled", NoiseSource::pooled}, Source{"estimated", NoiseSource::estimated},
+    Source{"told", NoiseSource::told}, Source{"moderated", NoiseSource::told, true},
+    Source{"modelled", NoiseSource::modelled}};
+/// Columns: the sources, and the chosen one of all.
+constexpr int designs = 15, fresh = 200;
+constexpr std::size_t columns = sources.size() + 1;
 
 /// On the unit box.
 struct Function {
@@ -112,19 +123,21 @@ Runs runs_of(const Function& function, const Noise& noise, int n, int samples, d
   return r;
 }
 
-kriging::WayToFit way(NoiseSource source, const kriging::FitOptions& options = {}) {
-  return kriging::way_with_noise(std::string(to_string(source)), kriging::Scale::linear, {}, options, source);
+kriging::WayToFit way(const Source& source, int samples, const kriging::FitOptions& options = {}) {
+  return kriging::way_with_noise(source.name, kriging::Scale::linear, {}, options, source.source,
+                                 source.moderated ? samples - 1.0 : kriging::well_told);
 }
 
-std::vector<kriging::WayToFit> ways() {
+std::vector<kriging::WayToFit> ways(int samples) {
   std::vector<kriging::WayToFit> all;
-  for (const NoiseSource source : sources) all.push_back(way(source));
+  for (const Source& source : sources) all.push_back(way(source, samples));
   return all;
 }
 
 struct Result {
   double error = 0, quiet = 0, noisy = 0;  // held, of the fresh runs with less and with more noise
   double all = 0;                          // held, of all fresh runs
+  double mean = 0;                         // places where the interval of the mean holds the function
 };
 
 /// Of the fresh runs r, as the way has their noise.
@@ -136,10 +149,13 @@ Result judged(const kriging::WayToFit& way, const Function& function, const Runs
                                     way.noise(training.X, training.noise_variance, r.X, r.noise_variance))
                 : kriging::validate(model, r.X, r.y);
   const double middle = std::sqrt(r.deviation.minCoeff() * r.deviation.maxCoeff());
+  const VectorXd low = model.quantile(r.X, 0.025), high = model.quantile(r.X, 0.975);
   double sum = 0;
-  int held[2] = {}, all[2] = {};
+  int held[2] = {}, all[2] = {}, means = 0;
   for (Eigen::Index i = 0; i < r.y.size(); ++i) {
-    sum += std::pow(v.predicted[i] - truth(function, scale, r.X.row(i)), 2);
+    const double true_mean = truth(function, scale, r.X.row(i));
+    sum += std::pow(v.predicted[i] - true_mean, 2);
+    means += low[i] <= true_mean && true_mean <= high[i];
     const int side = r.deviation[i] > middle;
     ++all[side];
     held[side] += kriging::predicted_quantile(v, i, 0.025) <= r.y[i] &&
@@ -147,7 +163,8 @@ Result judged(const kriging::WayToFit& way, const Function& function, const Runs
   }
   const auto share = [&](int side) { return all[side] > 0 ? 1.0 * held[side] / all[side] : std::nan(""); };
   return {std::sqrt(sum / static_cast<double>(r.y.size())), share(0), share(1),
-          1.0 * (held[0] + held[1]) / static_cast<double>(r.y.size())};
+          1.0 * (held[0] + held[1]) / static_cast<double>(r.y.size()),
+          1.0 * means / static_cast<double>(r.y.size())};
 }
 
 std::string text(double share) {
@@ -164,10 +181,10 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
     const Runs r = runs_of(function, noise, n, samples, seed);
     const Runs check = runs_of(function, noise, fresh, samples, seed + 1000);
     const auto choice =
-        kriging::choose_refitted(r.X, r.y, {}, ways(), {kriging::Noise::known, r.noise_variance});
+        kriging::choose_refitted(r.X, r.y, {}, ways(samples), {kriging::Noise::known, r.noise_variance});
     ++chosen[choice.best];
     for (std::size_t k = 0; k < columns; ++k) {
-      const Result result = judged(ways()[k < sources.size() ? k : choice.best], function, r, check);
+      const Result result = judged(ways(samples)[k < sources.size() ? k : choice.best], function, r, check);
       error[k].push_back(result.error);
       quiet[k].push_back(result.quiet);
       noisy[k].push_back(result.noisy);
@@ -175,50 +192,57 @@ void print_row(const Function& function, const Noise& noise, int n, int samples)
   }
   std::printf("| %s | %s | %d | %d |", function.name, noise.name, n, samples);
   for (const auto& errors : error) std::printf(" %.3f |", median(errors));
-  for (int k = 0; k < columns; ++k)
+  for (std::size_t k = 0; k < columns; ++k)
     std::printf(" %s / %s |", text(median(quiet[k])).c_str(), text(median(noisy[k])).c_str());
-  std::printf(" %d / %d / %d / %d |\n", chosen[0], chosen[1], chosen[2], chosen[3]);
+  for (const int count : chosen) std::printf(" %d", count);
+  std::printf(" |\n");
   std::fflush(stdout);
 }
 
 /// All with noise from this source.
-std::vector<kriging::WayToFit> kinds(NoiseSource source) {
+std::vector<kriging::WayToFit> kinds(const Source& source, int samples) {
   std::vector<kriging::WayToFit> all;
-  for (const kriging::FitOptions& options : kriging::usual_kinds()) all.push_back(way(source, options));
+  for (const kriging::FitOptions& options : kriging::usual_kinds())
+    all.push_back(way(source, samples, options));
   return all;
 }
 
-/// The best kind with estimated noise, with pooled noise, and that kind with the source that refits prefer.
-std::array<kriging::WayToFit, 3> chosen_ways(const Runs& r) {
+/// The best kind with estimated noise, with pooled noise, and that kind with the source that refits prefer: of all
+/// but the moderated one, of all but the one that takes each run's word as it is, and of neither.
+std::array<kriging::WayToFit, 5> chosen_ways(const Runs& r, int samples) {
   const kriging::RunNoise noise{kriging::Noise::known, r.noise_variance};
-  const auto best_kind = [&](NoiseSource source) {
-    return kriging::choose_fit(r.X, r.y, {}, kinds(source), noise).best;
+  const auto best_kind = [&](const Source& source) {
+    return kriging::choose_fit(r.X, r.y, {}, kinds(source, samples), noise).best;
   };
-  const std::size_t kind = best_kind(NoiseSource::pooled);
-  std::vector<kriging::WayToFit> by_source;
-  for (const NoiseSource source : sources) by_source.push_back(kinds(source)[kind]);
-  const std::size_t source = kriging::choose_refitted(r.X, r.y, {}, by_source, noise).best;
-  return {kinds(NoiseSource::estimated)[best_kind(NoiseSource::estimated)], by_source[0], by_source[source]};
+  const std::size_t kind = best_kind(sources[0]);
+  const auto preferred = [&](const std::vector<std::size_t>& of) {
+    std::vector<kriging::WayToFit> some;
+    for (const std::size_t k : of) some.push_back(kinds(sources[k], samples)[kind]);
+    return some[kriging::choose_refitted(r.X, r.y, {}, some, noise).best];
+  };
+  return {kinds(sources[1], samples)[best_kind(sources[1])], kinds(sources[0], samples)[kind],
+          preferred({0, 1, 2, 4}), preferred({0, 1, 3, 4}), preferred({0, 1, 4})};
 }
 
 void print_study_row(const Function& function, const Noise& noise, int n, int samples) {
-  std::array<double, 3> error{}, held{}, least{1, 1, 1};
+  std::array<double, 5> error{}, held{}, mean{}, least{1, 1, 1, 1, 1};
   for (int design = 1; design <= designs; ++design) {
     const auto seed = static_cast<doe::Seed>(design);
     const Runs r = runs_of(function, noise, n, samples, seed);
     const Runs check = runs_of(function, noise, fresh, samples, seed + 1000);
-    const auto ways = chosen_ways(r);
+    const auto ways = chosen_ways(r, samples);
     for (std::size_t k = 0; k < ways.size(); ++k) {
       const Result result = judged(ways[k], function, r, check);
       error[k] += result.error / designs;
       held[k] += result.all / designs;
+      mean[k] += result.mean / designs;
       least[k] = std::min(least[k], result.all);
     }
   }
   std::printf("| %s | %s | %d | %d |", function.name, noise.name, n, samples);
   for (const double e : error) std::printf(" %.3f |", e);
   for (std::size_t k = 0; k < held.size(); ++k)
-    std::printf(" %s, %s |", text(held[k]).c_str(), text(least[k]).c_str());
+    std::printf(" %s, %s, %s |", text(held[k]).c_str(), text(least[k]).c_str(), text(mean[k]).c_str());
   std::printf("\n");
   std::fflush(stdout);
 }
@@ -228,18 +252,24 @@ void print_study_row(const Function& function, const Noise& noise, int n, int sa
 int main() {
   try {
     std::printf(
-        "| Function | Noise of a run | Runs | Samples | Error: pooled | estimated | told | modelled | chosen "
-        "| Held %%, quiet / noisy runs: pooled | estimated | told | modelled | chosen | Chosen, of %d |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| Function | Noise of a run | Runs | Samples | Error: pooled | estimated | told | moderated | "
+        "modelled "
+        "| chosen | Held %%, quiet / noisy runs: pooled | estimated | told | moderated | modelled | chosen | "
+        "Chosen, "
+        "of %d |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         designs);
     for (const Function& function : functions)
       for (const Noise& noise : noises)
         for (const int n : {20, 60})
           for (const int samples : {2, 5, 20}) print_row(function, noise, n, samples);
     std::printf(
-        "\n| Function | Noise of a run | Runs | Samples | Error, mean: estimated | pooled | pooled, then "
-        "the source | Held %%, mean and least of %d: estimated | pooled | pooled, then the source |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n",
+        "\n| Function | Noise of a run | Runs | Samples | Error, mean: estimated | pooled | chosen with told "
+        "| with "
+        "moderated | with neither | Held %%, runs: mean and least of %d, mean of the function: estimated | "
+        "pooled | "
+        "chosen with told | with moderated | with neither |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         designs);
     for (const Function& function : functions)
       for (const Noise& noise : noises)

@@ -78,22 +78,12 @@ struct Incumbents {
   bool feasible = false;
 };
 
-/// Whether run a is at least as good as run b in every objective and better in one.
-inline bool dominates(const SearchedModels& s, const Incumbents& by, Eigen::Index a, Eigen::Index b) {
-  bool better = false;
-  for (std::size_t k = 0; k < by.objectives.size(); ++k) {
-    const double sign = by.sign[static_cast<Eigen::Index>(k)];
-    const double za = sign * s.Z(a, by.objectives[k]), zb = sign * s.Z(b, by.objectives[k]);
-    if (za > zb) return false;
-    better = better || za < zb;
-  }
-  return better;
-}
-
-/// Whether they are alike in all objectives.
-inline bool equals(const SearchedModels& s, const Incumbents& by, Eigen::Index a, Eigen::Index b) {
-  return std::all_of(by.objectives.begin(), by.objectives.end(),
-                     [&](Eigen::Index j) { return s.Z(a, j) == s.Z(b, j); });
+/// The objectives of the runs, every one minimised: n x objectives.
+inline Eigen::MatrixXd minimised(const SearchedModels& s, const Incumbents& by) {
+  Eigen::MatrixXd Y(s.Z.rows(), by.sign.size());
+  for (Eigen::Index k = 0; k < Y.cols(); ++k)
+    Y.col(k) = affine(s.Z.col(by.objectives[static_cast<std::size_t>(k)]), by.sign[k]);
+  return Y;
 }
 
 inline Incumbents incumbents_of(const SearchedModels& s) {
@@ -107,32 +97,13 @@ inline Incumbents incumbents_of(const SearchedModels& s) {
   best.sign = Eigen::Map<const Eigen::VectorXd>(signs.data(), static_cast<Eigen::Index>(signs.size()));
   const std::vector<Eigen::Index> feasible = s.feasible();
   best.feasible = !feasible.empty();
-  for (const Eigen::Index i : feasible)
-    if (std::none_of(feasible.begin(), feasible.end(), [&](Eigen::Index other) {
-          return dominates(s, best, other, i) || (other < i && equals(s, best, other, i));
-        }))
-      best.runs.push_back(i);
+  best.runs = front_rows(minimised(s, best), feasible);
   if (best.feasible) return best;
   Eigen::Index least = 0;
   for (Eigen::Index i = 1; i < s.Z.rows(); ++i)
     if (s.violation(i) < s.violation(least)) least = i;
   best.runs = {least};
   return best;
-}
-
-/// The front and a reference point a tenth of its extent beyond it; beyond all runs where the front has none.
-inline FrontView front_to_improve(const SearchedModels& s, const Incumbents& best) {
-  const auto m = static_cast<Eigen::Index>(best.objectives.size());
-  FrontView front{Eigen::MatrixXd(static_cast<Eigen::Index>(best.runs.size()), m), Eigen::VectorXd(m)};
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const Eigen::VectorXd all = affine(s.Z.col(best.objectives[static_cast<std::size_t>(k)]), best.sign[k]);
-    front.Y.col(k) = entries_of(all, best.runs);
-    const double low = front.Y.col(k).minCoeff(), high = front.Y.col(k).maxCoeff();
-    const double extent = high > low ? high - low : std::max(largest_entry(all) - low, 1e-9);
-    front.reference[k] = best.sign[k] * ((high > low ? high : low + extent) + 0.1 * extent);
-    front.Y.col(k) *= best.sign[k];
-  }
-  return front;
 }
 
 /// The models' means of one objective, and beyond any of them where a limit is rather broken than kept.
@@ -154,7 +125,7 @@ inline doe::Criterion most_improvement(const SearchedModels& s, const Incumbents
   const doe::Criterion use = log_probability_of_use(s);
   if (!best.feasible || best.objectives.empty()) return use;
   if (best.objectives.size() > 1) {
-    const FrontView front = front_to_improve(s, best);
+    const FrontView front = front_view(minimised(s, best), best.sign, best.runs);
     if (!expect)
       return sum_of(logarithm_of(expected_hypervolume_improvement(s.problem, s.models(), front)), use);
     std::vector<CertainModel> certain;

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from . import _core
 
 Array = npt.NDArray[np.float64]
+_AnyModel = Union[_core.Model, _core.NearestModel]
 
 
 class FitWarning(UserWarning):
@@ -66,6 +67,8 @@ class Kriging:
     lower, upper : (d,), the box that is scaled to [-1, 1], on which theta_ lives. None: the range of the runs.
     levels : d counts, 0 for a number, L for a category of the values 0 .. L - 1. None: all are numbers.
     theta_bounds, nugget_bounds : (least, largest), > 0; those of theta numbers or (d,) each. None: the library's.
+    neighbourhood : runs that a prediction rests on, 8 or more, such as 400: for thousands of runs, whose exact fit costs
+        n cubed. None: all runs. Of such a model there is no leave_one_out, covariance and gradient.
     starts : local searches, 1 or more.
     seed : of the starting points; equal input gives equal bits.
     threads : of the matrix work of 500 runs or more; 0: all cores. Results do not depend on it.
@@ -73,8 +76,8 @@ class Kriging:
     Attributes after fit()
     ----------------------
     theta_ (d,), nugget_ (noise variance over process variance), process_variance_, noise_variance_ (unit of y
-    squared), trend_ (coefficients), log_likelihood_, status_, message_, condition_ (of the correlation matrix),
-    n_features_in_.
+    squared), log_likelihood_, status_, message_, n_features_in_; of all runs also trend_ (coefficients) and condition_
+    (of the correlation matrix); of a neighbourhood error_of_mean_, what twice the runs would change the mean by.
     """
 
     def __init__(
@@ -91,6 +94,7 @@ class Kriging:
         levels: Optional[Sequence[int]] = None,
         theta_bounds: Optional[Tuple[npt.ArrayLike, npt.ArrayLike]] = None,
         nugget_bounds: Optional[Tuple[float, float]] = None,
+        neighbourhood: Optional[int] = None,
         starts: int = 8,
         seed: int = 1,
         threads: int = 1,
@@ -106,6 +110,7 @@ class Kriging:
         self.levels = levels
         self.theta_bounds = theta_bounds
         self.nugget_bounds = nugget_bounds
+        self.neighbourhood = neighbourhood
         self.starts = starts
         self.seed = seed
         self.threads = threads
@@ -118,7 +123,11 @@ class Kriging:
         and parameters out of range. Warns FitWarning where status_ is not "converged".
         """
         runs, response = _runs(X, y)
-        self._keep(_core.fit(runs, response, self._options(_noise(noise, response.size))))
+        options = self._options(_noise(noise, response.size))
+        if self.neighbourhood is None:
+            self._keep(_core.fit(runs, response, options))
+        else:
+            self._keep(_core.fit_nearest(runs, response, options, self.neighbourhood))
         return self
 
     def predict(
@@ -160,7 +169,7 @@ class Kriging:
 
     def leave_one_out(self) -> Validation:
         """Every run predicted without it and its repeats, in closed form, parameters as fitted."""
-        return Validation(_core.leave_one_out(self._fitted()))
+        return Validation(_core.leave_one_out(self._of_all_runs("leave_one_out", "use k_fold")))
 
     def k_fold(
         self,
@@ -176,15 +185,15 @@ class Kriging:
         """
         runs, response = _runs(X, y)
         options = self._options(_noise(noise, response.size))
-        return Validation(_core.k_fold(runs, response, folds, options, seed))
+        return Validation(_core.k_fold(runs, response, folds, options, seed, self.neighbourhood))
 
     def covariance(self, X: npt.ArrayLike) -> Array:
         """Joint covariance of the response without noise at the rows of X, (m, d): (m, m), unit of y squared."""
-        return self._fitted().covariance(_points(X))
+        return self._of_all_runs("covariance", "fit a part of the runs exactly").covariance(_points(X))
 
     def gradient(self, x: npt.ArrayLike) -> Tuple[Array, Array]:
         """Derivatives of the mean and of the variance by the inputs at one point, (d,) each."""
-        return self._fitted().gradient(np.asarray(x, dtype=float))
+        return self._of_all_runs("gradient", "take differences of predict").gradient(np.asarray(x, dtype=float))
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the model as the library's text, whole or not at all. Raises RuntimeError when the disk refuses."""
@@ -196,7 +205,13 @@ class Kriging:
 
         The file holds the model, not the parameters of the fit, but for correlation.
         """
-        return cls._of(_core.Model.load(os.fspath(path)))
+        try:
+            return cls._of(_core.Model.load(os.fspath(path)))
+        except RuntimeError as of_all:
+            try:
+                return cls._of(_core.NearestModel.load(os.fspath(path)))
+            except RuntimeError:
+                raise of_all from None
 
     def to_text(self) -> str:
         """The text that save() writes."""
@@ -205,7 +220,13 @@ class Kriging:
     @classmethod
     def from_text(cls, text: str) -> Kriging:
         """As load(), from a text."""
-        return cls._of(_core.Model.from_text(text))
+        try:
+            return cls._of(_core.Model.from_text(text))
+        except RuntimeError as of_all:
+            try:
+                return cls._of(_core.NearestModel.from_text(text))
+            except RuntimeError:
+                raise of_all from None
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
         """The parameters, by name."""
@@ -228,8 +249,10 @@ class Kriging:
         return f"Kriging({', '.join(changed)})"
 
     @classmethod
-    def _of(cls, core: _core.Model) -> Kriging:
+    def _of(cls, core: _AnyModel) -> Kriging:
         model = cls(correlation=core.correlation)
+        if isinstance(core, _core.NearestModel):
+            model.neighbourhood = core.neighbourhood
         model._take(core)
         return model
 
@@ -256,26 +279,37 @@ class Kriging:
         options.starts, options.seed, options.threads = self.starts, self.seed, self.threads
         return options
 
-    def _keep(self, core: _core.Model) -> None:
+    def _keep(self, core: _AnyModel) -> None:
         self._take(core)
         if core.status != "converged":
             warnings.warn(f"drawpoint.Kriging: {core.status}: {core.message}", FitWarning, stacklevel=3)
 
-    def _take(self, core: _core.Model) -> None:
+    def _take(self, core: _AnyModel) -> None:
         self.model_ = core
         self.theta_: Array = core.theta
         self.nugget_: float = core.nugget
         self.process_variance_: float = core.process_variance
         self.noise_variance_: float = core.noise_variance
-        self.trend_: Array = core.trend
         self.log_likelihood_: float = core.log_likelihood
         self.status_: str = core.status
         self.message_: str = core.message
-        self.condition_: float = core.condition
         self.n_features_in_: int = core.variables
+        for name in ("trend_", "condition_", "error_of_mean_"):
+            self.__dict__.pop(name, None)
+        if isinstance(core, _core.NearestModel):
+            self.error_of_mean_: float = core.error_of_mean
+        else:
+            self.trend_: Array = core.trend
+            self.condition_: float = core.condition
 
-    def _fitted(self) -> _core.Model:
-        model: Optional[_core.Model] = getattr(self, "model_", None)
+    def _of_all_runs(self, what: str, instead: str) -> _core.Model:
+        model = self._fitted()
+        if isinstance(model, _core.NearestModel):
+            raise ValueError(f"drawpoint.Kriging: {what} is not there with neighbourhood={model.neighbourhood}; {instead}")
+        return model
+
+    def _fitted(self) -> _AnyModel:
+        model: Optional[_AnyModel] = getattr(self, "model_", None)
         if model is None:
             raise ValueError("drawpoint.Kriging: the model is not fitted; call fit(X, y) first")
         return model
@@ -321,6 +355,8 @@ def choose_kriging(
     models = [Kriging(**params).set_params(correlation=c, trend=t) for c, t in pairs]
     if variance is not None and any(model.noise_kind != "known" for model in models):
         raise ValueError("drawpoint.choose_kriging: allowed is the noise_kind \"known\"; fit other kinds one by one")
+    if any(model.neighbourhood is not None for model in models):
+        raise ValueError("drawpoint.choose_kriging: allowed is neighbourhood=None; compare such fits by k_fold")
     options = [model._options(variance) for model in models]
     core, best, table = _core.choose_fit(runs, response, options, np.empty(0) if variance is None else variance)
     models[best]._keep(core)

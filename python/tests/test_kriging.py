@@ -113,6 +113,28 @@ def test_saved_models_predict_the_same_bits(model, tmp_path):
         Kriging.load(tmp_path / "force.json")
 
 
+def test_a_neighbourhood_fits_many_runs_and_one_of_all_is_exact(tmp_path):
+    many = drawpoint.latin_hypercube(1500, [0.1, 10.0], [0.6, 60.0])
+    nearest = Kriging(deterministic=True, neighbourhood=200).fit(many, force(many))
+    assert abs(nearest.predict(NEW) - force(NEW)).max() < 1e-4 * np.ptp(force(NEW))
+    assert 0 <= nearest.error_of_mean_ < 1e-4 * np.ptp(force(NEW)) and not hasattr(nearest, "condition_")
+    nearest.save(tmp_path / "nearest.json")
+    for twin in (Kriging.load(tmp_path / "nearest.json"), pickle.loads(pickle.dumps(nearest))):
+        assert twin.neighbourhood == 200 and (twin.predict(NEW) == nearest.predict(NEW)).all()
+    assert nearest.k_fold(many[:300], force(many[:300])).nrmse < 1e-3
+    for call in (nearest.leave_one_out, lambda: nearest.covariance(NEW), lambda: nearest.gradient(NEW[0])):
+        with pytest.raises(ValueError, match="not there with neighbourhood=200; "):
+            call()
+    exact = Kriging(deterministic=True).fit(X, force(X))
+    indices = [drawpoint.sobol_indices(m, [0.1, 10.0], [0.6, 60.0], samples=256).first.value for m in (nearest, exact)]
+    assert indices[0] == pytest.approx(indices[1], abs=1e-2)
+    all_runs = Kriging(neighbourhood=80).fit(X, force(X))
+    assert all_runs.error_of_mean_ == 0 and abs(all_runs.predict(NEW) - force(NEW)).max() < 1
+    assert not hasattr(all_runs.set_params(neighbourhood=None).fit(X, force(X)), "error_of_mean_")
+    with pytest.raises(ValueError, match="neighbourhood"):
+        Kriging(neighbourhood=3).fit(X, force(X))
+
+
 def test_noise_that_is_known_is_not_fitted_through():
     rng = np.random.default_rng(1)
     x = np.repeat(np.linspace(0, 1, 15), 4)[:, None]

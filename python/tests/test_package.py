@@ -36,11 +36,15 @@ def test_the_stubs_name_what_the_compiled_part_has():
     stub = ast.parse((PACKAGE / "_core.pyi").read_text())
     functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
     classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef) and node.name != "PointsParts"}
-    assert functions | set(classes) == public(_core)
-    for name, node in classes.items():
-        members = {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
-        members |= {part.target.id for part in node.body if isinstance(part, ast.AnnAssign)}
-        assert {part for part in members if part != "__init__"} == public(getattr(_core, name)), name
+    assert functions | {name for name in classes if not name.startswith("_")} == public(_core)
+
+    def members(node):
+        own = {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
+        own |= {part.target.id for part in node.body if isinstance(part, ast.AnnAssign)}
+        return own.union(*(members(classes[base.id]) for base in node.bases))
+
+    for name in public(_core) & set(classes):
+        assert members(classes[name]) - {"__init__"} == public(getattr(_core, name)), name
 
 
 def test_the_number_of_arguments_in_the_stubs_is_right():

@@ -168,7 +168,8 @@ doe::Variable variable_from(const Section& in) {
 }
 
 doe::Response response_from(const Section& in) {
-  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper", "description", "standard_error"});
+  in.allow_only({"name", "unit", "goal", "limit", "lower", "upper", "description", "standard_error",
+                 "standard_error_freedom"});
   doe::Response response{.name = in.text("name"), .unit = in.text("unit", "1")};
   response.goal = in.one_of("goal", {doe::Goal::minimize, doe::Goal::maximize, doe::Goal::at_most,
                                      doe::Goal::at_least, doe::Goal::record});
@@ -177,6 +178,7 @@ doe::Response response_from(const Section& in) {
   response.upper = in.number("upper", response.upper);
   response.description = in.text("description", "");
   response.standard_error = in.text("standard_error", "");
+  response.standard_error_freedom = in.number("standard_error_freedom", 0);
   return response;
 }
 

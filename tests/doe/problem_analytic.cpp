@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
@@ -150,6 +151,25 @@ TEST(Problem, AStandardErrorIsARecordedResponseOfTheSameUnit) {
   EXPECT_EQ(fault_after([](Problem& p) { p.responses[0].standard_error = p.responses[0].name; }),
             "doe::Problem: response \"production\": its standard error is \"production\", which is the "
             "response itself; name another");
+}
+
+TEST(Problem, DegreesOfFreedomAreOfAStandardError) {
+  const auto fault = [](const char* error, double freedom) {
+    return fault_after([&](Problem& p) {
+      p.responses.push_back({.name = "error", .unit = p.responses[0].unit, .lower = 0});
+      p.responses[0].standard_error = error;
+      p.responses[0].standard_error_freedom = freedom;
+    });
+  };
+  EXPECT_EQ(fault("error", 1), "");
+  EXPECT_EQ(fault("", 0), "");
+  EXPECT_EQ(
+      fault("", 2),
+      "doe::Problem: response \"production\": its standard error has 2.000000 degrees of freedom; allowed "
+      "are "
+      "finite numbers from 0 on, and 0 without a standard error; leave it out, or name the standard error");
+  for (const double freedom : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_NE(fault("error", freedom), "") << freedom;
 }
 
 TEST(Problem, SignsOfGoalsTurnToLessIsBetter) {

@@ -229,6 +229,12 @@ TEST(Problems, SurviveTheStoreAsText) {
   EXPECT_EQ(difference(doe::problem_from_json(nlohmann::json::parse(to_json(other).dump())), other), "");
   EXPECT_EQ(difference(problem, other), "response \"" + problem.responses[1].name +
                                             "\": standard error \"\" there, \"production_error\" here");
+  doe::Problem counted = other;
+  counted.responses[1].standard_error_freedom = 2;
+  EXPECT_EQ(difference(doe::problem_from_json(nlohmann::json::parse(to_json(counted).dump())), counted), "");
+  EXPECT_EQ(difference(other, counted),
+            "response \"" + problem.responses[1].name +
+                "\": degrees of freedom of the standard error 0.0 there, 2.0 here");
   other = problem;
   other.variables[1].levels[1] = "c";
   EXPECT_EQ(difference(problem, other), "variable \"tool\": levels [\"a\",\"b\"] there, [\"a\",\"c\"] here");

@@ -51,24 +51,27 @@ std::string name_of(kriging::NoiseSource noise) {
     case kriging::NoiseSource::pooled:
       return ", noise as the runs tell it together";
     case kriging::NoiseSource::told:
-      return ", noise as each run tells it";
+      return ", noise as each run tells it beside all";
     case kriging::NoiseSource::modelled:
       return ", noise as a model of what the runs tell";
   }
   return "";
 }
 
-StudyWay way_to_fit(const kriging::FitOptions& options, const kriging::ResponseRange& range,
-                    kriging::Scale scale, kriging::NoiseSource noise) {
+StudyWay way_to_fit(const kriging::FitOptions& options, const doe::Response& response, kriging::Scale scale,
+                    kriging::NoiseSource noise) {
   const std::string slope = options.trend == kriging::Trend::linear ? ", linear trend" : "";
   const std::string name =
       std::string(to_string(options.correlation)) + slope + name_of(scale) + name_of(noise);
-  return {kriging::way_with_noise(name, scale, range, options, noise), noise};
+  return {kriging::way_with_noise(name, scale, range_of(response), options, noise,
+                                  response.standard_error_freedom),
+          noise};
 }
 
 /// Of response j on runs that the models have not seen, by the noise that these tell, or are expected to
 /// have, where the model was fitted with such noise.
-kriging::Validation validation_of(const Models& fitted, const doe::Evaluations& runs, std::size_t j) {
+kriging::Validation validation_of(const Models& fitted, const Tables& tables, std::size_t j) {
+  const doe::Evaluations& runs = tables.validation;
   const doe::Response& response = runs.problem.responses[j];
   const Eigen::MatrixXd X = runs.X();
   const Eigen::VectorXd y = runs.y(response.name);
@@ -77,7 +80,11 @@ kriging::Validation validation_of(const Models& fitted, const doe::Evaluations& 
     case kriging::NoiseSource::pooled:
       return kriging::validate(fitted.models[j], X, y);
     case kriging::NoiseSource::told:
-      return kriging::validate(fitted.models[j], X, y, runs.noise_variance(response.name));
+      return kriging::validate(
+          fitted.models[j], X, y,
+          kriging::expected_noise(kriging::NoiseSource::told, {}, response.standard_error_freedom)(
+              tables.training.X(), tables.training.noise_variance(response.name), X,
+              runs.noise_variance(response.name)));
     case kriging::NoiseSource::modelled:
       break;
   }
@@ -97,7 +104,7 @@ std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Respon
                                   kriging::Scale scale, kriging::NoiseSource source) {
   std::vector<StudyWay> ways;
   for (const kriging::FitOptions& options : kriging::usual_kinds(default_fit(problem)))
-    ways.push_back(way_to_fit(options, range_of(response), scale, source));
+    ways.push_back(way_to_fit(options, response, scale, source));
   return ways;
 }
 
@@ -115,13 +122,15 @@ struct Fitted {
 
 /// Where noise that the runs tell may be taken from, the first to be kept without a reason. On a scale that is not
 /// linear it has one size: what a run has in the mean is the median and the noise about it, and noise of another size
-/// at every point would leave out what it adds where it is large beside the response. A run that tells an error of 0
-/// among others that do not has seen too few samples to know: nothing was lost in three cycles, which is no proof that
-/// nothing ever is; a fit that took its word would go through it.
-std::vector<kriging::NoiseSource> sources_for(const kriging::RunNoise& noise, kriging::Scale scale) {
+/// at every point would leave out what it adds where it is large beside the response. A run's own word counts where
+/// the problem says of how many samples it is: of two or three cycles some runs seem quiet by chance, and a fit that
+/// took their word would go through them. Where one tells 0 beside others that do not, such as rock that is lost now
+/// and then, its samples are not those of a normal variable, and no number of them makes its word good.
+std::vector<kriging::NoiseSource> sources_for(const kriging::RunNoise& noise, kriging::Scale scale,
+                                              double freedom) {
   using kriging::NoiseSource;
   if (scale != kriging::Scale::linear) return {NoiseSource::pooled, NoiseSource::estimated};
-  if (noise.variance.minCoeff() == 0)
+  if (freedom == 0 || noise.variance.minCoeff() == 0)
     return {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::modelled};
   return {NoiseSource::pooled, NoiseSource::estimated, NoiseSource::told, NoiseSource::modelled};
 }
@@ -136,7 +145,7 @@ Fitted fit_response(const doe::Evaluations& runs, const doe::Response& response)
   kriging::FitChoice kind = kriging::choose_fit(X, y, range, {kinds.begin(), kinds.end()}, noise);
   if (noise.noise != kriging::Noise::known) return {kinds[kind.best], std::move(kind.model)};
   std::vector<StudyWay> sources;
-  for (const kriging::NoiseSource source : sources_for(noise, scale))
+  for (const kriging::NoiseSource source : sources_for(noise, scale, response.standard_error_freedom))
     sources.push_back(ways_to_fit(runs.problem, response, scale, source)[kind.best]);
   kriging::FitChoice choice = kriging::choose_refitted(X, y, range, {sources.begin(), sources.end()}, noise);
   return {sources[choice.best], std::move(choice.model)};
@@ -155,7 +164,7 @@ Models fit_models(const Tables& tables) {
   }
   if (tables.validation.X().rows() == 0) return fitted;
   for (std::size_t j = 0; j < problem.responses.size(); ++j) {
-    fitted.validations.push_back(validation_of(fitted, tables.validation, j));
+    fitted.validations.push_back(validation_of(fitted, tables, j));
     fitted.mean_errors.push_back(mean_error_of(fitted.validations[j], fitted.models[j], tables.training,
                                                tables.validation, problem.responses[j]));
   }

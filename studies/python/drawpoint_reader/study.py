@@ -41,6 +41,7 @@ class Response:
     lower: float = -math.inf
     upper: float = math.inf
     standard_error: str = ""
+    standard_error_freedom: float = 0.0
 
 
 def _text(value):

@@ -54,6 +54,9 @@ std::string between(const doe::Response& there, const doe::Response& here) {
     return changed(subject + "largest value", bound_text(there.upper), bound_text(here.upper));
   if (there.standard_error != here.standard_error)
     return changed(subject + "standard error", quoted(there.standard_error), quoted(here.standard_error));
+  if (there.standard_error_freedom != here.standard_error_freedom)
+    return changed(subject + "degrees of freedom of the standard error",
+                   text_of(there.standard_error_freedom), text_of(here.standard_error_freedom));
   return "";
 }
 
@@ -91,7 +94,7 @@ std::optional<doe::Problem> before_later_responses(const doe::Problem& there, co
   for (doe::Response& response : before.responses)
     if (std::any_of(later, here.responses.end(),
                     [&](const auto& r) { return r.name == response.standard_error; }))
-      response.standard_error.clear();
+      response.standard_error.clear(), response.standard_error_freedom = 0;
   if (!difference(there, before).empty()) return {};
   return before;
 }

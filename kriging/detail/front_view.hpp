@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Of runs the front, and a reference point beyond it, for improvements of hypervolume. All objectives minimised.
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <drawpoint/kriging/detail/dense.hpp>
+#include <vector>
+
+namespace drawpoint::kriging::detail {
+
+/// Whether row b of Y (n x m) adds nothing to row a: it is at most as good in every objective. Alike rows count once.
+inline bool covers(const Eigen::MatrixXd& Y, Eigen::Index a, Eigen::Index b) {
+  bool better = false;
+  for (Eigen::Index k = 0; k < Y.cols(); ++k) {
+    if (Y(a, k) > Y(b, k)) return false;
+    better = better || Y(a, k) < Y(b, k);
+  }
+  return better || a < b;
+}
+
+/// Those of the rows of Y that no other of them covers. Cost rows² m.
+inline std::vector<Eigen::Index> front_rows(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& rows) {
+  std::vector<Eigen::Index> front;
+  for (const Eigen::Index i : rows)
+    if (std::none_of(rows.begin(), rows.end(),
+                     [&](Eigen::Index other) { return other != i && covers(Y, other, i); }))
+      front.push_back(i);
+  return front;
+}
+
+/// A tenth of the extent of the front, rows of Y, beyond it: ends of the front can still be improved on, and places
+/// that are far from it are worth nothing. In an objective where the front has none, all runs give the extent.
+inline Eigen::VectorXd reference_beyond(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& front) {
+  Eigen::VectorXd reference(Y.cols());
+  for (Eigen::Index k = 0; k < Y.cols(); ++k) {
+    const Eigen::VectorXd all = Y.col(k), best = entries_of(all, front);
+    const double low = smallest_entry(best), high = largest_entry(best);
+    const double extent = high > low ? high - low : std::max(largest_entry(all) - low, 1e-9);
+    reference[k] = (high > low ? high : low + extent) + 0.1 * extent;
+  }
+  return reference;
+}
+
+}  // namespace drawpoint::kriging::detail
